@@ -1,0 +1,45 @@
+"""The build backend: setuptools, plus what compiling the engine needs on this machine."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from engine_build import compiling_is_refused, machine_compiler
+from setuptools import build_meta
+from setuptools.build_meta import (
+    build_editable,
+    build_sdist,
+    build_wheel,
+    get_requires_for_build_sdist,
+    prepare_metadata_for_build_editable,
+    prepare_metadata_for_build_wheel,
+)
+
+__all__ = [
+    "build_editable",
+    "build_sdist",
+    "build_wheel",
+    "get_requires_for_build_editable",
+    "get_requires_for_build_sdist",
+    "get_requires_for_build_wheel",
+    "prepare_metadata_for_build_editable",
+    "prepare_metadata_for_build_wheel",
+]
+
+type_of_settings = Mapping[str, Any] | None
+
+
+def engine_requirements() -> list[str]:
+    """Name what must be fetched to compile the engine here; ziglang brings a C compiler to a machine without one."""
+    if compiling_is_refused():
+        return []
+    return ["Cython>=3.0.11"] if machine_compiler() else ["Cython>=3.0.11", "ziglang>=0.13"]
+
+
+def get_requires_for_build_wheel(config_settings: type_of_settings = None) -> list[str]:
+    """Answer the front end's question before it builds a wheel."""
+    return [*build_meta.get_requires_for_build_wheel(config_settings), *engine_requirements()]
+
+
+def get_requires_for_build_editable(config_settings: type_of_settings = None) -> list[str]:
+    """Answer the front end's question before it builds an editable wheel."""
+    return [*build_meta.get_requires_for_build_editable(config_settings), *engine_requirements()]

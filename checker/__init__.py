@@ -1,0 +1,1 @@
+"""Missions in, verdicts with reasons out."""

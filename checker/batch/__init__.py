@@ -1,0 +1,1 @@
+"""Draws in, outcomes of many missions out."""

@@ -1,0 +1,1 @@
+"""Outcomes in, text, JSON and HTML out."""

@@ -1,0 +1,1 @@
+"""Parameter ranges in, reproducible draws out."""

@@ -1,0 +1,1 @@
+"""Executed plans in, an independent judgement by z3 out."""

@@ -1,0 +1,1 @@
+"""Checked meaning in, program out."""

@@ -1,0 +1,1 @@
+"""Editor requests in, answers out."""

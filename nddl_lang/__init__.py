@@ -1,0 +1,1 @@
+"""NDDL text in; its meaning and its diagnostics out."""

@@ -1,0 +1,1 @@
+"""Advice about models that mean something, but perhaps not what was meant."""

@@ -1,0 +1,1 @@
+"""Syntax tree in, checked meaning out."""

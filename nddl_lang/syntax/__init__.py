@@ -1,0 +1,1 @@
+"""Text in, syntax tree out, whatever the text."""

@@ -1,0 +1,1 @@
+"""The command `nddlc`: one file per subcommand, no logic."""

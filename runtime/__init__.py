@@ -1,0 +1,1 @@
+"""Program in, plan and trace out."""

@@ -1,0 +1,1 @@
+"""Domains, trail, temporal network and propagators: what still can hold, and why."""

@@ -1,0 +1,1 @@
+"""The agent: how a plan meets the world, tick by tick."""

@@ -1,0 +1,1 @@
+"""Tokens, timelines and rule firing: the plan so far."""

@@ -1,0 +1,1 @@
+"""Flaws and their resolvers: how a plan is completed."""
