@@ -54,7 +54,10 @@ class GlobalVariable:
 
 @dataclass(frozen=True, slots=True)
 class LocalVariable:
-    """Variable slot of the running rule instance (locals, implicit results, foreach objects) or constructor."""
+    """Variable slot of the running rule instance, of the script, of a token's predicate body, or of a constructor.
+
+    Slots hold locals, implicit results and foreach objects; in a constructor the formal parameters come first.
+    """
 
     slot: int
 
@@ -73,13 +76,23 @@ class TokenVariable:
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """Member path of an object: a proxy while the object is not decided. `base` None: the constructor's own object."""
+    """Member path of an object: a proxy while the object is not decided.
+
+    `base` None is the constructor's own object; with no `members` it is that object itself (`this`).
+    """
 
     base: "Operand | None"
     members: tuple[str, ...]
 
 
-Operand = Constant | GlobalVariable | LocalVariable | TokenVariable | Field
+@dataclass(frozen=True, slots=True)
+class UnionOf:
+    """An anonymous variable whose domain is the union of the operands' base domains, taken now: `{a, b}` of names."""
+
+    operands: tuple["Operand", ...]
+
+
+Operand = Constant | GlobalVariable | LocalVariable | TokenVariable | Field | UnionOf
 
 
 # ---- instructions of rules and script ----
@@ -90,6 +103,7 @@ class NewVariable:
     """Make the variable of a local slot. `name` None marks the implicit result of an expression.
 
     The base domain is the type's, intersected with `domain`, or with the base domain of `copy_of`.
+    A slot that is filled already (a foreach body, a later local of the same name) is simply filled anew.
     """
 
     slot: int
@@ -102,7 +116,13 @@ class NewVariable:
 
 @dataclass(frozen=True, slots=True)
 class NewObject:
-    """Allocate an object and put it in a local slot (in a rule), or in a global (script), or nowhere."""
+    """Allocate an object and put it in a local slot (in a rule), or in a global (script), or nowhere.
+
+    `slot` and `global_index` make the variable: its domain is the new object. `type` is that variable's declared type
+    (None where there is no variable). Arguments pass their current domain, so pending propagation is done first.
+    `name` is the object's name; in a constructor it follows the name of the object under construction (`a` + `.` +
+    `b`), in a rule it is the local's name (not unique: the runtime numbers further ones), and None means no name.
+    """
 
     class_name: str
     constructor: int  # index into Class.constructors of the program
@@ -111,11 +131,15 @@ class NewObject:
     slot: int | None
     global_index: int | None
     span: Span
+    type: TypeCode | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Post:
-    """Post the constraint `name` (a row of the constraint table) on the operands."""
+    """Post the constraint `name` (a row of the constraint table) on the operands.
+
+    Synonyms are resolved: `name` is never `multEq`, `max`, `min` (they arrive as `mulEq`, `allMax`, `allMin`).
+    """
 
     name: str
     operands: tuple[Operand, ...]
@@ -166,7 +190,10 @@ class Relate:
 class Guard:
     """Run `then` or `otherwise` once every variable of `decided_by` is decided and `condition` has a truth value.
 
-    The instructions that compute `condition` stand before the guard in the same body.
+    The instructions that compute `condition` stand before the guard in the same body. `decided_by` holds no single
+    constants; a constant with several values is never decided. A `Field` is decided once its base is (or once its
+    base domain is a single value). A branch that runs later sees the slots as they were when the guard was reached
+    (this matters in a foreach), and what it puts in slots is seen by nobody outside the branch.
     """
 
     condition: Operand
@@ -203,7 +230,11 @@ class NewGlobal:
 
 @dataclass(frozen=True, slots=True)
 class Assign:
-    """Intersect the base domain of `target` with `domain` or with that of `value`; a single value decides it."""
+    """Intersect the base domain of `target` with `domain` or with that of `value`; a single value decides it.
+
+    Also found in bodies of predicates (`duration = [5 9];`) and constructors. A `value` that is a formal parameter
+    of a constructor or a `NewObject` has one domain only, the current one. `g.state = ACTIVE` arrives as a `Call`.
+    """
 
     target: Operand
     domain: DomainConstant | None
@@ -213,7 +244,10 @@ class Assign:
 
 @dataclass(frozen=True, slots=True)
 class NewToken:
-    """A goal, fact or rejectable; `object` as in `Child` (never "own")."""
+    """A goal, fact or rejectable (`kind`); `object` as in `Child` (never "own").
+
+    `a before (t.r c);` at top level arrives as the `NewToken` of a goal and a `Relate`.
+    """
 
     slot: int
     predicate: str
@@ -227,6 +261,8 @@ class NewToken:
 class Call:
     """A method call: target is a token slot, an operand, a class name, or nothing (`close()`).
 
+    Methods: activate, merge, reject, cancel (of a token); specify, reset, close (of a variable); constrain, free,
+    set_capacity, set_limit (of an object); close (of a class, of everything).
     Arguments are operands or, for tokens, `TokenVariable(slot, STATE)`.
     """
 
@@ -259,7 +295,7 @@ Instruction = (
 
 @dataclass(frozen=True, slots=True)
 class MemberCode:
-    """A member of a class, inherited ones included."""
+    """A member of a class, inherited ones included; initialisers are assignments of the constructors (`domain` None)."""
 
     name: str
     type: TypeCode
@@ -289,11 +325,16 @@ class SuperCode:
 
 @dataclass(frozen=True, slots=True)
 class ConstructorCode:
-    """Formal parameters occupy local slots 0..n-1; targets are `Field(None, (member,))`."""
+    """Formal parameters occupy local slots 0..n-1 of `slots`; targets are `Field(None, (member,))`.
+
+    `super()` is always there unless the base class is `Object` or native without arguments to pass. Besides `Assign`,
+    the dialect nddlc may need `NewVariable` and `Post` here, for members initialised by an expression.
+    """
 
     parameters: tuple[TypeCode, ...]
-    body: tuple[SuperCode | Assign, ...]
+    body: tuple["SuperCode | Instruction", ...]
     span: Span | None
+    slots: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -311,8 +352,10 @@ class ClassCode:
 
 @dataclass(frozen=True, slots=True)
 class PredicateCode:
-    """A predicate as class `class_name` has it; `body` holds constraints of all levels (token slot 0).
+    """A predicate as class `class_name` has it: one entry per class that declares or inherits it.
 
+    `body` holds constraints and assignments of all levels (token slot 0), the ancestor's first; it runs when a token
+    is made, after all its variables are. Parameters keep their numbers in subclasses.
     `effects` lists what an action's rules may yield, for support: full predicate names in order of appearance.
     """
 
@@ -331,13 +374,18 @@ class PredicateCode:
 
 @dataclass(frozen=True, slots=True)
 class RuleCode:
-    """A rule body; `slots` variable slots and `tokens` token slots per instance (token slot 0 is the rule's own)."""
+    """A rule body; `slots` variable slots and `tokens` token slots per instance (token slot 0 is the rule's own).
+
+    `declared_at` counts the instructions of the script that stand above the rule: a token activated by one of them
+    (index < declared_at) does not fire it. It also fires on tokens of subclasses, see `PredicateCode.rules`.
+    """
 
     predicate: str
     body: tuple[Instruction, ...]
     slots: int
     tokens: int
     span: Span
+    declared_at: int = 0
 
 
 @dataclass(frozen=True, slots=True)
