@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from typing import Any
 
-from engine_build import compiling_is_refused, machine_compiler
 from setuptools import build_meta
 from setuptools.build_meta import (
     build_editable,
@@ -13,6 +12,8 @@ from setuptools.build_meta import (
     prepare_metadata_for_build_editable,
     prepare_metadata_for_build_wheel,
 )
+
+from engine_build import is_set, machine_compiler
 
 __all__ = [
     "build_editable",
@@ -25,21 +26,25 @@ __all__ = [
     "prepare_metadata_for_build_wheel",
 ]
 
-type_of_settings = Mapping[str, Any] | None
+Settings = Mapping[str, Any] | None
 
 
 def engine_requirements() -> list[str]:
-    """Name what must be fetched to compile the engine here; ziglang brings a C compiler to a machine without one."""
-    if compiling_is_refused():
+    """Name what must be fetched to compile the engine here; `ziglang` brings a C compiler to a machine without one."""
+    if is_set("NDDLC_NO_COMPILE"):
         return []
     return ["Cython>=3.0.11"] if machine_compiler() else ["Cython>=3.0.11", "ziglang>=0.13"]
 
 
-def get_requires_for_build_wheel(config_settings: type_of_settings = None) -> list[str]:
+def get_requires_for_build_wheel(config_settings: Settings = None) -> list[str]:
     """Answer the front end's question before it builds a wheel."""
     return [*build_meta.get_requires_for_build_wheel(config_settings), *engine_requirements()]
 
 
-def get_requires_for_build_editable(config_settings: type_of_settings = None) -> list[str]:
+def get_requires_for_build_editable(config_settings: Settings = None) -> list[str]:
     """Answer the front end's question before it builds an editable wheel."""
     return [*build_meta.get_requires_for_build_editable(config_settings), *engine_requirements()]
+
+
+if __name__ == "__main__":
+    print(*engine_requirements(), sep="\n")

@@ -1,0 +1,89 @@
+# Python 3.11 or newer, make and a package index are all that is needed; `.venv` is made here and kept.
+#
+#   make check        check the missions of models/gps, say where the report is; exits 1 with findings
+#   make test         all that must hold: style, types, and the tests with the engine compiled and interpreted
+#
+#   make setup        install everything into .venv
+#   make build        bring the compiled engine up to date with its sources
+#   make lint types   ruff; mypy
+#   make compiled     the tests with the engine compiled; `make interpreted` those it matters for, uncompiled
+#   make format       let ruff format and mend what it can
+#   make fuzz         the property tests with many more examples
+#   make conformance  the conformance suite of NDDL
+#   make bench        missions per second, compiled and interpreted
+#   make clean        remove what was made, .venv included
+#
+# MISSION=file checks another mission; PYTHON=python3.13 sets up with that one.
+
+MISSION := models/gps/mission.toml
+PYTHON := python3.11 python3.12 python3.13 python3.14 python3 python
+BIN := .venv/bin
+PYTEST := $(BIN)/python -m pytest --numprocesses auto
+FINDINGS := build/findings
+
+.DEFAULT_GOAL := help
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz conformance bench clean
+
+help:
+	@sed -n 's/^#   //p' Makefile
+
+# make ends with 2 whatever goes wrong, except that a question (-q) which finds something to do ends with 1. So `check`
+# is a question: lines with a `+` run all the same, and the last line, without one, stands for the findings.
+ifeq ($(MAKECMDGOALS),check)
+MAKEFLAGS += -q
+endif
+
+check: missions
+	$(if $(shell test -e $(FINDINGS) && echo yes),@exit 1)
+
+missions:
+	+@rm -f $(FINDINGS)
+	+@MAKEFLAGS= $(MAKE) --no-print-directory build
+	+@$(BIN)/nddlc check $(MISSION) || { status=$$?; [ $$status -eq 1 ] && touch $(FINDINGS) || exit $$status; }
+
+test: lint types compiled interpreted
+
+setup: .venv/ready
+
+.venv/ready: pyproject.toml setup.py build_backend/nddlc_build.py
+	@for python in $(PYTHON); do \
+	  $$python -c 'import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && break; python=; done; \
+	[ "$$python" ] || { echo 'Python 3.11 or newer, with its venv, is not on the path; try PYTHON=...' >&2; exit 1; }; \
+	$(BIN)/python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
+	{ echo "making .venv with $$($$python --version)" && $$python -m venv --clear .venv; }
+	@echo 'installing into .venv (once; a minute or two)'
+	@NDDLC_NO_COMPILE=1 $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check $$($(BIN)/python build_backend/nddlc_build.py)
+	@touch $@
+
+build: setup
+	@$(BIN)/python build_backend/build_in_place.py
+
+lint: setup
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+
+types: setup
+	$(BIN)/mypy
+
+compiled: build
+	$(PYTEST)
+
+# The form of the engine cannot matter to the front end, and the build has tests of its own.
+interpreted: setup
+	NDDLC_INTERPRETED=1 $(PYTEST) $(filter-out tests/build tests/nddl_lang tests/lsp %.py tests/__pycache__,$(wildcard tests/*))
+
+format: setup
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+
+fuzz: build
+	$(PYTEST) --hypothesis-profile=fuzz -m 'not slow'
+
+bench: build
+	$(BIN)/python -m bench
+
+clean:
+	rm -rf .venv build dist *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	find nddl_lang compiler runtime checker lsp nddlc tests bench build_backend \
+	  \( -name '*.so' -o -name __pycache__ \) -prune -exec rm -rf {} +

@@ -1,0 +1,36 @@
+"""Settle, before any test imports the engine, in which form it is tested, and make chance reproducible."""
+
+import os
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+from runtime.build_form import build_form, interpreting_is_asked, load_interpreted
+from freshness import unfit_binaries
+
+# A binary that is older than its source is never tested; the source is, uncompiled.
+STALE = [] if interpreting_is_asked() else unfit_binaries(Path(__file__).resolve().parent.parent)
+if STALE:
+    os.environ["NDDLC_INTERPRETED"] = "1"
+    load_interpreted()
+
+settings.register_profile("nddlc", derandomize=True, deadline=None)
+settings.register_profile("fuzz", deadline=None, max_examples=2000)
+settings.load_profile("nddlc")
+
+
+def pytest_report_header() -> str:
+    """Say which form of the engine is tested."""
+    reason = f", as {len(STALE)} binaries are older than their sources (`make build`)" if STALE else ""
+    return f"engine: {build_form()}{reason}"
+
+
+def pytest_sessionstart() -> None:
+    """Refuse to test another form than the one that is promised."""
+    if (
+        os.environ.get("NDDLC_REQUIRE_COMPILED")
+        and not os.environ.get("NDDLC_INTERPRETED")
+        and build_form() != "compiled"
+    ):
+        pytest.exit("NDDLC_REQUIRE_COMPILED is set, and the engine is not compiled", returncode=3)
