@@ -95,7 +95,10 @@ class Conflict:
 
 @dataclass(frozen=True, slots=True)
 class Abort:
-    """Why an agent stopped early. `code` is F1 to F11 of the failure taxonomy (reference of T-REX, 1.11)."""
+    """Why an agent stopped early. `code` is F1 to F11 of the failure taxonomy (reference of T-REX, 1.11).
+
+    `conflict` is what broke first; `repairs` are the conflicts that stopped each repair stage after it.
+    """
 
     code: str
     tick: int
@@ -105,6 +108,7 @@ class Abort:
     conflict: Conflict | None
     relaxes: int
     event: int  # index of the abort event in the trace
+    repairs: tuple[Conflict, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
