@@ -1,0 +1,82 @@
+"""What an agent is started with: its reactors, their goals, and how chance is drawn, as plain frozen data.
+
+Whoever starts a mission fills this in (the checker, from `mission.toml`); the agent only reads it. Everything here is
+picklable, compares by content and names no machine: model files are named relative to `root`, with `/`.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+Value = int | float | bool | str
+Bounds = tuple[float, float]  # both ends included; -inf and inf where there is none
+
+OnFailure = Literal["abort_agent", "kill_reactor"]
+DistributionName = Literal["uniform", "normal", "truncated_normal", "discrete", "fixed"]
+Mode = Literal["inter", "intra"]
+
+
+@dataclass(frozen=True, slots=True)
+class ReactorConfiguration:
+    """One reactor: its model and its place among the others (reference of T-REX, 3.1)."""
+
+    name: str
+    model: str  # path relative to the agent's root
+    latency: int = 0
+    lookahead: int = 1
+    internal: tuple[str, ...] = ()  # timelines it owns, by the name of the global variable
+    external: tuple[str, ...] = ()  # timelines it uses
+    solver: str | None = None  # path of its flaw handling, relative to the agent's root
+    max_steps: int = 400
+    max_depth: int = 400
+
+
+@dataclass(frozen=True, slots=True)
+class GoalConfiguration:
+    """A rejectable goal, sent to the owner of `timeline` at tick `at`.
+
+    A mandatory goal that is not achieved at the end stands in `Outcome.unmet_goals`; others do not.
+    A parameter is given one value, or the two ends of a range.
+    """
+
+    timeline: str
+    predicate: str
+    at: int = 0
+    mandatory: bool = False
+    start: Bounds | None = None
+    end: Bounds | None = None
+    duration: Bounds | None = None
+    parameters: tuple[tuple[str, Value | Bounds], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterConfiguration:
+    """How the values of one `sampledParameter` are drawn; `runtime.executive.chance.sample` is the only reader.
+
+    `values` (with `weights`, else equally likely) serve "discrete", the first of them alone serves "fixed".
+    An "intra" parameter is drawn again every `update` ticks, an "inter" parameter once per mission.
+    """
+
+    name: str
+    lower: float
+    upper: float
+    distribution: DistributionName = "uniform"
+    mode: Mode = "inter"
+    update: int = 10
+    clip: Bounds | None = None
+    is_whole: bool = False
+    values: tuple[float, ...] = ()
+    weights: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class AgentConfiguration:
+    """One mission but for its seed. A parameter of the model that is not listed is uniform over its base domain."""
+
+    name: str
+    root: str  # folder that the other paths are relative to
+    final_tick: int
+    reactors: tuple[ReactorConfiguration, ...]
+    goals: tuple[GoalConfiguration, ...] = ()
+    parameters: tuple[ParameterConfiguration, ...] = ()
+    tick: float = 1.0  # seconds per tick: the model's TICK_DURATION
+    on_failure: OnFailure = "abort_agent"
