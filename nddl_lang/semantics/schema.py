@@ -133,13 +133,17 @@ class Predicate:
 
 @dataclass(eq=False, slots=True)
 class Class:
-    """A class with what it declares itself; look through `Schema.members` and the like for what it inherits."""
+    """A class with what it declares itself; look through `Schema.find_member` and the like for what it inherits.
+
+    `inherited` holds the predicates of its ancestors as this class has them, under full names of its own.
+    """
 
     name: str
     base: str | None
     members: dict[str, Variable] = field(default_factory=dict)
     constructors: list[Constructor] = field(default_factory=list)
     predicates: dict[str, Predicate] = field(default_factory=dict)
+    inherited: dict[str, Predicate] = field(default_factory=dict)
     is_native: bool = False
     is_defined: bool = True
     node: ClassDecl | None = None
@@ -214,7 +218,10 @@ class TokenVariable:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class MemberReference:
-    """Member `members[0].members[1]...` of the object that `base` denotes; `base` None is the constructor's own object."""
+    """Member `members[0].members[1]...` of the object that `base` denotes.
+
+    `base` None is the constructor's own object; without members it is that object itself (`this`).
+    """
 
     base: "GlobalReference | LocalReference | TokenVariable | None"
     members: tuple[Variable, ...]
@@ -258,11 +265,11 @@ class Schema:
         return None
 
     def find_predicate(self, class_name: str, predicate: str) -> Predicate | None:
-        """Predicate `predicate` as `class_name` has it; an inherited one is the nearest ancestor's own."""
-        for name in self.ancestry(class_name):
-            if (found := self.classes[name].predicates.get(predicate)) is not None:
-                return found
-        return None
+        """Predicate `predicate` as `class_name` has it, declared or inherited."""
+        owner = self.classes.get(class_name)
+        if owner is None:
+            return None
+        return owner.predicates.get(predicate) or owner.inherited.get(predicate)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -296,3 +303,4 @@ class SideTables:
     existing: dict[object, Label] = field(default_factory=dict)  # Relation with a bare target -> that token
     locals: dict[object, Variable] = field(default_factory=dict)  # Declarator | Foreach -> its variable
     declared: dict[Identifier, object] = field(default_factory=dict)  # name at its declaration -> what it declares
+    sampled: dict[object, Reference] = field(default_factory=dict)  # CallExpr of sampledParameter -> its parameter
