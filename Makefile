@@ -41,7 +41,7 @@ missions:
 	+@MAKEFLAGS= $(MAKE) --no-print-directory build
 	+@$(BIN)/nddlc check $(MISSION) || { status=$$?; [ $$status -eq 1 ] && touch $(FINDINGS) || exit $$status; }
 
-test: lint types compiled interpreted
+test: lint types compiled interpreted build/builds-tested
 
 setup: .venv/ready
 
@@ -67,11 +67,16 @@ types: setup
 	$(BIN)/mypy
 
 compiled: build
-	$(PYTEST)
+	$(PYTEST) -m 'not builds'
 
 # The form of the engine cannot matter to the front end, and the build has tests of its own.
 interpreted: setup
 	NDDLC_INTERPRETED=1 $(PYTEST) $(filter-out tests/build tests/nddl_lang tests/lsp %.py tests/__pycache__,$(wildcard tests/*))
+
+# Wheels and rebuilds take a minute, so they are made again only when what decides about them has changed.
+build/builds-tested: setup.py pyproject.toml $(wildcard build_backend/*.py tests/build/*.py) runtime/build_form.py | build
+	$(PYTEST) -m builds tests/build
+	@touch $@
 
 format: setup
 	$(BIN)/ruff check --fix

@@ -91,7 +91,7 @@ class BuildEngine(build_ext):
             # Compiled modules read each other's layout, so a part of them is worse than none.
             for extension in self.extensions:
                 Path(self.get_ext_fullpath(extension.name)).unlink(missing_ok=True)
-            self.extensions = self.distribution.ext_modules = []
+            self.extensions = []
             warn(str(failure))
 
     def translate(self) -> None:
