@@ -54,10 +54,7 @@ class GlobalVariable:
 
 @dataclass(frozen=True, slots=True)
 class LocalVariable:
-    """Variable slot of the running rule instance, of the script, of a token's predicate body, or of a constructor.
-
-    Slots hold locals, implicit results and foreach objects; in a constructor the formal parameters come first.
-    """
+    """Variable slot of the rule instance, predicate body, script or constructor (whose parameters come first)."""
 
     slot: int
 
@@ -103,7 +100,7 @@ class NewVariable:
     """Make the variable of a local slot. `name` None marks the implicit result of an expression.
 
     The base domain is the type's, intersected with `domain`, or with the base domain of `copy_of`.
-    A slot that is filled already (a foreach body, a later local of the same name) is simply filled anew.
+    A slot that is filled already (in a foreach) is filled anew.
     """
 
     slot: int
@@ -118,10 +115,9 @@ class NewVariable:
 class NewObject:
     """Allocate an object and put it in a local slot (in a rule), or in a global (script), or nowhere.
 
-    `slot` and `global_index` make the variable: its domain is the new object. `type` is that variable's declared type
-    (None where there is no variable). Arguments pass their current domain, so pending propagation is done first.
-    `name` is the object's name; in a constructor it follows the name of the object under construction (`a` + `.` +
-    `b`), in a rule it is the local's name (not unique: the runtime numbers further ones), and None means no name.
+    `slot` or `global_index` make a variable of the type `type` that holds the new object. Arguments pass their current
+    domain, so pending propagation is done first. `name` is the object's name; in a constructor it follows that of the
+    object under construction (`a` + `.` + `b`), in a rule the runtime makes it unique; None means no name.
     """
 
     class_name: str
@@ -138,7 +134,7 @@ class NewObject:
 class Post:
     """Post the constraint `name` (a row of the constraint table) on the operands.
 
-    Synonyms are resolved: `name` is never `multEq`, `max`, `min` (they arrive as `mulEq`, `allMax`, `allMin`).
+    Synonyms are resolved: `multEq`, `max`, `min` arrive as `mulEq`, `allMax`, `allMin`.
     """
 
     name: str
@@ -246,7 +242,7 @@ class Assign:
 class NewToken:
     """A goal, fact or rejectable (`kind`); `object` as in `Child` (never "own").
 
-    `a before (t.r c);` at top level arrives as the `NewToken` of a goal and a `Relate`.
+    `a before (t.r c);` at top level arrives as a goal and a `Relate`.
     """
 
     slot: int
@@ -275,18 +271,7 @@ class Call:
 
 
 Instruction = (
-    NewVariable
-    | NewObject
-    | Post
-    | Sample
-    | Child
-    | Relate
-    | Guard
-    | Foreach
-    | NewGlobal
-    | Assign
-    | NewToken
-    | Call
+    NewVariable | NewObject | Post | Sample | Child | Relate | Guard | Foreach | NewGlobal | Assign | NewToken | Call
 )
 
 
@@ -295,7 +280,7 @@ Instruction = (
 
 @dataclass(frozen=True, slots=True)
 class MemberCode:
-    """A member of a class, inherited ones included; initialisers are assignments of the constructors (`domain` None)."""
+    """A member of a class, inherited ones included. Initialisers are assignments of the constructors (no `domain`)."""
 
     name: str
     type: TypeCode
@@ -327,8 +312,8 @@ class SuperCode:
 class ConstructorCode:
     """Formal parameters occupy local slots 0..n-1 of `slots`; targets are `Field(None, (member,))`.
 
-    `super()` is always there unless the base class is `Object` or native without arguments to pass. Besides `Assign`,
-    the dialect nddlc may need `NewVariable` and `Post` here, for members initialised by an expression.
+    `super()` is written out unless the base class has no constructor without parameters. Besides `Assign`, the
+    dialect nddlc may need `NewVariable` and `Post` here, for members initialised by an expression.
     """
 
     parameters: tuple[TypeCode, ...]

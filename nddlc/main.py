@@ -1,0 +1,90 @@
+"""The command `nddlc`: find the subcommand, run it, and turn every way it can end into an exit code.
+
+0 holds · 1 findings · 2 the command or its configuration is unusable · 3 a bug of nddlc · 130 interrupted.
+"""
+
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any
+
+import click
+
+# A subcommand is one file, imported only when it is used; a new one needs a line here and nothing else.
+COMMANDS = {
+    "load": ("nddlc.load", "Load models and show their tokens and variables."),
+    "lint": ("nddlc.lint", "Report everything that is wrong with models."),
+    "rule": ("nddlc.rule", "Explain a code that a message carries."),
+}
+UNUSABLE, BUG, INTERRUPTED = 2, 3, 130
+
+
+class Subcommands(click.Group):
+    """A group that knows the names of its commands, but imports only the one that is called."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """The names, in the order of the table."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command in its file, where the table names one."""
+        if cmd_name not in COMMANDS:
+            return None
+        found: click.Command = named(f"{COMMANDS[cmd_name][0]}:command")
+        return found
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, caption) for name, (_, caption) in COMMANDS.items()])
+
+
+def named(place: str) -> Any:
+    """The object that `module:name` names."""
+    module, _, name = place.partition(":")
+    return getattr(import_module(module), name)
+
+
+def _show_version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
+    if asked and not ctx.resilient_parsing:
+        click.echo(named("nddlc.version:version_text")())
+        ctx.exit()
+
+
+@click.command(cls=Subcommands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.option("--dialect", type=click.Choice(["nddl3", "nddlc"]), help="How texts are read, whatever they declare.")
+@click.option("--version", is_flag=True, is_eager=True, expose_value=False, callback=_show_version, help="Show it.")
+@click.pass_context
+def nddlc(ctx: click.Context, dialect: str | None) -> None:
+    """Check, run and explain NDDL models.
+
+    nddl3 is the language that EUROPA accepts; nddlc, the default, adds to it.
+    """
+    ctx.obj = dialect
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Carry out a command line; its exit code."""
+    try:
+        code = nddlc.main(args=arguments, prog_name="nddlc", standalone_mode=False)
+    except click.exceptions.Exit as end:
+        return end.exit_code
+    except click.ClickException as mistake:
+        mistake.show()
+        return UNUSABLE
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("nddlc: interrupted", err=True)
+        return INTERRUPTED
+    except Exception as bug:  # the one place where our own mistakes are caught: to tell the user whose they are
+        named("nddlc.crash:report")(bug, sys.argv[1:] if arguments is None else list(arguments))
+        return BUG
+    return code if isinstance(code, int) else 0
+
+
+def main() -> None:
+    """The console script."""
+    sys.exit(run())
+
+
+if __name__ == "__main__":
+    main()
