@@ -249,7 +249,7 @@ class ClassDecl:
 
     name: Identifier
     base: Identifier | None
-    members: tuple["VariableDecl | ConstructorDecl | PredicateDecl | BrokenStatement", ...] | None
+    members: tuple["VariableDecl | ConstructorDecl | PredicateDecl | Include | BrokenStatement", ...] | None
     doc: str | None
     span: Span
 

@@ -71,7 +71,7 @@ class Code:
         span: Span,
         *,
         notes: tuple[Note, ...] = (),
-        help: str | None = None,  # noqa: A002 - the word users see
+        help: str | None = None,
         fixes: tuple[Fix, ...] = (),
         **values: object,
     ) -> Diagnostic:

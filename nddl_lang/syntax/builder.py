@@ -1,0 +1,278 @@
+"""Make the nodes of expressions; hold what the makers of all nodes share.
+
+A maker takes the builder and the parts of one grammar alternative: the index of a lexeme, a node, or a list of them.
+"""
+
+from typing import Any
+
+from nddl_lang.syntax.codes import (
+    DIVISION,
+    EXPRESSION_VALUE,
+    MISPLACED_METHOD,
+    MISPLACED_NEW,
+    MISPLACED_VALUE,
+    NO_ARGUMENT,
+    UNARY_OPERATOR,
+    VARIABLE_BOUND,
+)
+from nddl_lang.syntax.lexemes import integer, real
+from nddl_lang.syntax.nodes import (
+    BinaryExpr,
+    BoolLiteral,
+    CallExpr,
+    Expr,
+    FloatLiteral,
+    Identifier,
+    IntervalExpr,
+    IntLiteral,
+    NewExpr,
+    PathExpr,
+    SetExpr,
+    StringLiteral,
+    UnaryExpr,
+)
+from nddl_lang.syntax.piece import Piece
+from nddl_lang.text.diagnostic import Code
+from nddl_lang.text.source import Span
+
+
+class Builder:
+    """The piece whose nodes are made, and values that may stand in few places only and wait for one of those."""
+
+    __slots__ = ("anchor", "ends", "is_strict", "methods", "piece", "starts", "texts", "waiting")
+
+    def __init__(self, piece: Piece, is_strict: bool) -> None:
+        self.piece = piece
+        self.is_strict = is_strict
+        self.anchor = piece.anchor
+        self.starts = piece.starts
+        self.ends = piece.ends
+        self.texts = piece.texts
+        self.waiting: dict[Expr, None] = {}
+        self.methods: dict[CallExpr, tuple[PathExpr, Identifier]] = {}
+
+    def report(self, code: Code, span: Span, **values: Any) -> None:
+        """Add a complaint about `span`."""
+        self.piece.diagnostics.append(code.at(span, **values))
+
+    def name(self, index: int) -> Identifier:
+        """The lexeme `index` as a name."""
+        return Identifier(self.texts[index], Span(self.anchor, self.starts[index], self.ends[index]))
+
+    def at(self, index: int) -> Span:
+        """The place of the lexeme `index`."""
+        return Span(self.anchor, self.starts[index], self.ends[index])
+
+    def span(self, first: Any, last: Any) -> Span:
+        """From the part `first` to the part `last` of an alternative."""
+        start = self.starts[first] if type(first) is int else first.span.start
+        end = self.ends[last] if type(last) is int else last.span.end
+        return Span(self.anchor, start, end)
+
+
+def is_plain(value: Expr) -> bool:
+    """Whether `value` is a value in nddl3: a literal, a domain or a path, without parentheses."""
+    match value:
+        case IntervalExpr() | SetExpr():
+            return value.span.text[:1] != "("
+        case IntLiteral() | FloatLiteral() | BoolLiteral() | StringLiteral() | PathExpr():
+            return value.span.text[:1] != "("
+        case _:
+            return False
+
+
+def plain_values(b: Builder, values: list[Expr], where: str) -> None:
+    """Report each of `values` that nddl3 would not accept as a plain value."""
+    if b.is_strict:
+        for value in values:
+            if not is_plain(value) and type(value) is not NewExpr:
+                help_text = "declare a variable, state what it equals, and write the variable here"
+                b.report(EXPRESSION_VALUE, value.span, where=where, help=help_text)
+
+
+# ---- lists ----
+
+
+def no_statements(b: Builder, v: list[Any]) -> list[Any]:
+    return []
+
+
+def first_of_list(b: Builder, v: list[Any]) -> list[Any]:
+    return v
+
+
+def next_of_list(b: Builder, v: list[Any]) -> list[Any]:
+    v[0].append(v[1])
+    return v[0]  # type: ignore[no-any-return]
+
+
+def next_after_comma(b: Builder, v: list[Any]) -> list[Any]:
+    v[0].append(v[2])
+    return v[0]  # type: ignore[no-any-return]
+
+
+# ---- names and paths ----
+
+
+def identifier(b: Builder, v: list[Any]) -> Identifier:
+    return b.name(v[0])
+
+
+def first_name(b: Builder, v: list[Any]) -> list[Identifier]:
+    return [b.name(v[0])]
+
+
+def next_name(b: Builder, v: list[Any]) -> list[Identifier]:
+    v[0].append(b.name(v[2]))
+    return v[0]  # type: ignore[no-any-return]
+
+
+def first_part(b: Builder, v: list[Any]) -> PathExpr:
+    name = b.name(v[0])
+    return PathExpr((name,), name.span)
+
+
+def next_part(b: Builder, v: list[Any]) -> PathExpr:
+    owner: PathExpr = v[0]
+    return PathExpr((*owner.parts, b.name(v[2])), b.span(owner, v[2]))
+
+
+# ---- literals and domains ----
+
+
+def integer_literal(b: Builder, v: list[Any]) -> IntLiteral:
+    return IntLiteral(integer(b.texts[v[0]]), b.at(v[0]))
+
+
+def real_literal(b: Builder, v: list[Any]) -> FloatLiteral:
+    return FloatLiteral(real(b.texts[v[0]]), b.at(v[0]))
+
+
+def string_literal(b: Builder, v: list[Any]) -> StringLiteral:
+    text = b.texts[v[0]]
+    closed = len(text) > 1 and text[-1] == text[0]
+    return StringLiteral(text[1:-1] if closed else text[1:], b.at(v[0]))
+
+
+def boolean(b: Builder, v: list[Any]) -> BoolLiteral:
+    return BoolLiteral(b.texts[v[0]] == "true", b.at(v[0]))
+
+
+def interval(b: Builder, v: list[Any]) -> IntervalExpr:
+    lower, upper = v[1], v[-2]
+    for bound in (lower, upper):
+        if isinstance(bound, IntLiteral | FloatLiteral):
+            continue
+        if isinstance(bound, BoolLiteral | StringLiteral | SetExpr | IntervalExpr):
+            b.report(MISPLACED_VALUE, bound.span, what=describe(bound), where="as a bound", help="write a number")
+        elif b.is_strict:
+            b.report(VARIABLE_BOUND, bound.span, help="state the bounds as constraints: `a >= low; a <= high;`")
+    return IntervalExpr(lower, upper, b.span(v[0], v[-1]))
+
+
+def set_literal(b: Builder, v: list[Any]) -> SetExpr:
+    for item in v[1]:
+        if isinstance(item, IntervalExpr | SetExpr):
+            b.report(MISPLACED_VALUE, item.span, what=describe(item), where="in a set", help="write single values")
+    plain_values(b, [item for item in v[1] if not isinstance(item, IntervalExpr | SetExpr)], "an item of a set")
+    return SetExpr(tuple(v[1]), b.span(v[0], v[2]))
+
+
+def describe(value: Expr) -> str:
+    """What kind of value `value` is, with an article."""
+    match value:
+        case IntLiteral() | FloatLiteral():
+            return "a number"
+        case BoolLiteral():
+            return "a truth value"
+        case StringLiteral():
+            return "a string"
+        case IntervalExpr():
+            return "an interval"
+        case SetExpr():
+            return "a set"
+        case PathExpr():
+            return "a name"
+        case NewExpr():
+            return "a new object"
+        case CallExpr():
+            return "a call"
+        case BinaryExpr() | UnaryExpr():
+            return "an expression"
+
+
+# ---- operators and calls ----
+
+
+def binary(b: Builder, v: list[Any]) -> BinaryExpr:
+    left, index, right = v
+    op = b.texts[index]
+    if op == "/" and b.is_strict:
+        b.report(DIVISION, b.at(index), help="multiply: `quotient * divisor == dividend`")
+    return BinaryExpr(op, left, right, b.at(index), Span(b.anchor, left.span.start, right.span.end))
+
+
+def unary(b: Builder, v: list[Any]) -> UnaryExpr:
+    op = b.texts[v[0]]
+    if b.is_strict:
+        help_text = "write `0 - x`" if op == "-" else "compare with `false`: `x == false`"
+        b.report(UNARY_OPERATOR, b.at(v[0]), text=op, help=help_text)
+    return UnaryExpr(op, v[1], b.span(v[0], v[1]))
+
+
+def parenthesised(b: Builder, v: list[Any]) -> Expr:
+    # The node is new and nobody else's yet: its place comes to include the parentheses.
+    value: Expr = v[1]
+    object.__setattr__(value, "span", b.span(v[0], v[2]))
+    return value
+
+
+def new(b: Builder, v: list[Any]) -> NewExpr:
+    arguments = v[3] if len(v) == 5 else []
+    plain_values(b, arguments, "an argument")
+    value = NewExpr(b.name(v[1]), tuple(arguments), b.span(v[0], v[-1]))
+    b.waiting[value] = None
+    return value
+
+
+def call(b: Builder, v: list[Any]) -> CallExpr:
+    if len(v) == 4:
+        return CallExpr(b.name(v[0]), tuple(v[2]), b.span(v[0], v[3]))
+    value = CallExpr(b.name(v[0]), (), b.span(v[0], v[2]))
+    b.waiting[value] = None
+    return value
+
+
+def method_call(b: Builder, v: list[Any]) -> CallExpr:
+    path: PathExpr = v[0]
+    arguments = v[2] if len(v) == 4 else []
+    owner = path.parts[:-1]
+    target = PathExpr(owner, owner[0].span.to(owner[-1].span))
+    value = CallExpr(path.parts[-1], tuple(arguments), b.span(path, v[-1]))
+    b.methods[value] = (target, path.parts[-1])
+    b.waiting[value] = None
+    return value
+
+
+def close_call(b: Builder, v: list[Any]) -> CallExpr:
+    method = b.name(v[2])
+    value = CallExpr(method, (), b.span(v[0], v[-1]))
+    b.methods[value] = (v[0], method)
+    b.waiting[value] = None
+    return value
+
+
+def report_waiting(b: Builder) -> None:
+    """Report the values that never came to a place where they may stand."""
+    for value in b.waiting:
+        start = value.span.start
+        if any(first <= start < end for first, end in b.piece.broken):
+            continue
+        if isinstance(value, NewExpr):
+            help_text = "declare a variable for the object first, and write the variable here"
+            b.report(MISPLACED_NEW, value.span, help=help_text)
+        elif isinstance(value, CallExpr) and value in b.methods:
+            name = value.function.name
+            b.report(MISPLACED_METHOD, value.span, name=name, help="call it in a statement of its own")
+        elif isinstance(value, CallExpr):
+            b.report(NO_ARGUMENT, value.span, name=value.function.name)

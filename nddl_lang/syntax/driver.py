@@ -1,0 +1,75 @@
+"""Run the tables of the grammar over the lexemes of one piece, making nodes on the way."""
+
+from collections.abc import Callable
+from typing import Any
+
+from nddl_lang.syntax import builder, statements
+from nddl_lang.syntax.builder import Builder, report_waiting
+from nddl_lang.syntax.piece import Piece
+from nddl_lang.syntax.placement import Place, place_statements
+from nddl_lang.syntax.recovery import Recovery
+from nddl_lang.syntax.tables import ACTIONS, END, GOTOS, RULES
+
+Maker = Callable[[Builder, list[Any]], Any]
+
+
+def _maker(name: str | None) -> Maker | None:
+    """The function that makes the node called `name` in the grammar."""
+    if name is None:
+        return None
+    maker: Maker = getattr(statements, name, None) or getattr(builder, name)
+    return maker
+
+
+_MAKERS: list[tuple[str, int, Maker | None]] = [(head, size, _maker(name)) for head, size, name in RULES]
+
+
+def parse_piece(piece: Piece, place: Place, is_strict: bool) -> None:
+    """Fill in the statements of `piece`, which stands in `place`, and what is wrong with them."""
+    b = Builder(piece, is_strict)
+    piece.statements = place_statements(b, _run(b), place)
+    if b.waiting:
+        report_waiting(b)
+
+
+def _run(b: Builder) -> list[Any]:
+    """The statements in the lexemes of `b`. Every step shifts one, reduces, or mends; so it ends."""
+    kinds = [*b.piece.kinds, END]
+    states = [0]
+    values: list[Any] = []
+    actions, gotos, makers = ACTIONS, GOTOS, _MAKERS
+    recovery: Recovery | None = None
+    index = 0
+    kind = kinds[0]
+    row = actions[0]
+    while True:
+        action = row.get(kind)
+        if action is None:
+            if recovery is None:
+                recovery = Recovery(b, kinds)
+            index = recovery.recover(states, values, index)
+            kind = kinds[index]
+            row = actions[states[-1]]
+        elif action > 0:
+            states.append(action)
+            values.append(index)
+            index += 1
+            kind = kinds[index]
+            row = actions[action]
+        elif action < 0:
+            head, size, make = makers[-action]
+            if make is None:
+                del states[-1]
+            elif size:
+                parts = values[-size:]
+                del values[-size:]
+                del states[-size:]
+                values.append(make(b, parts))
+            else:
+                values.append(make(b, []))
+            state = gotos[states[-1]][head]
+            states.append(state)
+            row = actions[state]
+        else:
+            result: list[Any] = values[0]
+            return result

@@ -1,0 +1,70 @@
+"""Say in words what could have stood at a place where something else stands."""
+
+from nddl_lang.syntax.tables import ACTIONS, END, GOTOS, RULES
+
+_VALUE_STARTS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", "(", "[", "{", "new", "-", "!"))
+_OPERATORS = frozenset(("||", "&&", "==", "!=", "<", "<=", ">", ">=", "+", "-", "*", "/"))
+_NAMES = {
+    "IDENT": "a name",
+    "INT": "a number",
+    "FLOAT": "a number",
+    "STRING": "a string",
+    "BOOL": "`true` or `false`",
+    "BASETYPE": "a type",
+    "RELATION": "a relation",
+    "GOAL": "`goal`",
+    END: "the end of the file",
+}
+_MOST = 4
+
+
+def accepts(states: list[int], kinds: list[str]) -> bool:
+    """Whether the parser, standing in `states`, could take in `kinds` one after the other."""
+    states = states.copy()
+    for kind in kinds:
+        while True:
+            action = ACTIONS[states[-1]].get(kind)
+            if action is None:
+                return False
+            if action == 0:
+                return True
+            if action > 0:
+                states.append(action)
+                break
+            head, size, _ = RULES[-action]
+            if size:
+                del states[-size:]
+            states.append(GOTOS[states[-1]][head])
+    return True
+
+
+def expected_kinds(states: list[int]) -> set[str]:
+    """All kinds of lexeme that could come next."""
+    return {kind for kind in ACTIONS[states[-1]] if accepts(states, [kind])}
+
+
+def describe_expected(kinds: set[str]) -> str:
+    """`kinds` in words: `a name, `,` or `;``."""
+    words: list[str] = []
+    rest = set(kinds)
+    if "statement" in rest or {"IDENT", "class", "enum"} <= rest:
+        return "`}`" + " or a statement" if "}" in rest else "a statement"
+    if {"IDENT", "INT", "[", "("} <= rest:
+        words.append("a value")
+        rest -= _VALUE_STARTS
+    if {"BASETYPE", "IDENT"} <= rest:
+        words.append("a type")
+        rest -= {"BASETYPE", "IDENT"}
+    if "IDENT" in rest and "this" in rest:
+        words.append("a name")
+        rest -= {"IDENT", "this"}
+    if len(rest & _OPERATORS) > 1:
+        rest -= _OPERATORS
+        words.append("an operator")
+    rest.discard(".")
+    words += sorted({_NAMES.get(kind, f"`{kind}`") for kind in rest}, key=lambda word: (word.startswith("`"), word))
+    if len(words) > _MOST:
+        words = words[:_MOST]
+    if not words:
+        return "something else"
+    return words[0] if len(words) == 1 else ", ".join(words[:-1]) + " or " + words[-1]

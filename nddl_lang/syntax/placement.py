@@ -1,0 +1,181 @@
+"""Say which statements may stand in which block."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from nddl_lang.syntax.builder import Builder
+from nddl_lang.syntax.codes import EMPTY_IN_PREDICATE, MISPLACED
+from nddl_lang.syntax.nodes import (
+    Allocation,
+    Assignment,
+    BrokenStatement,
+    CallConstraint,
+    ClassDecl,
+    ConstructorDecl,
+    EnumDecl,
+    ExprConstraint,
+    Foreach,
+    GoalStatement,
+    IfStatement,
+    Include,
+    MethodCall,
+    PredicateDecl,
+    Relation,
+    RuleDecl,
+    SuperCall,
+    TypedefDecl,
+    VariableDecl,
+)
+from nddl_lang.text.diagnostic import Edit, Fix
+from nddl_lang.text.source import Span
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class EmptyStatement:
+    """A `;` by itself; it never leaves the parser."""
+
+    span: Span
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Block:
+    """Statements in braces, on their way into the statement that they belong to."""
+
+    statements: list[Any]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A kind of block: how messages call it, and what may stand there."""
+
+    where: str
+    allowed: frozenset[type]
+
+
+TOP = Place(
+    "at the top level",
+    frozenset(
+        (
+            TypedefDecl,
+            EnumDecl,
+            VariableDecl,
+            Assignment,
+            CallConstraint,
+            ExprConstraint,
+            ClassDecl,
+            RuleDecl,
+            GoalStatement,
+            Relation,
+            Allocation,
+            MethodCall,
+            Include,
+        )
+    ),
+)
+CLASS = Place("in a class", frozenset((VariableDecl, ConstructorDecl, PredicateDecl, Include)))
+CONSTRUCTOR = Place("in a constructor", frozenset((Assignment, SuperCall)))
+PREDICATE = Place("in a predicate", frozenset((VariableDecl, CallConstraint, ExprConstraint, Assignment)))
+RULE = Place("in a rule", frozenset((Relation, VariableDecl, CallConstraint, ExprConstraint, IfStatement, Foreach)))
+
+_NAMES: dict[type, str] = {
+    TypedefDecl: "a typedef",
+    EnumDecl: "an enum",
+    VariableDecl: "a variable",
+    Assignment: "an assignment",
+    CallConstraint: "a constraint",
+    ExprConstraint: "a constraint",
+    ClassDecl: "a class",
+    RuleDecl: "a rule",
+    GoalStatement: "a goal",
+    Relation: "a relation",
+    Allocation: "a new object",
+    MethodCall: "a method call",
+    Include: "an include",
+    ConstructorDecl: "a constructor",
+    PredicateDecl: "a predicate",
+    SuperCall: "`super(...)`",
+    IfStatement: "an `if`",
+    Foreach: "a `foreach`",
+    Block: "a block of its own",
+}
+
+_HOMES: dict[type, str] = {
+    IfStatement: "put it into a rule: `Class::predicate { if (...) { ... } }`",
+    Foreach: "put it into a rule: `Class::predicate { foreach (...) { ... } }`",
+    PredicateDecl: "put it into a class",
+    SuperCall: "put it first into a constructor",
+    ConstructorDecl: "put it into its class",
+    ClassDecl: "put it at the top level, before its first use",
+    TypedefDecl: "put it at the top level, before its first use",
+    EnumDecl: "put it at the top level, before its first use",
+    RuleDecl: "put it at the top level, after its class",
+    Include: "put it between two statements at the top level, or between two members of a class",
+    Block: "only the body of a rule, `if`, `else` or `foreach` stands in braces",
+    GoalStatement: "put it at the top level; in a rule, a relation asks for a token: `meets(object.p name);`",
+    MethodCall: "put it at the top level",
+}
+
+
+def statements_of(b: Builder, body: Any, place: Place) -> tuple[Any, ...]:
+    """What stands in `body`, a block or a single statement, with what may not stand in `place` reported as broken."""
+    statements = body.statements if type(body) is Block else (body,)
+    return place_statements(b, statements, place)
+
+
+def place_statements(b: Builder, statements: list[Any] | tuple[Any, ...], place: Place) -> tuple[Any, ...]:
+    """`statements` as they may stand in `place`, the others reported and replaced by a broken statement."""
+    placed: list[Any] = []
+    for statement in statements:
+        kind = type(statement)
+        if kind in place.allowed or kind is BrokenStatement:
+            placed.append(statement)
+        elif kind is EmptyStatement:
+            if place is PREDICATE and b.is_strict:
+                fix = Fix("remove the `;`", (Edit(statement.span, ""),))
+                b.report(EMPTY_IN_PREDICATE, statement.span, fixes=(fix,))
+        else:
+            placed.append(_misplaced(b, statement, place))
+    return tuple(placed)
+
+
+def _misplaced(b: Builder, statement: Any, place: Place) -> BrokenStatement:
+    """Report `statement` instead of anything that is wrong inside it."""
+    span: Span = statement.span
+    broken = break_statement(b, span)
+    help_text = _HOMES.get(type(statement))
+    fixes: tuple[Fix, ...] = ()
+    if isinstance(statement, Assignment) and place is RULE:
+        help_text = "a rule states constraints: write `==`"
+        between = Span(b.anchor, statement.target.span.end, statement.value.span.start)
+        if statement.op == "=":
+            sign = between.text.index("=")
+            at = between.start + sign
+            fixes = (Fix("write `==`", (Edit(Span(b.anchor, at, at + 1), "=="),)),)
+    elif isinstance(statement, CallConstraint | ExprConstraint) and place is CLASS:
+        help_text = "put it into a predicate or a rule"
+    elif isinstance(statement, CallConstraint | ExprConstraint) and place is CONSTRUCTOR:
+        help_text = "a constructor gives members their values: write `member = value;`"
+    elif isinstance(statement, VariableDecl) and place is CONSTRUCTOR:
+        help_text = "declare it as a member of the class"
+    b.report(MISPLACED, head_of(span), what=_NAMES[type(statement)], where=place.where, help=help_text, fixes=fixes)
+    return broken
+
+
+def head_of(span: Span) -> Span:
+    """The first line of `span`: enough to underline."""
+    text = span.text
+    end = text.find("\n")
+    return span if end < 0 else Span(span.anchor, span.start, span.start + len(text[:end].rstrip()))
+
+
+def break_statement(b: Builder, span: Span) -> BrokenStatement:
+    """Give the statement at `span` up: what was said about its inside does not matter any more."""
+    piece = b.piece
+    piece.diagnostics = [
+        diagnostic
+        for diagnostic in piece.diagnostics
+        if not span.start <= diagnostic.span.start <= span.end or diagnostic.code.id < "NDDL110"
+    ]
+    piece.broken.append((span.start, span.end))
+    return BrokenStatement(span)

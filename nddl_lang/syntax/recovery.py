@@ -1,0 +1,228 @@
+"""Mend what does not fit the grammar, so that one mistake costs one message and the rest is understood.
+
+First a small mend is tried that lets the parser go on: one lexeme put in, left out or read as another. Otherwise the
+statement is given up: it becomes a `BrokenStatement`, and reading goes on after its `;`, after its block, or at the
+end of the block that it stands in.
+"""
+
+from bisect import bisect_left
+from typing import Any
+
+from nddl_lang.syntax.advice import advise, describe_found
+from nddl_lang.syntax.builder import Builder
+from nddl_lang.syntax.codes import (
+    EQUALITY_SIGN,
+    EXPECTED,
+    FORMER_DIRECTIVE,
+    MALFORMED_NUMBER,
+    MISSING,
+    RESERVED_WORD,
+    STRAY_BRACE,
+    SUPERFLUOUS,
+    UNCLOSED_BRACE,
+    UNCLOSED_STRING,
+    UNEXPECTED_CHARACTER,
+)
+from nddl_lang.syntax.expectation import accepts, describe_expected, expected_kinds
+from nddl_lang.syntax.nodes import BrokenStatement
+from nddl_lang.syntax.placement import break_statement
+from nddl_lang.syntax.skipping import end_of_statement, misaligned_brace
+from nddl_lang.syntax.tables import END, GOTOS
+from nddl_lang.syntax.words import RESERVED
+from nddl_lang.text.diagnostic import Code, Edit, Fix, Note
+
+_STATEMENT_WORDS = frozenset(
+    ("BASETYPE", "class", "enum", "typedef", "GOAL", "predicate", "action", "if", "foreach", "#include", "filter")
+)
+_PUNCTUATION = frozenset("=,:.)]+-*/<>!;") | {"==", "!=", "<=", ">=", "&&", "||", "::"}
+_OPENERS = {")": "(", "]": "[", "}": "{"}
+# A lexeme that was already complained about explains whatever follows in its statement.
+_LEXICAL = (UNEXPECTED_CHARACTER, UNCLOSED_STRING, MALFORMED_NUMBER, FORMER_DIRECTIVE)
+
+
+class Recovery:
+    """Mends the lexemes of one piece; works on copies, so that the piece keeps what was written."""
+
+    def __init__(self, b: Builder, kinds: list[str]) -> None:
+        self._b = b
+        self._kinds = kinds
+        b.starts = b.starts.copy()
+        b.ends = b.ends.copy()
+        b.texts = b.texts.copy()
+        self._known = [diagnostic.span.start for diagnostic in b.piece.diagnostics if diagnostic.code in _LEXICAL]
+        self._is_quiet = False
+        self._said_unclosed = b.piece.is_cut_short
+
+    def recover(self, states: list[int], values: list[Any], index: int) -> int:
+        """Mend at the lexeme `index`, which does not fit; returns where to go on."""
+        depth = len(states) - 1
+        while "statement" not in GOTOS[states[depth]]:
+            depth -= 1
+        first = self._first_index(values[depth]) if depth < len(values) else index
+        self._is_quiet = self._was_complained_about(first, index)
+        if self._insert(states, values, index) or self._reread(states, index) or self._leave_out(states, values, index):
+            return index
+        return self._give_up(states, values, depth, first, index)
+
+    # ---- small mends ----
+
+    def _insert(self, states: list[int], values: list[Any], index: int) -> bool:
+        """Put a missing lexeme in before `index` if that makes the next two fit."""
+        kinds = self._kinds
+        following = kinds[index : index + 2]
+        open_brace = self._opener(values, "}")
+        if kinds[index] == END and open_brace is not None:
+            following = []
+            if accepts(states, ["}"]):
+                self._report_unclosed(open_brace)
+                self._put_in(index, "}")
+                return True
+        if index > 0 and self._may_begin_statement(index) and accepts(states, [";", *following]):
+            self._report_missing(index, ";", "after this statement")
+            self._put_in(index, ";")
+            return True
+        for kind in (")", "]", "}"):
+            opener = self._opener(values, kind)
+            if opener is not None and accepts(states, [kind, *following]):
+                note = Note(f"this `{_OPENERS[kind]}` is open", self._b.at(opener))
+                self._report_missing(index, kind, "here", (note,))
+                self._put_in(index, kind)
+                return True
+        return False
+
+    def _reread(self, states: list[int], index: int) -> bool:
+        """Read the lexeme `index` as what it was evidently meant to be."""
+        b, kinds = self._b, self._kinds
+        following = kinds[index + 1 : index + 2]
+        text = b.texts[index] if kinds[index] != END else ""
+        if kinds[index] == "=" and accepts(states, ["==", *following]):
+            fix = Fix("write `==`", (Edit(b.at(index), "=="),))
+            self._report(EQUALITY_SIGN, index, help="write `==`", fixes=(fix,))
+            kinds[index] = b.texts[index] = "=="
+            return True
+        if text in RESERVED and kinds[index] != "IDENT" and accepts(states, ["IDENT", *following]):
+            self._report(RESERVED_WORD, index, text=text, help="choose another name")
+            kinds[index] = "IDENT"
+            return True
+        return False
+
+    def _leave_out(self, states: list[int], values: list[Any], index: int) -> bool:
+        """Leave out the lexeme `index`, or a comma before it, if that makes the next ones fit."""
+        b, kinds = self._b, self._kinds
+        is_after_comma = index > 0 and kinds[index - 1] == "," and values and values[-1] == index - 1
+        if is_after_comma and accepts(states[:-1], kinds[index : index + 2]):
+            self._report_superfluous(index - 1)
+            del states[-1], values[-1]
+            return True
+        if kinds[index] in _PUNCTUATION and accepts(states, kinds[index + 1 : index + 3]):
+            self._report_superfluous(index)
+            del kinds[index], b.texts[index], b.starts[index], b.ends[index]
+            return True
+        return False
+
+    # ---- giving up ----
+
+    def _give_up(self, states: list[int], values: list[Any], depth: int, first: int, index: int) -> int:
+        """Turn the statement that begins at lexeme `first` into a broken one and go on behind it."""
+        b, kinds = self._b, self._kinds
+        is_inside = any(type(value) is int and kinds[value] == "{" for value in values[:depth])
+        end = end_of_statement(kinds, first, index)
+        is_stray = end == index == first and kinds[index] == "}" and not is_inside
+        if is_stray:
+            end += 1
+        start = b.starts[first] if end > first else b.ends[first - 1] if first else 0
+        finish = b.ends[end - 1] if end > first else start
+        node: BrokenStatement = break_statement(b, b.piece.span(start, finish))
+        if is_stray:
+            fix = Fix("remove the `}`", (Edit(b.at(index), ""),), safe=False)
+            self._report(STRAY_BRACE, index, text="}", fixes=(fix,))
+        else:
+            self._report_expected(states, first, index)
+        del states[depth + 1 :]
+        del values[depth:]
+        states.append(GOTOS[states[depth]]["statement"])
+        values.append(node)
+        return end
+
+    # ---- reports ----
+
+    def _report(self, code: Code, index: int, **values: Any) -> None:
+        if not self._is_quiet:
+            self._b.report(code, self._b.at(index), **values)
+
+    def _report_missing(self, index: int, text: str, place: str, notes: tuple[Note, ...] = ()) -> None:
+        if self._is_quiet:
+            return
+        b = self._b
+        at = b.ends[index - 1]
+        span = b.piece.span(at, at)
+        b.report(MISSING, span, text=text, place=place, notes=notes, fixes=(Fix(f"add `{text}`", (Edit(span, text),)),))
+
+    def _report_superfluous(self, index: int) -> None:
+        text = self._b.texts[index]
+        fix = Fix(f"remove `{text}`", (Edit(self._b.at(index), ""),))
+        self._report(SUPERFLUOUS, index, text=text, fixes=(fix,))
+
+    def _report_unclosed(self, opener: int) -> None:
+        if not self._said_unclosed:
+            self._said_unclosed = True
+            better = misaligned_brace(self._kinds, self._b)
+            self._report(UNCLOSED_BRACE, opener if better is None else better, text="{")
+
+    def _report_expected(self, states: list[int], first: int, index: int) -> None:
+        if self._is_quiet:
+            return
+        b, kinds = self._b, self._kinds
+        expected = describe_expected(expected_kinds(states))
+        found = describe_found(b, kinds, index)
+        help_text = advise(kinds, b.texts, first, index)
+        if kinds[index] == END and index > 0:
+            span = b.piece.span(b.ends[index - 1], b.ends[index - 1])
+        else:
+            span = b.at(index)
+        b.report(EXPECTED, span, expected=expected, found=found, help=help_text)
+
+    # ---- where things are ----
+
+    def _put_in(self, index: int, kind: str) -> None:
+        b = self._b
+        at = b.ends[index - 1]
+        self._kinds.insert(index, kind)
+        b.texts.insert(index, "")
+        b.starts.insert(index, at)
+        b.ends.insert(index, at)
+
+    def _opener(self, values: list[Any], closer: str) -> int | None:
+        """The lexeme that opened the innermost bracket, if `closer` is what closes it."""
+        for value in reversed(values):
+            if type(value) is int and self._kinds[value] in ("(", "[", "{"):
+                return value if self._kinds[value] == _OPENERS[closer] else None
+        return None
+
+    def _may_begin_statement(self, index: int) -> bool:
+        """Whether the lexeme `index` looks as if the statement before it had ended."""
+        b, kinds = self._b, self._kinds
+        if kinds[index] in ("}", END) or kinds[index] in _STATEMENT_WORDS:
+            return True
+        offset = b.anchor.offset
+        return "\n" in b.anchor.source.text[offset + b.ends[index - 1] : offset + b.starts[index]]
+
+    def _first_index(self, value: Any) -> int:
+        """The first lexeme of a part that the parser holds."""
+        while type(value) is list:
+            if not value:
+                return 0
+            value = value[0]
+        if type(value) is int:
+            return value
+        return bisect_left(self._b.starts, value.span.start)
+
+    def _was_complained_about(self, first: int, index: int) -> bool:
+        """Whether a lexeme of the statement, or one left out of it, is known to be wrong."""
+        if not self._known:
+            return False
+        b = self._b
+        start = b.ends[first - 1] if first else 0
+        end = b.ends[index] if index < len(b.ends) else b.piece.length
+        found = bisect_left(self._known, start)
+        return found < len(self._known) and self._known[found] <= end

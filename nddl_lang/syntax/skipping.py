@@ -1,0 +1,56 @@
+"""Find where a statement that was not understood ends."""
+
+from nddl_lang.syntax.builder import Builder
+from nddl_lang.syntax.tables import END
+
+_BEFORE_BLOCK = frozenset(("IDENT", ")", "else", ";", "{", "}"))
+_OPENERS = {")": "(", "]": "["}
+
+
+def end_of_statement(kinds: list[str], first: int, index: int) -> int:
+    """The lexeme after the statement that begins at `first` and went wrong at `index`.
+
+    It ends with its `;`, with the block that belongs to it, or before the `}` of the block around it.
+    """
+    stack: list[str] = []
+    at = first
+    while kinds[at] != END:
+        kind = kinds[at]
+        if kind == "(" or kind == "[":
+            stack.append(kind)
+        elif kind == "{":
+            stack.append("{" if at == first or kinds[at - 1] in _BEFORE_BLOCK else "set")
+        elif kind == ")" or kind == "]":
+            if stack and stack[-1] == _OPENERS[kind]:
+                stack.pop()
+        elif kind == ";":
+            while stack and stack[-1] != "{":
+                stack.pop()
+            if not stack and at >= index:
+                return at + 1
+        elif kind == "}":
+            while stack and stack[-1] in "([":
+                stack.pop()
+            if not stack:
+                return max(at, index)
+            if stack.pop() == "{" and not stack and at >= index and kinds[at + 1] != "else":
+                return at + 1
+        at += 1
+    return at
+
+
+def misaligned_brace(kinds: list[str], b: Builder) -> int | None:
+    """The `{` that has the `}` of an outer block, to judge by how far both lines are indented."""
+    source, offset = b.anchor.source, b.anchor.offset
+    open_braces: list[tuple[int, int]] = []
+    for index, kind in enumerate(kinds):
+        if kind == "{":
+            line = source.line(source.locate(offset + b.starts[index])[0])
+            open_braces.append((index, len(line) - len(line.lstrip())))
+        elif kind == "}" and open_braces and b.texts[index]:
+            number, column = source.locate(offset + b.starts[index])
+            opener, indent = open_braces.pop()
+            line = source.line(number)
+            if column - 1 == len(line) - len(line.lstrip()) and column - 1 < indent:
+                return opener
+    return None
