@@ -29,7 +29,7 @@ help:
 
 # make ends with 2 whatever goes wrong, except that a question (-q) which finds something to do ends with 1. So `check`
 # is a question: lines with a `+` run all the same, and the last line, without one, stands for the findings.
-ifeq ($(MAKECMDGOALS),check)
+ifeq ($(MAKECMDGOALS)$(filter 3.%,$(MAKE_VERSION)),check)
 MAKEFLAGS += -q
 endif
 
@@ -85,8 +85,11 @@ format: setup
 fuzz: build
 	$(PYTEST) --hypothesis-profile=fuzz -m 'not slow'
 
+conformance: build
+	$(PYTEST) tests/conformance
+
 bench: build
-	$(BIN)/python -m bench
+	@for script in bench/*.py; do $(BIN)/python $$script || exit; done
 
 clean:
 	rm -rf .venv build dist *.egg-info .mypy_cache .pytest_cache .ruff_cache .hypothesis
