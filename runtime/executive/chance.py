@@ -103,7 +103,7 @@ def normal_quantile(share: float) -> float:
 
 
 def natural_logarithm(x: float) -> float:
-    """ln x for a positive normal x from `+ - * /` alone: x = m * 2**e, ln m = 2 artanh((m-1)/(m+1)); error below 2 ulp."""
+    """ln x for a positive normal x, to 2 ulp: x = m * 2**e, ln m = 2 artanh((m - 1) / (m + 1)) as a series."""
     mantissa, exponent = frexp(x)
     if mantissa < 0.7071067811865476:
         mantissa, exponent = mantissa * 2.0, exponent - 1

@@ -1,0 +1,193 @@
+"""Fly missions on worker processes: tasks in, results out as they come, whatever happens to a worker.
+
+A worker that dies or overruns costs exactly the mission it was flying; the rest of its chunk goes to others. Ctrl-C
+ends the batch at once and keeps what is finished. The order in which results come may vary; their content does not.
+"""
+
+import contextlib
+import multiprocessing
+import os
+import signal
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from types import FrameType
+
+from checker.batch.result import MissionResult
+from checker.batch.worker import READY, Load, LoadFailure, Task, error_result, work
+from runtime.executive.configuration import AgentConfiguration
+
+LARGEST_CHUNK = 16
+START_LIMIT = 120.0  # seconds for a worker to load the models
+FAILED_STARTS = 3  # workers in a row that may die before they are ready
+
+
+class WorkerError(Exception):
+    """No worker can be started: a bug of the tool, or a machine that lets no process live."""
+
+
+def fly_all(
+    load: Load,
+    agent: AgentConfiguration,
+    tasks: Sequence[Task],
+    workers: int,
+    time_limit: float,
+    take: Callable[[MissionResult], None],
+) -> bool:
+    """Fly `tasks` and give each result to `take`; tell whether Ctrl-C ended the batch before all were flown."""
+    if not tasks:
+        return False
+    with _interrupt_pipe() as interrupted:
+        pool = _Pool(load, agent, tasks, min(workers, len(tasks)), time_limit, take)
+        try:
+            return pool.run(interrupted)
+        finally:
+            pool.stop()
+
+
+class _Worker:
+    """A process, the way to it, and the missions that it still owes; the first of them is in flight."""
+
+    def __init__(self, load: Load, agent: AgentConfiguration) -> None:
+        context = multiprocessing.get_context("spawn")
+        self.connection, other = context.Pipe()
+        self.process: BaseProcess = context.Process(target=work, args=(other, load, agent), daemon=True)
+        with _interrupts_held_back():
+            self.process.start()
+        other.close()
+        self.owed: deque[Task] = deque()
+        self.is_ready = False
+        self.deadline = time.monotonic() + START_LIMIT
+
+    def give(self, chunk: list[Task], time_limit: float) -> None:
+        self.owed.extend(chunk)
+        self.deadline = time.monotonic() + time_limit
+        self.connection.send(chunk)
+
+
+class _Pool:
+    def __init__(
+        self,
+        load: Load,
+        agent: AgentConfiguration,
+        tasks: Sequence[Task],
+        workers: int,
+        time_limit: float,
+        take: Callable[[MissionResult], None],
+    ) -> None:
+        self.load, self.agent, self.time_limit, self.take = load, agent, time_limit, take
+        self.waiting = deque(tasks)
+        self.missing = len(tasks)
+        self.chunk = max(1, min(LARGEST_CHUNK, len(tasks) // (workers * 4)))
+        self.failed_starts = 0
+        self.workers = [_Worker(load, agent) for _ in range(workers)]
+
+    def run(self, interrupted: int) -> bool:
+        """Serve workers until every task has its result; True as soon as `interrupted` is readable."""
+        while self.missing:
+            ends: list[Connection | int] = [worker.connection for worker in self.workers]
+            soonest = min(worker.deadline for worker in self.workers if worker.owed or not worker.is_ready)
+            ready = wait([*ends, interrupted], max(0.0, soonest - time.monotonic()))
+            for worker in list(self.workers):
+                if worker.connection in ready:
+                    self._listen(worker)
+                elif time.monotonic() > worker.deadline and (worker.owed or not worker.is_ready):
+                    self._lose(worker, f"took longer than {self.time_limit:g} s")
+            if interrupted in ready:
+                return self.missing > 0
+        return False
+
+    def stop(self) -> None:
+        """End every worker; idle ones have nothing to lose, busy ones are not waited for."""
+        for worker in self.workers:
+            worker.process.kill()
+            worker.connection.close()
+        for worker in self.workers:
+            worker.process.join()
+
+    def _listen(self, worker: _Worker) -> None:
+        """Take all that a worker has said."""
+        try:
+            while worker.connection.poll():
+                message = worker.connection.recv()
+                if isinstance(message, LoadFailure):
+                    raise WorkerError(message.detail)
+                if message == READY:
+                    worker.is_ready = True
+                    self.failed_starts = 0
+                else:
+                    worker.owed.popleft()
+                    self.missing -= 1
+                    self.take(message)
+                worker.deadline = time.monotonic() + self.time_limit
+                if not worker.owed:
+                    self._feed(worker)
+        except (EOFError, OSError):
+            worker.process.join(1.0)
+            self._lose(worker, f"the process died ({_fate(worker.process.exitcode)})")
+
+    def _feed(self, worker: _Worker) -> None:
+        chunk = [self.waiting.popleft() for _ in range(min(self.chunk, len(self.waiting)))]
+        if chunk:
+            worker.give(chunk, self.time_limit)
+
+    def _lose(self, worker: _Worker, reason: str) -> None:
+        """Give up a worker and the mission in flight, and start another one for the rest."""
+        worker.process.kill()
+        worker.process.join()
+        worker.connection.close()
+        if worker.owed:
+            self.missing -= 1
+            self.take(error_result(worker.owed.popleft(), reason))
+        elif not worker.is_ready:
+            self.failed_starts += 1
+            if self.failed_starts >= FAILED_STARTS:
+                raise WorkerError(f"workers end before they are ready: {reason}")
+        self.waiting.extendleft(reversed(worker.owed))
+        self.workers.remove(worker)
+        if self.missing:
+            self.workers.append(_Worker(self.load, self.agent))
+
+
+def _fate(exit_code: int | None) -> str:
+    if exit_code is not None and exit_code < 0:
+        return f"signal {signal.Signals(-exit_code).name}"
+    return f"exit code {exit_code}"
+
+
+@contextlib.contextmanager
+def _interrupts_held_back() -> Iterator[None]:
+    """Hold Ctrl-C back: a process started in here is born with it blocked, and so never prints a traceback for it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextlib.contextmanager
+def _interrupt_pipe() -> Iterator[int]:
+    """A file descriptor that is readable once Ctrl-C was pressed; the first press raises nothing, a second one does."""
+    reading, writing = os.pipe()
+    is_main = threading.current_thread() is threading.main_thread()
+    before = signal.getsignal(signal.SIGINT)
+
+    def note(_number: int, _frame: FrameType | None) -> None:
+        os.write(writing, b"!")
+        signal.signal(signal.SIGINT, before)
+
+    if is_main:
+        signal.signal(signal.SIGINT, note)
+    try:
+        yield reading
+    finally:
+        if is_main:
+            signal.signal(signal.SIGINT, before)
+        os.close(reading)
+        os.close(writing)

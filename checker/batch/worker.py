@@ -1,0 +1,66 @@
+"""What a worker process does: load the models once, then fly the missions it is sent, one answer each."""
+
+import signal
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+
+from checker.batch.result import MissionResult, condense
+from checker.oracle import Judgement, Verdict, judge
+from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.outcome import Outcome
+
+Fly = Callable[[int], Outcome]  # a seed in, an outcome out
+Load = Callable[[AgentConfiguration], Fly]  # importable by name, so that a fresh process can have it
+
+READY = "ready"
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """One mission to fly."""
+
+    number: int
+    seed: int
+
+
+@dataclass(frozen=True, slots=True)
+class LoadFailure:
+    """What a worker says when it cannot load the models: a bug of ours, for they were checked before."""
+
+    detail: str
+
+
+def work(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
+    """Serve missions until None comes or the other end is gone."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the whole group; the parent decides what it means
+    try:
+        try:
+            fly = load(agent)
+        except Exception:
+            connection.send(LoadFailure(traceback.format_exc()))
+            return
+        connection.send(READY)
+        while (tasks := connection.recv()) is not None:
+            for task in tasks:
+                connection.send(fly_one(fly, task))
+    except (EOFError, BrokenPipeError, ConnectionResetError):
+        return  # the parent is gone
+
+
+def fly_one(fly: Fly, task: Task) -> MissionResult:
+    """Fly one mission and judge it; an exception is the tool's failure, not the model's."""
+    try:
+        outcome = fly(task.seed)
+    except Exception as problem:
+        return error_result(task, f"{type(problem).__name__}: {problem}", traceback.format_exc())
+    judgement = judge(outcome)
+    if judgement.verdict is Verdict.PASS:
+        return MissionResult(task.number, task.seed, judgement, condense(outcome), has_trace=False)
+    return MissionResult(task.number, task.seed, judgement, outcome, has_trace=True)
+
+
+def error_result(task: Task, reason: str, detail: str = "") -> MissionResult:
+    """The result of a mission that the tool could not fly to its end."""
+    return MissionResult(task.number, task.seed, Judgement(Verdict.ERROR, "", reason), None, False, detail)

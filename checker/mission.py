@@ -1,0 +1,289 @@
+"""Read a mission file: TOML text in, a `Mission` or diagnostics with places out.
+
+The format is described in docs/mission.md; its parts are those of T-REX's agent file and of the founding paper's batch
+file (reference of T-REX, 3.1 and 5.5).
+"""
+
+import re
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import cast
+
+from checker.mission_codes import CIRCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE
+from checker.mission_table import MissionText, Table, nearest
+from checker.toml_places import find_places
+from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
+from nddl_lang.text.source import Source, Span
+from runtime.executive.configuration import (
+    AgentConfiguration,
+    Bounds,
+    DistributionName,
+    GoalConfiguration,
+    Mode,
+    OnFailure,
+    ParameterConfiguration,
+    ReactorConfiguration,
+    Value,
+)
+
+LARGEST_SEED = (1 << 53) - 1  # what JSON readers agree on
+
+
+@dataclass(frozen=True, slots=True)
+class CheckConfiguration:
+    """How many missions are flown, from which seed, and what rate of failure is still accepted."""
+
+    missions: int = 200
+    seed: int = 0
+    max_failure_rate: float = 0.0
+    confidence: float = 0.95
+    time_limit: float = 60.0  # seconds of wall time for one mission
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Mission:
+    """A mission file's meaning; `parameter_spans` say where each parameter is described."""
+
+    source: Source
+    agent: AgentConfiguration
+    check: CheckConfiguration
+    parameter_spans: tuple[tuple[str, Span], ...]
+    needs_range: tuple[str, ...]  # parameters whose range is the base domain in the model
+
+
+def read_mission(path: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
+    """Read the file at `path`; the mission is None where a diagnostic is an error. The file must be readable."""
+    return parse_mission(Source(path.as_posix(), path.read_text(encoding="utf-8")), path.parent)
+
+
+def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
+    """Read a mission's text; paths in it are relative to `root`."""
+    try:
+        values = tomllib.loads(source.text)
+    except tomllib.TOMLDecodeError as problem:
+        return None, (_not_toml(source, str(problem)),)
+    text = MissionText(source, find_places(source.text))
+    top = Table(text, (), values, "a mission file")
+    head = top.table("mission", "[mission]", needed=True)
+    reactors = _read_reactors(top.tables("reactor", needed=True), root)
+    goals = _read_goals(top.tables("goal"), reactors, text)
+    parameters, unranged = _read_parameters(top.table("parameters", "[parameters]"))
+    agent = AgentConfiguration(
+        name=head.string("name"),
+        root=root.as_posix(),
+        final_tick=head.whole("final_tick", None, 1),
+        reactors=reactors,
+        goals=goals,
+        parameters=parameters,
+        tick=head.number("tick", 1.0, 1e-9),
+        on_failure=cast("OnFailure", head.choice("on_failure", ("abort_agent", "kill_reactor"), "abort_agent")),
+    )
+    check = _read_check(top.table("check", "[check]"))
+    head.close()
+    top.close()
+    found = tuple(sorted(text.diagnostics, key=lambda diagnostic: diagnostic.span.begin))
+    if any(diagnostic.severity is Severity.ERROR for diagnostic in found):
+        return None, found
+    spans = tuple((one.name, text.key_span(("parameters", one.name))) for one in parameters)
+    return Mission(source, agent, check, spans, unranged), found
+
+
+def _not_toml(source: Source, problem: str) -> Diagnostic:
+    text = MissionText(source, {})
+    place = re.search(r" \(at (?:line (\d+), column (\d+)|end of document)\)", problem)
+    offset = len(source.text)
+    if place and place[1]:
+        offset = source.line_starts[min(int(place[1]), len(source.line_starts)) - 1] + int(place[2]) - 1
+    reason = problem[: place.start()] if place else problem
+    return NOT_TOML.at(text.span(offset, offset + 1), reason=reason[:1].lower() + reason[1:])
+
+
+def _read_check(table: Table) -> CheckConfiguration:
+    default = CheckConfiguration()
+    check = CheckConfiguration(
+        missions=table.whole("missions", default.missions, 1),
+        seed=table.whole("seed", default.seed, 0),
+        max_failure_rate=table.number("max_failure_rate", default.max_failure_rate, 0.0, 1.0),
+        confidence=table.number("confidence", default.confidence, 0.5, 0.999999),
+        time_limit=table.number("time_limit", default.time_limit, 0.001),
+    )
+    if check.seed > LARGEST_SEED:
+        table.complain_of_value("seed", check.seed, f"at most {LARGEST_SEED}")
+    table.close()
+    return check
+
+
+def _read_reactors(tables: list[Table], root: Path) -> tuple[ReactorConfiguration, ...]:
+    default = ReactorConfiguration("", "")
+    reactors: list[ReactorConfiguration] = []
+    owners: dict[str, tuple[str, Span]] = {}
+    names: dict[str, Span] = {}
+    for table in tables:
+        reactor = ReactorConfiguration(
+            name=table.string("name"),
+            model=table.string("model"),
+            latency=table.whole("latency", default.latency, 0),
+            lookahead=table.whole("lookahead", default.lookahead, 0),
+            internal=table.strings("internal"),
+            external=table.strings("external"),
+            solver=table.string("solver", "") or None,
+            max_steps=table.whole("max_steps", default.max_steps, 1),
+            max_depth=table.whole("max_depth", default.max_depth, 1),
+        )
+        table.close()
+        reactors.append(reactor)
+        for key, file in (("model", reactor.model), ("solver", reactor.solver)):
+            if file and not (root / file).is_file():
+                span = table.text.value_span((*table.path, key))
+                table.text.diagnostics.append(NO_FILE.at(span, path=file, help=_suggest_file(root, file)))
+        span = table.text.value_span((*table.path, "name"))
+        if reactor.name in names:
+            _complain_of_twin(table, span, "the reactor", reactor.name, names[reactor.name])
+        names.setdefault(reactor.name, span)
+        for index, timeline in enumerate(reactor.internal):
+            span = table.text.value_span((*table.path, "internal", index))
+            if timeline in owners:
+                _complain_of_twin(table, span, "an owner of the timeline", timeline, owners[timeline][1])
+            owners.setdefault(timeline, (reactor.name, span))
+    for table, reactor in zip(tables, reactors, strict=True):
+        for index, timeline in enumerate(reactor.external):
+            if timeline not in owners:
+                span = table.text.value_span((*table.path, "external", index))
+                table.text.diagnostics.append(NO_OWNER.at(span, timeline=timeline, help=_suggest(timeline, [*owners])))
+    circle = _find_circle(reactors, {timeline: name for timeline, (name, _) in owners.items()})
+    if circle:
+        span = tables[0].text.key_span(tables[0].path)
+        tables[0].text.diagnostics.append(CIRCLE.at(span, circle=" → ".join(circle)))
+    return tuple(reactors)
+
+
+def _read_goals(
+    tables: list[Table], reactors: tuple[ReactorConfiguration, ...], text: MissionText
+) -> tuple[GoalConfiguration, ...]:
+    owners = {timeline: reactor for reactor in reactors for timeline in reactor.internal}
+    goals: list[GoalConfiguration] = []
+    for table in tables:
+        parameters = table.table("parameters", "[goal.parameters]")
+        goal = GoalConfiguration(
+            timeline=table.string("timeline"),
+            predicate=table.string("predicate"),
+            at=table.whole("at", 0, 0),
+            mandatory=table.flag("mandatory"),
+            start=table.bounds("start"),
+            end=table.bounds("end"),
+            duration=table.bounds("duration"),
+            parameters=tuple((key, _goal_value(parameters, key)) for key in parameters.values),
+        )
+        table.close()
+        goals.append(goal)
+        span = text.value_span((*table.path, "timeline"))
+        owner = owners.get(goal.timeline)
+        if owner is None and goal.timeline:
+            advice = _suggest(goal.timeline, [*owners])
+            text.diagnostics.append(NO_OWNER.at(span, timeline=goal.timeline, help=advice))
+        elif owner is not None and owner.lookahead == 0:
+            text.diagnostics.append(NO_GOALS.at(span, timeline=goal.timeline, reactor=owner.name))
+    return tuple(goals)
+
+
+def _goal_value(table: Table, key: str) -> Value | Bounds:
+    value = table.values[key]
+    if isinstance(value, list):
+        return table.bounds(key) or 0
+    if isinstance(value, int | float | str):
+        return value
+    return table.string(key)  # complains
+
+
+def _read_parameters(tables: Table) -> tuple[tuple[ParameterConfiguration, ...], tuple[str, ...]]:
+    parameters: list[ParameterConfiguration] = []
+    unranged: list[str] = []
+    for name in tables.values:
+        table = tables.table(name, f"[parameters.{name}]")
+        kinds = ("uniform", "normal", "truncated_normal", "discrete", "fixed")
+        guess = "discrete" if table.has("values") else "fixed" if table.has("value") else "uniform"
+        distribution = cast("DistributionName", table.choice("distribution", kinds, guess))
+        bounds = table.bounds("range", is_finite=True)
+        values = table.numbers("values")
+        weights = table.numbers("weights")
+        value = table.number("value", 0.0, float("-inf"))
+        is_whole = table.choice("kind", ("float", "int"), "float") == "int"
+        mode = cast("Mode", table.choice("mode", ("inter", "intra"), "inter"))
+        update = table.whole("update", 10, 1)
+        clip = table.bounds("clip")
+        table.close()
+        for reason in _ill_distribution(table, distribution, values, weights):
+            tables.text.diagnostics.append(ILL_DISTRIBUTION.at(tables.text.key_span(table.path), reason=reason))
+        if distribution == "fixed":
+            values = (value,)
+        if bounds is None and values:
+            bounds = (min(values), max(values))
+        if bounds is None:
+            unranged.append(name)
+        lower, upper = bounds or (0.0, 0.0)
+        parameters.append(
+            ParameterConfiguration(
+                name, float(lower), float(upper), distribution, mode, update, clip, is_whole, values, weights
+            )
+        )
+    tables.close()
+    return tuple(parameters), tuple(unranged)
+
+
+def _ill_distribution(
+    table: Table, distribution: str, values: tuple[float, ...], weights: tuple[float, ...]
+) -> list[str]:
+    """What the keys of a distribution lack, or have in vain."""
+    reasons: list[str] = []
+    if distribution == "discrete" and not values:
+        reasons.append("a discrete distribution needs `values`, a list of numbers")
+    if distribution == "fixed" and not table.has("value"):
+        reasons.append("a fixed distribution needs `value`")
+    if weights and len(weights) != len(values):
+        reasons.append(f"there are {len(weights)} weights for {len(values)} values")
+    if weights and (min(weights) < 0.0 or sum(weights) <= 0.0):
+        reasons.append("weights must not be negative, and one must be above 0")
+    for key, owner in (("values", "discrete"), ("weights", "discrete"), ("value", "fixed")):
+        if table.has(key) and distribution != owner:
+            reasons.append(f"`{key}` belongs to a {owner} distribution, not to a {distribution} one")
+    return reasons
+
+
+def _find_circle(reactors: list[ReactorConfiguration], owners: dict[str, str]) -> list[str]:
+    """The names of reactors on a circle of use, the first repeated at the end; empty where there is none."""
+    uses = {one.name: [owners[name] for name in one.external if name in owners] for one in reactors}
+    waiting = {name: set(used) for name, used in uses.items()}
+    while free := [name for name, used in waiting.items() if not used]:
+        for name in free:
+            del waiting[name]
+        for used in waiting.values():
+            used.difference_update(free)
+    if not waiting:
+        return []
+    trail = [next(iter(waiting))]
+    while True:
+        following = next(name for name in uses[trail[-1]] if name in waiting)
+        if following in trail:
+            return [*trail[trail.index(following) :], following]
+        trail.append(following)
+
+
+def _complain_of_twin(table: Table, span: Span, what: str, name: str, first: Span) -> None:
+    note = Note("first here", first)
+    table.text.diagnostics.append(TWICE.at(span, what=what, name=name, notes=(note,)))
+
+
+def _suggest(name: str, known: list[str]) -> str | None:
+    close = nearest(name, known)
+    if close:
+        return f"did you mean `{close}`?"
+    return "owned timelines: " + ", ".join(known) if known else None
+
+
+def _suggest_file(root: Path, file: str) -> str | None:
+    folder = (root / file).parent
+    if not folder.is_dir():
+        return "paths are relative to the mission file"
+    close = nearest(Path(file).name, sorted(path.name for path in folder.iterdir()))
+    return f"did you mean `{(Path(file).parent / close).as_posix()}`?" if close else None

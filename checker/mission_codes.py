@@ -1,0 +1,27 @@
+"""The complaints about mission files: NDDL7xx."""
+
+from nddl_lang.text.diagnostic import Code, Severity
+
+NOT_TOML = Code("NDDL701", Severity.ERROR, "syntax", "this is not TOML: {reason}")
+UNKNOWN_KEY = Code("NDDL702", Severity.ERROR, "name", "no key `{key}` in {table}")
+MISSING_KEY = Code("NDDL703", Severity.ERROR, "name", "{table} needs the key `{key}`")
+WRONG_TYPE = Code("NDDL704", Severity.ERROR, "type", "`{key}` must be {wanted}, not {found}")
+OUT_OF_RANGE = Code("NDDL705", Severity.ERROR, "domain", "`{key}` must be {wanted}, not {found}")
+REVERSED = Code("NDDL706", Severity.ERROR, "domain", "`{key}` runs backwards: {lower} is above {upper}")
+UNKNOWN_CHOICE = Code("NDDL707", Severity.ERROR, "name", "`{key}` cannot be `{found}`; it is one of {choices}")
+NO_FILE = Code("NDDL708", Severity.ERROR, "include", "there is no file `{path}`")
+TWICE = Code("NDDL709", Severity.ERROR, "duplicate", "{what} `{name}` is there twice")
+NO_OWNER = Code("NDDL710", Severity.ERROR, "name", "no reactor owns the timeline `{timeline}`")
+CIRCLE = Code("NDDL711", Severity.ERROR, "rule", "the reactors use each other in a circle: {circle}")
+NO_GOALS = Code(
+    "NDDL712", Severity.ERROR, "rule", "`{timeline}` takes no goals: its owner `{reactor}` has a lookahead of 0"
+)
+ILL_DISTRIBUTION = Code("NDDL713", Severity.ERROR, "domain", "{reason}")
+UNUSED_PARAMETER = Code("NDDL714", Severity.ERROR, "name", "no model samples a parameter `{name}`")
+NO_RANGE = Code("NDDL715", Severity.ERROR, "domain", "the parameter `{name}` has no range, here or in the model")
+BEYOND_MODEL = Code(
+    "NDDL716",
+    Severity.WARNING,
+    "domain",
+    "`{name}` may be drawn outside its base domain [{lower}, {upper}] in the model",
+)

@@ -1,0 +1,223 @@
+"""Take values out of one TOML table, each with its type and its limits; complain with places about all else."""
+
+import difflib
+import math
+from collections.abc import Sequence
+
+from checker.mission_codes import (
+    MISSING_KEY,
+    OUT_OF_RANGE,
+    REVERSED,
+    UNKNOWN_CHOICE,
+    UNKNOWN_KEY,
+    WRONG_TYPE,
+)
+from checker.toml_places import Path, Stretch
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
+from nddl_lang.text.source import Anchor, Source, Span
+from runtime.executive.configuration import Bounds
+
+TomlTable = dict[str, object]
+
+
+def nearest(word: str, known: Sequence[str]) -> str | None:
+    """The word of `known` that `word` was probably meant to be."""
+    found = difflib.get_close_matches(word.lower(), [name.lower() for name in known], n=1, cutoff=0.6)
+    return next((name for name in known if found and name.lower() == found[0]), None)
+
+
+class MissionText:
+    """A mission file's text, where its keys stand, and what is wrong with it so far."""
+
+    def __init__(self, source: Source, places: dict[Path, Stretch]) -> None:
+        self.source = source
+        self.places = places
+        self.diagnostics: list[Diagnostic] = []
+        self._anchor = Anchor(source)
+
+    def span(self, begin: int, end: int) -> Span:
+        """The stretch between two offsets."""
+        return Span(self._anchor, begin, end)
+
+    def key_span(self, path: Path) -> Span:
+        """The key at `path`, or that of the nearest table around it."""
+        while path and path not in self.places:
+            path = path[:-1]
+        return self.span(*self.places[path].key) if path else self.span(0, 0)
+
+    def value_span(self, path: Path) -> Span:
+        """The value at `path`, or the key of the nearest table around it."""
+        return self.span(*self.places[path].value) if path in self.places else self.key_span(path)
+
+
+class Table:
+    """One table under reading; `close` reports the keys that nobody asked for."""
+
+    def __init__(self, text: MissionText, path: Path, values: TomlTable, caption: str) -> None:
+        self.text = text
+        self.path = path
+        self.values = values
+        self.caption = caption
+        self.asked: list[str] = []
+
+    def close(self) -> None:
+        """Complain about each key that was not asked for, naming the one that it resembles."""
+        for key in self.values:
+            if key not in self.asked:
+                span = self.text.key_span((*self.path, key))
+                close = nearest(key, self.asked)
+                fixes = (Fix(f"write `{close}`", (Edit(span, close),)),) if close else ()
+                advice = f"did you mean `{close}`?" if close else "known keys: " + ", ".join(self.asked)
+                self.text.diagnostics.append(
+                    UNKNOWN_KEY.at(span, key=key, table=self.caption, help=advice, fixes=fixes)
+                )
+
+    def string(self, key: str, default: str | None = None) -> str:
+        """A text; without a default the key is needed."""
+        value = self._take(key, needed=default is None)
+        if isinstance(value, str):
+            return value
+        self._complain_of_type(key, value, "a text in quotes")
+        return default or ""
+
+    def strings(self, key: str) -> tuple[str, ...]:
+        """A list of texts, empty by default."""
+        value = self._take(key)
+        if isinstance(value, list) and all(isinstance(item, str) for item in value):
+            return tuple(value)
+        self._complain_of_type(key, value, "a list of texts")
+        return ()
+
+    def flag(self, key: str) -> bool:
+        """A truth value, false by default."""
+        value = self._take(key)
+        if isinstance(value, bool):
+            return value
+        self._complain_of_type(key, value, "true or false")
+        return False
+
+    def whole(self, key: str, default: int | None, minimum: int) -> int:
+        """A whole number of at least `minimum`; without a default the key is needed."""
+        value = self._take(key, needed=default is None)
+        if isinstance(value, int) and not isinstance(value, bool):
+            if value >= minimum:
+                return value
+            self.complain_of_value(key, value, f"at least {minimum}")
+        else:
+            self._complain_of_type(key, value, "a whole number")
+        return minimum if default is None else default
+
+    def number(self, key: str, default: float, lower: float, upper: float = math.inf) -> float:
+        """A number from `lower` to `upper`."""
+        value = self._take(key)
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            if lower <= value <= upper:
+                return float(value)
+            wanted = f"from {lower:g} to {upper:g}" if upper < math.inf else f"at least {lower:g}"
+            self.complain_of_value(key, value, wanted)
+        else:
+            self._complain_of_type(key, value, "a number")
+        return default
+
+    def numbers(self, key: str) -> tuple[float, ...]:
+        """A list of finite numbers, empty by default."""
+        value = self._take(key)
+        if isinstance(value, list) and all(_is_number(item) and math.isfinite(item) for item in value):
+            return tuple(float(item) for item in value)
+        self._complain_of_type(key, value, "a list of numbers")
+        return ()
+
+    def bounds(self, key: str, *, is_finite: bool = False) -> Bounds | None:
+        """A pair `[lower, upper]`, or one number for both; absent is None."""
+        value = self._take(key)
+        if value is None:
+            return None
+        if _is_number(value):
+            value = [value, value]
+        if not (isinstance(value, list) and len(value) == 2 and all(_is_number(item) for item in value)):
+            self._complain_of_type(key, value, "a pair [lower, upper] of numbers")
+            return None
+        lower, upper = value
+        if lower > upper:
+            span = self.text.value_span((*self.path, key))
+            self.text.diagnostics.append(
+                REVERSED.at(span, key=key, lower=lower, upper=upper, help=f"write [{upper}, {lower}]")
+            )
+            return None
+        if is_finite and not (math.isfinite(lower) and math.isfinite(upper)):
+            self.complain_of_value(key, f"[{lower}, {upper}]", "finite at both ends")
+            return None
+        return (lower, upper)
+
+    def choice(self, key: str, choices: Sequence[str], default: str) -> str:
+        """One of the words `choices`."""
+        value = self._take(key)
+        if isinstance(value, str):
+            if value in choices:
+                return value
+            close = nearest(value, choices)
+            span = self.text.value_span((*self.path, key))
+            listed = ", ".join(choices)
+            advice = f"did you mean `{close}`?" if close else None
+            self.text.diagnostics.append(UNKNOWN_CHOICE.at(span, key=key, found=value, choices=listed, help=advice))
+        else:
+            self._complain_of_type(key, value, "a text in quotes")
+        return default
+
+    def table(self, key: str, caption: str, *, needed: bool = False) -> "Table":
+        """A table inside this one, empty if absent."""
+        value = self._take(key, needed=needed)
+        if isinstance(value, dict):
+            return Table(self.text, (*self.path, key), value, caption)
+        self._complain_of_type(key, value, f"a table, [{key}]")
+        return Table(self.text, (*self.path, key), {}, caption)
+
+    def tables(self, key: str, *, needed: bool = False) -> list["Table"]:
+        """The items of an array of tables."""
+        value = self._take(key, needed=needed)
+        if isinstance(value, list) and all(isinstance(item, dict) for item in value):
+            return [Table(self.text, (*self.path, key, index), item, f"[[{key}]]") for index, item in enumerate(value)]
+        self._complain_of_type(key, value, f"an array of tables, [[{key}]]")
+        return []
+
+    def has(self, key: str) -> bool:
+        """Whether the key is written."""
+        return key in self.values
+
+    def complain_of_value(self, key: str, found: object, wanted: str) -> None:
+        """Report a value of the right type that cannot be."""
+        span = self.text.value_span((*self.path, key))
+        self.text.diagnostics.append(OUT_OF_RANGE.at(span, key=key, wanted=wanted, found=found))
+
+    def _take(self, key: str, *, needed: bool = False) -> object:
+        self.asked.append(key)
+        if key not in self.values and needed:
+            span = self.text.key_span(self.path)
+            self.text.diagnostics.append(MISSING_KEY.at(span, table=self.caption, key=key))
+        return self.values.get(key)
+
+    def _complain_of_type(self, key: str, value: object, wanted: str) -> None:
+        if key in self.values:
+            span = self.text.value_span((*self.path, key))
+            self.text.diagnostics.append(WRONG_TYPE.at(span, key=key, wanted=wanted, found=describe(value)))
+
+
+def describe(value: object) -> str:
+    """What kind of TOML value this is, in words."""
+    match value:
+        case bool():
+            return "true or false"
+        case int() | float():
+            return f"the number {value}"
+        case str():
+            return f'the text "{value}"'
+        case list():
+            return "a list"
+        case dict():
+            return "a table"
+        case _:
+            return "a date or time"
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)

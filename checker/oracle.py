@@ -1,0 +1,57 @@
+"""A mission's outcome in, its verdict out: did it get to its end, and did it do what it had to?
+
+The founding paper's oracle is premature end (section 4, "any premature mission end is a bug"); mandatory goals that
+stay open are class F10 of the failure taxonomy (reference of T-REX, 1.10 and 1.11).
+"""
+
+from dataclasses import dataclass
+from enum import Enum
+
+from runtime.executive.outcome import Outcome
+
+GOALS_OPEN = "F10"
+NO_RECORD = "F7"
+
+CODE_NAMES = {
+    "F1": "an expected observation did not come in time",
+    "F2": "an observation contradicts what is already fact",
+    "F3": "no value fits a timeline now",
+    "F4": "no plan is left",
+    "F5": "the planner ran out of steps or time",
+    "F6": "a request was refused or came too late",
+    "F7": "a reactor could not start a tick",
+    "F8": "the owner of a timeline died",
+    "F9": "the model cannot hold, or its code failed",
+    "F10": "the mission's time is over and a mandatory goal is open",
+    "F11": "it ended well and did the wrong thing",
+}
+
+
+class Verdict(Enum):
+    """The fate of a mission; ERROR is the tool's own failure and never counted among the others."""
+
+    PASS = "PASS"
+    FAIL = "FAIL"
+    ERROR = "ERROR"
+
+
+@dataclass(frozen=True, slots=True)
+class Judgement:
+    """A verdict; `code` names the class of failure and `reason` says it in a sentence, both empty for a PASS."""
+
+    verdict: Verdict
+    code: str = ""
+    reason: str = ""
+
+
+def judge(outcome: Outcome) -> Judgement:
+    """Decide whether a finished mission holds what was promised."""
+    if outcome.abort is not None:
+        return Judgement(Verdict.FAIL, outcome.abort.code, outcome.abort.summary)
+    if outcome.ended_early:
+        reason = f"ended at tick {outcome.last_tick} of {outcome.final_tick} without an abort record"
+        return Judgement(Verdict.FAIL, NO_RECORD, reason)
+    if outcome.unmet_goals:
+        reason = "mandatory goals stayed open: " + ", ".join(outcome.unmet_goals)
+        return Judgement(Verdict.FAIL, GOALS_OPEN, reason)
+    return Judgement(Verdict.PASS)

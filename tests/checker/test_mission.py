@@ -1,0 +1,185 @@
+"""A mission file is read whole, and each mistake in it is named where it stands."""
+
+from pathlib import Path
+
+import pytest
+
+from checker.mission import Mission, parse_mission, read_mission
+from checker.toml_places import find_places
+from nddl_lang.text.source import Source
+from runtime.executive.configuration import ParameterConfiguration
+
+GPS = Path("models/gps")
+HEAD = """\
+[mission]
+name = "gps"
+final_tick = 600
+
+[[reactor]]
+name = "navigator"
+model = "navigator.nddl"
+internal = ["nav"]
+external = ["gps"]
+
+[[reactor]]
+name = "psim"
+model = "psim.nddl"
+internal = ["gps"]
+"""
+
+
+def read(text: str) -> Mission:
+    mission, diagnostics = parse_mission(Source("m.toml", text), GPS)
+    assert [diagnostic.message for diagnostic in diagnostics] == []
+    assert mission is not None
+    return mission
+
+
+def complaints(text: str) -> list[tuple[int, str, str, str, str | None]]:
+    mission, diagnostics = parse_mission(Source("m.toml", text), GPS)
+    assert mission is None
+    return [(one.span.line, one.span.text, one.code.id, one.message, one.help) for one in diagnostics]
+
+
+def test_the_gps_mission_is_read() -> None:
+    mission, diagnostics = read_mission(GPS / "mission.toml")
+    assert not diagnostics
+    assert mission is not None
+    assert [reactor.name for reactor in mission.agent.reactors] == ["navigator", "psim"]
+    assert mission.agent.goals[0].start == (5, 60)
+    assert mission.agent.goals[0].parameters == (("distance", 240.0),)
+    assert ParameterConfiguration("GPS_HIT_RATE", 0.1, 4.0) in mission.agent.parameters
+    assert (mission.check.missions, mission.check.seed, mission.check.max_failure_rate) == (200, 7234, 0.01)
+
+
+def test_defaults_fill_what_is_not_written() -> None:
+    mission = read(HEAD)
+    assert mission.agent.on_failure == "abort_agent"
+    assert mission.agent.tick == 1.0
+    assert mission.agent.reactors[0].max_steps == 400
+    assert mission.check.missions == 200
+
+
+def test_every_kind_of_parameter_is_read() -> None:
+    mission = read(
+        HEAD
+        + """
+[parameters.A]
+range = [0, 38]
+kind = "int"
+clip = [0, inf]
+mode = "intra"
+update = 5
+[parameters.B]
+values = [1, 2]
+weights = [0.5, 1.5]
+[parameters.C]
+value = 7.5
+[parameters.D]
+"""
+    )
+    assert mission.agent.parameters == (
+        ParameterConfiguration("A", 0.0, 38.0, "uniform", "intra", 5, (0, float("inf")), True),
+        ParameterConfiguration("B", 1.0, 2.0, "discrete", values=(1.0, 2.0), weights=(0.5, 1.5)),
+        ParameterConfiguration("C", 7.5, 7.5, "fixed", values=(7.5,)),
+        ParameterConfiguration("D", 0.0, 0.0),
+    )
+    assert mission.needs_range == ("D",)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("[check]\nmision = 3\n", (16, "mision", "NDDL702", "no key `mision` in [check]", "did you mean `missions`?")),
+        ("[chek]\n", (15, "chek", "NDDL702", "no key `chek` in a mission file", "did you mean `check`?")),
+        (
+            "[check]\nmissions = '200'\n",
+            (16, "'200'", "NDDL704", '`missions` must be a whole number, not the text "200"', None),
+        ),
+        ("[check]\nmissions = 0\n", (16, "0", "NDDL705", "`missions` must be at least 1, not 0", None)),
+        (
+            "[check]\nmax_failure_rate = 5.0\n",
+            (16, "5.0", "NDDL705", "`max_failure_rate` must be from 0 to 1, not 5.0", None),
+        ),
+        (
+            "[parameters.A]\nrange = [4.0, 0.1]\n",
+            (16, "[4.0, 0.1]", "NDDL706", "`range` runs backwards: 4.0 is above 0.1", "write [0.1, 4.0]"),
+        ),
+        (
+            '[parameters.A]\nrange = [0, 1]\ndistribution = "unifrom"\n',
+            (
+                17,
+                '"unifrom"',
+                "NDDL707",
+                "`distribution` cannot be `unifrom`; it is one of uniform, normal, truncated_normal, discrete, fixed",
+                "did you mean `uniform`?",
+            ),
+        ),
+        (
+            '[parameters.A]\ndistribution = "discrete"\n',
+            (15, "parameters.A", "NDDL713", "a discrete distribution needs `values`, a list of numbers", None),
+        ),
+        (
+            '[[goal]]\ntimeline = "nva"\npredicate = "Hold"\n',
+            (16, '"nva"', "NDDL710", "no reactor owns the timeline `nva`", "did you mean `nav`?"),
+        ),
+        (
+            '[[reactor]]\nname = "x"\nmodel = "navigatr.nddl"\n',
+            (17, '"navigatr.nddl"', "NDDL708", "there is no file `navigatr.nddl`", "did you mean `navigator.nddl`?"),
+        ),
+        (
+            '[[reactor]]\nname = "x"\nmodel = "psim.nddl"\ninternal = ["a", "gps"]\n',
+            (18, '"gps"', "NDDL709", "an owner of the timeline `gps` is there twice", None),
+        ),
+        ("a = 3\nb = = 2\n", (16, "=", "NDDL701", "this is not TOML: invalid value", None)),
+    ],
+)
+def test_a_mistake_is_named_where_it_stands(text: str, expected: tuple[int, str, str, str, str | None]) -> None:
+    assert complaints(HEAD + text) == [expected]
+
+
+def test_all_mistakes_are_reported_in_one_go() -> None:
+    found = complaints('[mission]\nnmae = "gps"\n[check]\nmissions = true\nsead = 3\n')
+    assert [(line, code) for line, _, code, _, _ in found] == [
+        (1, "NDDL703"),
+        (1, "NDDL703"),
+        (1, "NDDL703"),
+        (2, "NDDL702"),
+        (4, "NDDL704"),
+        (5, "NDDL702"),
+    ]
+
+
+def test_reactors_that_use_each_other_are_refused() -> None:
+    text = HEAD.replace('internal = ["gps"]', 'internal = ["gps"]\nexternal = ["nav"]')
+    message = "the reactors use each other in a circle: navigator → psim → navigator"
+    assert [(code, said) for _, _, code, said, _ in complaints(text)] == [("NDDL711", message)]
+
+
+def test_a_leaf_without_lookahead_takes_no_goals() -> None:
+    text = HEAD + "lookahead = 0\n[[goal]]\ntimeline = 'gps'\npredicate = 'Active'\n"
+    assert [code for _, _, code, _, _ in complaints(text)] == ["NDDL712"]
+
+
+def test_places_survive_every_way_to_write_toml() -> None:
+    text = "a.b = '''x\n]'''\n[ c . \"d e\" ] # [no]\nf = [1, # ]\n  {g = 2}]\n"
+    text += '[[h]]\n[h.i]\nj = "a\\"b"\n[[h]]\nk = 1\n'
+    places = find_places(text)
+    assert {path: text[slice(*place.key)] for path, place in places.items()} == {
+        ("a",): "a.b",
+        ("a", "b"): "a.b",
+        ("c",): 'c . "d e"',
+        ("c", "d e"): 'c . "d e"',
+        ("c", "d e", "f"): "f",
+        ("c", "d e", "f", 0): "1",
+        ("c", "d e", "f", 1): "{g = 2}",
+        ("c", "d e", "f", 1, "g"): "g",
+        ("h",): "h",
+        ("h", 0): "h",
+        ("h", 0, "i"): "h.i",
+        ("h", 0, "i", "j"): "j",
+        ("h", 1): "h",
+        ("h", 1, "k"): "k",
+    }
+    assert text[slice(*places["a", "b"].value)] == "'''x\n]'''"
+    assert text[slice(*places["h", 0, "i", "j"].value)] == '"a\\"b"'
