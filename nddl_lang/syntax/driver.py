@@ -6,7 +6,7 @@ from typing import Any
 from nddl_lang.syntax import builder, statements
 from nddl_lang.syntax.builder import Builder, report_waiting
 from nddl_lang.syntax.piece import Piece
-from nddl_lang.syntax.placement import Place, place_statements
+from nddl_lang.syntax.placement import CLASS, Place, place_statements
 from nddl_lang.syntax.recovery import Recovery
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS, RULES
 
@@ -28,6 +28,8 @@ def parse_piece(piece: Piece, place: Place, is_strict: bool) -> None:
     """Fill in the statements of `piece`, which stands in `place`, and what is wrong with them."""
     b = Builder(piece, is_strict)
     piece.statements = place_statements(b, _run(b), place)
+    if place is CLASS and is_strict:
+        statements.report_member_initialisers(b, piece.statements)
     if b.waiting:
         report_waiting(b)
 

@@ -1,0 +1,185 @@
+"""Follow the includes of a text: all statements in the order of their execution, from all files."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from nddl_lang.syntax.codes import INCLUDE_AGAIN, INCLUDE_CYCLE, MISSING_FILE, TOO_DEEP, UNREADABLE_FILE
+from nddl_lang.syntax.dialect import Dialect, declared_dialect
+from nddl_lang.syntax.nodes import ClassDecl, Include, Module, Statement
+from nddl_lang.syntax.parser import Parse, parse, parse_members
+from nddl_lang.text.diagnostic import Diagnostic, Note
+from nddl_lang.text.read import read_text
+from nddl_lang.text.source import Source
+
+# The files that come with the package.
+LIBRARY = Path(__file__).parent.parent / "library"
+
+DEPTH_LIMIT = 100
+
+OpenText = Callable[[Path], str | None]
+ParseText = Callable[[Path, Source, Dialect, bool], Parse]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class LoadedModules:
+    """A text with all that it includes; `module` holds what is executed, with no include left in it.
+
+    `included` tells for each include which text it names, whether it was read there or before. `paths` tells where
+    a text was read, so that a link can lead there.
+    """
+
+    root: Source
+    dialect: Dialect
+    module: Module
+    sources: tuple[Source, ...]
+    diagnostics: tuple[Diagnostic, ...]
+    included: Mapping[Include, Source]
+    paths: Mapping[Source, Path]
+    parses: tuple[Parse, ...]
+
+
+def load_module_graph(
+    root: Path | str | Source,
+    include_directories: Sequence[Path | str] = (),
+    dialect: Dialect | None = None,
+    *,
+    open_text: OpenText = read_text,
+    parse_text: ParseText | None = None,
+) -> LoadedModules:
+    """Read `root` and all that it includes.
+
+    Each file is read once, known by its resolved path. It is looked for beside the including file, in
+    `include_directories`, in the current directory, and in the library. Without `dialect` the first line of `root`
+    decides, and where it is silent, nddlc. An editor passes `open_text` to show texts that are not saved yet, and
+    `parse_text` to reuse what it has parsed. Raises OSError if `root` itself cannot be read.
+    """
+    if isinstance(root, Source):
+        source = root
+    else:
+        text = open_text(Path(root))
+        if text is None:
+            raise FileNotFoundError(f"no file {root}")
+        source = Source(str(root), text)
+    chosen = dialect or declared_dialect(source.text) or Dialect.NDDLC
+    directories = [Path(directory) for directory in include_directories]
+    loader = _Loader(directories, chosen, open_text, parse_text or _parse_text)
+    statements = loader.load(source, Path(source.name), False)
+    return LoadedModules(
+        source,
+        chosen,
+        Module(tuple(statements)),
+        tuple(loader.paths),
+        tuple(loader.diagnostics),
+        loader.included,
+        loader.paths,
+        tuple(loader.parses),
+    )
+
+
+def _parse_text(path: Path, source: Source, dialect: Dialect, is_in_class: bool) -> Parse:
+    del path
+    return parse_members(source, dialect) if is_in_class else parse(source, dialect)
+
+
+class _Loader:
+    """Reads files once, in the order of the includes, and collects what they hold."""
+
+    def __init__(self, directories: list[Path], dialect: Dialect, open_text: OpenText, parse_text: ParseText) -> None:
+        self._directories = directories
+        self._dialect = dialect
+        self._open_text = open_text
+        self._parse_text = parse_text
+        self._read: dict[Path, Source] = {}
+        self._chain: list[tuple[Path, Include | None]] = []
+        self.paths: dict[Source, Path] = {}
+        self.included: dict[Include, Source] = {}
+        self.diagnostics: list[Diagnostic] = []
+        self.parses: list[Parse] = []
+
+    def load(self, source: Source, path: Path, is_in_class: bool, include: Include | None = None) -> list[Any]:
+        """The statements of `source` and, in their places, those of what it includes."""
+        resolved = path.resolve()
+        self._read[resolved] = source
+        self.paths[source] = path
+        self._chain.append((resolved, include))
+        parsed = self._parse_text(path, source, self._dialect, is_in_class)
+        self.parses.append(parsed)
+        pending = iter(self._with_chain(parsed.diagnostics))
+        upcoming = next(pending, None)
+        loaded: list[Any] = []
+        for statement in parsed.module.statements:
+            # Whoever reads the first complaint only reads the one that comes first in execution.
+            while upcoming is not None and upcoming.span.begin < statement.span.begin:
+                self.diagnostics.append(upcoming)
+                upcoming = next(pending, None)
+            loaded += self._expand(statement)
+        while upcoming is not None:
+            self.diagnostics.append(upcoming)
+            upcoming = next(pending, None)
+        self._chain.pop()
+        return loaded
+
+    def _expand(self, statement: Statement) -> list[Any]:
+        if isinstance(statement, Include):
+            return self._follow(statement, False)
+        if isinstance(statement, ClassDecl) and statement.members:
+            if not any(isinstance(member, Include) for member in statement.members):
+                return [statement]
+            members: list[Any] = []
+            for member in statement.members:
+                members += self._follow(member, True) if isinstance(member, Include) else [member]
+            return [replace(statement, members=tuple(members))]
+        return [statement]
+
+    def _follow(self, include: Include, is_in_class: bool) -> list[Any]:
+        """What `include` brings; nothing if it was brought before."""
+        name = include.path.value
+        try:
+            found = self._find(name)
+        except (OSError, ValueError) as problem:
+            reason = getattr(problem, "strerror", None) or str(problem)
+            self._report(UNREADABLE_FILE.at(include.span, path=name, reason=reason))
+            return []
+        if found is None:
+            places = ["beside this file", *(f"in {directory}" for directory in self._directories)]
+            remark = Note(f"looked {', '.join(places)}, in the current directory and in the library")
+            self._report(MISSING_FILE.at(include.span, path=name, notes=(remark,)))
+            return []
+        path, text = found
+        resolved = path.resolve()
+        known = self._read.get(resolved)
+        if known is not None:
+            self.included[include] = known
+            if any(resolved == open_path for open_path, _ in self._chain):
+                # EUROPA reads such a file once and says nothing.
+                code = INCLUDE_AGAIN if self._dialect is Dialect.NDDL3 else INCLUDE_CYCLE
+                self._report(code.at(include.span, path=name, help="remove this include"))
+            return []
+        if len(self._chain) > DEPTH_LIMIT:
+            self._report(TOO_DEEP.at(include.span, limit=DEPTH_LIMIT))
+            return []
+        source = Source(str(path), text)
+        self.included[include] = source
+        return self.load(source, path, is_in_class, include)
+
+    def _find(self, name: str) -> tuple[Path, str] | None:
+        """The first file called `name` on the way, with its text."""
+        including = self.paths[self._read[self._chain[-1][0]]]
+        for directory in (including.parent, *self._directories, Path(), LIBRARY):
+            path = directory / name
+            text = self._open_text(path)
+            if text is not None:
+                return path, text
+        return None
+
+    def _report(self, diagnostic: Diagnostic) -> None:
+        self.diagnostics += self._with_chain((diagnostic,))
+
+    def _with_chain(self, diagnostics: tuple[Diagnostic, ...]) -> list[Diagnostic]:
+        """`diagnostics` with the way that led to the file at hand."""
+        notes = tuple(Note("included from here", include.span) for _, include in reversed(self._chain) if include)
+        if not notes:
+            return list(diagnostics)
+        return [replace(diagnostic, notes=diagnostic.notes + notes) for diagnostic in diagnostics]
