@@ -45,7 +45,14 @@ test: lint types compiled interpreted build/builds-tested
 
 setup: .venv/ready
 
+# An environment is tied to its place: one that came along with a copy of the checkout is made anew.
+SET_UP_IN := $(shell cat .venv/ready 2>/dev/null)
+ifneq ($(SET_UP_IN),$(CURDIR))
+.PHONY: .venv/ready
+endif
+
 .venv/ready: pyproject.toml setup.py build_backend/nddlc_build.py
+	@[ -z "$(SET_UP_IN)" ] || [ "$(SET_UP_IN)" = "$(CURDIR)" ] || rm -rf .venv
 	@for python in $(PYTHON); do \
 	  $$python -c 'import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && break; python=; done; \
 	[ "$$python" ] || { echo 'Python 3.11 or newer, with its venv, is not on the path; try PYTHON=...' >&2; exit 1; }; \
@@ -54,7 +61,7 @@ setup: .venv/ready
 	@echo 'installing into .venv (once; a minute or two)'
 	@NDDLC_NO_COMPILE=1 $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check $$($(BIN)/python build_backend/nddlc_build.py)
-	@touch $@
+	@echo "$(CURDIR)" > $@
 
 build: setup
 	@$(BIN)/python build_backend/build_in_place.py
