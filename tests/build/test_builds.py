@@ -172,3 +172,13 @@ def test_a_mistake_in_the_engine_fails_the_build_and_leaves_the_last_binaries(tr
     with pytest.raises(AssertionError, match=r"sums\.pxd"):
         run("build_backend/build_in_place.py", root=tree)
     assert (tree / f"runtime/tiny/cells{SUFFIX}").exists()
+
+
+def test_a_wheel_can_be_built_from_the_source_distribution(tree: Path) -> None:
+    hook = "import sys; sys.path.insert(0, 'build_backend'); import nddlc_build; nddlc_build.build_sdist('dist')"
+    run("-c", hook, root=tree)
+    (archive,) = (tree / "dist").glob("*.tar.gz")
+    run("-m", "tarfile", "-e", archive, tree / "unpacked", root=tree)
+    (source,) = (tree / "unpacked").iterdir()
+    wheel, _ = build_wheel(source, "--no-build-isolation", NDDLC_REQUIRE_COMPILED="1")
+    assert {f"runtime/tiny/sums{SUFFIX}", "models/gps/mission.toml", "nddl_lang/syntax/grammar.lark"} <= contents(wheel)

@@ -1,0 +1,61 @@
+"""`make check` ends as `nddlc check` does, and an environment that came from elsewhere is not used."""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture
+def tree(tmp_path: Path) -> Path:
+    """Lay out a checkout that is set up, but whose commands only say how they were called."""
+    for name in ("Makefile", "pyproject.toml", "setup.py", "build_backend/nddlc_build.py"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        shutil.copy(ROOT / name, tmp_path / name)
+    (tmp_path / "build").mkdir()
+    (tmp_path / ".venv" / "bin").mkdir(parents=True)
+    for name in ("python", "nddlc"):
+        command = tmp_path / ".venv" / "bin" / name
+        command.write_text(f'#!/bin/sh\necho {name} "$@"\n[ {name} = python ] || exit $ENDS_WITH\n', encoding="ascii")
+        command.chmod(0o755)
+    (tmp_path / ".venv" / "ready").write_text(f"{tmp_path}\n", encoding="utf-8")
+    return tmp_path
+
+
+def make(tree: Path, *arguments: str, ends_with: int = 0) -> subprocess.CompletedProcess[str]:
+    """Run make in `tree` as if nobody had called it from make already."""
+    kept = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
+    return subprocess.run(
+        ["make", *arguments],
+        cwd=tree,
+        env={**kept, "ENDS_WITH": str(ends_with)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+
+@pytest.mark.parametrize(("ends_with", "code"), [(0, 0), (1, 1), (2, 2), (3, 2)])
+def test_make_check_tells_findings_from_failures(tree: Path, ends_with: int, code: int) -> None:
+    done = make(tree, "check", ends_with=ends_with)
+    assert done.returncode == code, done.stderr
+    assert done.stdout.splitlines() == ["python build_backend/build_in_place.py", "nddlc check models/gps/mission.toml"]
+
+
+def test_findings_are_forgotten_by_the_next_check(tree: Path) -> None:
+    assert make(tree, "check", ends_with=1).returncode == 1
+    assert make(tree, "check", "MISSION=models/gps/mended.toml").returncode == 0
+
+
+def test_an_environment_that_came_with_a_copy_is_removed(tree: Path) -> None:
+    (tree / ".venv" / "ready").write_text("/somewhere/else\n", encoding="ascii")
+    assert make(tree, "setup", "PYTHON=true").returncode != 0  # this Python cannot make another
+    assert not (tree / ".venv").exists()
+
+
+def test_make_alone_says_what_it_can_do(tree: Path) -> None:
+    assert make(tree).stdout.startswith("make check ")
