@@ -46,7 +46,7 @@ def test_the_gps_mission_is_read() -> None:
     assert not diagnostics
     assert mission is not None
     assert [reactor.name for reactor in mission.agent.reactors] == ["navigator", "psim"]
-    assert mission.agent.goals[0].start == (5, 60)
+    assert mission.agent.goals[0].start == (5.0, 60.0)
     assert mission.agent.goals[0].parameters == (("distance", 240.0),)
     assert ParameterConfiguration("GPS_HIT_RATE", 0.1, 4.0) in mission.agent.parameters
     assert (mission.check.missions, mission.check.seed, mission.check.max_failure_rate) == (200, 7234, 0.01)

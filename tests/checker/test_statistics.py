@@ -24,7 +24,7 @@ def test_wilson_intervals_at_200_missions(failures: int, lower: float, upper: fl
         (1, 10, 0.002528579, 0.445016117),
         (5, 10, 0.187086028, 0.812913972),
         (10, 10, 0.691502893, 1.0),
-        (0, 400, 0.0, 0.009179845),
+        (0, 400, 0.0, 1 - 0.025 ** (1 / 400)),
     ],
 )
 def test_exact_intervals_have_known_values(failures: int, missions: int, lower: float, upper: float) -> None:

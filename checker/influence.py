@@ -1,0 +1,87 @@
+"""A program and a sampled parameter in, the lines out by which a draw reaches the times and parameters of a token.
+
+A static slice: from the sampled variable through the constraints of the same rule that share a local variable with it.
+It says how a draw acts inside the simulator when the conflict was found in another reactor, whose terms know no draw.
+"""
+
+from collections.abc import Iterable, Iterator
+
+from compiler.program import (
+    DURATION,
+    END,
+    START,
+    Foreach,
+    Guard,
+    Instruction,
+    LocalVariable,
+    Post,
+    Program,
+    Sample,
+    TokenVariable,
+)
+from nddl_lang.text.source import Span
+from runtime.executive.outcome import Place
+
+Step = tuple[str, Place]  # the rule, and a line of it
+
+
+def lines_of_influence(program: Program, parameter: str) -> tuple[Step, ...]:
+    """The lines in the order in which the draw passes through them; the line that samples comes first.
+
+    Of the last lines only those are kept that bear on a token's times, if any do.
+    """
+    steps: list[Step] = []
+    for rule in program.rules:
+        body = list(_flat(rule.body))
+        for instruction in body:
+            if isinstance(instruction, Sample) and instruction.parameter == parameter:
+                steps.append((rule.predicate, place_of(instruction.span)))
+                steps += [(rule.predicate, place_of(span)) for span in _slice(body, instruction)]
+    return tuple(dict.fromkeys(steps))
+
+
+def place_of(span: Span) -> Place:
+    """The line of a span as the report shows it."""
+    source = span.source
+    return Place(source.name, span.line, span.column, source.line(span.line).partition("//")[0].strip())
+
+
+def _slice(body: list[Instruction], sample: Sample) -> list[Span]:
+    reached = {sample.target}
+    posts: list[Post] = []
+    grows = True
+    while grows:
+        grows = False
+        for instruction in body:
+            if isinstance(instruction, Post) and instruction not in posts and reached & set(instruction.operands):
+                posts.append(instruction)
+                reached.update(one for one in instruction.operands if isinstance(one, LocalVariable))
+                grows = True
+    ends = [post for post in posts if any(_is_time(operand) for operand in post.operands)]
+    if ends:
+        last = posts.index(ends[-1])
+        posts = [
+            post for post in posts[: last + 1] if post in ends or any(_feeds(post, end) for end in posts[: last + 1])
+        ]
+    return [post.span for post in posts]
+
+
+def _feeds(post: Post, other: Post) -> bool:
+    """Whether two constraints share a local variable."""
+    shared = set(post.operands) & set(other.operands)
+    return post is not other and any(isinstance(one, LocalVariable) for one in shared)
+
+
+def _is_time(operand: object) -> bool:
+    return isinstance(operand, TokenVariable) and operand.variable in (DURATION, START, END)
+
+
+def _flat(body: Iterable[Instruction]) -> Iterator[Instruction]:
+    for instruction in body:
+        yield instruction
+        match instruction:
+            case Guard(then=then, otherwise=otherwise):
+                yield from _flat(then)
+                yield from _flat(otherwise)
+            case Foreach(body=inner):
+                yield from _flat(inner)
