@@ -15,7 +15,9 @@ def describe_found(b: Builder, kinds: list[str], index: int) -> str:
         return f"`{excerpt(b.texts[index])}`"
     source = b.anchor.source
     following = _NEXT_WORD.match(source.text, b.anchor.offset + b.piece.length)
-    if following is None or following[1] is None:
+    assert following is not None
+    b.piece.reach = max(b.piece.reach, following.end() - b.anchor.offset + 1)
+    if following[1] is None:
         return "the end of the file"
     return f"`{excerpt(following[1])}`"
 
@@ -30,11 +32,11 @@ def advise(kinds: list[str], texts: list[str], first: int, index: int) -> str | 
         return "a typedef needs a domain: `typedef int [0 10] Name;`"
     if kinds[first] == "enum" and kind == "}":
         return "an enum needs at least one value"
-    if kind == "}" and before == "{":
+    if kind == "}" and before == "SET":
         return "a set needs at least one value"
     if kind == "]" and "[" in kinds[first:index]:
         return "an interval has two bounds: `[0 10]`"
-    if kind in ("INT", "FLOAT") and "{" in kinds[first:index]:
+    if kind in ("INT", "FLOAT") and "SET" in kinds[first:index]:
         return "the values of a set are separated by commas"
     if kind == "else":
         return "an `else` follows the statement or block of an `if`"

@@ -14,7 +14,7 @@ class Brackets:
     __slots__ = ("in_typedef", "open")
 
     def __init__(self) -> None:
-        self.open: list[str] = []  # "(", "[", "{" for a block, "set" for a set
+        self.open: list[str] = []  # "(", "[", "{" for a block, "SET" for a set
         self.in_typedef = False
 
     def __bool__(self) -> bool:
@@ -31,7 +31,7 @@ class Brackets:
             return False
         if kind == "{":
             is_block = previous is None or (previous in _BEFORE_BLOCK and not self.in_typedef)
-            stack.append("{" if is_block else "set")
+            stack.append("{" if is_block else "SET")
             return False
         if kind == ";":
             while stack and stack[-1] != "{":

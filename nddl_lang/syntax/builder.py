@@ -8,6 +8,7 @@ from typing import Any
 from nddl_lang.syntax.codes import (
     DIVISION,
     EXPRESSION_VALUE,
+    GLUED_SIGN,
     MISPLACED_METHOD,
     MISPLACED_NEW,
     MISPLACED_VALUE,
@@ -87,6 +88,7 @@ def plain_values(b: Builder, values: list[Expr], where: str) -> None:
         for value in values:
             if not is_plain(value) and type(value) is not NewExpr:
                 help_text = "declare a variable, state what it equals, and write the variable here"
+                b.piece.forget(GLUED_SIGN, value.span)
                 b.report(EXPRESSION_VALUE, value.span, where=where, help=help_text)
 
 

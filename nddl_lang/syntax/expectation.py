@@ -2,7 +2,7 @@
 
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS, RULES
 
-_VALUE_STARTS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", "(", "[", "{", "new", "-", "!"))
+_VALUE_STARTS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", "(", "[", "SET", "new", "-", "!"))
 _OPERATORS = frozenset(("||", "&&", "==", "!=", "<", "<=", ">", ">=", "+", "-", "*", "/"))
 _NAMES = {
     "IDENT": "a name",
@@ -13,6 +13,7 @@ _NAMES = {
     "BASETYPE": "a type",
     "RELATION": "a relation",
     "GOAL": "`goal`",
+    "SET": "`{`",
     END: "the end of the file",
 }
 _MOST = 4

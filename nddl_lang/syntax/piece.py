@@ -56,6 +56,12 @@ class Piece:
         """Add a complaint about the text from `start` to `end`."""
         self.diagnostics.append(code.at(Span(self.anchor, start, end), **values))
 
+    def forget(self, code: Code, span: Span) -> None:
+        """Take back complaints of `code` inside `span`: a wider one says it all."""
+        self.diagnostics = [
+            one for one in self.diagnostics if one.code is not code or not span.start <= one.span.start < span.end
+        ]
+
     @property
     def text(self) -> str:
         """The characters of the piece."""

@@ -35,7 +35,8 @@ _STATEMENT_WORDS = frozenset(
     ("BASETYPE", "class", "enum", "typedef", "GOAL", "predicate", "action", "if", "foreach", "#include", "filter")
 )
 _PUNCTUATION = frozenset("=,:.)]+-*/<>!;") | {"==", "!=", "<=", ">=", "&&", "||", "::"}
-_OPENERS = {")": "(", "]": "[", "}": "{"}
+_OPENERS = {")": "(", "]": "[", "}": "SET"}
+_OPEN = frozenset(("(", "[", "{", "SET"))
 # A lexeme that was already complained about explains whatever follows in its statement.
 _LEXICAL = (UNEXPECTED_CHARACTER, UNCLOSED_STRING, MALFORMED_NUMBER, FORMER_DIRECTIVE)
 
@@ -70,10 +71,9 @@ class Recovery:
         """Put a missing lexeme in before `index` if that makes the next two fit."""
         kinds = self._kinds
         following = kinds[index : index + 2]
-        open_brace = self._opener(values, "}")
-        if kinds[index] == END and open_brace is not None:
-            following = []
-            if accepts(states, ["}"]):
+        if END in following and (open_brace := self._open_block(values)) is not None:
+            following.remove(END)
+            if not following and accepts(states, ["}"]):
                 self._report_unclosed(open_brace)
                 self._put_in(index, "}")
                 return True
@@ -81,11 +81,18 @@ class Recovery:
             self._report_missing(index, ";", "after this statement")
             self._put_in(index, ";")
             return True
-        for kind in (")", "]", "}"):
-            opener = self._opener(values, kind)
-            if opener is not None and accepts(states, [kind, *following]):
-                note = Note(f"this `{_OPENERS[kind]}` is open", self._b.at(opener))
+        for kind, opens in _OPENERS.items():
+            opener = self._opener(values)
+            if opener is None or kinds[opener] != opens:
+                continue
+            note = Note(f"this `{self._b.texts[opener]}` is open", self._b.at(opener))
+            if accepts(states, [kind, *following]):
                 self._report_missing(index, kind, "here", (note,))
+                self._put_in(index, kind)
+                return True
+            if self._may_begin_statement(index) and accepts(states, [kind, ";", *following]):
+                self._report_missing(index, f"{kind};", "here", (note,))
+                self._put_in(index, ";")
                 self._put_in(index, kind)
                 return True
         return False
@@ -125,7 +132,7 @@ class Recovery:
     def _give_up(self, states: list[int], values: list[Any], depth: int, first: int, index: int) -> int:
         """Turn the statement that begins at lexeme `first` into a broken one and go on behind it."""
         b, kinds = self._b, self._kinds
-        is_inside = any(type(value) is int and kinds[value] == "{" for value in values[:depth])
+        is_inside = self._open_block(values[:depth]) is not None
         end = end_of_statement(kinds, first, index)
         is_stray = end == index == first and kinds[index] == "}" and not is_inside
         if is_stray:
@@ -192,12 +199,13 @@ class Recovery:
         b.starts.insert(index, at)
         b.ends.insert(index, at)
 
-    def _opener(self, values: list[Any], closer: str) -> int | None:
-        """The lexeme that opened the innermost bracket, if `closer` is what closes it."""
-        for value in reversed(values):
-            if type(value) is int and self._kinds[value] in ("(", "[", "{"):
-                return value if self._kinds[value] == _OPENERS[closer] else None
-        return None
+    def _opener(self, values: list[Any]) -> int | None:
+        """The lexeme that opened the innermost bracket."""
+        return next((value for value in reversed(values) if type(value) is int and self._kinds[value] in _OPEN), None)
+
+    def _open_block(self, values: list[Any]) -> int | None:
+        """The lexeme that opened the innermost block."""
+        return next((value for value in reversed(values) if type(value) is int and self._kinds[value] == "{"), None)
 
     def _may_begin_statement(self, index: int) -> bool:
         """Whether the lexeme `index` looks as if the statement before it had ended."""

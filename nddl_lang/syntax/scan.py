@@ -142,15 +142,13 @@ class Scanner:
 
     def _begins_statement(self, start: int) -> bool:
         """Whether `start` is the first thing in its line and stands no deeper than the piece began."""
-        indent = self._indent(start)
-        return 0 <= indent <= self._indent(self._piece.starts[0])
+        return 0 <= self._indent(start) <= max(0, self._indent(self._piece.starts[0]))
 
     def _indent(self, start: int) -> int:
-        """The number of blanks before `start` in its line; below 0 if more than blanks stand there."""
+        """The number of blanks before `start` in its line; below 0 if more stands there, or another piece."""
         text = self._source.text
-        earliest = max(0, start - _LONGEST_INDENT)
-        line = text.rfind("\n", earliest, start) + 1
-        if (line == 0 and earliest > 0) or text[line:start].strip(" \t\r\f\ufeff"):
+        line = text.rfind("\n", max(self._base, start - _LONGEST_INDENT), start) + 1
+        if (line == 0 and self._base > 0) or text[line:start].strip(" \t\r\f\ufeff"):
             return -1
         return start - line
 
@@ -190,7 +188,7 @@ class Scanner:
         elif self._brackets.is_too_deep and not piece.is_too_deep:
             piece.is_too_deep = True
             piece.report(TOO_DEEP, start - self._base, finish - self._base, limit=DEPTH_LIMIT)
-        return kind
+        return "SET" if kind == "{" and self._brackets.innermost == "SET" else kind
 
     def _read_include(self, start: int, finish: int) -> str:
         """An include at the start of a line ends what stands before it; see `_read_rare` for its own end."""

@@ -3,7 +3,7 @@
 from nddl_lang.syntax.builder import Builder
 from nddl_lang.syntax.tables import END
 
-_BEFORE_BLOCK = frozenset(("IDENT", ")", "else", ";", "{", "}"))
+_BRACKETS = frozenset(("(", "[", "{", "SET"))
 _OPENERS = {")": "(", "]": "["}
 
 
@@ -16,10 +16,8 @@ def end_of_statement(kinds: list[str], first: int, index: int) -> int:
     at = first
     while kinds[at] != END:
         kind = kinds[at]
-        if kind == "(" or kind == "[":
+        if kind in _BRACKETS:
             stack.append(kind)
-        elif kind == "{":
-            stack.append("{" if at == first or kinds[at - 1] in _BEFORE_BLOCK else "set")
         elif kind == ")" or kind == "]":
             if stack and stack[-1] == _OPENERS[kind]:
                 stack.pop()
@@ -44,7 +42,7 @@ def misaligned_brace(kinds: list[str], b: Builder) -> int | None:
     source, offset = b.anchor.source, b.anchor.offset
     open_braces: list[tuple[int, int]] = []
     for index, kind in enumerate(kinds):
-        if kind == "{":
+        if kind == "{" or kind == "SET":
             line = source.line(source.locate(offset + b.starts[index])[0])
             open_braces.append((index, len(line) - len(line.lstrip())))
         elif kind == "}" and open_braces and b.texts[index]:

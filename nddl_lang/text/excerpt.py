@@ -1,0 +1,95 @@
+"""Show a stretch of text with its line numbers and carets under it."""
+
+from collections.abc import Iterator
+from unicodedata import category, east_asian_width
+
+from nddl_lang.text.source import Source, Span
+
+TAB = 4
+# A line longer than this is shown around the stretch only.
+LONGEST = 140
+# A stretch of more lines than this is shown by its first and last ones.
+MOST_LINES = 6
+_EDGE = 2
+
+
+def width(letter: str) -> int:
+    """How many columns of a terminal `letter` takes."""
+    if letter.isascii():
+        return 1
+    if category(letter) in ("Mn", "Me", "Cf"):
+        return 0
+    return 2 if east_asian_width(letter) in ("W", "F") else 1
+
+
+def shown(line: str) -> tuple[str, list[int]]:
+    """`line` as it can be printed, and the column at which each character, and the end, stands."""
+    letters: list[str] = []
+    columns: list[int] = []
+    column = 0
+    for letter in line:
+        columns.append(column)
+        if letter == "\t":
+            advance = TAB - column % TAB
+            letters.append(" " * advance)
+        elif letter.isprintable() or width(letter) == 0:
+            advance = width(letter)
+            letters.append(letter if letter.isprintable() else "")
+        else:
+            advance = 1
+            letters.append("\N{REPLACEMENT CHARACTER}")
+        column += advance
+    columns.append(column)
+    return "".join(letters), columns
+
+
+def bounds(span: Span) -> tuple[tuple[int, int], tuple[int, int]]:
+    """Line and column where `span` begins and where it ends, the end not included but in the line of the last one."""
+    source = span.source
+    first = source.locate(span.begin)
+    if span.finish <= span.begin:
+        return first, first
+    line, column = source.locate(span.finish - 1)
+    return first, (line, column + 1)
+
+
+def excerpt(span: Span, mark: str = "^") -> Iterator[tuple[int | None, str, str]]:
+    """The lines that show `span`: a number or None, the text, and the carets under it (empty: none)."""
+    (first, start), (last, end) = bounds(span)
+    if first == last:
+        yield _single(span.source, first, start, end, mark)
+        return
+    numbers = list(range(first, last + 1))
+    if len(numbers) > MOST_LINES:
+        numbers = [*numbers[:_EDGE], 0, *numbers[-_EDGE:]]
+    for number in numbers:
+        if number == 0:
+            yield None, "...", ""
+            continue
+        text, columns = shown(span.source.line(number))
+        if number == first:
+            left = columns[min(start - 1, len(columns) - 1)]
+            yield number, "  " + _cropped(text), " " + "_" * (left + 1) + mark
+        elif number == last:
+            right = columns[min(end - 1, len(columns) - 1)]
+            yield number, "| " + _cropped(text), "|" + "_" * max(1, right) + mark
+        else:
+            yield number, "| " + _cropped(text), ""
+
+
+def _single(source: Source, number: int, start: int, end: int, mark: str) -> tuple[int, str, str]:
+    line = source.line(number)
+    text, columns = shown(line)
+    left = columns[min(start - 1, len(line))]
+    right = columns[min(end - 1, len(line))]
+    size = max(1, right - left)
+    if len(text) > LONGEST:
+        cut = max(0, left - LONGEST // 2)
+        text = ("..." if cut else "") + text[cut : cut + LONGEST] + ("..." if cut + LONGEST < len(text) else "")
+        left += (3 if cut else 0) - cut
+        size = max(1, min(size, len(text) - left))
+    return number, text, " " * left + mark * size
+
+
+def _cropped(text: str) -> str:
+    return text if len(text) <= LONGEST else text[:LONGEST] + "..."
