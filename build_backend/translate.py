@@ -13,6 +13,7 @@ DIRECTIVES = {
     "wraparound": False,
     "initializedcheck": False,
     "cdivision": True,
+    "show_performance_hints": False,
 }
 
 if __name__ == "__main__":
