@@ -1,0 +1,59 @@
+"""Ask what a base domain allows: the intersection of a variable's declaration and assignments, decisions aside."""
+
+from math import inf
+
+from runtime.constraints.codes import FLOAT_TOLERANCE, KIND_FLOAT
+from runtime.constraints.store import Store
+
+
+def base_low(s: Store, v: int) -> float:
+    """Give the lower bound of the base domain: what declaration and assignments allow, decisions aside."""
+    x = -inf
+    r = s.restriction_head[v]
+    while r >= 0:
+        if not s.restriction_flags[r] & 1 and s.restriction_lo[r] > x:
+            x = s.restriction_lo[r]
+        r = s.restriction_next[r]
+    return x
+
+
+def base_high(s: Store, v: int) -> float:
+    """Give the upper bound of the base domain."""
+    x = inf
+    r = s.restriction_head[v]
+    while r >= 0:
+        if not s.restriction_flags[r] & 1 and s.restriction_hi[r] < x:
+            x = s.restriction_hi[r]
+        r = s.restriction_next[r]
+    return x
+
+
+def base_set(s: Store, v: int) -> list[float] | None:
+    """Give the values of a base domain that is a set, sorted; None if it is an interval."""
+    lo = base_low(s, v)
+    hi = base_high(s, v)
+    values: set[float] | None = None
+    r = s.restriction_head[v]
+    while r >= 0:
+        if s.restriction_flags[r] == 2:
+            listed = s.restriction_values[r]
+            values = set(listed) if values is None else values.intersection(listed)
+        r = s.restriction_next[r]
+    return None if values is None else sorted(x for x in values if lo <= x <= hi)
+
+
+def is_base_single(s: Store, v: int) -> bool:
+    """Tell whether the base domain is a single value."""
+    lo = base_low(s, v)
+    hi = base_high(s, v)
+    if s.kind[v] == KIND_FLOAT and hi - lo <= FLOAT_TOLERANCE:
+        return True
+    if lo == hi:
+        return True
+    r = s.restriction_head[v]
+    while r >= 0:
+        if s.restriction_flags[r] == 2 and not s.is_open[v]:
+            values = base_set(s, v)
+            return values is not None and len(values) == 1
+        r = s.restriction_next[r]
+    return False

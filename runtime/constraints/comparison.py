@@ -1,0 +1,240 @@
+"""Propagate equality, order and difference, on whole numbers, reals and sets."""
+
+import math
+
+from runtime.constraints.bits import (
+    ALL,
+    MOST_VALUES,
+    ONE,
+    attach_words,
+    clear_bits,
+    has_value,
+    next_place,
+    next_value,
+    previous_value,
+    value_at,
+)
+from runtime.constraints.codes import (
+    FLOAT_TOLERANCE,
+    HALF_INF,
+    KIND_FLOAT,
+    KIND_INT,
+    MODE_EDGES,
+    NEVER,
+    OP_ALL_DIFF,
+    OP_EQ,
+    OP_LEQ,
+    OP_LT,
+    OP_NEQ,
+    OP_PLUS,
+    OP_TEMPORAL_DISTANCE,
+    SIDE_HOLES,
+    STRICT_STEP,
+    SUPPORT_CONSTRAINT,
+)
+from runtime.constraints.narrow import (
+    high,
+    is_single,
+    low,
+    raise_to,
+    reduce_to,
+    remove_value,
+    set_lower,
+    set_upper,
+)
+from runtime.constraints.network import tighten_edge
+from runtime.constraints.posting import tie_edge, tie_edges
+from runtime.constraints.store import Store
+
+
+def run_comparison(s: Store, c: int) -> bool:
+    """Run a constraint of this family."""
+    op = s.op[c]
+    first = s.first[c]
+    a = s.slot_variable[first]
+    b = s.slot_variable[first + 1]
+    support = c * 4 + SUPPORT_CONSTRAINT
+    if op == OP_TEMPORAL_DISTANCE:
+        return keep_distance(s, c, a, b, s.slot_variable[first + 2], support)
+    if op == OP_LEQ or op == OP_LT:
+        if s.mode[c] == MODE_EDGES:
+            return s.link_a[c] >= 0 or tie_edge(s, c, b, a, -1 if op == OP_LT else 0)
+        return precede(s, a, b, op == OP_LT, support)
+    if op == OP_EQ:
+        if s.mode[c] == MODE_EDGES and s.link_a[c] < 0 and not tie_edges(s, c, a, b, 0, 0):
+            return False
+        if s.arity[c] == 2:
+            return equate(s, a, b, support)
+        return equate_all(s, first, s.arity[c], support)
+    if op == OP_NEQ:
+        return differ(s, a, b, support)
+    if op == OP_PLUS:
+        return keep_offset(s, c, a, b, s.slot_variable[first + 2])
+    if op == OP_ALL_DIFF:
+        return differ_all(s, first, s.arity[c], support)
+    # OP_WITHIN_BOUNDS
+    return raise_to(s, a, low(s, b), support) and reduce_to(s, a, high(s, s.slot_variable[first + 2]), support)
+
+
+def precede(s: Store, a: int, b: int, strict: bool, support: int) -> bool:
+    """Narrow a <= b, or a < b; a whole number is never pushed off a fraction by more than to the next whole one."""
+    if s.kind[a] != KIND_FLOAT and s.kind[b] != KIND_FLOAT:
+        step = 1 if strict else 0
+        if s.ub[b] < HALF_INF and not set_upper(s, a, s.ub[b] - step, support):
+            return False
+        return s.lb[a] <= -HALF_INF or set_lower(s, b, s.lb[a] + step, support)
+    x = high(s, b)
+    if strict and x != math.inf:
+        x = math.ceil(x - FLOAT_TOLERANCE) - 1 if s.kind[a] != KIND_FLOAT else x - STRICT_STEP
+    if not reduce_to(s, a, x, support):
+        return False
+    x = low(s, a)
+    if strict and x != -math.inf:
+        x = math.floor(x + FLOAT_TOLERANCE) + 1 if s.kind[b] != KIND_FLOAT else x + STRICT_STEP
+    return raise_to(s, b, x, support)
+
+
+def equate(s: Store, a: int, b: int, support: int) -> bool:
+    """Leave two variables only the values that both have."""
+    if s.kind[a] != KIND_FLOAT and s.kind[b] != KIND_FLOAT:
+        while True:
+            if not (set_lower(s, a, s.lb[b], support) and set_lower(s, b, s.lb[a], support)):
+                return False
+            if not (set_upper(s, a, s.ub[b], support) and set_upper(s, b, s.ub[a], support)):
+                return False
+            if s.word[a] < 0 and s.word[b] < 0:
+                return True
+            if not (exclude_missing(s, a, b, support) and exclude_missing(s, b, a, support)):
+                return False
+            if s.lb[a] == s.lb[b] and s.ub[a] == s.ub[b]:
+                return True
+    for _ in range(2):
+        if not (raise_to(s, a, low(s, b), support) and raise_to(s, b, low(s, a), support)):
+            return False
+        if not (reduce_to(s, a, high(s, b), support) and reduce_to(s, b, high(s, a), support)):
+            return False
+    return True
+
+
+def equate_all(s: Store, first: int, count: int, support: int) -> bool:
+    """Leave many variables only the values that all of them have."""
+    a = s.slot_variable[first]
+    for _ in range(2):
+        for k in range(1, count):
+            if not equate(s, a, s.slot_variable[first + k], support):
+                return False
+    return True
+
+
+def chunk(s: Store, v: int, start: int) -> int:
+    """Give, as 64 bits, which of the values from `start` on a variable with a dense bit set has."""
+    place = start - s.bit_base[v]
+    if place <= -64 or place >= 64 * s.words_of[v]:
+        return 0
+    if place < 0:
+        return (s.bits[s.word[v]] << -place) & ALL
+    k = place >> 6
+    x = s.bits[s.word[v] + k] >> (place & 63)
+    if place & 63 and k + 1 < s.words_of[v]:
+        x |= (s.bits[s.word[v] + k + 1] << (64 - (place & 63))) & ALL
+    return x
+
+
+def exclude_missing(s: Store, a: int, b: int, support: int) -> bool:
+    """Take from discrete b the values that are holes of a."""
+    if s.word[a] < 0:
+        return True
+    if s.word[b] < 0:
+        if s.lb[b] == s.ub[b]:
+            return has_value(s, a, s.lb[b]) or s.fail(b, SIDE_HOLES, support)
+        if s.ub[b] - s.lb[b] >= MOST_VALUES or (s.kind[b] == KIND_INT and not s.holes):
+            return True
+        attach_words(s, b, s.lb[b], s.ub[b] - s.lb[b] + 1)
+    if s.table[a] < 0 and s.table[b] < 0:
+        for k in range(s.words_of[b]):
+            mask = s.bits[s.word[b] + k] & (ALL ^ chunk(s, a, s.bit_base[b] + 64 * k))
+            if mask:
+                clear_bits(s, b, k, mask, support)
+    else:
+        place = next_place(s, b, 0)
+        while place >= 0:
+            if not has_value(s, a, value_at(s, b, place)):
+                clear_bits(s, b, place >> 6, ONE << (place & 63), support)
+            place = next_place(s, b, place + 1)
+    return round_bounds(s, b, support)
+
+
+def round_bounds(s: Store, v: int, support: int) -> bool:
+    """Move bounds that stand in a hole to the next value; they keep their support, the log of holes has the rest."""
+    x = next_value(s, v, s.lb[v])
+    if x > s.ub[v]:
+        return s.fail(v, SIDE_HOLES, support)
+    if x > s.lb[v] and not set_lower(s, v, x, s.lower_support[v]):
+        return False
+    x = previous_value(s, v, s.ub[v])
+    return x >= s.ub[v] or set_upper(s, v, x, s.upper_support[v])
+
+
+def differ(s: Store, a: int, b: int, support: int) -> bool:
+    """Take a known value of the one from the other."""
+    if s.kind[a] != KIND_FLOAT and s.kind[b] != KIND_FLOAT:
+        if s.lb[a] == s.ub[a] and not remove_value(s, b, s.lb[a], support):
+            return False
+        return s.lb[b] != s.ub[b] or remove_value(s, a, s.lb[b], support)
+    if is_single(s, a) and is_single(s, b) and abs(low(s, a) - low(s, b)) <= FLOAT_TOLERANCE:
+        return s.fail(a, SIDE_HOLES, support)
+    return True
+
+
+def differ_all(s: Store, first: int, count: int, support: int) -> bool:
+    """Take the known values from all other variables, until no new one becomes known."""
+    k = 0
+    while k < count:
+        a = s.slot_variable[first + k]
+        k += 1
+        if not is_single(s, a):
+            continue
+        for j in range(count):
+            if j != k - 1:
+                b = s.slot_variable[first + j]
+                was_single = is_single(s, b)
+                if not differ(s, a, b, support):
+                    return False
+                if not was_single and is_single(s, b) and j < k - 1:
+                    k = 0
+        # A value that became known behind us is looked at again from the start.
+    return True
+
+
+def keep_offset(s: Store, c: int, a: int, k: int, b: int) -> bool:
+    """Carry a + k = b with a constant k out by two edges."""
+    x = s.lb[k]
+    return s.link_a[c] >= 0 or tie_edges(s, c, a, b, x, -x)
+
+
+def keep_distance(s: Store, c: int, start: int, distance: int, end: int, support: int) -> bool:
+    """Hold `end - start` within a variable's bounds, by two edges whose weights follow them, and narrow it in turn."""
+    longest = NEVER
+    shortest = -NEVER
+    if s.kind[distance] == KIND_FLOAT:
+        if high(s, distance) < HALF_INF:
+            longest = int(math.floor(high(s, distance) + FLOAT_TOLERANCE))
+        if low(s, distance) > -HALF_INF:
+            shortest = int(math.ceil(low(s, distance) - FLOAT_TOLERANCE))
+    else:
+        if s.ub[distance] < HALF_INF:
+            longest = s.ub[distance]
+        if s.lb[distance] > -HALF_INF:
+            shortest = s.lb[distance]
+    if s.link_a[c] < 0:
+        if not tie_edges(s, c, start, end, longest, -shortest):
+            return False
+    elif not (tighten_edge(s, s.link_a[c], longest) and tighten_edge(s, s.link_b[c], -shortest)):
+        return False
+    if s.ub[end] < HALF_INF and s.lb[start] > -HALF_INF:
+        if not reduce_to(s, distance, s.ub[end] - s.lb[start], support):
+            return False
+    if s.lb[end] > -HALF_INF and s.ub[start] < HALF_INF:
+        if not raise_to(s, distance, s.lb[end] - s.ub[start], support):
+            return False
+    return True

@@ -1,0 +1,382 @@
+"""Post constraints, narrow, propagate, go back: the one object through which all other rooms reason."""
+
+from math import inf
+
+from runtime.constraints.arithmetic import run_arithmetic
+from runtime.constraints.bases import base_high, base_low, base_set, is_base_single
+from runtime.constraints.bits import count_values, has_value, next_place, place_above, place_below, value_at
+from runtime.constraints.codes import (
+    EVENT_ANY,
+    EVENT_DECIDED,
+    EVENT_DOMAIN,
+    EVENT_HOLES,
+    FAMILY_ARITHMETIC,
+    FAMILY_COMPARISON,
+    FAMILY_LOGIC,
+    FLOAT_TOLERANCE,
+    KIND_BOOL,
+    KIND_FLOAT,
+    KIND_INT,
+    MODE_EDGES,
+    MODE_REAL,
+    OP_ADD_EQ,
+    OP_ALL_MAX,
+    OP_ALL_MIN,
+    OP_EQ,
+    OP_EQ_MAXIMUM,
+    OP_EQ_MINIMUM,
+    OP_LEQ,
+    OP_LT,
+    OP_PLUS,
+    OP_TEST_SPECIFIED,
+    OP_WATCH,
+    PRIORITY_WATCH,
+    SUPPORT_RESTRICTION,
+)
+from runtime.constraints.comparison import round_bounds, run_comparison
+from runtime.constraints.logic import meet, run_logic
+from runtime.constraints.narrow import high, is_single, low, raise_to, reduce_to
+from runtime.constraints.network import insert_edge, propagate_edges
+from runtime.constraints.posting import new_constraint, watch
+from runtime.constraints.store import Store
+from runtime.constraints.trail import commit_trail, undo_to
+from runtime.constraints.variables import (
+    add_restriction,
+    clear_row,
+    close_values,
+    keep_values,
+    reserve_block,
+    start_interval,
+    start_values,
+    take_row,
+)
+
+FLAG_DECISION = 1
+FLAG_VALUES = 2
+
+
+class Engine(Store):
+    """Variables, temporal edges and constraints, kept at their fixpoint, with undo and conflicts."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.constants: dict[object, int] = {}
+        self.newest_edge = -1
+        self.newest_restriction = -1
+
+    # ------------------------------------------------------------------------------------------------ variables
+
+    def reserve(self, count: int) -> int:
+        """Have the next `count` variables take consecutive ids; give the first (-1 for a single one)."""
+        return reserve_block(self, count)
+
+    def new_interval(self, kind: int, lo: float, hi: float, span: int, owner: int) -> int:
+        """Make a variable between two bounds; infinities are `inf` or INF."""
+        v = take_row(self)
+        clear_row(self, v, kind)
+        start_interval(self, v, lo, hi, add_restriction(self, v, lo, hi, 0, span, owner))
+        return v
+
+    def new_values(self, kind: int, values: list[float], span: int, owner: int) -> int:
+        """Make a variable with a closed set of values, or ids."""
+        v = take_row(self)
+        clear_row(self, v, kind)
+        values = sorted(set(values))
+        lo = values[0] if values else 1
+        hi = values[-1] if values else 0
+        r = add_restriction(self, v, lo, hi, FLAG_VALUES, span, owner)
+        self.restriction_values[r] = values
+        start_values(self, v, values, r)
+        return v
+
+    def new_open(self, kind: int, values: list[float], span: int, owner: int) -> int:
+        """Make a variable whose values are not all known; until `close` it is not narrowed by what is listed."""
+        v = take_row(self)
+        clear_row(self, v, kind)
+        r = add_restriction(self, v, -inf, inf, FLAG_VALUES, span, owner)
+        self.restriction_values[r] = sorted(set(values))
+        start_interval(self, v, -inf, inf, r)
+        self.is_open[v] = 1
+        return v
+
+    def add_value(self, v: int, value: float) -> None:
+        """List a further value of an open domain; at level 0 only."""
+        assert self.is_open[v] and (self.marks == 0 or self.trail_size == 0)
+        r = self.restriction_head[v]
+        while self.restriction_next[r] >= 0:
+            r = self.restriction_next[r]
+        if value not in self.restriction_values[r]:
+            self.restriction_values[r] = sorted([*self.restriction_values[r], value])
+
+    def close(self, v: int) -> bool:
+        """End the growth of an open domain."""
+        return bool(close_values(self, v))
+
+    def new_constant(self, kind: int, lo: float, hi: float) -> int:
+        """Give the shared variable of a constant value or interval; it never changes and never goes away."""
+        key = (kind, float(lo), float(hi))
+        v = self.constants.get(key, -1)
+        if v < 0:
+            reserved = self.reserved_next
+            self.reserved_next = self.reserved_end
+            v = self.new_interval(kind, lo, hi, -1, -1)
+            self.reserved_next = reserved
+            self.make_constant(v, 2)
+            self.constants[key] = v
+        return v
+
+    def new_constant_values(self, kind: int, values: list[float]) -> int:
+        """Give the shared variable of a constant set."""
+        key = (kind, *sorted(set(values)))
+        v = self.constants.get(key, -1)
+        if v < 0:
+            reserved = self.reserved_next
+            self.reserved_next = self.reserved_end
+            size = self.trail_size
+            v = self.new_values(kind, values, -1, -1)
+            self.reserved_next = reserved
+            self.make_constant(v, self.trail_size - size)
+            self.constants[key] = v
+        return v
+
+    def make_constant(self, v: int, entries: int) -> None:
+        """Keep a new variable out of the trail, so that it outlives every rewind."""
+        self.constant[v] = 1
+        self.trail_size -= entries
+
+    # ------------------------------------------------------------------------------------- restricting, deciding
+
+    def restrict_base(self, v: int, lo: float, hi: float, span: int, owner: int) -> bool:
+        """Intersect the base domain with an interval; false if no value is left."""
+        r = add_restriction(self, v, lo, hi, 0, span, owner)
+        self.newest_restriction = r
+        support = r * 4 + SUPPORT_RESTRICTION
+        return bool(self.consistent and raise_to(self, v, lo, support) and reduce_to(self, v, hi, support))
+
+    def restrict_base_values(self, v: int, values: list[float], span: int, owner: int) -> bool:
+        """Intersect the base domain with a set; false if no value is left."""
+        values = sorted(set(values))
+        lo = values[0] if values else 1
+        hi = values[-1] if values else 0
+        r = add_restriction(self, v, lo, hi, FLAG_VALUES, span, owner)
+        self.restriction_values[r] = values
+        self.newest_restriction = r
+        return bool(self.consistent and keep_values(self, v, values, r * 4 + SUPPORT_RESTRICTION))
+
+    def restrict_base_to(self, v: int, other: int, span: int, owner: int) -> bool:
+        """Intersect the base domain with the base domain of another variable, as it is now."""
+        values = base_set(self, other)
+        if values is not None and not self.is_open[other]:
+            return self.restrict_base_values(v, values, span, owner)
+        return self.restrict_base(v, base_low(self, other), base_high(self, other), span, owner)
+
+    def decide(self, v: int, value: float, span: int, owner: int) -> bool:
+        """Specify `v`: it takes the value and counts as decided; the base domain stays."""
+        r = add_restriction(self, v, value, value, FLAG_DECISION, span, owner)
+        self.newest_restriction = r
+        self.set_decided(v, 1)
+        return bool(self.consistent and keep_values(self, v, [value], r * 4 + SUPPORT_RESTRICTION))
+
+    def mark_decided(self, v: int) -> None:
+        """Have `v` count as decided, whatever its domain."""
+        self.set_decided(v, 1)
+
+    # ---------------------------------------------------------------------------------------------------- asking
+
+    def lower(self, v: int) -> float:
+        """Give the lower bound; -inf where there is none."""
+        return low(self, v)
+
+    def upper(self, v: int) -> float:
+        """Give the upper bound; inf where there is none."""
+        return high(self, v)
+
+    def is_singleton(self, v: int) -> bool:
+        """Tell whether only one value is left."""
+        return is_single(self, v)
+
+    def is_decided(self, v: int) -> bool:
+        """Tell whether `v` was decided, or has a base domain of a single value."""
+        return bool(self.decided[v] or is_base_single(self, v))
+
+    def contains(self, v: int, value: float) -> bool:
+        """Tell whether `v` may still take a value."""
+        if self.kind[v] == KIND_FLOAT:
+            return self.flo[v] - FLOAT_TOLERANCE <= value <= self.fhi[v] + FLOAT_TOLERANCE
+        return value == int(value) and has_value(self, v, int(value))
+
+    def is_finite(self, v: int) -> bool:
+        """Tell whether `v` is closed and has finitely many values."""
+        if self.is_open[v]:
+            return False
+        if self.kind[v] == KIND_FLOAT:
+            return self.word[v] >= 0 or is_single(self, v)
+        return low(self, v) > -inf and high(self, v) < inf
+
+    def size(self, v: int) -> int:
+        """Count the values of a finite domain."""
+        if self.kind[v] == KIND_FLOAT:
+            return len(self.values_of(v))
+        return count_values(self, v)
+
+    def values_of(self, v: int) -> list[float]:
+        """List the values of a finite domain in ascending order; of an open one, those listed that are possible."""
+        if self.is_open[v]:
+            return [x for x in base_set(self, v) or [] if has_value(self, v, int(x))]
+        if self.kind[v] == KIND_FLOAT:
+            if self.word[v] < 0:
+                return [self.flo[v]]
+            return self.table_reals(v)
+        if self.word[v] < 0:
+            return list(range(self.lb[v], self.ub[v] + 1))
+        found: list[float] = []
+        last = place_below(self, v, self.ub[v])
+        place = next_place(self, v, place_above(self, v, self.lb[v]))
+        while 0 <= place <= last:
+            found.append(value_at(self, v, place))
+            place = next_place(self, v, place + 1)
+        return found
+
+    def table_reals(self, v: int) -> list[float]:
+        """List the values of a float that has a set."""
+        found = []
+        place = next_place(self, v, 0)
+        while place >= 0:
+            x = self.table_values[self.table[v] + place]
+            if self.flo[v] - FLOAT_TOLERANCE <= x <= self.fhi[v] + FLOAT_TOLERANCE:
+                found.append(x)
+            place = next_place(self, v, place + 1)
+        return found
+
+    def intersects(self, v: int, w: int) -> bool:
+        """Tell whether two variables have a value in common."""
+        return meet(self, v, w)
+
+    def base_lower(self, v: int) -> float:
+        """Give the lower bound of the base domain."""
+        return base_low(self, v)
+
+    def base_upper(self, v: int) -> float:
+        """Give the upper bound of the base domain."""
+        return base_high(self, v)
+
+    def base_values(self, v: int) -> list[float] | None:
+        """Give the values of a base domain that is a set, or was listed; None if it is an interval."""
+        return base_set(self, v)
+
+    def is_base_singleton(self, v: int) -> bool:
+        """Tell whether the base domain is a single value."""
+        return is_base_single(self, v)
+
+    # ------------------------------------------------------------------------------------ constraints and edges
+
+    def add_edge(self, source: int, target: int, weight: int, span: int, owner: int) -> bool:
+        """Add `target - source <= weight` and propagate the network; false on a conflict."""
+        self.newest_edge = insert_edge(self, source, target, weight, span, owner, -1)
+        return bool(self.consistent)
+
+    def post(self, op: int, arguments: list[int], span: int, owner: int) -> int:
+        """Post a constraint, to be run by the next `propagate`; give its id."""
+        if op == OP_ALL_MAX or op == OP_ALL_MIN:
+            op = OP_EQ_MAXIMUM if op == OP_ALL_MAX else OP_EQ_MINIMUM
+            arguments = [arguments[-1], *arguments[:-1]]
+        elif op == OP_ADD_EQ and self.constant[arguments[0]] and not self.constant[arguments[1]]:
+            arguments = [arguments[1], arguments[0], arguments[2]]
+        c = new_constraint(self, op, len(arguments), span, owner)
+        real = False
+        whole = True
+        for v in arguments:
+            if self.kind[v] == KIND_FLOAT:
+                real = True
+            if self.kind[v] != KIND_INT or self.constant[v]:
+                whole = False
+        if real:
+            self.mode[c] = MODE_REAL
+        elif whole and (op == OP_LEQ or op == OP_LT or (op == OP_EQ and len(arguments) == 2)):
+            self.mode[c] = MODE_EDGES
+        elif op == OP_ADD_EQ and self.fixed_offset(arguments):
+            self.mode[c] = MODE_EDGES
+            self.op[c] = OP_PLUS
+        mask = EVENT_DOMAIN
+        if op == OP_WATCH:
+            self.priority[c] = PRIORITY_WATCH
+            mask = EVENT_ANY
+        elif op == OP_TEST_SPECIFIED:
+            mask = EVENT_DOMAIN | EVENT_DECIDED
+        elif self.mode[c] == MODE_EDGES:
+            mask = EVENT_HOLES if op == OP_EQ else 0
+        for position, v in enumerate(arguments):
+            watch(self, c, position, v, mask)
+        self.schedule(c)
+        return c
+
+    def fixed_offset(self, arguments: list[int]) -> bool:
+        """Tell whether a sum is an int, a constant whole number and another int: two edges can carry it."""
+        a, k, b = arguments
+        if self.kind[a] != KIND_INT or self.kind[b] != KIND_INT or self.constant[a] or self.constant[b]:
+            return False
+        return bool(self.constant[k] and self.kind[k] in (KIND_INT, KIND_BOOL) and self.lb[k] == self.ub[k])
+
+    def propagate(self) -> bool:
+        """Run all queues to the fixpoint: edges, then rounding to sets, then cheap constraints, then dear ones."""
+        if not self.consistent:
+            return False
+        self.epoch += 1
+        while True:
+            if self.edge_first != self.edge_last:
+                if not propagate_edges(self, -1, -1, -1):
+                    return False
+            elif self.hull_first != self.hull_last:
+                v = self.hull_queue[self.hull_first]
+                self.hull_first = (self.hull_first + 1) & self.hull_mask
+                self.queued[v] &= 3
+                if not round_bounds(self, v, self.lower_support[v]):
+                    return False
+            elif self.cheap_first != self.cheap_last:
+                c = self.cheap_queue[self.cheap_first]
+                self.cheap_first = (self.cheap_first + 1) & self.cheap_mask
+                if not self.run(c):
+                    return False
+            elif self.dear_first != self.dear_last:
+                c = self.dear_queue[self.dear_first]
+                self.dear_first = (self.dear_first + 1) & self.dear_mask
+                if not self.run(c):
+                    return False
+            else:
+                return True
+
+    def run(self, c: int) -> bool:
+        """Run one constraint once."""
+        self.scheduled[c] = 0
+        self.runs += 1
+        family = self.op[c] >> 5
+        if family == FAMILY_COMPARISON:
+            return run_comparison(self, c)
+        if family == FAMILY_ARITHMETIC:
+            return run_arithmetic(self, c)
+        assert family == FAMILY_LOGIC
+        return run_logic(self, c)
+
+    def clear_woken(self) -> None:
+        """Let the watches in `woken` be woken again."""
+        for i in range(self.woken_count):
+            self.scheduled[self.woken[i]] = 0
+        self.woken_count = 0
+
+    # ------------------------------------------------------------------------------------------------------ time
+
+    def mark(self) -> int:
+        """Remember the present state, which must be a fixpoint; give what `rewind` takes, as often as wanted."""
+        assert self.cheap_first == self.cheap_last and self.dear_first == self.dear_last
+        assert self.edge_first == self.edge_last and self.hull_first == self.hull_last
+        self.marks += 1
+        return self.trail_size
+
+    def rewind(self, mark: int) -> None:
+        """Go back to a mark: everything since is undone, scheduled work is dropped, a conflict is forgotten."""
+        undo_to(self, mark)
+
+    def commit(self) -> None:
+        """Forget all marks: what holds now is level 0."""
+        commit_trail(self)
+        self.marks = 0

@@ -1,0 +1,136 @@
+"""Keep constraints in rows and their arguments in slots; put them on the watch lists of their variables."""
+
+from runtime.constraints.codes import (
+    MODE_WHOLE,
+    PRIORITY_CHEAP,
+    TRAIL_CONSTRAINT,
+    TRAIL_LINK,
+)
+from runtime.constraints.grow import grown
+from runtime.constraints.network import insert_edge
+from runtime.constraints.store import Store
+
+
+def grow_constraints(s: Store) -> None:
+    """Double the rows of constraints, and the queues with them."""
+    room = 2 * len(s.op)
+    s.op = grown(s.op, "i", room, -1)
+    s.mode = grown(s.mode, "b", room, 0)
+    s.first = grown(s.first, "i", room, 0)
+    s.arity = grown(s.arity, "i", room, 0)
+    s.span = grown(s.span, "i", room, -1)
+    s.owner = grown(s.owner, "i", room, -1)
+    s.link_a = grown(s.link_a, "i", room, -1)
+    s.link_b = grown(s.link_b, "i", room, -1)
+    s.aux = grown(s.aux, "q", room, 0)
+    s.run_count = grown(s.run_count, "i", room, 0)
+    s.run_epoch = grown(s.run_epoch, "q", room, 0)
+    s.constraint_next = grown(s.constraint_next, "i", room, -1)
+    s.grow_constraint_queues(room)
+
+
+def grow_slots(s: Store, need: int) -> None:
+    """Make room for `need` more slots."""
+    room = len(s.slot_variable)
+    while room < s.slots_used + need:
+        room *= 2
+    s.slot_variable = grown(s.slot_variable, "i", room, -1)
+    s.slot_constraint = grown(s.slot_constraint, "i", room, -1)
+    s.slot_mask = grown(s.slot_mask, "b", room, 0)
+    s.slot_next = grown(s.slot_next, "i", room, -1)
+    s.slot_prev = grown(s.slot_prev, "i", room, -1)
+
+
+def allocate_slots(s: Store, count: int) -> int:
+    """Take `count` consecutive slots; blocks of up to 64 come back through free lists."""
+    if count <= 64 and s.slot_free[count] >= 0:
+        first = s.slot_free[count]
+        s.slot_free[count] = s.slot_next[first]
+        return first
+    if s.slots_used + count > len(s.slot_variable):
+        grow_slots(s, count)
+    first = s.slots_used
+    s.slots_used = first + count
+    return first
+
+
+def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
+    """Make a constraint whose arguments are still to be filled in."""
+    c = s.constraint_free
+    if c >= 0:
+        s.constraint_free = s.constraint_next[c]
+    else:
+        c = s.constraints_used
+        if c == len(s.op):
+            grow_constraints(s)
+        s.constraints_used = c + 1
+    s.op[c] = op
+    s.mode[c] = MODE_WHOLE
+    s.first[c] = allocate_slots(s, arity)
+    s.arity[c] = arity
+    s.span[c] = span
+    s.owner[c] = owner
+    s.link_a[c] = -1
+    s.link_b[c] = -1
+    s.aux[c] = 0
+    s.priority[c] = PRIORITY_CHEAP
+    s.scheduled[c] = 0
+    s.run_epoch[c] = 0
+    s.save(c, TRAIL_CONSTRAINT, 0, 0)
+    return c
+
+
+def watch(s: Store, c: int, position: int, v: int, mask: int) -> None:
+    """Fill in an argument and wake `c` at the events of `mask`; constants wake nobody."""
+    slot = s.first[c] + position
+    s.slot_variable[slot] = v
+    s.slot_constraint[slot] = c
+    s.slot_mask[slot] = mask
+    if s.constant[v] or mask == 0:
+        s.slot_next[slot] = -2
+        return
+    other = s.watch_head[v]
+    s.slot_next[slot] = other
+    s.slot_prev[slot] = -1
+    s.watch_head[v] = slot
+    if other >= 0:
+        s.slot_prev[other] = slot
+
+
+def release_constraint(s: Store, c: int) -> None:
+    """Take a constraint off all watch lists and free its row; its edges must be gone."""
+    first = s.first[c]
+    count = s.arity[c]
+    for slot in range(first, first + count):
+        after = s.slot_next[slot]
+        if after != -2:
+            before = s.slot_prev[slot]
+            if before >= 0:
+                s.slot_next[before] = after
+            else:
+                s.watch_head[s.slot_variable[slot]] = after
+            if after >= 0:
+                s.slot_prev[after] = before
+        s.slot_constraint[slot] = -1
+    if 0 < count <= 64:
+        s.slot_next[first] = s.slot_free[count]
+        s.slot_free[count] = first
+    s.op[c] = -1
+    s.constraint_next[c] = s.constraint_free
+    s.constraint_free = c
+
+
+def tie_edges(s: Store, c: int, source: int, target: int, forth: int, back: int) -> bool:
+    """Carry a constraint out by two edges between the same points; false on a conflict."""
+    s.save(c, TRAIL_LINK, 0, 0)
+    s.link_a[c] = insert_edge(s, source, target, forth, s.span[c], s.owner[c], c)
+    if s.consistent:
+        s.link_b[c] = insert_edge(s, target, source, back, s.span[c], s.owner[c], c)
+    return bool(s.consistent)
+
+
+def tie_edge(s: Store, c: int, source: int, target: int, weight: int) -> bool:
+    """Carry a constraint out by one edge; false on a conflict."""
+    s.save(c, TRAIL_LINK, 0, 0)
+    s.link_a[c] = insert_edge(s, source, target, weight, s.span[c], s.owner[c], c)
+    return bool(s.consistent)
