@@ -303,4 +303,6 @@ class SideTables:
     existing: dict[object, Label] = field(default_factory=dict)  # Relation with a bare target -> that token
     locals: dict[object, Variable] = field(default_factory=dict)  # Declarator | Foreach -> its variable
     declared: dict[Identifier, object] = field(default_factory=dict)  # name at its declaration -> what it declares
-    sampled: dict[object, Reference] = field(default_factory=dict)  # CallExpr of sampledParameter -> its parameter
+    sampled: dict[object, Reference] = field(default_factory=dict)  # CallExpr, CallConstraint -> sampled parameter
+    predicates: dict[RuleDecl, Predicate] = field(default_factory=dict)  # rule -> the predicate that it is on
+    type_names: dict[Identifier, Type] = field(default_factory=dict)  # type or class name where it is used

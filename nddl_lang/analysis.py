@@ -1,0 +1,205 @@
+"""Text in; the meaning of a model and all that is wrong with it out."""
+
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+
+from nddl_lang.semantics.schema import Schema, SideTables
+from nddl_lang.semantics.scope import Context, names_in
+from nddl_lang.semantics.statement import check_statement
+from nddl_lang.semantics.world import Fact, World
+from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.syntax.includes import LoadedModules, load_module_graph
+from nddl_lang.syntax.nodes import (
+    BrokenStatement,
+    ClassDecl,
+    EnumDecl,
+    GoalStatement,
+    Identifier,
+    Include,
+    Relation,
+    Statement,
+    TypedefDecl,
+    VariableDecl,
+)
+from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
+from nddl_lang.text.source import Source
+
+_TABLES = tuple(table.name for table in fields(SideTables))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Analysis:
+    """The checked meaning of a text and all that it includes.
+
+    `statements` are those that are executed, in order, from all files; `span.source` tells where each stands.
+    `diagnostics` stand in that order too. Where one of them is an error, the rest is what could be understood.
+    """
+
+    loaded: LoadedModules
+    statements: tuple[Statement, ...]
+    schema: Schema
+    tables: SideTables
+    diagnostics: tuple[Diagnostic, ...]
+
+    @property
+    def dialect(self) -> Dialect:
+        """The dialect that the text was read in."""
+        return self.loaded.dialect
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether the model cannot be executed as it stands."""
+        return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Unit:
+    """What became of one statement: what it looked at, left behind, and what was found out about it."""
+
+    reads: dict[Fact, object]
+    writes: dict[Fact, object]
+    tables: SideTables
+    complaints: tuple[Diagnostic, ...]
+
+
+class Analyser:
+    """Analyses a model again and again while it is edited.
+
+    A statement is checked again only if it changed, or if something that it looked up among the statements above it
+    did; a text of n statements costs n look-ups beside that.
+    """
+
+    def __init__(self) -> None:
+        self._units: dict[Statement, _Unit] = {}
+        self._dialect: Dialect | None = None
+
+    def analyse(self, loaded: LoadedModules) -> Analysis:
+        """The analysis of what has been read."""
+        if loaded.dialect is not self._dialect:
+            self._units, self._dialect = {}, loaded.dialect
+        statements = loaded.module.statements
+        world = World()
+        _foresee(world, loaded)
+        units: dict[Statement, _Unit] = {}
+        for statement in statements:
+            unit = self._units.get(statement)
+            if unit is not None and world.answers(unit.reads):
+                world.replay(unit.writes)
+            else:
+                unit = _check(world, statement, loaded.dialect)
+            units[statement] = unit
+        self._units = units
+        tables = SideTables()
+        for unit in units.values():
+            for name in _TABLES:
+                if found := getattr(unit.tables, name):
+                    getattr(tables, name).update(found)
+        diagnostics = _in_order(loaded, [(statement, unit.complaints) for statement, unit in units.items()])
+        return Analysis(loaded, statements, world.schema, tables, tuple(diagnostics))
+
+
+def analyse(loaded: LoadedModules) -> Analysis:
+    """The meaning of what has been read, and what is wrong with it."""
+    return Analyser().analyse(loaded)
+
+
+def analyse_file(
+    path: Path | str, dialect: Dialect | None = None, include_directories: Sequence[Path | str] = ()
+) -> Analysis:
+    """Read and analyse the file at `path` with all that it includes; raises OSError if it cannot be read.
+
+    Without `dialect` the first line of the file decides, and where it is silent, nddlc.
+    """
+    return analyse(load_module_graph(path, include_directories, dialect))
+
+
+def analyse_text(
+    name: str, text: str, dialect: Dialect | None = None, include_directories: Sequence[Path | str] = ()
+) -> Analysis:
+    """Analyse a text that need not be in a file; `name` is what it is called, and where its includes start from."""
+    return analyse(load_module_graph(Source(name, text), include_directories, dialect))
+
+
+def _check(world: World, statement: Statement, dialect: Dialect) -> _Unit:
+    world.begin()
+    context = Context(world, dialect)
+    check_statement(context, statement)
+    return _Unit(world.reads, world.writes, context.tables, tuple(context.complaints))
+
+
+def _foresee(world: World, loaded: LoadedModules) -> None:
+    """Note what is declared where, and which names are doubtful because text was not understood or is missing."""
+    for statement in loaded.module.statements:
+        if isinstance(statement, BrokenStatement):
+            for word in names_in(statement.span.text):
+                world.doubt(word)
+        for name in _declared_names(statement):
+            world.suppose("below", name.name, name.span)
+    if any(each.code.kind == "include" and each.severity is Severity.ERROR for each in loaded.diagnostics):
+        world.doubt()
+
+
+def _declared_names(statement: Statement) -> Iterator[Identifier]:
+    match statement:
+        case VariableDecl(declarators=declarators):
+            for declarator in declarators:
+                yield declarator.name
+        case ClassDecl(name=name, members=members) if members is not None:
+            yield name
+        case TypedefDecl(name=name):
+            yield name
+        case EnumDecl(name=name, values=values):
+            yield name
+            yield from values
+        case GoalStatement(instances=instances) | Relation(created=instances):
+            for instance in instances:
+                if instance.name is not None:
+                    yield instance.name
+        case _:
+            pass
+
+
+def _in_order(loaded: LoadedModules, checked: list[tuple[Statement, tuple[Diagnostic, ...]]]) -> Iterator[Diagnostic]:
+    """All complaints in the order of execution; those of the syntax stand so already."""
+    starts: dict[Source, tuple[list[int], list[int]]] = {}
+    if loaded.diagnostics:
+        for index, (statement, _) in enumerate(checked):
+            begins, indices = starts.setdefault(statement.span.source, ([], []))
+            begins.append(statement.span.begin)
+            indices.append(index)
+    reached = 0
+    pending: list[tuple[int, Diagnostic]] = []
+    for diagnostic in loaded.diagnostics:
+        begins, indices = starts.get(diagnostic.span.source, ([], []))
+        place = bisect_right(begins, diagnostic.span.begin) - 1
+        reached = max(reached, indices[place] if place >= 0 else 0)
+        pending.append((reached, diagnostic))
+    pending.reverse()
+    chains = _Chains(loaded)
+    for index, (_, complaints) in enumerate(checked):
+        while pending and pending[-1][0] <= index:
+            yield pending.pop()[1]
+        for complaint in complaints:
+            yield chains.extend(complaint)
+    for _, diagnostic in reversed(pending):
+        yield diagnostic
+
+
+class _Chains:
+    """Tells on the way of which includes a text was read."""
+
+    def __init__(self, loaded: LoadedModules) -> None:
+        self._includes: dict[Source, Include] = {}
+        for include, source in loaded.included.items():
+            self._includes.setdefault(source, include)
+
+    def extend(self, diagnostic: Diagnostic) -> Diagnostic:
+        """The diagnostic with a note for each include that led to its text."""
+        notes: list[Note] = []
+        source = diagnostic.span.source
+        while (include := self._includes.get(source)) is not None and len(notes) < len(self._includes):
+            notes.append(Note("included from here", include.span))
+            source = include.span.source
+        return replace(diagnostic, notes=(*diagnostic.notes, *notes)) if notes else diagnostic

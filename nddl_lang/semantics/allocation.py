@@ -1,0 +1,158 @@
+"""Choose the constructor that a `new` or `super(...)` calls; tell the user where none fits."""
+
+from collections.abc import Sequence
+
+from nddl_lang.semantics.expressions import type_of
+from nddl_lang.semantics.schema import Chosen, Class, Constructor, Kind, Type
+from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.typenames import find_defined_class
+from nddl_lang.semantics.types import fits
+from nddl_lang.semantics.values import check_restriction
+from nddl_lang.semantics.world import World
+from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr
+from nddl_lang.text.diagnostic import Code, Note, Severity
+from nddl_lang.text.source import Span
+
+NO_CONSTRUCTOR = Code("NDDL323", Severity.ERROR, "arity", "class `{name}` has no constructor that takes {arguments}")
+NO_BASE_CONSTRUCTOR = Code(
+    "NDDL324",
+    Severity.ERROR,
+    "arity",
+    "`{name}` cannot be made: its base `{base}` has no constructor without arguments",
+)
+CLASS_IS_CLOSED = Code("NDDL403", Severity.ERROR, "state", "no object of class `{name}` can join after `close()`")
+
+
+def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | None:
+    """Check `new C(...)` and choose its constructor; the class, None after a complaint."""
+    owner = find_defined_class(context, new.class_name)
+    types = argument_types(context, scope, new.arguments)
+    if owner is None:
+        return None
+    constructor = choose(context, owner, new.arguments, types, new.span)
+    if constructor is None:
+        return None
+    context.tables.constructors[new] = Chosen(constructor)
+    lacking = _lacking_base(context.world, constructor)
+    if lacking is not None:
+        notes = constructor_notes(lacking)
+        context.complain(NO_BASE_CONSTRUCTOR.at(new.span, notes=notes, name=owner.name, base=lacking.name))
+    if scope.place is Place.SCRIPT:
+        closed = context.world.closed_at(owner.name)
+        if closed is not None:
+            notes = (Note("it is closed here", closed),)
+            context.complain(CLASS_IS_CLOSED.at(new.span, notes=notes, name=owner.name))
+    if scope.place in (Place.SCRIPT, Place.RULE):
+        for name in _made_with(context.world, owner.name):
+            context.world.put_object(name)
+    return owner
+
+
+def argument_types(context: Context, scope: Scope, arguments: Sequence[Expr]) -> list[Type | None]:
+    """The types of the arguments; nested allocations are checked."""
+    types = [type_of(context, scope, argument) for argument in arguments]
+    for argument in arguments:
+        if isinstance(argument, NewExpr):
+            check_allocation(context, scope, argument)
+    return types
+
+
+def choose(
+    context: Context, owner: Class, arguments: Sequence[Expr], types: Sequence[Type | None], span: Span
+) -> Constructor | None:
+    """The constructor of `owner` that needs the fewest conversions, the first of several; a complaint if none fits."""
+    best: Constructor | None = None
+    least = 0
+    for constructor in owner.constructors:
+        cost = _conversions(context.world, constructor, types)
+        if cost is not None and (best is None or cost < least):
+            best, least = constructor, cost
+    if best is None:
+        if not context.world.is_partial(owner.name):
+            described = ", ".join("?" if type_ is None else type_.name for type_ in types)
+            text = f"`({described})`" if types else "no arguments"
+            notes = constructor_notes(owner)
+            context.complain(NO_CONSTRUCTOR.at(span, notes=notes, name=owner.name, arguments=text))
+        return None
+    for argument, parameter in zip(arguments, best.parameters, strict=True):
+        check_restriction(context, argument, parameter.type)
+    return best
+
+
+def constructor_notes(owner: Class) -> tuple[Note, ...]:
+    """A note per constructor of a class."""
+    return tuple(Note(f"there is `{signature_text(item)}`", item.span) for item in owner.constructors)
+
+
+def signature_text(constructor: Constructor) -> str:
+    """A constructor with its formal parameters, as declared."""
+    parameters = ", ".join(f"{parameter.type.name} {parameter.name}" for parameter in constructor.parameters)
+    return f"{constructor.class_name}({parameters})"
+
+
+def has_empty_constructor(owner: Class) -> bool:
+    """Whether the class has a constructor without arguments."""
+    return any(not constructor.parameters for constructor in owner.constructors)
+
+
+def _conversions(world: World, constructor: Constructor, types: Sequence[Type | None]) -> int | None:
+    if len(constructor.parameters) != len(types):
+        return None
+    cost = 0
+    for type_, parameter in zip(types, constructor.parameters, strict=True):
+        target = parameter.type
+        if type_ is None:
+            continue
+        if not fits(type_, target, world.is_subclass):
+            return None
+        if target.kind is Kind.OBJECT:
+            if not world.is_subclass(type_.base, target.base):
+                return None
+            cost += _distance(world, type_.base, target.base)
+        elif type_.kind is not target.kind:
+            cost += 1
+    return cost
+
+
+def _distance(world: World, name: str, ancestor: str) -> int:
+    for steps, owner in enumerate(world.ancestry(name)):
+        if owner.name == ancestor:
+            return steps
+    return 0
+
+
+def _lacking_base(world: World, constructor: Constructor) -> Class | None:
+    """The ancestor without empty constructor that an implicit constructor would have to call."""
+    while constructor.node is None:
+        owner = world.find_class(constructor.class_name)
+        if owner is None or owner.is_native or owner.base is None:
+            return None
+        base = world.find_class(owner.base)
+        if base is None or world.is_partial(base.name):
+            return None
+        empty = next((item for item in base.constructors if not item.parameters), None)
+        if empty is None:
+            return base
+        constructor = empty
+    return None
+
+
+def _made_with(world: World, class_name: str) -> list[str]:
+    """The classes whose objects may come into being with one of `class_name`: those its constructors allocate."""
+    made: list[str] = []
+    pending = [class_name]
+    while pending:
+        name = pending.pop()
+        if name in made:
+            continue
+        made.append(name)
+        for owner in world.ancestry(name):
+            for constructor in owner.constructors:
+                if constructor.node is None:
+                    continue
+                pending += [
+                    statement.value.class_name.name
+                    for statement in constructor.node.body
+                    if isinstance(statement, Assignment) and isinstance(statement.value, NewExpr)
+                ]
+    return made

@@ -1,0 +1,61 @@
+"""Check constraint statements: named ones against the table, expressions for having a truth value."""
+
+from nddl_lang.semantics.arguments import check_count, check_types
+from nddl_lang.semantics.constraints import CONSTRAINTS, FORMER_CONSTRAINTS, ConstraintRow, Origin
+from nddl_lang.semantics.expressions import NOT_IN_NDDL3, check_condition, sampled_parameter, type_of
+from nddl_lang.semantics.functions import FUNCTIONS
+from nddl_lang.semantics.names import suggest_name
+from nddl_lang.semantics.scope import Context, Scope
+from nddl_lang.semantics.signature import ArgumentKind
+from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.syntax.nodes import CallConstraint, ExprConstraint
+from nddl_lang.text.diagnostic import Code, Edit, Fix, Severity
+
+UNKNOWN_CONSTRAINT = Code("NDDL208", Severity.ERROR, "name", "there is no constraint `{name}`")
+FORMER_CONSTRAINT = Code("NDDL210", Severity.ERROR, "name", "the constraint `{name}` is called `{today}` today")
+
+
+def check_expression_constraint(context: Context, scope: Scope, node: ExprConstraint) -> None:
+    """Check `a + b == c;`."""
+    check_condition(context, scope, node.expression)
+
+
+def check_call_constraint(context: Context, scope: Scope, node: CallConstraint) -> None:
+    """Check `eq(a, b);`."""
+    name = node.name.name
+    row = CONSTRAINTS.get(name)
+    if row is None:
+        for argument in node.arguments:
+            type_of(context, scope, argument)
+        _complain_unknown(context, node)
+        return
+    if row.origin is Origin.NDDLC and context.dialect is Dialect.NDDL3:
+        context.complain(NOT_IN_NDDL3.at(node.name.span, name=name))
+    types = [
+        sampled_parameter(context, scope, node, argument, FUNCTIONS[name])
+        if _is_parameter(row, index)
+        else type_of(context, scope, argument)
+        for index, argument in enumerate(node.arguments)
+    ]
+    if check_count(context, name, row.signature, len(types), node.span, row.meaning):
+        check_types(context, name, row.signature, node.arguments, types)
+
+
+def _is_parameter(row: ConstraintRow, index: int) -> bool:
+    argument = row.signature.argument(index)
+    return argument is not None and argument.kind is ArgumentKind.PARAMETER
+
+
+def _complain_unknown(context: Context, node: CallConstraint) -> None:
+    name = node.name.name
+    today = FORMER_CONSTRAINTS.get(name)
+    if today is not None:
+        fix = Fix(f"write `{today}`", (Edit(node.name.span, today),))
+        context.complain(FORMER_CONSTRAINT.at(node.name.span, fixes=(fix,), name=name, today=today))
+        return
+    complaint = UNKNOWN_CONSTRAINT.at(node.name.span, name=name)
+    if name in FORMER_CONSTRAINTS:
+        complaint = UNKNOWN_CONSTRAINT.at(
+            node.name.span, help="write it as an expression, such as `a + b <= c`", name=name
+        )
+    context.complain(suggest_name(complaint, node.name, CONSTRAINTS))

@@ -1,0 +1,350 @@
+"""Give every expression its type; tell the user where operands do not go together."""
+
+from nddl_lang.semantics.arguments import check_count, check_types, complain_argument
+from nddl_lang.semantics.constraints import CONSTRAINTS, Origin
+from nddl_lang.semantics.functions import FUNCTIONS, FunctionRow, ResultKind
+from nddl_lang.semantics.names import resolve, resolve_value, suggest_name
+from nddl_lang.semantics.natives import TIME_NAMES
+from nddl_lang.semantics.schema import (
+    INFINITY,
+    ClassReference,
+    EnumValue,
+    GlobalReference,
+    Kind,
+    TokenVariable,
+    Type,
+)
+from nddl_lang.semantics.scope import Context, Scope
+from nddl_lang.semantics.types import (
+    BOOL,
+    COUNTABLE,
+    FLOAT,
+    INT,
+    NUMBERS,
+    STRING,
+    comparable,
+    object_type,
+    phrase,
+    plain,
+    reference_type,
+)
+from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.syntax.nodes import (
+    BinaryExpr,
+    BoolLiteral,
+    CallExpr,
+    Expr,
+    FloatLiteral,
+    IntervalExpr,
+    IntLiteral,
+    NewExpr,
+    PathExpr,
+    SetExpr,
+    StringLiteral,
+    UnaryExpr,
+)
+from nddl_lang.text.diagnostic import Code, Edit, Fix, Severity
+
+UNKNOWN_FUNCTION = Code("NDDL209", Severity.ERROR, "name", "there is no function `{name}`")
+NOT_IN_NDDL3 = Code("NDDL211", Severity.ERROR, "name", "`{name}` is not part of nddl3")
+MIXED_SET = Code(
+    "NDDL303", Severity.ERROR, "type", "the values of a set have one type; `{text}` is {found}, `{first}` is {expected}"
+)
+INCOMPARABLE = Code("NDDL305", Severity.ERROR, "type", "`{left}` is {one} and `{right}` is {other}: never equal")
+NO_ORDER = Code("NDDL306", Severity.ERROR, "type", "`{op}` compares numbers; `{text}` is {found}")
+NOT_A_NUMBER = Code("NDDL307", Severity.ERROR, "type", "`{op}` needs numbers; `{text}` is {found}")
+MIXED_ARITHMETIC = Code(
+    "NDDL308", Severity.ERROR, "type", "nddl3 does not combine int and float: `{left}` is {one}, `{right}` is {other}"
+)
+NOT_A_CONDITION = Code("NDDL309", Severity.ERROR, "type", "a condition is needed here; `{text}` is {found}")
+SUM_OF_TIMES = Code("NDDL310", Severity.ERROR, "type", "the sum of two times is not a time")
+REVERSED_INTERVAL = Code(
+    "NDDL311", Severity.ERROR, "domain", "the lower bound {lower} is above the upper bound {upper}"
+)
+NOT_A_BOUND = Code("NDDL312", Severity.ERROR, "type", "the bounds of an interval are numbers; `{text}` is not one")
+
+_ORDERS = frozenset({"<", "<=", ">", ">="})
+_EQUALITIES = frozenset({"==", "!="})
+_LOGIC = frozenset({"&&", "||"})
+
+
+def type_of(context: Context, scope: Scope, expression: Expr) -> Type | None:
+    """The type of `expression`, noted in the tables with those of its parts; None where a complaint was made."""
+    # Chains such as a + b + c lean to the left, however long; they are walked, not recursed into.
+    chain: list[BinaryExpr] = []
+    while isinstance(expression, BinaryExpr):
+        chain.append(expression)
+        expression = expression.left
+    type_ = _simple_type(context, scope, expression)
+    for binary in reversed(chain):
+        type_ = _binary_type(context, binary, type_, type_of(context, scope, binary.right))
+        if type_ is not None:
+            context.tables.types[binary] = type_
+    return type_
+
+
+def check_condition(context: Context, scope: Scope, expression: Expr) -> None:
+    """Complain about an expression that has no truth value where one is needed."""
+    type_ = type_of(context, scope, expression)
+    if type_ is not None and type_.kind is not Kind.BOOL:
+        complaint = NOT_A_CONDITION.at(expression.span, text=expression.span.text, found=phrase(type_))
+        context.complain(complaint)
+
+
+def _simple_type(context: Context, scope: Scope, expression: Expr) -> Type | None:
+    type_: Type | None
+    if isinstance(expression, PathExpr):
+        reference = resolve_value(context, scope, expression)
+        type_ = reference_type(reference, scope.own_class) if reference is not None else None
+    elif isinstance(expression, IntLiteral):
+        type_ = INT
+    elif isinstance(expression, FloatLiteral):
+        type_ = FLOAT
+    elif isinstance(expression, BoolLiteral):
+        type_ = BOOL
+    elif isinstance(expression, StringLiteral):
+        type_ = STRING
+    elif isinstance(expression, CallExpr):
+        type_ = _call_type(context, scope, expression)
+    elif isinstance(expression, IntervalExpr):
+        type_ = _interval_type(context, scope, expression)
+    elif isinstance(expression, SetExpr):
+        type_ = _set_type(context, scope, expression)
+    elif isinstance(expression, UnaryExpr):
+        type_ = _unary_type(context, scope, expression)
+    else:
+        assert isinstance(expression, NewExpr)
+        known = context.world.find_class(expression.class_name.name) is not None
+        type_ = object_type(expression.class_name.name) if known else None
+    if type_ is not None:
+        context.tables.types[expression] = type_
+    return type_
+
+
+def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right: Type | None) -> Type | None:
+    op = binary.op
+    if op in _EQUALITIES:
+        _check_equality(context, binary, left, right)
+        return BOOL
+    if op in _ORDERS:
+        for side, type_ in ((binary.left, left), (binary.right, right)):
+            if type_ is not None and type_.kind not in COUNTABLE:
+                context.complain(NO_ORDER.at(side.span, op=op, text=side.span.text, found=phrase(type_)))
+        return BOOL
+    if op in _LOGIC:
+        for side, type_ in ((binary.left, left), (binary.right, right)):
+            if type_ is not None and type_.kind is not Kind.BOOL:
+                context.complain(NOT_A_CONDITION.at(side.span, text=side.span.text, found=phrase(type_)))
+        return BOOL
+    return _arithmetic_type(context, binary, left, right)
+
+
+def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, right: Type | None) -> None:
+    if left is None or right is None:
+        return
+    if not comparable(left, right, context.world.is_subclass):
+        context.complain(
+            INCOMPARABLE.at(
+                binary.span,
+                left=binary.left.span.text,
+                one=phrase(left),
+                right=binary.right.span.text,
+                other=phrase(right),
+            )
+        )
+    for total, time in ((binary.left, binary.right), (binary.right, binary.left)):
+        if _is_time(context, time) and _is_sum_of_times(context, total):
+            context.complain(SUM_OF_TIMES.at(total.span, help="add a duration or a distance to a time instead"))
+
+
+def _is_time(context: Context, expression: Expr) -> bool:
+    reference = context.tables.references.get(expression)
+    return isinstance(reference, TokenVariable) and reference.name in TIME_NAMES
+
+
+def _is_sum_of_times(context: Context, expression: Expr) -> bool:
+    if not isinstance(expression, BinaryExpr) or expression.op != "+":
+        return False
+    return _is_time(context, expression.left) and _is_time(context, expression.right)
+
+
+def _arithmetic_type(context: Context, binary: BinaryExpr, left: Type | None, right: Type | None) -> Type | None:
+    is_sound = True
+    for side, type_ in ((binary.left, left), (binary.right, right)):
+        if type_ is not None and type_.kind not in NUMBERS:
+            is_sound = False
+            context.complain(NOT_A_NUMBER.at(side.span, op=binary.op, text=side.span.text, found=phrase(type_)))
+    if left is None or right is None or not is_sound:
+        return None
+    if left.kind is not right.kind and context.dialect is Dialect.NDDL3:
+        context.complain(
+            MIXED_ARITHMETIC.at(
+                binary.span,
+                help="copy the int into a float variable with `eq` first",
+                left=binary.left.span.text,
+                one=phrase(left),
+                right=binary.right.span.text,
+                other=phrase(right),
+            )
+        )
+        return FLOAT
+    return INT if left.kind is Kind.INT and right.kind is Kind.INT and binary.op != "/" else FLOAT
+
+
+def _unary_type(context: Context, scope: Scope, unary: UnaryExpr) -> Type | None:
+    # A run of signs such as - - - x is walked, not recursed into.
+    run = [unary]
+    while isinstance(run[-1].operand, UnaryExpr):
+        run.append(run[-1].operand)
+    type_ = type_of(context, scope, run[-1].operand)
+    for sign in reversed(run):
+        type_ = _signed_type(context, sign, type_)
+        if type_ is not None:
+            context.tables.types[sign] = type_
+    return type_
+
+
+def _signed_type(context: Context, unary: UnaryExpr, operand: Type | None) -> Type | None:
+    if unary.op == "!":
+        if operand is not None and operand.kind is not Kind.BOOL:
+            text = unary.operand.span.text
+            context.complain(NOT_A_CONDITION.at(unary.operand.span, text=text, found=phrase(operand)))
+        return BOOL
+    if operand is None:
+        return None
+    if operand.kind not in NUMBERS:
+        text = unary.operand.span.text
+        context.complain(NOT_A_NUMBER.at(unary.operand.span, op=unary.op, text=text, found=phrase(operand)))
+        return None
+    return plain(operand)
+
+
+def _interval_type(context: Context, scope: Scope, interval: IntervalExpr) -> Type | None:
+    kinds: list[Kind] = []
+    for bound in (interval.lower, interval.upper):
+        type_ = type_of(context, scope, bound)
+        if type_ is not None and type_.kind not in NUMBERS:
+            context.complain(NOT_A_BOUND.at(bound.span, text=bound.span.text))
+        elif type_ is not None:
+            kinds.append(type_.kind)
+    lower, upper = number(interval.lower), number(interval.upper)
+    if lower is not None and upper is not None and lower > upper:
+        swap = f"[{interval.upper.span.text} {interval.lower.span.text}]"
+        fix = Fix(f"write `{swap}`", (Edit(interval.span, swap),), safe=False)
+        text = (interval.lower.span.text, interval.upper.span.text)
+        context.complain(REVERSED_INTERVAL.at(interval.span, fixes=(fix,), lower=text[0], upper=text[1]))
+        return None
+    if len(kinds) < 2:
+        return None
+    return FLOAT if Kind.FLOAT in kinds else INT
+
+
+def number(expression: Expr) -> float | int | None:
+    """The number that a literal or its negative writes, None for anything else."""
+    sign = 1
+    while isinstance(expression, UnaryExpr) and expression.op == "-":
+        expression, sign = expression.operand, -sign
+    return expression.value * sign if isinstance(expression, IntLiteral | FloatLiteral) else None
+
+
+def is_infinite(expression: Expr) -> bool:
+    """Whether the expression writes an infinity, which fits ints and floats alike."""
+    value = number(expression)
+    return value is not None and abs(value) >= INFINITY
+
+
+def _set_type(context: Context, scope: Scope, values: SetExpr) -> Type | None:
+    first: tuple[Expr, Type] | None = None
+    result: Type | None = None
+    for item in values.items:
+        type_ = type_of(context, scope, item)
+        if type_ is None:
+            continue
+        if first is None or result is None:
+            first, result = (item, type_), plain(type_)
+        elif type_.kind in NUMBERS and result.kind in NUMBERS:
+            result = FLOAT if Kind.FLOAT in (type_.kind, result.kind) else INT
+        elif type_.kind is not result.kind or not comparable(type_, result, context.world.is_subclass):
+            context.complain(
+                MIXED_SET.at(
+                    item.span,
+                    text=item.span.text,
+                    found=phrase(type_),
+                    first=first[0].span.text,
+                    expected=phrase(first[1]),
+                )
+            )
+            return None
+        elif type_.kind is Kind.OBJECT and context.world.is_subclass(result.base, type_.base):
+            result = plain(type_)
+    return result
+
+
+def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
+    name = call.function.name
+    row = FUNCTIONS.get(name)
+    if row is None:
+        for argument in call.arguments:
+            type_of(context, scope, argument)
+        complaint = UNKNOWN_FUNCTION.at(call.function.span, name=name)
+        if name in CONSTRAINTS:
+            help_ = f"`{name}` is a constraint: write it as a statement, `{name}(...);`"
+            complaint = UNKNOWN_FUNCTION.at(call.function.span, help=help_, name=name)
+        context.complain(suggest_name(complaint, call.function, FUNCTIONS))
+        return None
+    check_dialect(context, call, row)
+    if row.result is ResultKind.SAMPLED:
+        return _sampled_type(context, scope, call, row)
+    types = [type_of(context, scope, argument) for argument in call.arguments]
+    signature, count = row.signature, len(types)
+    # EUROPA overlooks further arguments; only the dialect nddlc refuses them.
+    is_overlooked = context.dialect is Dialect.NDDL3 and count > signature.minimum
+    if is_overlooked or check_count(context, name, signature, count, call.span, row.meaning):
+        check_types(context, name, signature, call.arguments, types)
+    return _result_type(context, row, types)
+
+
+def check_dialect(context: Context, call: CallExpr, row: FunctionRow) -> None:
+    """Complain about a function that only the dialect nddlc has."""
+    if row.origin is Origin.NDDLC and context.dialect is Dialect.NDDL3:
+        context.complain(NOT_IN_NDDL3.at(call.function.span, name=row.name))
+
+
+def _result_type(context: Context, row: FunctionRow, types: list[Type | None]) -> Type:
+    match row.result:
+        case ResultKind.BOOL:
+            return BOOL
+        case ResultKind.INT:
+            return INT
+        case ResultKind.WIDEST if context.dialect is Dialect.NDDLC:
+            return INT if types and all(type_ is not None and type_.kind is Kind.INT for type_ in types) else FLOAT
+        case _:
+            return FLOAT
+
+
+def _sampled_type(context: Context, scope: Scope, call: CallExpr, row: FunctionRow) -> Type:
+    if check_count(context, row.name, row.signature, len(call.arguments), call.span, row.meaning):
+        return sampled_parameter(context, scope, call, call.arguments[0], row)
+    return FLOAT
+
+
+def sampled_parameter(context: Context, scope: Scope, owner: object, expression: Expr, row: FunctionRow) -> Type:
+    """The type of what is drawn for the parameter that `expression` names; `owner` is the call or statement."""
+    reference = resolve(context, scope, expression) if isinstance(expression, PathExpr) else None
+    if reference is None and isinstance(expression, PathExpr):
+        return FLOAT
+    argument = row.signature.required[-1]
+    match reference:
+        case EnumValue():
+            context.tables.sampled[owner] = reference
+            return FLOAT
+        case GlobalReference(variable=variable) if variable.type.kind in NUMBERS:
+            context.tables.sampled[owner] = reference
+            return plain(variable.type)
+        case GlobalReference(variable=variable):
+            complain_argument(context, row.name, argument, expression, phrase(variable.type))
+        case ClassReference():
+            complain_argument(context, row.name, argument, expression, "a class")
+        case _:
+            complain_argument(context, row.name, argument, expression, "neither")
+    return FLOAT

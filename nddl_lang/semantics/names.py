@@ -1,0 +1,247 @@
+"""Tie every path to what it names; tell the user where nothing of that name is known.
+
+The order of look-up: enum values, local variables, the own token's variables (in a constructor the members), tokens,
+globals, classes. Before a dot a token comes first: `x.y` is the token's variable even where a parameter is called x.
+"""
+
+from collections.abc import Iterable, Sequence
+
+from nddl_lang.semantics.natives import builtin_names, builtin_type
+from nddl_lang.semantics.nearest import nearest
+from nddl_lang.semantics.schema import (
+    ClassReference,
+    EnumValue,
+    GlobalReference,
+    Kind,
+    Label,
+    LocalReference,
+    MemberReference,
+    Predicate,
+    Reference,
+    TokenReference,
+    TokenVariable,
+)
+from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.types import reference_type
+from nddl_lang.syntax.nodes import Identifier, PathExpr
+from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Note, Severity
+
+UNKNOWN_NAME = Code("NDDL201", Severity.ERROR, "name", "nothing named `{name}` is in scope here")
+DECLARED_BELOW = Code("NDDL202", Severity.ERROR, "name", "`{name}` is used above its declaration")
+NAME_OF_OTHER_BLOCK = Code(
+    "NDDL203", Severity.ERROR, "name", "`{name}` is known only inside the block that declares it"
+)
+UNKNOWN_MEMBER = Code("NDDL204", Severity.ERROR, "name", "class `{owner}` has no member `{name}`")
+UNKNOWN_TOKEN_VARIABLE = Code("NDDL205", Severity.ERROR, "name", "a token of `{predicate}` has no parameter `{name}`")
+UNKNOWN_ENUM_VALUE = Code("NDDL206", Severity.ERROR, "name", "`{name}` is no value of enum `{enum}`")
+MISPLACED_THIS = Code("NDDL207", Severity.ERROR, "name", "`this` has no meaning in {place}")
+NOT_AN_OBJECT = Code("NDDL301", Severity.ERROR, "type", "`{name}` is {type}, so `.{member}` finds nothing in it")
+CLASS_AS_VALUE = Code("NDDL302", Severity.ERROR, "type", "`{name}` is a class, not a value")
+
+_VALUE_TABLES = ("global", "goal", "value")
+
+
+def resolve(context: Context, scope: Scope, path: PathExpr) -> Reference | None:
+    """What `path` names, noted in the tables; None, after a complaint, where it names nothing."""
+    parts = path.parts
+    if len(parts) == 1:
+        reference = find(context, scope, parts[0].name)
+        if reference is None:
+            complain_unknown(context, scope, parts[0])
+    else:
+        reference = resolve_dotted(context, scope, parts)
+    if reference is not None:
+        context.tables.references[path] = reference
+        context.tables.references[parts[-1]] = reference
+    return reference
+
+
+def resolve_value(context: Context, scope: Scope, path: PathExpr) -> Reference | None:
+    """Like `resolve`, for a place where a class is no answer."""
+    reference = resolve(context, scope, path)
+    if isinstance(reference, ClassReference):
+        context.complain(CLASS_AS_VALUE.at(path.span, name=reference.name))
+        return None
+    return reference
+
+
+def find(context: Context, scope: Scope, name: str) -> Reference | None:
+    """What a bare name means."""
+    world = context.world
+    reference: Reference | None = world.find_value(name) or scope.find_local(name) or scope.find_own(name)
+    if reference is not None:
+        return reference
+    if scope.place is Place.CONSTRUCTOR and scope.own_class is not None:
+        if name == "this":
+            return MemberReference(None, ())
+        if (member := world.find_member(scope.own_class, name)) is not None:
+            return MemberReference(None, (member,))
+    if (label := scope.find_label(name) or world.find_goal(name)) is not None:
+        return TokenReference(label)
+    if (variable := world.find_global(name)) is not None:
+        return GlobalReference(variable)
+    return ClassReference(name) if world.find_class(name) is not None else None
+
+
+def resolve_dotted(context: Context, scope: Scope, parts: Sequence[Identifier]) -> Reference | None:
+    """What `a.b.c` names; None, after a complaint, where it names nothing."""
+    world, (head, *rest) = context.world, parts
+    label = scope.find_label(head.name)
+    start: Reference | None
+    if label is None:
+        start = scope.find_local(head.name) or scope.find_own(head.name)
+        if start is None and (goal := world.find_goal(head.name)) is not None:
+            label = goal
+    if label is not None:
+        context.tables.references[head] = TokenReference(label)
+        start = find_token_variable(context, label, rest[0])
+        if start is None:
+            return None
+        head = rest.pop(0)
+    elif start is None and len(rest) == 1 and (enum := world.find_enum(head.name)) is not None:
+        return _qualified_value(context, enum.name, rest[0])
+    elif start is None:
+        start = find(context, scope, head.name)
+    match start:
+        case None:
+            complain_unknown(context, scope, head)
+            return None
+        case ClassReference(name=name):
+            context.tables.references[head] = start
+            context.complain(CLASS_AS_VALUE.at(head.span, name=name))
+            return None
+    context.tables.references[head] = start
+    return follow(context, scope, start, head, rest)
+
+
+def _qualified_value(context: Context, enum: str, name: Identifier) -> EnumValue | None:
+    value = context.world.find_value(name.name)
+    if value is not None and value.enum == enum:
+        return value
+    found = context.world.find_enum(enum)
+    if found is not None and not context.world.is_doubtful(name.name):
+        complaint = UNKNOWN_ENUM_VALUE.at(name.span, name=name.name, enum=enum)
+        context.complain(_suggest(complaint, name, found.values))
+    return None
+
+
+def follow(
+    context: Context, scope: Scope, start: Reference, head: Identifier, rest: list[Identifier]
+) -> Reference | None:
+    """The member `rest` of the object that `start` (written `head`) refers to; a complaint where there is none."""
+    reference = start
+    for part in rest:
+        type_ = reference_type(reference, scope.own_class)
+        if type_ is None:
+            return None
+        if type_.kind is not Kind.OBJECT:
+            what = f"of type `{type_.name}`" if not isinstance(reference, EnumValue) else "an enum value"
+            context.complain(NOT_AN_OBJECT.at(head.span.to(part.span), name=head.name, type=what, member=part.name))
+            return None
+        member = context.world.find_member(type_.base, part.name)
+        if member is None:
+            complain_unknown_member(context, type_.base, part)
+            return None
+        if isinstance(reference, MemberReference):
+            reference = MemberReference(reference.base, (*reference.members, member))
+        else:
+            assert isinstance(reference, GlobalReference | LocalReference | TokenVariable)
+            reference = MemberReference(reference, (member,))
+        context.tables.references[part] = reference
+        head = part
+    return reference
+
+
+def find_token_variable(context: Context, label: Label, name: Identifier) -> TokenVariable | None:
+    """The variable `name` of a token; a complaint where it has none."""
+    predicate = label.predicate
+    type_ = builtin_type(name.name, predicate)
+    if type_ is None:
+        type_ = next((p.type for p in predicate.parameters if p.name == name.name), None)
+    if type_ is not None:
+        variable = TokenVariable(label, name.name, type_)
+        context.tables.references[name] = variable
+        return variable
+    if not context.world.is_partial(predicate.class_name) and not context.world.is_doubtful(name.name):
+        complaint = UNKNOWN_TOKEN_VARIABLE.at(
+            name.span, notes=declared_note(predicate), predicate=predicate.full_name, name=name.name
+        )
+        if predicate.is_event and name.name in ("start", "end"):
+            fix = Fix("write `time`", (Edit(name.span, "time"),))
+            complaint = _with(complaint, "an event has one `time`, in place of `start` and `end`", (fix,))
+        else:
+            names = [parameter.name for parameter in predicate.parameters]
+            complaint = _suggest(complaint, name, [*names, *builtin_names(predicate.is_event)])
+        context.complain(complaint)
+    return None
+
+
+def declared_note(predicate: Predicate) -> tuple[Note, ...]:
+    """A note that points at the declaration of a predicate."""
+    if predicate.span is None:
+        return ()
+    return (Note(f"`{predicate.full_name}` is declared here", predicate.span),)
+
+
+def complain_unknown_member(context: Context, class_name: str, name: Identifier) -> None:
+    """Say that a class has no such member."""
+    world = context.world
+    if world.is_partial(class_name) or world.is_doubtful(name.name):
+        return
+    owner = world.find_class(class_name)
+    span = owner.span if owner is not None else None
+    notes = (Note(f"`{class_name}` is declared here", span),) if span is not None else ()
+    complaint = UNKNOWN_MEMBER.at(name.span, notes=notes, owner=class_name, name=name.name)
+    if owner is not None and not owner.is_defined:
+        complaint = _with(complaint, f"`{class_name}` is only announced so far; define it above this place", ())
+    members = [member for ancestor in world.ancestry(class_name) for member in ancestor.members]
+    context.complain(_suggest(complaint, name, members))
+
+
+def complain_unknown(context: Context, scope: Scope, name: Identifier) -> None:
+    """Say that nothing of that name is known, once per statement, unless an earlier mistake may be the reason."""
+    world, word = context.world, name.name
+    if word in context.reported or scope.is_doubtful(word) or world.is_doubtful(word):
+        return
+    context.reported.add(word)
+    if word == "this":
+        context.complain(MISPLACED_THIS.at(name.span, place=scope.place.value))
+    elif (lost := scope.lost_at(word)) is not None:
+        note = Note(f"`{word}` is declared in a block that ends before this place", lost)
+        context.complain(NAME_OF_OTHER_BLOCK.at(name.span, notes=(note,), name=word))
+    elif _is_own_member(context, scope, word):
+        fix = Fix(f"write `object.{word}`", (Edit(name.span, f"object.{word}"),))
+        help_ = f"`{word}` is a member of class `{scope.own_class}`; in a rule or predicate write `object.{word}`"
+        context.complain(_with(UNKNOWN_NAME.at(name.span, name=word), help_, (fix,)))
+    elif (below := scope.declared_below(word) or world.declared_below(word)) is not None:
+        note = Note(f"`{word}` is declared here; statements run in order", below)
+        context.complain(DECLARED_BELOW.at(name.span, notes=(note,), name=word))
+    else:
+        own = builtin_names(scope.own.predicate.is_event) if scope.own is not None else ()
+        candidates = [*scope.visible(), *own, *world.names(*_VALUE_TABLES)]
+        context.complain(_suggest(UNKNOWN_NAME.at(name.span, name=word), name, candidates))
+
+
+def _is_own_member(context: Context, scope: Scope, name: str) -> bool:
+    if scope.own_class is None or scope.place not in (Place.RULE, Place.PREDICATE):
+        return False
+    return context.world.find_member(scope.own_class, name) is not None
+
+
+def suggest_name(complaint: Diagnostic, name: Identifier, candidates: Iterable[str]) -> Diagnostic:
+    """The complaint with the nearest of the candidates as help, if one is near."""
+    return _suggest(complaint, name, candidates)
+
+
+def _suggest(complaint: Diagnostic, name: Identifier, candidates: Iterable[str]) -> Diagnostic:
+    known = nearest(name.name, candidates)
+    if known is None:
+        return complaint
+    fix = Fix(f"write `{known}`", (Edit(name.span, known),), safe=False)
+    return _with(complaint, complaint.help or f"did you mean `{known}`?", (fix,))
+
+
+def _with(complaint: Diagnostic, help_: str, fixes: tuple[Fix, ...]) -> Diagnostic:
+    return Diagnostic(
+        complaint.code, complaint.severity, complaint.span, complaint.message, complaint.notes, help_, fixes
+    )

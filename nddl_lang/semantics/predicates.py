@@ -1,0 +1,120 @@
+"""Declare predicates, and check their bodies: parameters, and constraints that hold for every token."""
+
+from nddl_lang.semantics.constraining import check_call_constraint, check_expression_constraint
+from nddl_lang.semantics.names import resolve
+from nddl_lang.semantics.natives import builtin_type
+from nddl_lang.semantics.schema import Class, Label, Predicate, TokenVariable, Variable
+from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.typenames import find_type
+from nddl_lang.semantics.values import check_value
+from nddl_lang.syntax.nodes import (
+    Assignment,
+    BrokenStatement,
+    CallConstraint,
+    Declarator,
+    ExprConstraint,
+    PredicateDecl,
+    VariableDecl,
+)
+from nddl_lang.text.diagnostic import Code, Note, Severity
+
+DUPLICATE_PREDICATE = Code("NDDL223", Severity.ERROR, "duplicate", "class `{owner}` has a predicate `{name}` already")
+DUPLICATE_PARAMETER = Code("NDDL224", Severity.ERROR, "duplicate", "`{owner}` has a parameter `{name}` already")
+BUILTIN_PARAMETER = Code("NDDL225", Severity.ERROR, "duplicate", "every token has a variable `{name}` of its own")
+FOREIGN_TARGET = Code("NDDL404", Severity.ERROR, "rule", "a predicate can restrict only the variables of its own token")
+
+
+def check_predicate(context: Context, owner: Class, node: PredicateDecl) -> None:
+    """Declare the predicate of `node` in `owner` and check its body."""
+    name = node.name.name
+    if (known := owner.predicates.get(name)) is not None:
+        notes = (Note("the first one is here", known.span),) if known.span is not None else ()
+        context.complain(DUPLICATE_PREDICATE.at(node.name.span, notes=notes, owner=owner.name, name=name))
+        return
+    parent = owner.inherited.pop(name, None)
+    parameters = list(parent.parameters) if parent is not None else []
+    own = _declare_parameters(context, owner, parent, node)
+    predicate = Predicate(
+        owner.name,
+        name,
+        (*parameters, *own.values()),
+        node.is_action or (parent is not None and parent.is_action),
+        parent is not None and parent.is_event,
+        (*(parent.nodes if parent is not None else ()), node),
+        (*(parent.declared_in if parent is not None else ()), owner.name),
+        node.name.span,
+        node.doc,
+    )
+    owner.predicates[name] = predicate
+    context.tables.declared[node.name] = predicate
+    scope = Scope(Place.PREDICATE, owner.name, Label("this", predicate, node.name.span))
+    scope.parameters = {parameter.name: parameter for parameter in parameters}
+    for declarator, parameter in own.items():
+        scope.expect(parameter.name, declarator.name.span)
+    _check_body(context, scope, node, own)
+
+
+def _declare_parameters(
+    context: Context, owner: Class, parent: Predicate | None, node: PredicateDecl
+) -> dict[Declarator, Variable]:
+    """The parameters that the body adds, in order."""
+    known = {parameter.name: parameter for parameter in parent.parameters} if parent is not None else {}
+    own: dict[Declarator, Variable] = {}
+    full_name = f"{owner.name}.{node.name.name}"
+    probe = Predicate(owner.name, "", (), False, parent is not None and parent.is_event, (), (), None)
+    for statement in node.body:
+        if not isinstance(statement, VariableDecl):
+            continue
+        type_ = find_type(context, statement.type_name)
+        for declarator in statement.declarators:
+            name = declarator.name.name
+            if builtin_type(name, probe) is not None:
+                context.complain(BUILTIN_PARAMETER.at(declarator.name.span, name=name))
+            elif (first := known.get(name)) is not None:
+                notes = (Note("the first one is here", first.span),) if first.span is not None else ()
+                complaint = DUPLICATE_PARAMETER.at(declarator.name.span, notes=notes, owner=full_name, name=name)
+                context.complain(complaint)
+            elif type_ is None:
+                context.world.put_faulty(name)
+            else:
+                parameter = Variable(
+                    name, type_, declarator.name.span, declarator.initialiser, statement, statement.doc
+                )
+                known[name] = own[declarator] = parameter
+                context.tables.declared[declarator.name] = parameter
+                context.tables.locals[declarator] = parameter
+    return own
+
+
+def _check_body(context: Context, scope: Scope, node: PredicateDecl, own: dict[Declarator, Variable]) -> None:
+    for statement in node.body:
+        match statement:
+            case VariableDecl(declarators=declarators):
+                for declarator in declarators:
+                    _check_parameter(context, scope, declarator, own.get(declarator))
+            case CallConstraint():
+                check_call_constraint(context, scope, statement)
+            case ExprConstraint():
+                check_expression_constraint(context, scope, statement)
+            case Assignment():
+                _check_assignment(context, scope, statement)
+            case BrokenStatement(span=span):
+                scope.doubt(span.text)
+
+
+def _check_parameter(context: Context, scope: Scope, declarator: Declarator, parameter: Variable | None) -> None:
+    if parameter is None:
+        return
+    if declarator.initialiser is not None:
+        check_value(context, scope, declarator.initialiser, parameter.type, parameter.name)
+    scope.parameters[parameter.name] = parameter
+
+
+def _check_assignment(context: Context, scope: Scope, node: Assignment) -> None:
+    reference = resolve(context, scope, node.target)
+    if reference is None:
+        return
+    if not isinstance(reference, TokenVariable):
+        context.complain(FOREIGN_TARGET.at(node.target.span))
+        return
+    check_value(context, scope, node.value, reference.type, node.target.span.text)

@@ -1,0 +1,110 @@
+"""Check rules: their bodies statement by statement, with the names of each block."""
+
+from collections.abc import Iterator
+
+from nddl_lang.semantics.allocation import check_allocation
+from nddl_lang.semantics.constraining import check_call_constraint, check_expression_constraint
+from nddl_lang.semantics.expressions import check_condition
+from nddl_lang.semantics.names import resolve_value
+from nddl_lang.semantics.schema import Kind, LocalReference, Rule, Variable
+from nddl_lang.semantics.scope import Context, Scope, rule_scope
+from nddl_lang.semantics.tokens import check_relation, find_predicate
+from nddl_lang.semantics.typenames import find_class, find_type
+from nddl_lang.semantics.types import phrase, plain, reference_type
+from nddl_lang.semantics.values import check_value
+from nddl_lang.syntax.nodes import (
+    BrokenStatement,
+    CallConstraint,
+    ExprConstraint,
+    Foreach,
+    IfStatement,
+    NewExpr,
+    Relation,
+    RuleDecl,
+    RuleStatement,
+    VariableDecl,
+)
+from nddl_lang.text.diagnostic import Code, Severity
+
+NOT_A_COLLECTION = Code("NDDL330", Severity.ERROR, "type", "`foreach` runs over objects; `{text}` is {found}")
+
+_Block = tuple[Iterator[RuleStatement], Scope]
+
+
+def check_rule(context: Context, node: RuleDecl) -> None:
+    """Declare the rule of `node` and check its body."""
+    owner = find_class(context, node.class_name)
+    predicate = find_predicate(context, owner, node.predicate) if owner is not None else None
+    if predicate is None:
+        return
+    context.tables.predicates[node] = predicate
+    context.world.put("rule", predicate.full_name, Rule(predicate, node))
+    # Blocks are kept on a list and not on Python's stack: `else if` may go on for long.
+    open_blocks: list[_Block] = [(iter(node.body), rule_scope(predicate, node))]
+    while open_blocks:
+        statements, scope = open_blocks[-1]
+        statement = next(statements, None)
+        if statement is None:
+            open_blocks.pop()
+            scope.leave()
+        else:
+            open_blocks += reversed(_check_statement(context, scope, statement))
+
+
+def _check_statement(context: Context, scope: Scope, statement: RuleStatement) -> list[_Block]:
+    """Check one statement; the blocks inside it, to be checked next."""
+    match statement:
+        case ExprConstraint():
+            check_expression_constraint(context, scope, statement)
+        case Relation():
+            check_relation(context, scope, statement)
+        case CallConstraint():
+            check_call_constraint(context, scope, statement)
+        case VariableDecl():
+            _check_locals(context, scope, statement)
+        case IfStatement(condition=condition, then=then, otherwise=otherwise):
+            check_condition(context, scope, condition)
+            return [(iter(block), scope.block()) for block in (then, otherwise) if block is not None]
+        case Foreach():
+            return [(iter(statement.body), _open_foreach(context, scope, statement))]
+        case BrokenStatement(span=span):
+            scope.doubt(span.text)
+    return []
+
+
+def _check_locals(context: Context, scope: Scope, node: VariableDecl) -> None:
+    type_ = find_type(context, node.type_name)
+    for declarator in node.declarators:
+        name = declarator.name.name
+        if isinstance(declarator.initialiser, NewExpr):
+            check_allocation(context, scope, declarator.initialiser)
+        if type_ is None:
+            scope.doubt(name)
+            continue
+        if declarator.initialiser is not None:
+            check_value(context, scope, declarator.initialiser, type_, name)
+        variable = Variable(name, type_, declarator.name.span, declarator.initialiser, node, node.doc)
+        scope.variables[name] = LocalReference(variable)
+        context.tables.locals[declarator] = variable
+        context.tables.declared[declarator.name] = variable
+
+
+def _open_foreach(context: Context, scope: Scope, node: Foreach) -> Scope:
+    block = scope.block()
+    reference = resolve_value(context, scope, node.collection)
+    type_ = reference_type(reference, scope.own_class) if reference is not None else None
+    name = node.variable.name
+    if type_ is None:
+        block.doubt(name)
+        return block
+    context.tables.types[node.collection] = type_
+    if type_.kind is not Kind.OBJECT:
+        text = node.collection.span.text
+        context.complain(NOT_A_COLLECTION.at(node.collection.span, text=text, found=phrase(type_)))
+        block.doubt(name)
+        return block
+    variable = Variable(name, plain(type_), node.variable.span)
+    block.variables[name] = LocalReference(variable)
+    context.tables.locals[node] = variable
+    context.tables.declared[node.variable] = variable
+    return block

@@ -1,0 +1,174 @@
+"""Check the statements of the script that act on what is declared: tokens, assignments, allocations."""
+
+from nddl_lang.semantics import domains
+from nddl_lang.semantics.allocation import check_allocation
+from nddl_lang.semantics.names import resolve
+from nddl_lang.semantics.natives import LEAST_DURATION, SELF_ACTIVATING
+from nddl_lang.semantics.schema import (
+    ClassReference,
+    Domain,
+    EnumValue,
+    GlobalReference,
+    Kind,
+    Label,
+    Reference,
+    TokenReference,
+    TokenVariable,
+    Type,
+    Values,
+)
+from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.tokens import check_instance, check_relation
+from nddl_lang.semantics.types import reference_type
+from nddl_lang.semantics.values import check_value, constant, domain_key
+from nddl_lang.syntax.nodes import (
+    Allocation,
+    Assignment,
+    Expr,
+    GoalStatement,
+    NewExpr,
+    PathExpr,
+    Relation,
+    VariableDecl,
+)
+from nddl_lang.text.diagnostic import Code, Severity
+
+DUPLICATE_OBJECT = Code("NDDL233", Severity.ERROR, "duplicate", "an object called `{name}` exists already")
+NOT_A_VARIABLE = Code("NDDL331", Severity.ERROR, "type", "`{name}` is {what}, not a variable")
+LEAVES_DOMAIN = Code("NDDL314", Severity.ERROR, "domain", "`{text}` is outside the domain of `{name}`, {domain}")
+
+_GOAL_STATES = ("ACTIVE", "MERGED")
+_REJECTABLE_STATES = (*_GOAL_STATES, "REJECTED")
+
+
+def check_goal(context: Context, node: GoalStatement) -> None:
+    """Check `goal(object.p q);`, `fact(...)` or `rejectable(...)`."""
+    scope = Scope(Place.SCRIPT)
+    for instance in node.instances:
+        label = check_instance(context, scope, instance)
+        if label is not None:
+            _note_token(context, label, node.kind)
+
+
+def check_script_relation(context: Context, node: Relation) -> None:
+    """Check a relation between tokens of the script."""
+    for label in check_relation(context, Scope(Place.SCRIPT), node):
+        if label is not None:
+            _note_token(context, label, "goal")
+
+
+def check_new(context: Context, node: Allocation) -> None:
+    """Check `new C(...);`."""
+    check_allocation(context, Scope(Place.SCRIPT), node.value)
+
+
+def check_assignment(context: Context, node: Assignment) -> None:
+    """Check `a = value;`: it fits, and leaves the variable a value."""
+    scope = Scope(Place.SCRIPT)
+    reference = resolve(context, scope, node.target)
+    if isinstance(node.value, NewExpr):
+        check_allocation(context, scope, node.value)
+        if isinstance(reference, GlobalReference):
+            _note_object(context, reference.variable.name, node)
+    type_ = target_type(context, node.target, reference)
+    if type_ is None or check_value(context, scope, node.value, type_, node.target.span.text) is None:
+        return
+    left = check_domain(context, node.target, type_, node.value)
+    key = domain_key(context, node.target)
+    if key is not None and left is not None:
+        context.world.put_base_domain(key, left)
+    if isinstance(reference, TokenVariable) and reference.name == "state":
+        note_state(context, reference.label, left)
+
+
+def target_type(context: Context, target: PathExpr, reference: Reference | None) -> Type | None:
+    """The type of the variable that `reference` denotes; a complaint where it is no variable."""
+    if reference is None:
+        return None
+    match reference:
+        case ClassReference():
+            what = "a class"
+        case TokenReference():
+            what = "a token"
+        case EnumValue():
+            what = "an enum value"
+        case _:
+            return reference_type(reference, None)
+    context.complain(NOT_A_VARIABLE.at(target.span, name=target.span.text, what=what))
+    return None
+
+
+def check_domain(context: Context, target: PathExpr, type_: Type, value: Expr) -> Domain | None:
+    """Complain where no value is left to the variable; what its base domain lies within, None where unknown."""
+    given = constant(context, value)
+    if given is None or type_.kind is Kind.OBJECT:
+        return None
+    known = known_domain(context, target, type_)
+    if known is None:
+        return given
+    left = domains.intersect(known, given, type_.kind)
+    if left is None:
+        name, text = target.span.text, value.span.text
+        context.complain(LEAVES_DOMAIN.at(value.span, text=text, name=name, domain=domains.text(known)))
+    return left
+
+
+def known_domain(context: Context, target: PathExpr, type_: Type) -> Domain | None:
+    """What the base domain of a variable of the script lies within, None where nothing is known."""
+    key = domain_key(context, target)
+    known = context.world.base_domain(key) if key is not None else None
+    if known is not None:
+        return known
+    reference = context.tables.references.get(target)
+    if isinstance(reference, TokenVariable):
+        return _declared_domain(context, reference)
+    return type_.restriction
+
+
+def note_state(context: Context, label: Label, state: Domain | None) -> None:
+    """Note that the state of a token of the script was given."""
+    is_known = isinstance(state, Values) and len(state.items) == 1
+    context.world.put_token_state(label.name, str(state.items[0]) if is_known and isinstance(state, Values) else None)
+
+
+def _note_token(context: Context, label: Label, kind: str) -> None:
+    world = context.world
+    is_active = any(owner.name in SELF_ACTIVATING for owner in world.ancestry(label.predicate.class_name))
+    world.put_token_state(label.name, "ACTIVE" if is_active else "INACTIVE")
+    world.put_base_domain(f"{label.name}.state", Values(_REJECTABLE_STATES if kind == "rejectable" else _GOAL_STATES))
+
+
+def _note_object(context: Context, name: str, node: Assignment) -> None:
+    first = context.world.look("object", name)
+    if first is not None:
+        context.complain(DUPLICATE_OBJECT.at(node.span, name=name))
+    else:
+        context.world.put("object", name, node.target.span)
+
+
+def _declared_domain(context: Context, variable: TokenVariable) -> Domain | None:
+    """What the declaration of a token's variable leaves of its type, as far as it is written out there."""
+    domain = LEAST_DURATION if variable.name == "duration" and not variable.label.predicate.is_event else None
+    known: Domain | None = domain or variable.type.restriction
+    for written in _written_values(variable):
+        given = constant(context, written)
+        if given is not None and known is not None:
+            known = domains.intersect(known, given, variable.type.kind) or known
+        else:
+            known = known or given
+    return known
+
+
+def _written_values(variable: TokenVariable) -> list[Expr]:
+    values: list[Expr] = []
+    for node in variable.label.predicate.nodes:
+        for statement in node.body:
+            if isinstance(statement, VariableDecl):
+                values += [
+                    declarator.initialiser
+                    for declarator in statement.declarators
+                    if declarator.name.name == variable.name and declarator.initialiser is not None
+                ]
+            elif isinstance(statement, Assignment) and statement.target.span.text == variable.name:
+                values.append(statement.value)
+    return values

@@ -1,0 +1,221 @@
+"""Check what creates tokens and relates them: instances such as `object.p q`, and relations."""
+
+from nddl_lang.semantics.arguments import WRONG_COUNT
+from nddl_lang.semantics.expressions import type_of
+from nddl_lang.semantics.names import MISPLACED_THIS, complain_unknown, find, resolve_dotted, suggest_name
+from nddl_lang.semantics.relations import REFUSED_RELATIONS, RELATIONS, RelationRow
+from nddl_lang.semantics.schema import (
+    Class,
+    ClassReference,
+    Kind,
+    Label,
+    Predicate,
+    Reference,
+    Target,
+    TokenReference,
+    TokenVariable,
+)
+from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.types import object_type, phrase, reference_type
+from nddl_lang.semantics.values import constant
+from nddl_lang.syntax.nodes import Identifier, Instance, IntervalExpr, PathExpr, Relation
+from nddl_lang.text.diagnostic import Code, Edit, Fix, Note, Severity
+
+UNKNOWN_PREDICATE = Code("NDDL216", Severity.ERROR, "name", "class `{owner}` has no predicate `{name}`")
+UNKNOWN_TOKEN = Code("NDDL217", Severity.ERROR, "name", "there is no token `{name}` here")
+UNKNOWN_RELATION = Code("NDDL218", Severity.ERROR, "name", "`{name}` names no relation")
+MISSING_ORIGIN = Code("NDDL219", Severity.ERROR, "name", "outside a rule a relation needs a token on its left")
+MISSING_OBJECT = Code("NDDL231", Severity.ERROR, "name", "outside a rule a token needs its object: `object.{name}`")
+THIS_AS_OBJECT = Code("NDDL232", Severity.ERROR, "name", "`this` is the token, not its object")
+NO_OBJECT_PREFIX = Code("NDDL328", Severity.ERROR, "type", "`{name}` is {type}, not an object")
+DUPLICATE_TOKEN = Code("NDDL229", Severity.ERROR, "duplicate", "`{name}` is declared twice")
+NO_OBJECT_YET = Code("NDDL405", Severity.ERROR, "state", "no object of class `{name}` exists yet to hold this token")
+WHOLE_BOUNDS = Code("NDDL329", Severity.ERROR, "type", "the bounds of a relation are whole numbers; `{text}` is not")
+
+
+def check_relation(context: Context, scope: Scope, node: Relation) -> list[Label | None]:
+    """Check a relation; the labels of the tokens that it creates, in order."""
+    row = _find_relation(context, node.relation)
+    origin = _find_origin(context, scope, node)
+    if origin is not None:
+        context.tables.origins[node] = origin
+    if row is not None and node.bounds:
+        _check_bounds(context, scope, node, row)
+    if node.existing is not None:
+        _check_existing(context, scope, node, node.existing)
+    return [check_instance(context, scope, instance) for instance in node.created]
+
+
+def check_instance(context: Context, scope: Scope, instance: Instance) -> Label | None:
+    """Check what `object.p q` creates and let its name be known; its label, None where it has none."""
+    target = _find_target(context, scope, instance.path)
+    if target is None:
+        if instance.name is not None:
+            _doubt(context, scope, instance.name)
+        return None
+    predicate, source = target
+    label = None
+    if instance.name is not None:
+        label = Label(instance.name.name, predicate, instance.name.span)
+        context.tables.declared[instance.name] = label
+    if scope.place is Place.SCRIPT:
+        if not context.world.has_objects(predicate.class_name) and not context.world.is_doubtful("new"):
+            context.complain(NO_OBJECT_YET.at(instance.span, name=predicate.class_name))
+        if label is not None and instance.name is not None and not _declare_goal(context, label, instance.name):
+            label = None
+    elif label is not None:
+        scope.labels[label.name] = label
+    context.tables.targets[instance] = Target(predicate, source, label)
+    return label
+
+
+def find_token(context: Context, scope: Scope, name: Identifier) -> Label | None:
+    """The token of that name; a complaint where there is none."""
+    label = scope.find_label(name.name) or context.world.find_goal(name.name)
+    if label is not None:
+        context.tables.references[name] = TokenReference(label)
+        return label
+    if name.name == "this":
+        context.complain(MISPLACED_THIS.at(name.span, place=scope.place.value))
+    elif scope.lost_at(name.name) is not None or scope.declared_below(name.name) is not None:
+        complain_unknown(context, scope, name)
+    elif not scope.is_doubtful(name.name) and not context.world.is_doubtful(name.name):
+        complaint = UNKNOWN_TOKEN.at(name.span, name=name.name)
+        if scope.own_class is not None and context.world.find_predicate(scope.own_class, name.name) is not None:
+            text = f"({name.name})"
+            fix = Fix(f"write `{text}`", (Edit(name.span, text),))
+            help_ = f"a name in parentheses creates a token: `{text}`"
+            complaint = UNKNOWN_TOKEN.at(name.span, help=help_, fixes=(fix,), name=name.name)
+            context.complain(complaint)
+        else:
+            context.complain(suggest_name(complaint, name, [*scope.visible_labels(), *context.world.names("goal")]))
+    return None
+
+
+def find_predicate(context: Context, owner: Class, name: Identifier) -> Predicate | None:
+    """The predicate of a class; a complaint where it has none of that name."""
+    found = context.world.find_predicate(owner.name, name.name)
+    if found is None and not context.world.is_partial(owner.name) and not context.world.is_doubtful(name.name):
+        notes = (Note(f"`{owner.name}` is declared here", owner.span),) if owner.span is not None else ()
+        complaint = UNKNOWN_PREDICATE.at(name.span, notes=notes, owner=owner.name, name=name.name)
+        context.complain(suggest_name(complaint, name, [*owner.predicates, *owner.inherited]))
+    return found
+
+
+def _find_relation(context: Context, name: Identifier) -> RelationRow | None:
+    row = RELATIONS.get(name.name)
+    if row is None:
+        meant = REFUSED_RELATIONS.get(name.name)
+        fixes = (Fix(f"write `{meant}`", (Edit(name.span, meant),)),) if meant is not None else ()
+        context.complain(UNKNOWN_RELATION.at(name.span, fixes=fixes, name=name.name))
+    return row
+
+
+def _find_origin(context: Context, scope: Scope, node: Relation) -> Label | None:
+    if node.origin is not None:
+        return find_token(context, scope, node.origin)
+    if scope.own is None:
+        context.complain(MISSING_ORIGIN.at(node.relation.span))
+    return scope.own
+
+
+def _check_bounds(context: Context, scope: Scope, node: Relation, row: RelationRow) -> None:
+    expected, found = len(row.distances), len(node.bounds)
+    if found > expected:
+        count = "no bounds" if expected == 0 else "1 bound" if expected == 1 else f"at most {expected} bounds"
+        span = node.bounds[expected].span
+        context.complain(WRONG_COUNT.at(span, name=row.name, expected=count, found=found))
+    for bound in node.bounds:
+        _check_bound(context, scope, bound)
+
+
+def _check_bound(context: Context, scope: Scope, bound: IntervalExpr) -> None:
+    type_ = type_of(context, scope, bound)
+    if type_ is None:
+        return
+    if type_.kind is not Kind.INT or constant(context, bound) is None:
+        context.complain(WHOLE_BOUNDS.at(bound.span, text=bound.span.text))
+
+
+def _check_existing(context: Context, scope: Scope, node: Relation, path: PathExpr) -> None:
+    if len(path.parts) > 1:
+        name = Identifier(path.span.text, path.span)
+        context.complain(UNKNOWN_TOKEN.at(path.span, help="a token is known by a single name", name=name.name))
+        return
+    label = find_token(context, scope, path.parts[0])
+    if label is not None:
+        context.tables.existing[node] = label
+        context.tables.references[path] = TokenReference(label)
+
+
+def _find_target(context: Context, scope: Scope, path: PathExpr) -> tuple[Predicate, Reference | str] | None:
+    """The predicate that `a.b.p` names, and where the object comes from."""
+    *prefix, name = path.parts
+    if not prefix:
+        return _find_own(context, scope, name)
+    head = prefix[0]
+    world = context.world
+    if len(prefix) == 1 and (owner := world.find_class(head.name)) is not None:
+        context.tables.references[head] = ClassReference(owner.name)
+        context.tables.type_names[head] = object_type(owner.name)
+        predicate = find_predicate(context, owner, name)
+        return None if predicate is None else (predicate, "any")
+    if head.name == "this" and scope.own is not None and len(prefix) == 1:
+        fix = Fix("write `object`", (Edit(head.span, "object"),))
+        context.complain(THIS_AS_OBJECT.at(head.span, help="write `object`, or leave it out", fixes=(fix,)))
+        return None
+    reference = find(context, scope, head.name) if len(prefix) == 1 else resolve_dotted(context, scope, prefix)
+    if reference is None:
+        if len(prefix) == 1:
+            complain_unknown(context, scope, head)
+        return None
+    context.tables.references[prefix[-1]] = reference
+    type_ = reference_type(reference, scope.own_class)
+    if type_ is None or type_.kind is not Kind.OBJECT or isinstance(reference, TokenReference):
+        found = "a token" if isinstance(reference, TokenReference) else phrase(type_) if type_ else "a class"
+        span = head.span.to(prefix[-1].span)
+        context.complain(NO_OBJECT_PREFIX.at(span, name=span.text, type=found))
+        return None
+    owner = world.find_class(type_.base)
+    predicate = find_predicate(context, owner, name) if owner is not None else None
+    if predicate is None:
+        return None
+    is_own = isinstance(reference, TokenVariable) and reference.label is scope.own and reference.name == "object"
+    return predicate, "own" if is_own else reference
+
+
+def _find_own(context: Context, scope: Scope, name: Identifier) -> tuple[Predicate, Reference | str] | None:
+    owner = context.world.find_class(scope.own_class) if scope.own_class is not None else None
+    if owner is None:
+        if context.world.find_class(name.name) is None:
+            context.complain(MISSING_OBJECT.at(name.span, name=name.name))
+        else:
+            context.complain(MISSING_OBJECT.at(name.span, name="predicate"))
+        return None
+    predicate = context.world.find_predicate(owner.name, name.name)
+    if predicate is None and scope.find_label(name.name) is not None:
+        fix = Fix(f"write `{name.name}` without parentheses", (Edit(name.span, name.name),), safe=False)
+        help_ = f"`{name.name}` is a token: without parentheses the relation leads to it"
+        complaint = UNKNOWN_PREDICATE.at(name.span, help=help_, fixes=(fix,), owner=owner.name, name=name.name)
+        context.complain(complaint)
+        return None
+    if predicate is None:
+        predicate = find_predicate(context, owner, name)
+    return None if predicate is None else (predicate, "own")
+
+
+def _declare_goal(context: Context, label: Label, name: Identifier) -> bool:
+    first = context.world.find_goal(label.name) or context.world.find_global(label.name)
+    if first is not None:
+        notes = (Note("the first declaration is here", first.span),) if first.span is not None else ()
+        context.complain(DUPLICATE_TOKEN.at(name.span, notes=notes, name=label.name))
+        return False
+    context.world.put("goal", label.name, label)
+    return True
+
+
+def _doubt(context: Context, scope: Scope, name: Identifier) -> None:
+    if scope.place is Place.SCRIPT:
+        context.world.put_faulty(name.name)
+    else:
+        scope.doubt(name.name)

@@ -1,0 +1,77 @@
+"""Tie the names of types and classes to what they name."""
+
+from collections.abc import Iterable
+
+from nddl_lang.semantics.names import suggest_name
+from nddl_lang.semantics.schema import Class, Type
+from nddl_lang.semantics.scope import Context
+from nddl_lang.semantics.types import BASIC_TYPES, enum_type, object_type
+from nddl_lang.syntax.nodes import Identifier
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
+
+UNKNOWN_TYPE = Code("NDDL212", Severity.ERROR, "name", "there is no type `{name}`")
+UNKNOWN_CLASS = Code("NDDL213", Severity.ERROR, "name", "there is no class `{name}`")
+UNDEFINED_CLASS = Code("NDDL214", Severity.ERROR, "name", "class `{name}` is announced, but not defined so far")
+
+_TYPE_TABLES = ("typedef", "enum", "class")
+
+
+def find_type(context: Context, name: Identifier) -> Type | None:
+    """The type of that name; a complaint where there is none."""
+    type_ = known_type(context, name.name)
+    if type_ is None:
+        complain_missing(context, name, UNKNOWN_TYPE, [*BASIC_TYPES, *context.world.names(*_TYPE_TABLES)])
+        return None
+    context.tables.type_names[name] = type_
+    return type_
+
+
+def known_type(context: Context, name: str) -> Type | None:
+    """The type of that name: a basic one, a typedef, an enum or a class."""
+    world = context.world
+    if (basic := BASIC_TYPES.get(name)) is not None:
+        return basic
+    if (typedef := world.find_typedef(name)) is not None:
+        return typedef.type
+    if world.find_enum(name) is not None:
+        return enum_type(name)
+    return object_type(name) if world.find_class(name) is not None else None
+
+
+def find_class(context: Context, name: Identifier) -> Class | None:
+    """The class of that name; a complaint where there is none."""
+    found = context.world.find_class(name.name)
+    if found is None:
+        complain_missing(context, name, UNKNOWN_CLASS, context.world.names("class"))
+        return None
+    context.tables.type_names[name] = object_type(name.name)
+    return found
+
+
+def find_defined_class(context: Context, name: Identifier) -> Class | None:
+    """The class of that name; a complaint where there is none, or where it is only announced."""
+    found = find_class(context, name)
+    if found is not None and not found.is_defined:
+        if not context.world.is_doubtful(name.name):
+            notes = (Note("it is announced here", found.span),) if found.span is not None else ()
+            below = context.world.declared_below(name.name)
+            if below is not None:
+                notes = (*notes, Note("it is defined here; statements run in order", below))
+            context.complain(UNDEFINED_CLASS.at(name.span, notes=notes, name=name.name))
+        return None
+    return found
+
+
+def complain_missing(context: Context, name: Identifier, code: Code, candidates: Iterable[str]) -> None:
+    """Say that there is no such type or class, unless an earlier mistake may be the reason."""
+    word = name.name
+    if word in context.reported or context.world.is_doubtful(word):
+        return
+    context.reported.add(word)
+    complaint: Diagnostic = code.at(name.span, name=word)
+    if (below := context.world.declared_below(word)) is not None:
+        note = Note(f"`{word}` is declared here; statements run in order", below)
+        context.complain(code.at(name.span, notes=(note,), name=word))
+        return
+
+    context.complain(suggest_name(complaint, name, candidates))

@@ -1,0 +1,168 @@
+"""Check that a value fits the variable that it is given to, and read the values that a text fixes."""
+
+from nddl_lang.semantics import domains
+from nddl_lang.semantics.expressions import is_infinite, number, type_of
+from nddl_lang.semantics.schema import (
+    Domain,
+    EnumValue,
+    GlobalReference,
+    Interval,
+    Kind,
+    MemberReference,
+    TokenVariable,
+    Type,
+    Values,
+)
+from nddl_lang.semantics.scope import Context, Scope
+from nddl_lang.semantics.types import fits, phrase
+from nddl_lang.syntax.nodes import (
+    BoolLiteral,
+    Expr,
+    FloatLiteral,
+    IntervalExpr,
+    IntLiteral,
+    NewExpr,
+    PathExpr,
+    SetExpr,
+    StringLiteral,
+    UnaryExpr,
+)
+from nddl_lang.text.diagnostic import Code, Edit, Fix, Severity
+
+DOES_NOT_FIT = Code("NDDL304", Severity.ERROR, "type", "`{text}` is {found}; `{name}` is {wanted}")
+OUTSIDE_TYPE = Code("NDDL313", Severity.ERROR, "domain", "`{text}` lies outside `{type}`, which is {domain}")
+
+
+def check_value(context: Context, scope: Scope, expression: Expr, target: Type, name: str) -> Type | None:
+    """Complain where `expression` cannot be the value of variable `name`; its type, None after a complaint."""
+    type_ = type_of(context, scope, expression)
+    if type_ is None:
+        return None
+    if not _fits(context, expression, type_, target):
+        _complain_misfit(context, expression, type_, target, name)
+        return None
+    check_restriction(context, expression, target)
+    return type_
+
+
+def check_restriction(context: Context, expression: Expr, target: Type) -> None:
+    """Complain about values outside the domain that a typedef (or native class) allows."""
+    allowed = target.restriction
+    value = constant(context, expression) if allowed is not None else None
+    if allowed is None or value is None:
+        return
+    if isinstance(expression, SetExpr):
+        for item in expression.items:
+            check_restriction(context, item, target)
+    elif domains.intersect(value, allowed, target.kind) is None:
+        context.complain(
+            OUTSIDE_TYPE.at(expression.span, text=expression.span.text, type=target.name, domain=domains.text(allowed))
+        )
+
+
+def constant(context: Context, expression: Expr) -> Domain | None:
+    """The values that a literal, a domain or a variable with a known base domain stands for, None where unknown."""
+    match expression:
+        case IntLiteral(value=value) | FloatLiteral(value=value):
+            return Values((value,))
+        case BoolLiteral(value=truth):
+            return Values((truth,))
+        case StringLiteral(value=characters):
+            return Values((characters,))
+        case UnaryExpr():
+            negative = number(expression)
+            return None if negative is None else Values((negative,))
+        case IntervalExpr(lower=lower, upper=upper):
+            bounds = number(lower), number(upper)
+            return None if bounds[0] is None or bounds[1] is None else Interval(bounds[0], bounds[1])
+        case SetExpr(items=items):
+            return _set_constant(context, items)
+        case PathExpr():
+            return _path_constant(context, expression)
+        case _:
+            return None
+
+
+def _set_constant(context: Context, items: tuple[Expr, ...]) -> Domain | None:
+    values: list[float | int | bool | str] = []
+    for item in items:
+        domain = constant(context, item)
+        if not isinstance(domain, Values):
+            return None
+        values += domain.items
+    return Values(tuple(values))
+
+
+def _path_constant(context: Context, path: PathExpr) -> Domain | None:
+    reference = context.tables.references.get(path)
+    if isinstance(reference, EnumValue):
+        return Values((reference.value,))
+    key = domain_key(context, path)
+    return context.world.base_domain(key) if key is not None else None
+
+
+def domain_key(context: Context, path: PathExpr) -> str | None:
+    """The name under which the world keeps the base domain of a variable of the script, None for any other."""
+    match context.tables.references.get(path):
+        case GlobalReference(variable=variable):
+            return variable.name
+        case TokenVariable(label=label, name=name) if context.world.find_goal(label.name) is label:
+            return f"{label.name}.{name}"
+        case MemberReference(base=GlobalReference(variable=variable), members=members):
+            return ".".join((variable.name, *(member.name for member in members)))
+        case _:
+            return None
+
+
+def _fits(context: Context, expression: Expr, found: Type, target: Type) -> bool:
+    if isinstance(expression, NewExpr):
+        return target.kind is Kind.OBJECT and context.world.is_subclass(found.base, target.base)
+    if fits(found, target, context.world.is_subclass):
+        return True
+    if target.kind is not Kind.INT or found.kind is not Kind.FLOAT:
+        return False
+    match expression:
+        case IntervalExpr(lower=lower, upper=upper):
+            return all(isinstance(bound, IntLiteral) or is_infinite(bound) for bound in (lower, upper))
+        case _:
+            return is_infinite(expression)
+
+
+def _complain_misfit(context: Context, expression: Expr, found: Type, target: Type, name: str) -> None:
+    """Point at the first part of the value that does not fit, or at all of it."""
+    part, part_type = expression, found
+    parts: tuple[Expr, ...] = ()
+    match expression:
+        case SetExpr(items=items):
+            parts = items
+        case IntervalExpr(lower=lower, upper=upper):
+            parts = (lower, upper)
+    for candidate in parts:
+        type_ = context.tables.types.get(candidate)
+        if type_ is not None and not _fits(context, candidate, type_, target):
+            part, part_type = candidate, type_
+            break
+    context.complain(
+        DOES_NOT_FIT.at(
+            part.span,
+            fixes=_mend(part, target),
+            text=part.span.text,
+            found=phrase(part_type),
+            name=name,
+            wanted=phrase(target),
+        )
+    )
+
+
+def _mend(value: Expr, target: Type) -> tuple[Fix, ...]:
+    text: str | None = None
+    match value:
+        case FloatLiteral(value=real) if target.kind is Kind.INT and real.is_integer():
+            text = str(int(real))
+        case IntLiteral(value=0 | 1 as whole) if target.kind is Kind.BOOL:
+            text = "true" if whole else "false"
+        case BoolLiteral(value=truth) if target.kind is Kind.INT:
+            text = str(int(truth))
+        case StringLiteral(value=characters) if target.kind is Kind.ENUM and characters.isidentifier():
+            text = characters
+    return () if text is None else (Fix(f"write `{text}`", (Edit(value.span, text),)),)

@@ -1,0 +1,247 @@
+"""Remember what the statements read so far have declared, and note what the present one looks at and leaves behind.
+
+A model is a script: a statement means what it means in the world that the statements above it made. Everything a
+statement can see of that world is a fact, looked up by table and name. What it looked up (with the answers) and what
+it put are recorded, so that the statement need not be analysed again while it would get the same answers.
+"""
+
+from collections.abc import Iterable, Iterator
+from typing import cast
+
+from nddl_lang.semantics.natives import NATIVE_CLASSES, NATIVE_ENUM, NATIVE_ENUM_VALUES
+from nddl_lang.semantics.schema import (
+    Class,
+    Domain,
+    Enumeration,
+    EnumValue,
+    Label,
+    Predicate,
+    Rule,
+    Schema,
+    Typedef,
+    Variable,
+)
+from nddl_lang.text.source import Span
+
+Fact = tuple[str, str]
+
+_DECLARATIONS = frozenset({"class", "enum", "value", "typedef", "global", "goal"})
+_ALL_NAMES: Fact = ("names", "*")
+_EVERYTHING = "*"
+
+
+class World:
+    """The facts of a script up to one of its statements; `schema` holds the declarations among them."""
+
+    def __init__(self) -> None:
+        self.schema = Schema()
+        self.reads: dict[Fact, object] = {}
+        self.writes: dict[Fact, object] = {}
+        self._facts: dict[Fact, object] = {_ALL_NAMES: 0}
+        self._names = 0
+        self.replay(
+            {
+                **{("class", name): native for name, native in NATIVE_CLASSES.items()},
+                ("enum", NATIVE_ENUM.name): NATIVE_ENUM,
+                **{("value", name): value for name, value in NATIVE_ENUM_VALUES.items()},
+            }
+        )
+
+    # ---- the record ----
+
+    def begin(self) -> None:
+        """Start the record of the next statement."""
+        self.reads, self.writes = {}, {}
+        self._facts[_ALL_NAMES] = self._names
+
+    def answers(self, reads: dict[Fact, object]) -> bool:
+        """Whether a statement that got these answers would get the same ones now."""
+        facts = self._facts
+        facts[_ALL_NAMES] = self._names
+        for fact, answer in reads.items():
+            current = facts.get(fact)
+            if current is not answer and current != answer:
+                return False
+        return True
+
+    def replay(self, writes: dict[Fact, object]) -> None:
+        """Leave behind what a statement left behind when it was analysed."""
+        for (table, name), value in writes.items():
+            self.put(table, name, value)
+
+    def suppose(self, table: str, name: str, value: object) -> None:
+        """State a fact about the script as a whole, which no statement puts."""
+        self._facts[table, name] = value
+
+    def look(self, table: str, name: str) -> object:
+        """The value of a fact, None where nothing has put it."""
+        fact = (table, name)
+        value = self._facts.get(fact)
+        if fact not in self.reads and fact not in self.writes:
+            self.reads[fact] = value
+        return value
+
+    def put(self, table: str, name: str, value: object) -> None:
+        """Put a fact; a declaration enters the schema."""
+        self._facts[table, name] = value
+        self.writes[table, name] = value
+        match value:
+            case Class():
+                self.schema.classes[name] = value
+            case Variable():
+                self.schema.globals[name] = value
+            case EnumValue():
+                self.schema.enum_values[name] = value
+            case Enumeration():
+                self.schema.enums[name] = value
+            case Typedef():
+                self.schema.typedefs[name] = value
+            case Label():
+                self.schema.goals[name] = value
+            case Rule():
+                self.schema.rules.append(value)
+        if table in _DECLARATIONS:
+            self._names = hash((self._names, table, name))
+
+    # ---- declarations ----
+
+    def find_class(self, name: str) -> Class | None:
+        """The class of that name, native or declared above."""
+        return cast(Class | None, self.look("class", name))
+
+    def find_enum(self, name: str) -> Enumeration | None:
+        """The enum of that name."""
+        return cast(Enumeration | None, self.look("enum", name))
+
+    def find_value(self, name: str) -> EnumValue | None:
+        """The enum value of that name."""
+        return cast(EnumValue | None, self.look("value", name))
+
+    def find_typedef(self, name: str) -> Typedef | None:
+        """The typedef of that name."""
+        return cast(Typedef | None, self.look("typedef", name))
+
+    def find_global(self, name: str) -> Variable | None:
+        """The global variable of that name."""
+        return cast(Variable | None, self.look("global", name))
+
+    def find_goal(self, name: str) -> Label | None:
+        """The token of the script with that name."""
+        return cast(Label | None, self.look("goal", name))
+
+    def ancestry(self, name: str) -> Iterator[Class]:
+        """Class `name`, its base, and so on up to the root."""
+        seen: set[str] = set()
+        current: str | None = name
+        while current is not None and current not in seen:
+            seen.add(current)
+            found = self.find_class(current)
+            if found is None:
+                return
+            yield found
+            current = found.base
+
+    def is_subclass(self, name: str, ancestor: str) -> bool:
+        """Whether class `name` is `ancestor` or extends it."""
+        return any(owner.name == ancestor for owner in self.ancestry(name))
+
+    def find_member(self, class_name: str, member: str) -> Variable | None:
+        """Member `member` of a class, inherited ones included."""
+        for owner in self.ancestry(class_name):
+            if (found := owner.members.get(member)) is not None:
+                return found
+        return None
+
+    def find_predicate(self, class_name: str, predicate: str) -> Predicate | None:
+        """Predicate `predicate` as a class has it, declared or inherited."""
+        owner = self.find_class(class_name)
+        if owner is None:
+            return None
+        return owner.predicates.get(predicate) or owner.inherited.get(predicate)
+
+    def names(self, *tables: str) -> Iterator[str]:
+        """All names declared above in these tables, native ones included."""
+        self.look(*_ALL_NAMES)
+        for table in tables:
+            yield from self._names_of(table)
+
+    def _names_of(self, table: str) -> Iterable[str]:
+        match table:
+            case "class":
+                return self.schema.classes
+            case "enum":
+                return self.schema.enums
+            case "value":
+                return self.schema.enum_values
+            case "typedef":
+                return self.schema.typedefs
+            case "global":
+                return self.schema.globals
+            case _:
+                return self.schema.goals
+
+    # ---- what earlier mistakes make uncertain ----
+
+    def is_doubtful(self, name: str) -> bool:
+        """Whether an earlier mistake may be why `name` is unknown: text not understood, or a faulty declaration."""
+        return (
+            self.look("doubt", name) is not None
+            or self.look("doubt", _EVERYTHING) is not None
+            or self.look("faulty", name) is not None
+        )
+
+    def doubt(self, name: str = _EVERYTHING) -> None:
+        """Let `name`, or every name, be one that text not understood may declare."""
+        self.suppose("doubt", name, True)
+
+    def put_faulty(self, name: str) -> None:
+        """Note that the declaration of `name` was complained about."""
+        self.put("faulty", name, True)
+
+    def is_partial(self, class_name: str) -> bool:
+        """Whether some of what the class declares or inherits was not understood."""
+        return any(self.look("partial", owner.name) is not None for owner in self.ancestry(class_name))
+
+    def put_partial(self, class_name: str) -> None:
+        """Note that some of the class was not understood."""
+        self.put("partial", class_name, True)
+
+    def declared_below(self, name: str) -> Span | None:
+        """Where the script declares `name` further down."""
+        return cast(Span | None, self.look("below", name))
+
+    # ---- what the script has done ----
+
+    def closed_at(self, class_name: str) -> Span | None:
+        """The statement that closed the class, or all classes."""
+        return cast(Span | None, self.look("closed", _EVERYTHING) or self.look("closed", class_name))
+
+    def put_closed(self, class_name: str | None, span: Span) -> None:
+        """Note that no further objects of the class (None: of any class) may join."""
+        self.put("closed", class_name or _EVERYTHING, span)
+
+    def has_objects(self, class_name: str) -> bool:
+        """Whether an object of the class may exist."""
+        return self.look("objects", class_name) is not None
+
+    def put_object(self, class_name: str) -> None:
+        """Note that an object of the class may exist now."""
+        for owner in list(self.ancestry(class_name)):
+            if self.look("objects", owner.name) is None:
+                self.put("objects", owner.name, True)
+
+    def base_domain(self, variable: str) -> Domain | None:
+        """A superset of the base domain of `a`, `g.x`, None where nothing is known."""
+        return cast(Domain | None, self.look("domain", variable))
+
+    def put_base_domain(self, variable: str, domain: Domain | None) -> None:
+        """Note what the base domain of a variable lies within."""
+        self.put("domain", variable, domain)
+
+    def token_state(self, goal: str) -> str | None:
+        """The state of a token of the script, None where it is not known for certain."""
+        return cast(str | None, self.look("state", goal))
+
+    def put_token_state(self, goal: str, state: str | None) -> None:
+        """Note the state of a token of the script."""
+        self.put("state", goal, state)
