@@ -5,8 +5,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
+from nddl_lang.semantics.allocation import settle
 from nddl_lang.semantics.schema import Schema, SideTables
-from nddl_lang.semantics.scope import Context, names_in
+from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
 from nddl_lang.semantics.world import Fact, World
 from nddl_lang.syntax.dialect import Dialect
@@ -62,6 +63,7 @@ class _Unit:
     writes: dict[Fact, object]
     tables: SideTables
     complaints: tuple[Diagnostic, ...]
+    deferred: tuple[Deferred, ...]
 
 
 class Analyser:
@@ -91,13 +93,15 @@ class Analyser:
                 unit = _check(world, statement, loaded.dialect)
             units[statement] = unit
         self._units = units
+        complaints = [
+            (statement, (*unit.complaints, *_settle(world, unit, loaded))) for statement, unit in units.items()
+        ]
         tables = SideTables()
         for unit in units.values():
             for name in _TABLES:
                 if found := getattr(unit.tables, name):
                     getattr(tables, name).update(found)
-        diagnostics = _in_order(loaded, [(statement, unit.complaints) for statement, unit in units.items()])
-        return Analysis(loaded, statements, world.schema, tables, tuple(diagnostics))
+        return Analysis(loaded, statements, world.schema, tables, tuple(_in_order(loaded, complaints)))
 
 
 def analyse(loaded: LoadedModules) -> Analysis:
@@ -126,7 +130,18 @@ def _check(world: World, statement: Statement, dialect: Dialect) -> _Unit:
     world.begin()
     context = Context(world, dialect)
     check_statement(context, statement)
-    return _Unit(world.reads, world.writes, context.tables, tuple(context.complaints))
+    return _Unit(world.reads, world.writes, context.tables, tuple(context.complaints), tuple(context.deferred))
+
+
+def _settle(world: World, unit: _Unit, loaded: LoadedModules) -> tuple[Diagnostic, ...]:
+    """What had to wait until the whole script was read."""
+    if not unit.deferred:
+        return ()
+    world.begin()
+    context = Context(world, loaded.dialect, unit.tables)
+    for deferred in unit.deferred:
+        settle(context, deferred)
+    return tuple(context.complaints)
 
 
 def _foresee(world: World, loaded: LoadedModules) -> None:

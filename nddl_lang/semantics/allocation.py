@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.schema import Chosen, Class, Constructor, Kind, Type
-from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.scope import Context, Deferred, Place, Scope
 from nddl_lang.semantics.typenames import find_defined_class
 from nddl_lang.semantics.types import fits
 from nddl_lang.semantics.values import check_restriction
@@ -25,18 +25,14 @@ CLASS_IS_CLOSED = Code("NDDL403", Severity.ERROR, "state", "no object of class `
 
 def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | None:
     """Check `new C(...)` and choose its constructor; the class, None after a complaint."""
-    owner = find_defined_class(context, new.class_name)
     types = argument_types(context, scope, new.arguments)
-    if owner is None:
+    known = context.world.find_class(new.class_name.name)
+    if scope.place is not Place.SCRIPT and (known is None or not known.is_defined):
+        context.deferred.append(Deferred(new, tuple(types)))
         return None
-    constructor = choose(context, owner, new.arguments, types, new.span)
-    if constructor is None:
+    owner = find_defined_class(context, new.class_name)
+    if owner is None or not _choose_for(context, owner, new, types):
         return None
-    context.tables.constructors[new] = Chosen(constructor)
-    lacking = _lacking_base(context.world, constructor)
-    if lacking is not None:
-        notes = constructor_notes(lacking)
-        context.complain(NO_BASE_CONSTRUCTOR.at(new.span, notes=notes, name=owner.name, base=lacking.name))
     if scope.place is Place.SCRIPT:
         closed = context.world.closed_at(owner.name)
         if closed is not None:
@@ -46,6 +42,26 @@ def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | No
         for name in _made_with(context.world, owner.name):
             context.world.put_object(name)
     return owner
+
+
+def settle(context: Context, deferred: Deferred) -> None:
+    """Choose the constructor of a `new` whose class was not defined above it, now that the script is read."""
+    context.tables.constructors.pop(deferred.new, None)
+    owner = find_defined_class(context, deferred.new.class_name)
+    if owner is not None:
+        _choose_for(context, owner, deferred.new, deferred.types)
+
+
+def _choose_for(context: Context, owner: Class, new: NewExpr, types: Sequence[Type | None]) -> bool:
+    constructor = choose(context, owner, new.arguments, types, new.span)
+    if constructor is None:
+        return False
+    context.tables.constructors[new] = Chosen(constructor)
+    lacking = _lacking_base(context.world, constructor)
+    if lacking is not None:
+        notes = constructor_notes(lacking)
+        context.complain(NO_BASE_CONSTRUCTOR.at(new.span, notes=notes, name=owner.name, base=lacking.name))
+    return True
 
 
 def argument_types(context: Context, scope: Scope, arguments: Sequence[Expr]) -> list[Type | None]:

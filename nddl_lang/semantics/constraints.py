@@ -276,5 +276,4 @@ FORMER_CONSTRAINTS: dict[str, str | None] = {
     "addMulEq": None,
     "addleq": None,
     "addlt": None,
-    "lazyAllDiff": "allDiff",
 }

@@ -110,7 +110,7 @@ def check_constructor(context: Context, owner: Class, node: ConstructorDecl, sco
 
 def _check_super(context: Context, scope: Scope, base: Class | None, node: SuperCall) -> None:
     types = argument_types(context, scope, node.arguments)
-    if base is None:
+    if base is None or (scope.own_class is not None and context.world.is_partial(scope.own_class)):
         return
     constructor = choose(context, base, node.arguments, types, node.span)
     if constructor is not None:

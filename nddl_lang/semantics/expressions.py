@@ -91,6 +91,15 @@ def check_condition(context: Context, scope: Scope, expression: Expr) -> None:
         context.complain(complaint)
 
 
+def check_guard(context: Context, scope: Scope, expression: Expr) -> None:
+    """Like `check_condition`; the name of an object variable holds as a guard once the variable is decided."""
+    type_ = type_of(context, scope, expression)
+    is_object = isinstance(expression, PathExpr) and type_ is not None and type_.kind is Kind.OBJECT
+    if type_ is not None and type_.kind is not Kind.BOOL and not is_object:
+        complaint = NOT_A_CONDITION.at(expression.span, text=expression.span.text, found=phrase(type_))
+        context.complain(complaint)
+
+
 def _simple_type(context: Context, scope: Scope, expression: Expr) -> Type | None:
     type_: Type | None
     if isinstance(expression, PathExpr):

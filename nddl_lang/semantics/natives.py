@@ -12,7 +12,7 @@ from nddl_lang.semantics.schema import (
     Type,
     Variable,
 )
-from nddl_lang.semantics.types import FLOAT, INT, STATE, STRING, TOKEN_STATES, object_type
+from nddl_lang.semantics.types import FLOAT, INT, STATE, TOKEN_STATES, object_type
 
 ROOT_CLASS = "Object"
 TIMELINE = "Timeline"
@@ -40,12 +40,6 @@ def builtin_names(is_event: bool) -> tuple[str, ...]:
     return ("state", "object", *(name for name in (_EVENT_TYPES if is_event else _TOKEN_TYPES) if name != "state"))
 
 
-def _members(*names: str) -> dict[str, Variable]:
-    members = {name: Variable(name, FLOAT, None) for name in names}
-    members.update((name, Variable(name, STRING, None)) for name in ("profileType", "detectorType"))
-    return members
-
-
 def _constructor(class_name: str, *names: str) -> Constructor:
     return Constructor(class_name, tuple(Variable(name, FLOAT, None) for name in names), None, None)
 
@@ -61,7 +55,7 @@ def _resource(
     return Class(
         name,
         ROOT_CLASS,
-        members=_members(*members),
+        members={member: Variable(member, FLOAT, None) for member in members},
         constructors=[_constructor(name, *parameters) for parameters in constructors],
         predicates={predicate.name: predicate for predicate in predicates},
         is_native=True,

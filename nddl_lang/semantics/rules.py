@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from nddl_lang.semantics.allocation import check_allocation
 from nddl_lang.semantics.constraining import check_call_constraint, check_expression_constraint
-from nddl_lang.semantics.expressions import check_condition
+from nddl_lang.semantics.expressions import check_guard
 from nddl_lang.semantics.names import resolve_value
 from nddl_lang.semantics.schema import Kind, LocalReference, Rule, Variable
 from nddl_lang.semantics.scope import Context, Scope, rule_scope
@@ -63,7 +63,7 @@ def _check_statement(context: Context, scope: Scope, statement: RuleStatement) -
         case VariableDecl():
             _check_locals(context, scope, statement)
         case IfStatement(condition=condition, then=then, otherwise=otherwise):
-            check_condition(context, scope, condition)
+            check_guard(context, scope, condition)
             return [(iter(block), scope.block()) for block in (then, otherwise) if block is not None]
         case Foreach():
             return [(iter(statement.body), _open_foreach(context, scope, statement))]

@@ -11,11 +11,12 @@ from nddl_lang.semantics.schema import (
     Predicate,
     SideTables,
     TokenVariable,
+    Type,
     Variable,
 )
 from nddl_lang.semantics.world import World
 from nddl_lang.syntax.dialect import Dialect
-from nddl_lang.syntax.nodes import Relation, RuleDecl, RuleStatement, VariableDecl
+from nddl_lang.syntax.nodes import NewExpr, Relation, RuleDecl, RuleStatement, VariableDecl
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 
@@ -31,10 +32,19 @@ class Context:
     tables: SideTables = field(default_factory=SideTables)
     complaints: list[Diagnostic] = field(default_factory=list)
     reported: set[str] = field(default_factory=set)  # unknown names, each complained about once per statement
+    deferred: list["Deferred"] = field(default_factory=list)
 
     def complain(self, diagnostic: Diagnostic) -> None:
         """Add a complaint."""
         self.complaints.append(diagnostic)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Deferred:
+    """A `new` inside a constructor or rule, of a class that is defined further down; it is run after that."""
+
+    new: NewExpr
+    types: tuple[Type | None, ...]
 
 
 class Place(Enum):
