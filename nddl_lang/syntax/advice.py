@@ -30,6 +30,8 @@ def advise(kinds: list[str], texts: list[str], first: int, index: int) -> str | 
         return f"write `{texts[first]}(object.predicate name);`"
     if kinds[first] == "typedef" and kind in ("IDENT", ";") and "[" not in kinds[first:index]:
         return "a typedef needs a domain: `typedef int [0 10] Name;`"
+    if kinds[first] == "enum" and kind in ("[", "INT", "FLOAT"):
+        return "an enum lists names; for numbers write `typedef int [0 5] Name;`"
     if kinds[first] == "enum" and kind == "}":
         return "an enum needs at least one value"
     if kind == "}" and before == "SET":

@@ -4,7 +4,7 @@
 DEPTH_LIMIT = 200
 
 # After one of these a `{` opens a block of statements, not a set of values.
-_BEFORE_BLOCK = frozenset(("IDENT", ")", "else", ";", "{", "}"))
+_BEFORE_BLOCK = frozenset(("IDENT", ")", "else", ";", "{", "}", ":"))
 _OPENERS = {")": "(", "]": "["}
 
 

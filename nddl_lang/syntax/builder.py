@@ -3,6 +3,7 @@
 A maker takes the builder and the parts of one grammar alternative: the index of a lexeme, a node, or a list of them.
 """
 
+from collections.abc import Iterable
 from typing import Any
 
 from nddl_lang.syntax.codes import (
@@ -40,17 +41,38 @@ from nddl_lang.text.source import Span
 class Builder:
     """The piece whose nodes are made, and values that may stand in few places only and wait for one of those."""
 
-    __slots__ = ("anchor", "ends", "is_strict", "methods", "piece", "starts", "texts", "waiting")
+    __slots__ = ("anchor", "ends", "is_strict", "kinds", "methods", "piece", "starts", "texts", "waiting")
 
     def __init__(self, piece: Piece, is_strict: bool) -> None:
         self.piece = piece
         self.is_strict = is_strict
         self.anchor = piece.anchor
+        self.kinds = piece.kinds
         self.starts = piece.starts
         self.ends = piece.ends
         self.texts = piece.texts
         self.waiting: dict[Expr, None] = {}
         self.methods: dict[CallExpr, tuple[PathExpr, Identifier]] = {}
+
+    def own(self) -> None:
+        """From now on the lexemes may be changed: the piece keeps what was written."""
+        self.kinds = self.kinds.copy()
+        self.starts = self.starts.copy()
+        self.ends = self.ends.copy()
+        self.texts = self.texts.copy()
+
+    def remove(self, first: int, last: int) -> None:
+        """Take out the lexemes from `first` to before `last`."""
+        for column in (self.kinds, self.texts, self.starts, self.ends):
+            del column[first:last]
+
+    def insert(self, index: int, kind: str) -> None:
+        """Put a lexeme that was not written before the lexeme `index`."""
+        at = self.ends[index - 1] if index else 0
+        self.kinds.insert(index, kind)
+        self.texts.insert(index, "")
+        self.starts.insert(index, at)
+        self.ends.insert(index, at)
 
     def report(self, code: Code, span: Span, **values: Any) -> None:
         """Add a complaint about `span`."""
@@ -82,14 +104,15 @@ def is_plain(value: Expr) -> bool:
             return False
 
 
-def plain_values(b: Builder, values: list[Expr], where: str) -> None:
-    """Report each of `values` that nddl3 would not accept as a plain value."""
+def plain_values(b: Builder, values: Iterable[Expr], code: Code, **words: str) -> None:
+    """Report by `code` each of `values` that is no plain value, where nddl3 wants one."""
     if b.is_strict:
         for value in values:
             if not is_plain(value) and type(value) is not NewExpr:
-                help_text = "declare a variable, state what it equals, and write the variable here"
+                # The wider complaint covers that of the scanner.
                 b.piece.forget(GLUED_SIGN, value.span)
-                b.report(EXPRESSION_VALUE, value.span, where=where, help=help_text)
+                help_text = "declare a variable, state what it equals, and write the variable here"
+                b.report(code, value.span, **words, help=help_text)
 
 
 # ---- lists ----
@@ -129,14 +152,26 @@ def next_name(b: Builder, v: list[Any]) -> list[Identifier]:
     return v[0]  # type: ignore[no-any-return]
 
 
-def first_part(b: Builder, v: list[Any]) -> PathExpr:
+def bare_path(b: Builder, v: list[Any]) -> PathExpr:
     name = b.name(v[0])
     return PathExpr((name,), name.span)
 
 
-def next_part(b: Builder, v: list[Any]) -> PathExpr:
-    owner: PathExpr = v[0]
-    return PathExpr((*owner.parts, b.name(v[2])), b.span(owner, v[2]))
+def dotted_path(b: Builder, v: list[Any]) -> PathExpr:
+    return _path(b, v[0])
+
+
+def first_part(b: Builder, v: list[Any]) -> list[int]:
+    return v
+
+
+def next_part(b: Builder, v: list[Any]) -> list[int]:
+    v[0].append(v[2])
+    return v[0]  # type: ignore[no-any-return]
+
+
+def _path(b: Builder, parts: list[int]) -> PathExpr:
+    return PathExpr(tuple(map(b.name, parts)), b.span(parts[0], parts[-1]))
 
 
 # ---- literals and domains ----
@@ -176,7 +211,8 @@ def set_literal(b: Builder, v: list[Any]) -> SetExpr:
     for item in v[1]:
         if isinstance(item, IntervalExpr | SetExpr):
             b.report(MISPLACED_VALUE, item.span, what=describe(item), where="in a set", help="write single values")
-    plain_values(b, [item for item in v[1] if not isinstance(item, IntervalExpr | SetExpr)], "an item of a set")
+    items = [item for item in v[1] if not isinstance(item, IntervalExpr | SetExpr)]
+    plain_values(b, items, EXPRESSION_VALUE, where="an item of a set")
     return SetExpr(tuple(v[1]), b.span(v[0], v[2]))
 
 
@@ -231,7 +267,7 @@ def parenthesised(b: Builder, v: list[Any]) -> Expr:
 
 def new(b: Builder, v: list[Any]) -> NewExpr:
     arguments = v[3] if len(v) == 5 else []
-    plain_values(b, arguments, "an argument")
+    plain_values(b, arguments, EXPRESSION_VALUE, where="an argument")
     value = NewExpr(b.name(v[1]), tuple(arguments), b.span(v[0], v[-1]))
     b.waiting[value] = None
     return value
@@ -246,20 +282,18 @@ def call(b: Builder, v: list[Any]) -> CallExpr:
 
 
 def method_call(b: Builder, v: list[Any]) -> CallExpr:
-    path: PathExpr = v[0]
-    arguments = v[2] if len(v) == 4 else []
-    owner = path.parts[:-1]
-    target = PathExpr(owner, owner[0].span.to(owner[-1].span))
-    value = CallExpr(path.parts[-1], tuple(arguments), b.span(path, v[-1]))
-    b.methods[value] = (target, path.parts[-1])
-    b.waiting[value] = None
-    return value
+    parts: list[int] = v[0]
+    return _method_call(b, parts[:-1], parts[-1], v[2] if len(v) == 4 else [], v[-1])
 
 
 def close_call(b: Builder, v: list[Any]) -> CallExpr:
-    method = b.name(v[2])
-    value = CallExpr(method, (), b.span(v[0], v[-1]))
-    b.methods[value] = (v[0], method)
+    return _method_call(b, v[0], v[2], [], v[-1])
+
+
+def _method_call(b: Builder, owner: list[int], name: int, arguments: list[Expr], last: int) -> CallExpr:
+    method = b.name(name)
+    value = CallExpr(method, tuple(arguments), b.span(owner[0], last))
+    b.methods[value] = (_path(b, owner), method)
     b.waiting[value] = None
     return value
 

@@ -44,6 +44,7 @@ BYTE_ORDER_MARK = Code("NDDL157", Severity.ERROR, "syntax", "nddl3 knows no byte
 INCLUDE_BLANK = Code("NDDL158", Severity.ERROR, "syntax", "in nddl3 a blank must follow `#include`")
 EMPTY_IN_PREDICATE = Code("NDDL159", Severity.ERROR, "syntax", "nddl3 allows no empty statement in a predicate")
 VARIABLE_BOUND = Code("NDDL160", Severity.ERROR, "syntax", "the bounds of an interval are plain numbers in nddl3")
+EXPRESSION_ARGUMENT = Code("NDDL161", Severity.ERROR, "name", "the arguments of `{name}` are plain values in nddl3")
 
 # ---- earlier dialects ----
 

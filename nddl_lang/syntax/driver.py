@@ -4,11 +4,18 @@ from collections.abc import Callable
 from typing import Any
 
 from nddl_lang.syntax import builder, statements
+from nddl_lang.syntax.brackets import DEPTH_LIMIT
 from nddl_lang.syntax.builder import Builder, report_waiting
+from nddl_lang.syntax.codes import TOO_DEEP
+from nddl_lang.syntax.former import replace_former
 from nddl_lang.syntax.piece import Piece
-from nddl_lang.syntax.placement import CLASS, Place, place_statements
+from nddl_lang.syntax.placement import CLASS, Place, break_statement, head_of, place_statements
 from nddl_lang.syntax.recovery import Recovery
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS, RULES
+from nddl_lang.syntax.walk import is_deeper
+
+# Each of these makes a tree at most a few levels deeper; other lexemes only make it wider.
+_DEEPENING = ("||", "&&", "==", "!=", "<", "<=", ">", ">=", "+", "-", "*", "/", "!", "if", "else", "(", "{")
 
 Maker = Callable[[Builder, list[Any]], Any]
 
@@ -27,16 +34,33 @@ _MAKERS: list[tuple[str, int, Maker | None]] = [(head, size, _maker(name)) for h
 def parse_piece(piece: Piece, place: Place, is_strict: bool) -> None:
     """Fill in the statements of `piece`, which stands in `place`, and what is wrong with them."""
     b = Builder(piece, is_strict)
+    if piece.has_former_words:
+        replace_former(b)
     piece.statements = place_statements(b, _run(b), place)
     if place is CLASS and is_strict:
         statements.report_member_initialisers(b, piece.statements)
     if b.waiting:
         report_waiting(b)
+    if len(piece.kinds) > DEPTH_LIMIT and _may_be_deep(piece) and is_deeper(piece.statements, DEPTH_LIMIT):
+        _give_up(b)
+
+
+def _may_be_deep(piece: Piece) -> bool:
+    """Whether there is enough in the piece that one thing could be nested so deep."""
+    return sum(piece.kinds.count(kind) for kind in _DEEPENING) + 10 > DEPTH_LIMIT
+
+
+def _give_up(b: Builder) -> None:
+    """Nobody should have to walk a tree this deep: the piece is broken as a whole."""
+    piece = b.piece
+    span = piece.span(piece.starts[0], piece.ends[-1])
+    piece.statements = (break_statement(b, span),)
+    b.report(TOO_DEEP, head_of(span), limit=DEPTH_LIMIT)
 
 
 def _run(b: Builder) -> list[Any]:
     """The statements in the lexemes of `b`. Every step shifts one, reduces, or mends; so it ends."""
-    kinds = [*b.piece.kinds, END]
+    kinds = [*b.kinds, END]
     states = [0]
     values: list[Any] = []
     actions, gotos, makers = ACTIONS, GOTOS, _MAKERS
@@ -48,7 +72,8 @@ def _run(b: Builder) -> list[Any]:
         action = row.get(kind)
         if action is None:
             if recovery is None:
-                recovery = Recovery(b, kinds)
+                recovery = Recovery(b)
+                kinds = b.kinds
             index = recovery.recover(states, values, index)
             kind = kinds[index]
             row = actions[states[-1]]

@@ -41,14 +41,14 @@ def accepts(states: list[int], kinds: list[str]) -> bool:
 
 def expected_kinds(states: list[int]) -> set[str]:
     """All kinds of lexeme that could come next."""
-    return {kind for kind in ACTIONS[states[-1]] if accepts(states, [kind])}
+    return {kind for kind in ACTIONS[states[-1]] if kind != "BROKEN" and accepts(states, [kind])}
 
 
 def describe_expected(kinds: set[str]) -> str:
     """`kinds` in words: `a name, `,` or `;``."""
     words: list[str] = []
     rest = set(kinds)
-    if "statement" in rest or {"IDENT", "class", "enum"} <= rest:
+    if {"IDENT", "class", "enum"} <= rest:
         return "`}`" + " or a statement" if "}" in rest else "a statement"
     if {"IDENT", "INT", "[", "("} <= rest:
         words.append("a value")

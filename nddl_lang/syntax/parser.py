@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.driver import parse_piece
-from nddl_lang.syntax.former import replace_former
 from nddl_lang.syntax.nodes import BrokenStatement, Module, Statement
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.syntax.placement import CLASS, TOP, Place
@@ -59,8 +58,6 @@ def understand(piece: Piece, dialect: Dialect, place: Place = TOP) -> None:
         piece.broken.append((start, end))
         piece.statements = (BrokenStatement(piece.span(start, end)),)
     elif piece.kinds:
-        if piece.has_former_words:
-            replace_former(piece)
         parse_piece(piece, place, dialect is Dialect.NDDL3)
     if len(piece.diagnostics) > 1:
         piece.diagnostics.sort(key=lambda diagnostic: diagnostic.span.start)

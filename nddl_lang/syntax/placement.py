@@ -153,9 +153,11 @@ def _misplaced(b: Builder, statement: Any, place: Place) -> BrokenStatement:
             at = between.start + sign
             fixes = (Fix("write `==`", (Edit(Span(b.anchor, at, at + 1), "=="),)),)
     elif isinstance(statement, CallConstraint | ExprConstraint) and place is CLASS:
-        help_text = "put it into a predicate or a rule"
+        help_text = "put it into a predicate or a rule; a constructor needs a body: `{ }`"
     elif isinstance(statement, CallConstraint | ExprConstraint) and place is CONSTRUCTOR:
         help_text = "a constructor gives members their values: write `member = value;`"
+    elif isinstance(statement, Relation):
+        help_text = "put it into a rule: `Class::predicate { ... }`"
     elif isinstance(statement, VariableDecl) and place is CONSTRUCTOR:
         help_text = "declare it as a member of the class"
     b.report(MISPLACED, head_of(span), what=_NAMES[type(statement)], where=place.where, help=help_text, fixes=fixes)

@@ -24,6 +24,7 @@ from nddl_lang.syntax.codes import (
     UNEXPECTED_CHARACTER,
 )
 from nddl_lang.syntax.expectation import accepts, describe_expected, expected_kinds
+from nddl_lang.syntax.former import put_in_parentheses
 from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.placement import break_statement
 from nddl_lang.syntax.skipping import end_of_statement, misaligned_brace
@@ -44,12 +45,11 @@ _LEXICAL = (UNEXPECTED_CHARACTER, UNCLOSED_STRING, MALFORMED_NUMBER, FORMER_DIRE
 class Recovery:
     """Mends the lexemes of one piece; works on copies, so that the piece keeps what was written."""
 
-    def __init__(self, b: Builder, kinds: list[str]) -> None:
+    def __init__(self, b: Builder) -> None:
+        b.own()
+        b.kinds.append(END)
         self._b = b
-        self._kinds = kinds
-        b.starts = b.starts.copy()
-        b.ends = b.ends.copy()
-        b.texts = b.texts.copy()
+        self._kinds = b.kinds
         self._known = [diagnostic.span.start for diagnostic in b.piece.diagnostics if diagnostic.code in _LEXICAL]
         self._is_quiet = False
         self._said_unclosed = b.piece.is_cut_short
@@ -63,6 +63,10 @@ class Recovery:
         self._is_quiet = self._was_complained_about(first, index)
         if self._insert(states, values, index) or self._reread(states, index) or self._leave_out(states, values, index):
             return index
+        if not self._is_quiet and put_in_parentheses(self._b, first, index):
+            del states[depth + 1 :]
+            del values[depth:]
+            return first
         return self._give_up(states, values, depth, first, index)
 
     # ---- small mends ----
@@ -75,11 +79,11 @@ class Recovery:
             following.remove(END)
             if not following and accepts(states, ["}"]):
                 self._report_unclosed(open_brace)
-                self._put_in(index, "}")
+                self._b.insert(index, "}")
                 return True
         if index > 0 and self._may_begin_statement(index) and accepts(states, [";", *following]):
             self._report_missing(index, ";", "after this statement")
-            self._put_in(index, ";")
+            self._b.insert(index, ";")
             return True
         for kind, opens in _OPENERS.items():
             opener = self._opener(values)
@@ -88,12 +92,12 @@ class Recovery:
             note = Note(f"this `{self._b.texts[opener]}` is open", self._b.at(opener))
             if accepts(states, [kind, *following]):
                 self._report_missing(index, kind, "here", (note,))
-                self._put_in(index, kind)
+                self._b.insert(index, kind)
                 return True
             if self._may_begin_statement(index) and accepts(states, [kind, ";", *following]):
                 self._report_missing(index, f"{kind};", "here", (note,))
-                self._put_in(index, ";")
-                self._put_in(index, kind)
+                self._b.insert(index, ";")
+                self._b.insert(index, kind)
                 return True
         return False
 
@@ -106,6 +110,11 @@ class Recovery:
             fix = Fix("write `==`", (Edit(b.at(index), "=="),))
             self._report(EQUALITY_SIGN, index, help="write `==`", fixes=(fix,))
             kinds[index] = b.texts[index] = "=="
+            return True
+        if kinds[index] == "==" and accepts(states, ["=", *following]):
+            fix = Fix("write `=`", (Edit(b.at(index), "="),))
+            self._report(EXPECTED, index, expected="`=`", found="`==`", help="write `=`", fixes=(fix,))
+            kinds[index] = b.texts[index] = "="
             return True
         if text in RESERVED and kinds[index] != "IDENT" and accepts(states, ["IDENT", *following]):
             self._report(RESERVED_WORD, index, text=text, help="choose another name")
@@ -123,7 +132,7 @@ class Recovery:
             return True
         if kinds[index] in _PUNCTUATION and accepts(states, kinds[index + 1 : index + 3]):
             self._report_superfluous(index)
-            del kinds[index], b.texts[index], b.starts[index], b.ends[index]
+            b.remove(index, index + 1)
             return True
         return False
 
@@ -190,14 +199,6 @@ class Recovery:
         b.report(EXPECTED, span, expected=expected, found=found, help=help_text)
 
     # ---- where things are ----
-
-    def _put_in(self, index: int, kind: str) -> None:
-        b = self._b
-        at = b.ends[index - 1]
-        self._kinds.insert(index, kind)
-        b.texts.insert(index, "")
-        b.starts.insert(index, at)
-        b.ends.insert(index, at)
 
     def _opener(self, values: list[Any]) -> int | None:
         """The lexeme that opened the innermost bracket."""

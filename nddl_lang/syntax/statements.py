@@ -5,6 +5,8 @@ from typing import Any
 from nddl_lang.syntax.builder import Builder, plain_values
 from nddl_lang.syntax.codes import (
     CALL_INITIALISER,
+    EXPRESSION_ARGUMENT,
+    EXPRESSION_VALUE,
     IN_ASSIGNMENT,
     MEMBER_INITIALISER,
     RELATION_BOUNDS,
@@ -13,6 +15,7 @@ from nddl_lang.syntax.codes import (
 from nddl_lang.syntax.nodes import (
     Allocation,
     Assignment,
+    BrokenStatement,
     CallConstraint,
     CallExpr,
     ClassDecl,
@@ -56,7 +59,7 @@ def _value(b: Builder, value: Expr, where: str) -> Expr:
     if type(value) is NewExpr:
         b.waiting.pop(value, None)
     elif b.is_strict:
-        plain_values(b, [value], where)
+        plain_values(b, [value], EXPRESSION_VALUE, where=where)
     return value
 
 
@@ -65,6 +68,10 @@ def _value(b: Builder, value: Expr, where: str) -> Expr:
 
 def empty(b: Builder, v: list[Any]) -> EmptyStatement:
     return EmptyStatement(b.at(v[0]))
+
+
+def broken(b: Builder, v: list[Any]) -> BrokenStatement:
+    return BrokenStatement(b.at(v[0]))
 
 
 def block(b: Builder, v: list[Any]) -> Block:
@@ -184,7 +191,7 @@ def constructor(b: Builder, v: list[Any]) -> ConstructorDecl:
 
 def super_call(b: Builder, v: list[Any]) -> SuperCall:
     arguments = v[2] if len(v) == 5 else []
-    plain_values(b, arguments, "an argument")
+    plain_values(b, arguments, EXPRESSION_VALUE, where="an argument")
     return SuperCall(tuple(arguments), b.span(v[0], v[-1]))
 
 
@@ -207,12 +214,14 @@ def constraint(b: Builder, v: list[Any]) -> Allocation | MethodCall | CallConstr
     span = b.span(value, v[-1])
     if type(value) is CallExpr:
         method = b.methods.get(value)
-        if message is None or method is None:
-            b.waiting.pop(value, None)
-            plain_values(b, list(value.arguments), "an argument")
         if method is None:
+            b.waiting.pop(value, None)
+            plain_values(b, value.arguments, EXPRESSION_ARGUMENT, name=value.function.name)
             return CallConstraint(value.function, value.arguments, message, span)
-        return MethodCall(*method, value.arguments, span)
+        if message is None:
+            b.waiting.pop(value, None)
+            plain_values(b, value.arguments, EXPRESSION_VALUE, where="an argument")
+            return MethodCall(*method, value.arguments, span)
     if type(value) is NewExpr and message is None:
         b.waiting.pop(value, None)
         return Allocation(value, span)
