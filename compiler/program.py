@@ -145,7 +145,7 @@ class Post:
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """Bind `target` to the mission's value of the sampled parameter `parameter`."""
+    """Bind `target` to the mission's value of the sampled parameter `parameter`; that decides it, as `specify` does."""
 
     target: Operand
     parameter: str

@@ -57,6 +57,8 @@ def difference(op: str, left: Expr, right: Expr, message: str | None, span: Span
     gap = -found.offset
     match op:
         case "==":
+            if gap < 0:
+                later, earlier, gap = earlier, later, -gap
             bounds = (gap, gap)
         case "<=":
             bounds = (-INFINITY, gap)
