@@ -115,6 +115,10 @@ def plain_values(b: Builder, values: Iterable[Expr], code: Code, **words: str) -
                 b.report(code, value.span, **words, help=help_text)
 
 
+def pass_on(b: Builder, v: list[Any]) -> Any:
+    return v[0]
+
+
 # ---- lists ----
 
 

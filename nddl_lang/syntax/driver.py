@@ -5,7 +5,7 @@ from typing import Any
 
 from nddl_lang.syntax import builder, statements
 from nddl_lang.syntax.brackets import DEPTH_LIMIT
-from nddl_lang.syntax.builder import Builder, report_waiting
+from nddl_lang.syntax.builder import Builder, pass_on, report_waiting
 from nddl_lang.syntax.codes import TOO_DEEP
 from nddl_lang.syntax.former import replace_former
 from nddl_lang.syntax.piece import Piece
@@ -20,15 +20,17 @@ _DEEPENING = ("||", "&&", "==", "!=", "<", "<=", ">", ">=", "+", "-", "*", "/", 
 Maker = Callable[[Builder, list[Any]], Any]
 
 
-def _maker(name: str | None) -> Maker | None:
+def _maker(name: str | None) -> Maker:
     """The function that makes the node called `name` in the grammar."""
     if name is None:
-        return None
+        return pass_on
     maker: Maker = getattr(statements, name, None) or getattr(builder, name)
     return maker
 
 
-_MAKERS: list[tuple[str, int, Maker | None]] = [(head, size, _maker(name)) for head, size, name in RULES]
+_MAKERS: list[tuple[str, int, Maker]] = [(head, size, _maker(name)) for head, size, name in RULES]
+# The actions that only give a part another name.
+_PASSED_ON: dict[int | None, str] = {-number: rule[0] for number, rule in enumerate(RULES) if number and not rule[2]}
 
 
 def parse_piece(piece: Piece, place: Place, is_strict: bool) -> None:
@@ -63,40 +65,42 @@ def _run(b: Builder) -> list[Any]:
     kinds = [*b.kinds, END]
     states = [0]
     values: list[Any] = []
-    actions, gotos, makers = ACTIONS, GOTOS, _MAKERS
+    actions, gotos, makers, passed_on = ACTIONS, GOTOS, _MAKERS, _PASSED_ON
     recovery: Recovery | None = None
     index = 0
     kind = kinds[0]
-    row = actions[0]
+    action = actions[0].get(kind)
     while True:
-        action = row.get(kind)
         if action is None:
             if recovery is None:
                 recovery = Recovery(b)
                 kinds = b.kinds
             index = recovery.recover(states, values, index)
             kind = kinds[index]
-            row = actions[states[-1]]
+            action = actions[states[-1]].get(kind)
         elif action > 0:
             states.append(action)
             values.append(index)
             index += 1
             kind = kinds[index]
-            row = actions[action]
+            action = actions[action].get(kind)
         elif action < 0:
+            head: str | None
             head, size, make = makers[-action]
-            if make is None:
-                del states[-1]
-            elif size:
+            if size:
                 parts = values[-size:]
                 del values[-size:]
                 del states[-size:]
                 values.append(make(b, parts))
             else:
                 values.append(make(b, []))
-            state = gotos[states[-1]][head]
+            goto = gotos[states[-1]]
+            # An operand climbs through the levels of the expression grammar without touching the stacks.
+            while head is not None:
+                state = goto[head]
+                action = actions[state].get(kind)
+                head = passed_on.get(action)
             states.append(state)
-            row = actions[state]
         else:
             result: list[Any] = values[0]
             return result
