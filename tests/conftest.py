@@ -9,6 +9,7 @@ from hypothesis import settings
 from runtime.build_form import build_form, interpreting_is_asked, load_interpreted
 from freshness import unfit_binaries
 
+COMPILED_IS_PROMISED = os.environ.get("NDDLC_REQUIRE_COMPILED", "") not in ("", "0") and not interpreting_is_asked()
 # A binary that is older than its source is never tested; the source is, uncompiled.
 STALE = [] if interpreting_is_asked() else unfit_binaries(Path(__file__).resolve().parent.parent)
 if STALE:
@@ -22,15 +23,11 @@ settings.load_profile("nddlc")
 
 def pytest_report_header() -> str:
     """Say which form of the engine is tested."""
-    reason = f", as {len(STALE)} binaries are older than their sources (`make build`)" if STALE else ""
+    reason = f", as {STALE[0].name} is older than its source (`make build`)" if STALE else ""
     return f"engine: {build_form()}{reason}"
 
 
 def pytest_sessionstart() -> None:
     """Refuse to test another form than the one that is promised."""
-    if (
-        os.environ.get("NDDLC_REQUIRE_COMPILED")
-        and not os.environ.get("NDDLC_INTERPRETED")
-        and build_form() != "compiled"
-    ):
+    if COMPILED_IS_PROMISED and build_form() != "compiled":
         pytest.exit("NDDLC_REQUIRE_COMPILED is set, and the engine is not compiled", returncode=3)
