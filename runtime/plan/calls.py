@@ -1,0 +1,214 @@
+"""Carry out the method calls of the script: transactions on tokens, variables, objects and classes."""
+
+from collections.abc import Callable
+
+from compiler.program import OBJECT, STATE, Call, Program, TokenVariable
+from nddl_lang.text.source import Span
+from runtime.plan import lifecycle, retracting, timelines
+from runtime.plan.codes import (
+    ACTIVE,
+    FLAG_NATIVE,
+    FLAG_REJECTABLE,
+    INACTIVE,
+    NONE,
+    STATE_NAMES,
+    SYMBOL_MERGED,
+    SYMBOL_REJECTED,
+)
+from runtime.plan.faults import (
+    CLOSED_ALREADY,
+    NOT_ONE_OBJECT,
+    NOT_REJECTABLE,
+    OTHER_PREDICATE,
+    OUTSIDE_DOMAIN,
+    SEVERAL_VALUES,
+    WRONG_OBJECT,
+    WRONG_STATE,
+    ScriptError,
+)
+from runtime.plan.flatten import Code
+from runtime.plan.objects import Objects
+from runtime.plan.operands import operand
+from runtime.plan.plan import Plan
+from runtime.plan.prototypes import Prototypes
+from runtime.plan.texts import base_text
+
+Action = Callable[[], None]
+
+
+class Calls:
+    """The methods of the script."""
+
+    def __init__(
+        self,
+        plan: Plan,
+        program: Program,
+        prototypes: Prototypes,
+        code: Code,
+        objects: Objects,
+        labels: dict[int, str],
+        scope: int,
+    ) -> None:
+        self.plan = plan
+        self.program = program
+        self.prototypes = prototypes
+        self.code = code
+        self.objects = objects
+        self.labels = labels
+        self.scope = scope
+
+    def prepare(self, call: Call) -> Action:
+        """What a call does when its turn comes."""
+        span = self.code.span(call.span)
+        if call.token is not None:
+            return self.of_token(call, call.token, span)
+        if call.variable is not None:
+            kind, value = self.code.operand(call.variable)
+            arguments = [self.code.operand(each) for each in call.arguments]
+            tokens = [
+                each.token for each in call.arguments if isinstance(each, TokenVariable) and each.variable == STATE
+            ]
+            return lambda: self.of_variable(call, kind, value, arguments, tokens, span)
+        return lambda: self.of_class(call)
+
+    def token(self, slot: int) -> int:
+        """The token in a slot of the script."""
+        rows = self.plan.rows
+        return rows.cells[rows.scope_frame[self.scope] + rows.scope_slots[self.scope] + slot]
+
+    def name(self, t: int) -> str:
+        """What a token is called in messages."""
+        return self.labels.get(t, self.program.predicates[self.plan.rows.predicate[t]].name)
+
+    # ---- tokens ----
+
+    def of_token(self, call: Call, slot: int, span: int) -> Action:
+        """A call on a token."""
+        match call.method:
+            case "activate":
+                return lambda: self.activate(self.token(slot), call.span, span)
+            case "merge":
+                other = call.arguments[0]
+                assert isinstance(other, TokenVariable)
+                return lambda: self.merge(self.token(slot), self.token(other.token), call.span, span)
+            case "reject":
+                return lambda: self.reject(self.token(slot), call.span, span)
+            case _:
+                assert call.method == "cancel", f"no method {call.method} of tokens"
+                return lambda: self.cancel(self.token(slot), call.span)
+
+    def check_state(self, t: int, wanted: int, symbol: int, action: str, span: Span) -> None:
+        """Only a token in the right state can change it."""
+        status = self.plan.rows.status[t]
+        if status != wanted:
+            state = STATE_NAMES[status].lower()
+            raise ScriptError(WRONG_STATE.at(span, name=self.name(t), state=state, action=action))
+        if symbol >= 0 and not self.plan.engine.contains(self.plan.rows.var0[t] + STATE, symbol):
+            raise ScriptError(WRONG_STATE.at(span, name=self.name(t), state="so constrained", action=action))
+
+    def activate(self, t: int, span: Span, number: int) -> None:
+        """Activate; once more is no mistake."""
+        if self.plan.rows.status[t] != ACTIVE:
+            self.check_state(t, INACTIVE, NONE, "activated", span)
+            lifecycle.activate(self.plan, t, number)
+
+    def merge(self, t: int, other: int, span: Span, number: int) -> None:
+        """Merge into an active token of the same predicate."""
+        rows = self.plan.rows
+        self.check_state(t, INACTIVE, SYMBOL_MERGED, "merged", span)
+        self.check_state(other, ACTIVE, NONE, "merged into", span)
+        if rows.predicate[t] != rows.predicate[other]:
+            names = [self.program.predicates[rows.predicate[each]].name for each in (t, other)]
+            fault = OTHER_PREDICATE.at(
+                span, name=self.name(t), other=self.name(other), predicate=names[0], others=names[1]
+            )
+            raise ScriptError(fault)
+        lifecycle.merge(self.plan, t, other, number)
+
+    def reject(self, t: int, span: Span, number: int) -> None:
+        """Reject a rejectable token."""
+        if not self.plan.rows.flags[t] & FLAG_REJECTABLE:
+            raise ScriptError(NOT_REJECTABLE.at(span, name=self.name(t)))
+        self.check_state(t, INACTIVE, SYMBOL_REJECTED, "rejected", span)
+        lifecycle.reject(self.plan, t, number)
+
+    def cancel(self, t: int, span: Span) -> None:
+        """Undo what made a token active, merged or rejected."""
+        if self.plan.rows.flags[t] & FLAG_NATIVE:
+            raise ScriptError(WRONG_STATE.at(span, name=self.name(t), state="a use of a resource", action="cancelled"))
+        retracting.cancel(self.plan, t)
+
+    # ---- variables and objects ----
+
+    def of_variable(
+        self, call: Call, kind: int, value: int, arguments: list[tuple[int, int]], tokens: list[int], span: int
+    ) -> None:
+        """A call on a variable, or on the object that it holds."""
+        v = operand(self.plan, self.scope, kind, value, span)
+        name = call.span.text.rpartition(f".{call.method}")[0]
+        match call.method:
+            case "specify":
+                self.specify(v, operand(self.plan, self.scope, *arguments[0], span), name, call.span, span)
+            case "reset":
+                retracting.reset(self.plan, v)
+            case "close":
+                if not self.plan.engine.is_open[v]:
+                    raise ScriptError(CLOSED_ALREADY.at(call.span, name=name))
+                self.plan.engine.close(v)
+            case "constrain":
+                self.constrain(
+                    self.object_of(v, name, call.span), [self.token(slot) for slot in tokens], call.span, span
+                )
+            case "free":
+                chosen = [self.token(slot) for slot in tokens]
+                retracting.free(self.plan, chosen[0], chosen[-1], span)
+            case _:
+                assert call.method in ("set_capacity", "set_limit"), f"no method {call.method} of objects"
+                bounds = [self.plan.engine.lower(operand(self.plan, self.scope, *each, span)) for each in arguments]
+                self.plan.resources.set_capacity(self.object_of(v, name, call.span), bounds)
+
+    def specify(self, v: int, source: int, name: str, span: Span, number: int) -> None:
+        """Decide a variable for a value of its base domain."""
+        engine = self.plan.engine
+        if not engine.is_singleton(source):
+            raise ScriptError(SEVERAL_VALUES.at(span, name=name))
+        value = engine.lower(source)
+        values = engine.base_values(v)
+        inside = engine.base_lower(v) <= value <= engine.base_upper(v)
+        if values is not None and not engine.is_open[v]:
+            inside = value in values
+        if not inside:
+            text = base_text(self.prototypes, engine, source, self.objects.names)
+            raise ScriptError(OUTSIDE_DOMAIN.at(span, value=text, name=name))
+        engine.decide(v, value, number, NONE)
+
+    def object_of(self, v: int, name: str, span: Span) -> int:
+        """The object that a variable holds."""
+        if not self.plan.engine.is_singleton(v):
+            raise ScriptError(NOT_ONE_OBJECT.at(span, name=name))
+        return int(self.plan.engine.lower(v))
+
+    def constrain(self, o: int, tokens: list[int], span: Span, number: int) -> None:
+        """Order two tokens on an object, or put one on it."""
+        for t in tokens:
+            self.check_state(t, ACTIVE, NONE, "put on an object", span)
+            if not self.plan.engine.contains(self.plan.rows.var0[t] + OBJECT, o):
+                raise ScriptError(WRONG_OBJECT.at(span, name=self.name(t), object=self.objects.names[o]))
+        if len(tokens) == 1:
+            timelines.assign_object(self.plan, o, tokens[0], number)
+        else:
+            timelines.order(self.plan, o, tokens[0], tokens[1], number)
+
+    # ---- classes ----
+
+    def of_class(self, call: Call) -> None:
+        """`C.close()` and `close()`."""
+        assert call.method == "close", f"no method {call.method} of classes"
+        if call.class_name is not None:
+            number = self.prototypes.class_numbers[call.class_name]
+            if self.prototypes.is_closed[number]:
+                raise ScriptError(CLOSED_ALREADY.at(call.span, name=call.class_name))
+            self.objects.close(number)
+        else:
+            for number in range(len(self.program.classes)):
+                self.objects.close(number)

@@ -1,0 +1,64 @@
+"""Compare and intersect base domains: what assignments and constructor arguments need."""
+
+from collections.abc import Sequence
+
+from nddl_lang.text.source import Span
+from runtime.constraints.codes import FLOAT_TOLERANCE, KIND_FLOAT
+from runtime.constraints.engine import Engine
+from runtime.plan.codes import NONE, ROLE_INTERNAL
+from runtime.plan.faults import OUTSIDE_DOMAIN, ScriptError
+from runtime.plan.holding import make_variable
+from runtime.plan.plan import Plan
+from runtime.plan.prototypes import Prototypes
+from runtime.plan.texts import base_text
+
+
+def copy_current(plan: Plan, prototype: int, source: int) -> int:
+    """A variable of a prototype's type whose base domain is the current domain of `source`."""
+    engine = plan.engine
+    v = make_variable(plan, prototype, ROLE_INTERNAL, NONE, NONE)
+    if engine.is_open[source]:
+        values = engine.base_values(source)
+        if values and not engine.is_open[v]:
+            engine.restrict_base_values(v, values, NONE, NONE)
+    elif engine.is_finite(source) and (engine.word[source] >= 0 or engine.kind[source] > KIND_FLOAT):
+        engine.restrict_base_values(v, engine.values_of(source), NONE, NONE)
+    else:
+        engine.restrict_base(v, engine.lower(source), engine.upper(source), NONE, NONE)
+    return v
+
+
+def overlap(engine: Engine, v: int, source: int) -> bool:
+    """Whether two base domains have a value in common."""
+    if engine.is_open[v] or engine.is_open[source]:
+        return True
+    tolerance = FLOAT_TOLERANCE if engine.kind[v] == KIND_FLOAT else 0
+    if engine.base_lower(v) > engine.base_upper(source) + tolerance:
+        return False
+    if engine.base_lower(source) > engine.base_upper(v) + tolerance:
+        return False
+    mine, theirs = engine.base_values(v), engine.base_values(source)
+    if mine is not None and theirs is not None:
+        return any(abs(x - y) <= tolerance for x in mine for y in theirs)
+    listed = mine if mine is not None else theirs
+    if listed is None:
+        return True
+    other = source if mine is not None else v
+    return any(engine.base_lower(other) - tolerance <= x <= engine.base_upper(other) + tolerance for x in listed)
+
+
+def assign_domain(
+    prototypes: Prototypes,
+    objects: Sequence[str],
+    plan: Plan,
+    v: int,
+    source: int,
+    name: str,
+    span: Span,
+    number: int,
+) -> None:
+    """Intersect the base domain of `v` with that of `source`; a fault if they have no value in common."""
+    engine = plan.engine
+    if not overlap(engine, v, source):
+        raise ScriptError(OUTSIDE_DOMAIN.at(span, value=base_text(prototypes, engine, source, objects), name=name))
+    engine.restrict_base_to(v, source, number, NONE)

@@ -1,0 +1,80 @@
+"""Let guards wait for the variables that decide them, and tell which branch they ask for."""
+
+from runtime.constraints.codes import OP_WATCH
+from runtime.plan.codes import BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, NONE, SCOPE_GUARD
+from runtime.plan.holding import constraint
+from runtime.plan.operands import member
+from runtime.plan.plan import Plan
+
+
+def wait(plan: Plan, scope: int, at: int, condition: int, first: int, span: int) -> None:
+    """Make a guard of the instruction at `at`, with the frame as it is now; operands from `first` on decide it."""
+    rows = plan.rows
+    owner = rows.scope_token[scope]
+    s = rows.new_scope(
+        SCOPE_GUARD, owner, rows.scope_rule[scope], scope, rows.scope_slots[scope], rows.scope_size[scope]
+    )
+    count = plan.operands_used - first
+    inputs = rows.new_cells(count + 2)
+    rows.cells[inputs] = count
+    rows.cells[inputs + 1] = condition
+    for i in range(count):
+        rows.cells[inputs + 2 + i] = plan.operands[first + i]
+    plan.operands_used = first
+    listen(plan, condition)
+    for i in range(count):
+        listen(plan, rows.cells[inputs + 2 + i])
+    watch = constraint(plan, s, OP_WATCH, first, span)
+    plan.note_watch(watch, s)
+    rows.scope_at[s] = at
+    rows.set_inputs(s, inputs, watch)
+    plan.enqueue(s)
+
+
+def listen(plan: Plan, v: int) -> None:
+    """Note `v` among the operands; for a proxy what it stands on: its object, and the members it may be."""
+    while plan.proxy_index[v] >= 0:
+        x = plan.proxy_index[v]
+        for o in plan.engine.values_of(x):
+            plan.add_operand(member(plan, int(o), plan.proxy_member[v]))
+        v = x
+    plan.add_operand(v)
+
+
+def is_settled(plan: Plan, v: int) -> bool:
+    """Whether `v` is decided; a proxy is once its object and the member it then stands for are.
+
+    It also is while all objects agree: their members have the same single value. Recursion is as deep as the path.
+    """
+    x = plan.proxy_index[v]
+    if x < 0:
+        return plan.engine.is_decided(v)
+    if is_settled(plan, x):
+        return plan.engine.is_decided(member(plan, plan.engine.lb[x], plan.proxy_member[v]))
+    return plan.proxy_index[x] < 0 and agree(plan, x, plan.proxy_member[v])
+
+
+def agree(plan: Plan, x: int, name: int) -> bool:
+    """Whether the members called `name` of all objects that `x` may be are decided and equal."""
+    engine = plan.engine
+    first = NONE
+    for o in engine.values_of(x):
+        v = member(plan, int(o), name)
+        if v < 0 or not engine.is_decided(v) or (first >= 0 and engine.lower(first) != engine.lower(v)):
+            return False
+        first = v
+    return first >= 0 and not engine.is_open[x]
+
+
+def choice(plan: Plan, s: int) -> int:
+    """The branch that guard `s` asks for now."""
+    rows = plan.rows
+    inputs = rows.scope_inputs[s]
+    engine = plan.engine
+    condition = rows.cells[inputs + 1]
+    if engine.lb[condition] != engine.ub[condition]:
+        return BRANCH_WAITING
+    for i in range(inputs + 2, inputs + 2 + rows.cells[inputs]):
+        if not is_settled(plan, rows.cells[i]):
+            return BRANCH_WAITING
+    return BRANCH_THEN if engine.lb[condition] else BRANCH_ELSE

@@ -1,0 +1,99 @@
+"""Post edges and constraints, make variables, and hang each on the scope that wants it: the door to the engine."""
+
+from runtime.constraints.codes import OP_EQ
+from runtime.constraints.engine import Engine
+from runtime.plan.codes import HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES, INFINITY
+from runtime.plan.plan import Plan
+
+
+def between(plan: Plan, scope: int, a: int, b: int, lower: int, upper: int, span: int) -> bool:
+    """Demand that b - a lies in [lower, upper]."""
+    holds = True
+    if upper < INFINITY:
+        holds = edge(plan, scope, a, b, upper, span)
+    if lower > -INFINITY and (holds or not plan.rows.level):
+        holds = edge(plan, scope, b, a, -lower, span) and holds
+    return holds
+
+
+def edge(plan: Plan, scope: int, source: int, target: int, weight: int, span: int) -> bool:
+    """Demand `target - source <= weight`."""
+    rows = plan.rows
+    owner = rows.scope_token[scope]
+    holds = plan.engine.add_edge(source, target, weight, span, owner)
+    if owner >= 0:
+        rows.hold(scope, HOLDS_EDGE, plan.engine.newest_edge, 1)
+    return holds
+
+
+def constraint(plan: Plan, scope: int, operation: int, first: int, span: int) -> int:
+    """Post a constraint on the operands collected from `first` on, and forget them; its id."""
+    rows = plan.rows
+    owner = rows.scope_token[scope]
+    arguments = [int(v) for v in plan.operands[first : plan.operands_used]]
+    plan.operands_used = first
+    c = plan.engine.post(operation, arguments, span, owner)
+    if owner >= 0:
+        rows.hold(scope, HOLDS_CONSTRAINT, c, 1)
+    return c
+
+
+def post_two(plan: Plan, scope: int, operation: int, a: int, b: int, span: int) -> int:
+    """Post a constraint on two variables."""
+    first = plan.operands_used
+    plan.add_operand(a)
+    plan.add_operand(b)
+    return constraint(plan, scope, operation, first, span)
+
+
+def equate(plan: Plan, scope: int, a: int, b: int, span: int) -> int:
+    """Post that two variables are equal."""
+    return post_two(plan, scope, OP_EQ, a, b, span)
+
+
+def decide(plan: Plan, scope: int, v: int, value: float, span: int) -> bool:
+    """Specify a variable as long as the scope lives."""
+    rows = plan.rows
+    holds = plan.engine.decide(v, value, span, rows.scope_token[scope])
+    rows.hold(scope, HOLDS_RESTRICTION, plan.engine.newest_restriction, 1)
+    return holds
+
+
+def restrict(plan: Plan, scope: int, v: int, source: int, span: int) -> bool:
+    """Intersect the base domain of `v` with that of `source`, as long as the scope lives."""
+    rows = plan.rows
+    owner = rows.scope_token[scope]
+    holds = plan.engine.restrict_base_to(v, source, span, owner)
+    if owner >= 0:
+        rows.hold(scope, HOLDS_RESTRICTION, plan.engine.newest_restriction, 1)
+    return holds
+
+
+def copy_variable(plan: Plan, scope: int, prototype: int, role: int, name: int) -> int:
+    """Make a variable like a prototype, as long as the scope lives."""
+    rows = plan.rows
+    owner = rows.scope_token[scope]
+    v = make_variable(plan, prototype, role, owner, name)
+    if owner >= 0:
+        rows.hold(scope, HOLDS_VARIABLES, v, 1)
+    return v
+
+
+def make_variable(plan: Plan, prototype: int, role: int, owner: int, name: int) -> int:
+    """Make a variable like a prototype."""
+    v = copy(plan.engine, prototype)
+    plan.note_variable(v, role, owner, name)
+    if plan.engine.is_open[v]:
+        plan.services.note_open(v, prototype)
+    return v
+
+
+def copy(engine: Engine, prototype: int) -> int:
+    """Make a variable with the base domain of another one."""
+    kind = engine.kind[prototype]
+    values = engine.base_values(prototype)
+    if engine.is_open[prototype]:
+        return engine.new_open(kind, values or [], -1, -1)
+    if values is not None:
+        return engine.new_values(kind, values, -1, -1)
+    return engine.new_interval(kind, engine.base_lower(prototype), engine.base_upper(prototype), -1, -1)

@@ -1,0 +1,167 @@
+"""Fill a plan's tables from a program: predicates, rules, relations, members, flattened code, prototypes."""
+
+from array import array
+from collections.abc import Iterable
+from math import inf
+
+from compiler.program import DomainConstant, Program, TypeCode
+from nddl_lang.semantics.relations import RELATIONS, DurationRule, Point
+from runtime.constraints.codes import KIND_INT
+from runtime.plan.codes import (
+    DURATION_EQUAL,
+    DURATION_FREE,
+    DURATION_ORIGIN_SHORTER,
+    DURATION_TARGET_SHORTER,
+    END,
+    FLAG_ACTION,
+    FLAG_EVENT,
+    FLAG_NATIVE,
+    HEAD_PREDICATE,
+    NONE,
+    START,
+)
+from runtime.plan.flatten import Code
+from runtime.plan.links import new_head
+from runtime.plan.names import Names
+from runtime.plan.plan import Plan
+from runtime.plan.prototypes import STATES, Prototypes
+
+RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
+DURATIONS = {
+    DurationRule.NONE: DURATION_FREE,
+    DurationRule.EQUAL: DURATION_EQUAL,
+    DurationRule.TARGET_SHORTER: DURATION_TARGET_SHORTER,
+    DurationRule.ORIGIN_SHORTER: DURATION_ORIGIN_SHORTER,
+}
+POINTS = {
+    Point.ORIGIN_START: (0, START),
+    Point.ORIGIN_END: (0, END),
+    Point.TARGET_START: (1, START),
+    Point.TARGET_END: (1, END),
+}
+
+
+def packed(numbers: Iterable[int]) -> "array[int]":
+    """Numbers as an array that is never empty."""
+    return array("q", [*numbers, 0])
+
+
+def load_members(plan: Plan, program: Program, prototypes: Prototypes, names: Names) -> None:
+    """Where each class has its members; their names take the lowest numbers."""
+    for class_ in program.classes:
+        for member in class_.members:
+            names.number(member.name)
+    width = len(names.texts)
+    plan.member_names = width
+    at = array("q", [NONE]) * (width * len(program.classes) + 1)
+    prototype = array("q", [NONE]) * (width + 1)
+    for number, class_ in enumerate(program.classes):
+        for k, member in enumerate(class_.members):
+            name = names.number(member.name)
+            at[number * width + name] = k
+            if prototype[name] < 0:
+                prototype[name] = prototypes.of(member.type, member.domain)
+    plan.member_at = at
+    plan.name_prototype = prototype
+
+
+def load_prototypes(plan: Plan, program: Program, prototypes: Prototypes) -> None:
+    """Prototypes of the built-in variables of tokens, and of the objects of each class."""
+    plan.state_prototype = states(prototypes, "ACTIVE", "MERGED")
+    plan.rejectable_prototype = states(prototypes, "ACTIVE", "MERGED", "REJECTED")
+    plan.native_prototype = states(prototypes, "ACTIVE")
+    plan.duration_prototype = plan.engine.new_interval(KIND_INT, 1, inf, NONE, NONE)
+    plan.instant_prototype = plan.engine.new_interval(KIND_INT, 0, 0, NONE, NONE)
+    plan.time_prototype = plan.engine.new_interval(KIND_INT, -inf, inf, NONE, NONE)
+    classes = [prototypes.of(TypeCode("object", class_.name, None), None) for class_ in program.classes]
+    plan.class_prototype = packed(classes)
+    plan.class_closed = packed(0 for _ in classes)
+
+
+def states(prototypes: Prototypes, *names: str) -> int:
+    """The prototype of a token's state."""
+    return prototypes.of_domain(DomainConstant("symbol", STATES, None, names))
+
+
+def load_relations(plan: Plan) -> None:
+    """Temporal relations as numbers."""
+    starts: list[int] = []
+    cells: list[int] = []
+    durations: list[int] = []
+    for row in RELATIONS.values():
+        starts.append(len(cells))
+        for distance in row.distances:
+            cells += [*POINTS[distance.earlier], *POINTS[distance.later], distance.lower, distance.upper]
+        durations.append(DURATIONS[row.duration])
+    plan.relation_start = packed([*starts, len(cells)])
+    plan.relation_distance = packed(cells)
+    plan.relation_duration = packed(durations)
+
+
+def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: Code) -> None:
+    """Predicates with parameters, bodies and the rules that fire on them."""
+    numbers = prototypes.class_numbers
+    flags: list[int] = []
+    timeline: list[int] = []
+    resource: list[int] = []
+    starts: list[int] = []
+    rules: list[int] = []
+    first_rule: list[int] = []
+    parameters: list[int] = []
+    copies: list[tuple[int, int]] = []
+    for predicate in program.predicates:
+        number = numbers[predicate.class_name]
+        native = program.classes[number].native
+        is_resource = native in RESOURCES
+        flag = FLAG_ACTION if predicate.is_action else 0
+        flag |= FLAG_EVENT if predicate.is_event else 0
+        flags.append(flag | (FLAG_NATIVE if is_resource else 0))
+        heirs = (c for c in range(len(program.classes)) if number in prototypes.ancestry(c))
+        timeline.append(int(any(program.classes[c].native == "Timeline" for c in heirs)))
+        resource.append(int(is_resource))
+        starts.append(len(parameters))
+        for parameter in predicate.parameters:
+            parameters.append(prototypes.of(parameter.type, parameter.domain))
+            copies.append(code.optional(parameter.copy_of))
+        first_rule.append(len(rules))
+        rules += predicate.rules
+    plan.predicate_class = packed(numbers[predicate.class_name] for predicate in program.predicates)
+    plan.predicate_flags = packed(flags)
+    plan.predicate_timeline = packed(timeline)
+    plan.predicate_resource = packed(resource)
+    plan.parameter_start = packed(starts)
+    plan.parameter_count = packed(len(predicate.parameters) for predicate in program.predicates)
+    plan.parameter_prototype = packed(parameters)
+    plan.parameter_copy_kind = packed(kind for kind, _ in copies)
+    plan.parameter_copy_value = packed(value for _, value in copies)
+    plan.body_block = packed(code.body(predicate.body) for predicate in program.predicates)
+    plan.body_slots = packed(predicate.body_slots for predicate in program.predicates)
+    plan.body_tokens = packed(max(predicate.body_tokens, 1) for predicate in program.predicates)
+    plan.first_rule = packed([*first_rule, len(rules)])
+    plan.rule_number = packed(rules)
+    plan.rule_block = packed(code.body(rule.body) for rule in program.rules)
+    plan.rule_slots = packed(rule.slots for rule in program.rules)
+    plan.rule_tokens = packed(max(rule.tokens, 1) for rule in program.rules)
+    plan.rule_declared = packed(rule.declared_at for rule in program.rules)
+    plan.rule_span = packed(code.span(rule.span) for rule in program.rules)
+    for head in range(HEAD_PREDICATE + len(program.predicates)):
+        new_head(plan.rows, head)
+    plan.first_object_head = HEAD_PREDICATE + len(program.predicates)
+
+
+def load_code(plan: Plan, code: Code) -> None:
+    """Hand the flattened code over."""
+    plan.code = packed(code.cells)
+    plan.block_start = packed(code.block_start)
+    plan.block_end = packed(code.block_end)
+    plan.field_kind = packed(kind for kind, _ in code.field_base)
+    plan.field_value = packed(value for _, value in code.field_base)
+    starts: list[int] = []
+    cells: list[int] = []
+    for members in code.field_members:
+        starts.append(len(cells))
+        cells += members
+    plan.field_start = packed(starts)
+    plan.field_length = packed(len(members) for members in code.field_members)
+    plan.field_names = packed(cells)
+    plan.unions = code.unions

@@ -1,0 +1,30 @@
+"""What the constructors of the native resource classes do: the members that their arguments fill, and the rest."""
+
+from math import inf
+
+LEVELS = ("initialCapacity", "levelLimitMin", "levelLimitMax")
+FLOWS = ("productionRateMax", "productionMax", "consumptionRateMax", "consumptionMax")
+
+# (class, number of arguments) -> members in the order of the arguments
+FILLED: dict[tuple[str, int], tuple[str, ...]] = {
+    ("Reservoir", 0): (),
+    ("Reservoir", 3): LEVELS,
+    ("Reservoir", 5): (*LEVELS, "productionMax", "consumptionMax"),
+    ("Reservoir", 7): (*LEVELS, *FLOWS),
+    ("Reusable", 2): ("capacity", "levelLimitMin"),
+    ("Reusable", 3): ("capacity", "levelLimitMin", "consumptionRateMax"),
+    ("Reusable", 4): ("capacity", "levelLimitMin", "consumptionMax", "consumptionRateMax"),
+    ("CBReusable", 2): ("capacity", "levelLimitMin"),
+    ("CBReusable", 3): ("capacity", "levelLimitMin", "consumptionRateMax"),
+    ("CBReusable", 4): ("capacity", "levelLimitMin", "consumptionMax", "consumptionRateMax"),
+    ("Unary", 0): (),
+    ("Unary", 1): ("consumptionMax",),
+}
+
+# class -> members that no argument filled, and their values
+DEFAULTS: dict[str, dict[str, float]] = {
+    "Reservoir": {"initialCapacity": 0.0, "levelLimitMin": -inf, "levelLimitMax": inf, **dict.fromkeys(FLOWS, inf)},
+    "Reusable": dict.fromkeys(("consumptionMax", "consumptionRateMax"), inf),
+    "CBReusable": dict.fromkeys(("consumptionMax", "consumptionRateMax"), inf),
+    "Unary": {"consumptionMax": inf},
+}

@@ -1,0 +1,101 @@
+"""Find the engine variable that an operand means; object fields become proxies while their object is unknown."""
+
+from runtime.plan.codes import (
+    HOLDS_CONSTRAINT,
+    HOLDS_VARIABLES,
+    HOLDS_VARIABLES,
+    IN_CONSTANT,
+    IN_FIELD,
+    IN_GLOBAL,
+    IN_LOCAL,
+    IN_PROTOTYPE,
+    IN_SELF,
+    IN_TOKEN,
+    IN_UNION,
+    NONE,
+    ROLE_INTERNAL,
+    TOKEN_SHIFT,
+)
+from runtime.plan.holding import copy_variable
+from runtime.plan.plan import Plan
+
+
+def operand(plan: Plan, scope: int, kind: int, value: int, span: int) -> int:
+    """The variable of an operand in `scope`; it is made if the operand asks for a new one."""
+    rows = plan.rows
+    if kind == IN_CONSTANT:
+        return value
+    if kind == IN_LOCAL:
+        return rows.cells[rows.scope_frame[scope] + value]
+    if kind == IN_TOKEN:
+        slot = rows.scope_frame[scope] + rows.scope_slots[scope] + value // TOKEN_SHIFT
+        return rows.var0[rows.cells[slot]] + value % TOKEN_SHIFT
+    if kind == IN_GLOBAL:
+        return plan.globals[value]
+    if kind == IN_FIELD:
+        return field(plan, scope, value, span)
+    if kind == IN_PROTOTYPE:
+        return copy_variable(plan, scope, value, ROLE_INTERNAL, NONE)
+    if kind == IN_SELF:
+        return plan.object_constant[plan.self_object]
+    if kind == IN_UNION:
+        return unite(plan, scope, value, span)
+    return NONE
+
+
+def field(plan: Plan, scope: int, number: int, span: int) -> int:
+    """The variable at the end of a member path; each object on the way that is not fixed gives a proxy."""
+    v = operand(plan, scope, plan.field_kind[number], plan.field_value[number], span)
+    start = plan.field_start[number]
+    for position in range(start, start + plan.field_length[number]):
+        name = plan.field_names[position]
+        if plan.engine.is_base_singleton(v):
+            o = int(plan.engine.base_lower(v))
+            v = member(plan, o, name)
+        else:
+            v = proxy(plan, scope, v, name, span)
+    return v
+
+
+def member(plan: Plan, o: int, name: int) -> int:
+    """The member called `name` of object `o`; NONE if its class has none."""
+    k = plan.member_at[plan.object_class[o] * plan.member_names + name]
+    return NONE if k < 0 else plan.object_var0[o] + k
+
+
+def proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
+    """A variable that equals the member called `name` of the object that `index` turns out to be."""
+    engine = plan.engine
+    values = []
+    members = []
+    prototype = plan.name_prototype[name]
+    for o in engine.base_values(index) or []:
+        v = member(plan, int(o), name)
+        if v >= 0:
+            values.append(int(o))
+            members.append(v)
+    result = copy_variable(plan, scope, prototype, ROLE_INTERNAL, NONE)
+    plan.proxy_index[result] = index
+    plan.proxy_member[result] = name
+    owner = plan.rows.scope_token[scope]
+    c = engine.post_element(result, index, values, members, span, owner)
+    if owner >= 0:
+        plan.rows.hold(scope, HOLDS_CONSTRAINT, c, 1)
+    return result
+
+
+def unite(plan: Plan, scope: int, number: int, span: int) -> int:
+    """A variable whose domain is the union of the base domains of several others, as they are now."""
+    engine = plan.engine
+    values: list[float] = []
+    kind = NONE
+    for source_kind, source in plan.unions[number]:
+        v = operand(plan, scope, source_kind, source, span)
+        kind = engine.kind[v]
+        values += engine.base_values(v) or [engine.base_lower(v), engine.base_upper(v)]
+    owner = plan.rows.scope_token[scope]
+    v = engine.new_values(kind, values, span, owner)
+    plan.note_variable(v, ROLE_INTERNAL, owner, NONE)
+    if owner >= 0:
+        plan.rows.hold(scope, HOLDS_VARIABLES, v, 1)
+    return v
