@@ -4,7 +4,7 @@ A static slice: from the sampled variable through the constraints of the same ru
 It says how a draw acts inside the simulator when the conflict was found in another reactor, whose terms know no draw.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 
 from compiler.program import (
     DURATION,
@@ -23,6 +23,7 @@ from nddl_lang.text.source import Span
 from runtime.executive.outcome import Place
 
 Step = tuple[str, Place]  # the rule, and a line of it
+Influence = Mapping[str, tuple[Step, ...]]  # by parameter
 
 
 def lines_of_influence(program: Program, parameter: str) -> tuple[Step, ...]:

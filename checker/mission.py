@@ -14,6 +14,7 @@ from checker.mission_codes import CIRCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, N
 from checker.mission_table import MissionText, Table, nearest
 from checker.toml_places import find_places
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
+from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source, Span
 from runtime.executive.configuration import (
     AgentConfiguration,
@@ -53,8 +54,8 @@ class Mission:
 
 
 def read_mission(path: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
-    """Read the file at `path`; the mission is None where a diagnostic is an error. The file must be readable."""
-    return parse_mission(Source(path.as_posix(), path.read_text(encoding="utf-8")), path.parent)
+    """Read the file at `path` (or raise OSError); the mission is None where a diagnostic is an error."""
+    return parse_mission(read_source(path), path.parent)
 
 
 def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:

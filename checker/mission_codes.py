@@ -19,9 +19,3 @@ NO_GOALS = Code(
 ILL_DISTRIBUTION = Code("NDDL713", Severity.ERROR, "domain", "{reason}")
 UNUSED_PARAMETER = Code("NDDL714", Severity.ERROR, "name", "no model samples a parameter `{name}`")
 NO_RANGE = Code("NDDL715", Severity.ERROR, "domain", "the parameter `{name}` has no range, here or in the model")
-BEYOND_MODEL = Code(
-    "NDDL716",
-    Severity.WARNING,
-    "domain",
-    "`{name}` may be drawn outside its base domain [{lower}, {upper}] in the model",
-)

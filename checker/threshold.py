@@ -133,7 +133,7 @@ def _sharpen(
     """The strongest threshold that can be had for the example; None where the parameter has no part in the failure."""
     proved = _from_terms(parameter, example, own)
     is_causal, flown, flights = None, None, 0
-    if refly is not None and parameter.mode == "inter" and cut is not None:
+    if refly is not None and parameter.mode == "inter":
         search = _Flights(parameter, example, agent, refly)
         is_causal, flown = search.find_edge(own, cut)
         flights = search.count
@@ -167,6 +167,10 @@ def _from_terms(parameter: ParameterConfiguration, example: MissionResult, own: 
     return nearest[0] if nearest else None
 
 
+class _FlightError(Exception):
+    """The tool failed in a flight: it says nothing about the model."""
+
+
 class _Flights:
     """Fly the example again with another value of one parameter, until it is known where it stops to fail."""
 
@@ -180,13 +184,19 @@ class _Flights:
         self.count = 0
         self.key = bucket_key(example)
 
-    def find_edge(self, own: float, cut: Cut) -> tuple[bool, tuple[bool, float, bool] | None]:
-        """Whether the parameter alone decides; if so: whether values above fail, the edge, whether it fails itself."""
+    def find_edge(self, own: float, cut: Cut | None) -> tuple[bool | None, tuple[bool, float, bool] | None]:
+        """Whether the parameter alone decides; if so: whether values above fail, the edge, whether it fails itself.
+
+        None where a flight could not be flown to its end.
+        """
         middle = (self.parameter.lower + self.parameter.upper) / 2.0
-        for safe in dict.fromkeys((cut.passing, middle)):
-            if safe != own and not self._fails(safe):
-                edge = self._halve(own, safe)
-                return True, (own > safe, edge, self._fails(edge))
+        try:
+            for safe in dict.fromkeys((cut.passing, middle) if cut is not None else (middle,)):
+                if safe != own and not self._fails(safe):
+                    edge = self._halve(own, safe)
+                    return True, (own > safe, edge, self._fails(edge))
+        except _FlightError:
+            return None, None
         return False, None
 
     def _halve(self, failing: float, passing: float) -> float:
@@ -212,6 +222,8 @@ class _Flights:
         changed = replace(self.parameter, distribution="fixed", values=(value,), weights=(), clip=None)
         parameters = tuple(changed if one.name == changed.name else one for one in self.agent.parameters)
         result = self.refly(replace(self.agent, parameters=parameters), self.example.number, self.example.seed)
+        if result.verdict is Verdict.ERROR:
+            raise _FlightError
         return result.verdict is Verdict.FAIL and bucket_key(result) == self.key
 
 

@@ -12,6 +12,8 @@ import click
 
 # A subcommand is one file, imported only when it is used; a new one needs a line here and nothing else.
 COMMANDS = {
+    "check": ("nddlc.check", "Fly the missions of a mission file, and say what fails and why."),
+    "explain": ("nddlc.explain", "Explain why one mission of a run failed."),
     "load": ("nddlc.load", "Load models and show their tokens and variables."),
     "lint": ("nddlc.lint", "Report everything that is wrong with models."),
     "rule": ("nddlc.rule", "Explain a code that a message carries."),

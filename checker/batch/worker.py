@@ -49,14 +49,14 @@ def work(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
         return  # the parent is gone
 
 
-def fly_one(fly: Fly, task: Task) -> MissionResult:
+def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
     """Fly one mission and judge it; an exception is the tool's failure, not the model's."""
     try:
         outcome = fly(task.seed)
     except Exception as problem:
         return error_result(task, f"{type(problem).__name__}: {problem}", traceback.format_exc())
     judgement = judge(outcome)
-    if judgement.verdict is Verdict.PASS:
+    if judgement.verdict is Verdict.PASS and not keep_trace:
         return MissionResult(task.number, task.seed, judgement, condense(outcome), has_trace=False)
     return MissionResult(task.number, task.seed, judgement, outcome, has_trace=True)
 

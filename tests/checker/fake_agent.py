@@ -138,6 +138,15 @@ def load_slow(agent: AgentConfiguration) -> Fly:
     return fly
 
 
+def load_broken(_agent: AgentConfiguration) -> Fly:
+    """A fake agent that fails in every flight."""
+
+    def fly(seed: int) -> Outcome:
+        raise ValueError(f"a bug of ours in mission with seed {seed}")
+
+    return fly
+
+
 def load_nothing(_agent: AgentConfiguration) -> Fly:
     """A fake agent that cannot be loaded."""
     raise RuntimeError("no such engine")

@@ -1,0 +1,183 @@
+"""A story in, text for people or plain data for programs out."""
+
+from typing import Any
+
+from checker.batch.result import MissionResult
+from checker.excerpts import Excerpts
+from checker.findings import Fault
+from checker.oracle import CODE_NAMES
+from checker.sampling.wording import number
+from checker.story import Step, Story
+from checker.threshold import Threshold
+from runtime.executive.outcome import Place
+
+ARROW = "     │\n     ▼"
+
+
+def story_text(story: Story, run_id: str, excerpts: Excerpts) -> str:
+    """The story as `nddlc explain` prints it."""
+    lines = [
+        f"mission {story.number} of run {run_id} failed at tick {story.last_tick} of {story.final_tick} "
+        f"({story.code}: {CODE_NAMES.get(story.code, 'unknown')})",
+        f"  {story.title}",
+        "",
+    ]
+    for index, step in enumerate(story.steps, 1):
+        lines += _step_lines(index, step, excerpts)
+        if index < len(story.steps):
+            lines.append(ARROW)
+    if story.fault is not None:
+        lines += ["", *_fault_lines(story.fault, story.number)]
+    return "\n".join(lines) + "\n"
+
+
+def _step_lines(index: int, step: Step, excerpts: Excerpts) -> list[str]:
+    when = f"tick {step.tick}: " if step.tick is not None else ""
+    here = "   <== the line to blame" if step.kind == "fault" else ""
+    lines = [f"{index:>4}  {when}{step.reason}{here}"]
+    if step.place is not None:
+        lines += excerpt_lines(step.place, excerpts, marked=step.kind == "fault")
+    for limit in step.limits:
+        lines += ["      where the limit is set:", *excerpt_lines(limit, excerpts, marked=True)]
+    return lines
+
+
+def excerpt_lines(place: Place, excerpts: Excerpts, *, marked: bool = False, indent: str = "      ") -> list[str]:
+    """A place with its line of source; `marked` underlines what it is about."""
+    text = excerpts.line(place).expandtabs(4)
+    bar = " " * len(str(place.line))
+    lines = [f"{indent}--> {excerpts.path(place)}", f"{indent} {place.line} | {text}"]
+    if marked:
+        first = place.text.strip().split("\n")[0].strip()
+        start = max(text.find(first), 0)
+        lines.append(f"{indent} {bar} | {' ' * start}{'^' * max(1, len(first))}")
+    return lines
+
+
+def _fault_lines(fault: Fault, told: int) -> list[str]:
+    lines = [f"z3 {confirmation_text(fault)}"] if fault.confirmation is not None else []
+    lines += [f"it fails when {threshold_text(threshold)}" for threshold in fault.thresholds]
+    others = [str(mission) for mission in fault.bucket.missions if mission != told]
+    if others:
+        shown = ", ".join(others[:12]) + (", ..." if len(others) > 12 else "")
+        lines.append(f"{len(others)} more missions fail alike: {shown}")
+    return lines
+
+
+def confirmation_text(fault: Fault) -> str:
+    """What z3 says, as the end of a sentence that begins with its name."""
+    assert fault.confirmation is not None
+    match fault.confirmation.finding.value:
+        case "confirmed":
+            text = f"confirms the conflict: {len(fault.confirmation.core)} causes that cannot hold together"
+        case "not confirmed":
+            text = "does not confirm the conflict: by their terms alone the causes can hold together"
+        case _:
+            text = "could not decide whether the causes can hold together"
+    missing = fault.confirmation.untranslated
+    return text + (f" (not told to it: {', '.join(missing)})" if missing else "")
+
+
+def threshold_text(threshold: Threshold) -> str:
+    """A threshold and the evidence for it."""
+    evidence: list[str] = []
+    if "z3" in threshold.method:
+        evidence.append("proved by z3 on the conflict's terms")
+    if threshold.flights:
+        evidence.append(f"{threshold.flights} flights of the same mission with this value alone changed")
+    cut = threshold.cut
+    if cut is not None:
+        passing, failing = ("up to", "from") if cut.is_above else ("down to", "from")
+        evidence.append(f"samples pass {passing} {number(cut.passing)}, fail {failing} {number(cut.failing)}")
+        if cut.purity < 1.0 or cut.coverage < 1.0:
+            evidence.append(f"{cut.purity:.0%} of the missions beyond fail so, {cut.coverage:.0%} of these lie there")
+    return f"{threshold.condition} ({'; '.join(evidence)})"
+
+
+def story_data(story: Story, run_id: str, excerpts: Excerpts) -> dict[str, Any]:
+    """The story as `nddlc explain --format json` prints it."""
+    fault = story.fault
+    return {
+        "run": run_id,
+        "mission": story.number,
+        "seed": story.seed,
+        "code": story.code,
+        "reason": story.title,
+        "last_tick": story.last_tick,
+        "final_tick": story.final_tick,
+        "steps": [_step_data(step, excerpts) for step in story.steps],
+        "z3": None if fault is None else confirmation_data(fault),
+        "thresholds": [] if fault is None else [threshold_data(threshold) for threshold in fault.thresholds],
+        "alike": [] if fault is None else list(fault.bucket.missions),
+    }
+
+
+def result_text(result: MissionResult, run_id: str) -> str:
+    """What there is to say of a mission that did not fail."""
+    outcome = result.outcome
+    if outcome is None:
+        reason = f"could not be flown: {result.judgement.reason}"
+        return f"mission {result.number} of run {run_id} (seed {result.seed}) {reason}\n{result.detail}\n"
+    lines = [f"mission {result.number} of run {run_id} passed: it reached tick {outcome.last_tick}; nothing to explain"]
+    lines += [f"  {draw.parameter} = {number(draw.value)} from tick {draw.tick} on" for draw in outcome.draws]
+    return "\n".join(lines) + "\n"
+
+
+def result_data(result: MissionResult, run_id: str) -> dict[str, Any]:
+    """The same as data."""
+    return {
+        "run": run_id,
+        "mission": result.number,
+        "seed": result.seed,
+        "verdict": result.verdict.value,
+        "reason": result.judgement.reason,
+    }
+
+
+def _step_data(step: Step, excerpts: Excerpts) -> dict[str, Any]:
+    return {
+        "kind": step.kind,
+        "tick": step.tick,
+        "reason": step.reason,
+        "place": place_data(step.place, excerpts),
+        "limits": [place_data(limit, excerpts) for limit in step.limits],
+    }
+
+
+def place_data(place: Place | None, excerpts: Excerpts) -> dict[str, Any] | None:
+    """A place; `file` is relative to the mission file, so that it reads the same in every checkout."""
+    if place is None:
+        return None
+    return {"file": place.file, "line": place.line, "column": place.column, "text": excerpts.line(place).strip()}
+
+
+def confirmation_data(fault: Fault) -> dict[str, Any] | None:
+    """z3's word: its finding and the causes in the core."""
+    found = fault.confirmation
+    if found is None:
+        return None
+    return {"finding": found.finding.value, "core": list(found.core), "untranslated": list(found.untranslated)}
+
+
+def threshold_data(threshold: Threshold) -> dict[str, Any]:
+    """A threshold with its evidence."""
+    cut = threshold.cut
+    return {
+        "parameter": threshold.parameter,
+        "condition": threshold.condition,
+        "edge": threshold.edge,
+        "fails_above": threshold.is_above,
+        "fails_at_edge": threshold.edge_fails,
+        "method": threshold.method,
+        "is_causal": threshold.is_causal,
+        "example_value": threshold.example_value,
+        "flights": threshold.flights,
+        "samples": None
+        if cut is None
+        else {
+            "passing": cut.passing,
+            "failing": cut.failing,
+            "purity": round(cut.purity, 9),
+            "coverage": round(cut.coverage, 9),
+        },
+    }

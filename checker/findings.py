@@ -1,0 +1,84 @@
+"""All missions of a run in, what there is to say about it out: the rate, and each fault with its line and threshold."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from checker.batch.result import MissionResult
+from checker.buckets import Bucket, group_failures
+from checker.mission import Mission
+from checker.oracle import Verdict
+from checker.smt.confirm import Confirmation, confirm
+from checker.statistics import Rate, judge_rate
+from checker.threshold import Refly, Threshold, find_thresholds
+from runtime.executive.configuration import AgentConfiguration
+
+MOST_SHARPENED = 8  # buckets whose thresholds are sought by flying again; the rest must do with samples
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A bucket of failures with what is known about it; `confirmation` is z3's word on the example's conflict."""
+
+    bucket: Bucket
+    thresholds: tuple[Threshold, ...]
+    confirmation: Confirmation | None
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Findings:
+    """What a run has shown. Equal runs give equal findings, whatever the number of workers."""
+
+    run_id: str
+    mission: Mission
+    agent: AgentConfiguration  # the mission's, with what the models add
+    seed: int
+    planned: int
+    results: tuple[MissionResult, ...]
+    rate: Rate
+    faults: tuple[Fault, ...]
+    is_interrupted: bool
+
+    def count(self, verdict: Verdict) -> int:
+        """How many missions ended so."""
+        return sum(result.verdict is verdict for result in self.results)
+
+    @property
+    def errors(self) -> tuple[MissionResult, ...]:
+        """Missions that the tool could not fly; they are in no percentage."""
+        return tuple(result for result in self.results if result.verdict is Verdict.ERROR)
+
+    @property
+    def holds(self) -> bool:
+        """Whether the model may be believed: every planned mission counted, and not too many of them failed."""
+        return not (self.rate.exceeds or self.errors or self.is_interrupted)
+
+
+def assess(
+    mission: Mission,
+    agent: AgentConfiguration,
+    run_id: str,
+    seed: int,
+    planned: int,
+    results: Sequence[MissionResult],
+    refly: Refly | None,
+    *,
+    is_interrupted: bool = False,
+) -> Findings:
+    """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted."""
+    ordered = tuple(sorted(results, key=lambda result: result.number))
+    counted = sum(result.verdict is not Verdict.ERROR for result in ordered)
+    failures = sum(result.verdict is Verdict.FAIL for result in ordered)
+    check = mission.check
+    rate = judge_rate(failures, counted, check.max_failure_rate, check.confidence)
+    faults = tuple(
+        _fault(bucket, ordered, agent, refly if number < MOST_SHARPENED and not is_interrupted else None)
+        for number, bucket in enumerate(group_failures(ordered))
+    )
+    return Findings(run_id, mission, agent, seed, planned, ordered, rate, faults, is_interrupted)
+
+
+def _fault(bucket: Bucket, results: tuple[MissionResult, ...], agent: AgentConfiguration, refly: Refly | None) -> Fault:
+    example = next(result for result in results if result.number == bucket.example)
+    abort = example.outcome.abort if example.outcome else None
+    confirmation = confirm(abort.conflict) if abort and abort.conflict else None
+    return Fault(bucket, find_thresholds(bucket, results, agent, refly), confirmation)

@@ -1,0 +1,16 @@
+"""Name files so that the name is the same in every checkout and on every machine."""
+
+from pathlib import Path, PurePosixPath
+
+
+def relative_name(name: str, root: Path) -> str:
+    """`name` relative to the mission's folder, with `/`; a file of nddlc's own library is `library/` and its name."""
+    path, folder = Path(name).resolve(), root.resolve()
+    if path.is_relative_to(folder):
+        return path.relative_to(folder).as_posix()
+    parts = PurePosixPath(path.as_posix()).parts
+    if "library" in parts and "nddl_lang" in parts:
+        return "/".join(parts[parts.index("nddl_lang") + 1 :])
+    if path.is_relative_to(folder.parent):
+        return f"../{path.relative_to(folder.parent).as_posix()}"
+    return Path(name).as_posix()

@@ -1,0 +1,106 @@
+"""Findings in, the JSON report out: the same bytes for the same run, however many workers flew it.
+
+No wall times, no machine names, keys in a fixed order, paths relative to the mission file. docs/report.md describes it.
+"""
+
+import json
+import math
+from typing import Any
+
+from checker.batch.result import MissionResult
+from checker.excerpts import Excerpts
+from checker.explain import confirmation_data, place_data, threshold_data
+from checker.findings import Fault, Findings
+from checker.oracle import CODE_NAMES, Verdict
+from checker.report.wording import verdict_word
+from runtime.executive.configuration import ParameterConfiguration
+
+FORMAT = "nddlc-report/1"
+
+
+def json_report(findings: Findings, excerpts: Excerpts) -> str:
+    """The report as JSON text."""
+    return json.dumps(report_data(findings, excerpts), ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+
+
+def report_data(findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
+    """The report as plain data."""
+    rate, agent = findings.rate, findings.agent
+    return {
+        "format": FORMAT,
+        "run": findings.run_id,
+        "name": agent.name,
+        "seed": findings.seed,
+        "planned": findings.planned,
+        "verdict": verdict_word(findings),
+        "counts": {verdict.value.lower(): findings.count(verdict) for verdict in Verdict},
+        "rate": {
+            "observed": rate.observed,
+            "limit": rate.limit,
+            "exceeds": rate.exceeds,
+            "is_certain": rate.is_certain,
+            "confidence": rate.confidence,
+            "exact": list(rate.exact),
+            "wilson": list(rate.wilson),
+        },
+        "parameters": [_parameter(parameter) for parameter in agent.parameters],
+        "faults": [_fault(fault, excerpts) for fault in findings.faults],
+        "missions": [_mission(result) for result in findings.results],
+    }
+
+
+def _parameter(parameter: ParameterConfiguration) -> dict[str, Any]:
+    return {
+        "name": parameter.name,
+        "range": [parameter.lower, parameter.upper],
+        "distribution": parameter.distribution,
+        "mode": parameter.mode,
+        "update": parameter.update if parameter.mode == "intra" else None,
+        "clip": None if parameter.clip is None else [_finite(bound) for bound in parameter.clip],
+        "kind": "int" if parameter.is_whole else "float",
+        "values": list(parameter.values),
+        "weights": list(parameter.weights),
+    }
+
+
+def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
+    bucket = fault.bucket
+    return {
+        "code": bucket.code,
+        "meaning": CODE_NAMES.get(bucket.code),
+        "reason": bucket.reason,
+        "reactor": bucket.reactor,
+        "place": place_data(bucket.blame.place, excerpts),
+        "because": bucket.blame.because,
+        "limits": [place_data(limit, excerpts) for limit in bucket.blame.limits],
+        "count": len(bucket.missions),
+        "share": bucket.share,
+        "example": bucket.example,
+        "missions": list(bucket.missions),
+        "ticks": [bucket.first_tick, bucket.last_tick],
+        "thresholds": [threshold_data(threshold) for threshold in fault.thresholds],
+        "z3": confirmation_data(fault),
+    }
+
+
+def _mission(result: MissionResult) -> dict[str, Any]:
+    outcome = result.outcome
+    return {
+        "mission": result.number,
+        "seed": result.seed,
+        "verdict": result.verdict.value,
+        "code": result.judgement.code,
+        "reason": result.judgement.reason,
+        "last_tick": None if outcome is None else outcome.last_tick,
+        "draws": []
+        if outcome is None
+        else [
+            {"parameter": draw.parameter, "tick": draw.tick, "raw": draw.raw, "value": draw.value}
+            for draw in outcome.draws
+        ],
+    }
+
+
+def _finite(bound: float) -> float | str:
+    """A bound as JSON can say it."""
+    return bound if math.isfinite(bound) else ("inf" if bound > 0 else "-inf")

@@ -1,0 +1,192 @@
+"""Findings in, one self-contained HTML page out: no script, no external resource, light and dark."""
+
+from collections.abc import Sequence
+from html import escape
+from importlib.resources import files
+
+from checker.batch.result import MissionResult
+from checker.excerpts import Excerpts
+from checker.explain import confirmation_text, threshold_text
+from checker.findings import Fault, Findings
+from checker.oracle import CODE_NAMES, Verdict
+from checker.report.svg import Dot, rate_plot, scatter_plot, strip_plot
+from checker.report.wording import decision, missions, percent, rate_line, verdict_word
+from checker.sampling.wording import describe, number
+from checker.story import Step, Story
+from runtime.executive.configuration import ParameterConfiguration
+from runtime.executive.outcome import Place
+
+MOST_ROWS = 1000
+COLOURS = 6
+
+
+def html_report(findings: Findings, excerpts: Excerpts, stories: Sequence[Story | None]) -> str:
+    """The page; `stories` has the story of each fault's example, in the order of the faults."""
+    style = files("checker.report").joinpath("page.css").read_text(encoding="utf-8")
+    name = escape(findings.agent.name)
+    parts = [
+        "<!doctype html>",
+        '<html lang="en"><head><meta charset="utf-8">',
+        '<meta name="viewport" content="width=device-width, initial-scale=1">',
+        f"<title>{name}: {verdict_word(findings)}</title>",
+        f"<style>\n{style}</style></head><body><main>",
+        *_head(findings),
+        *_faults(findings, excerpts, stories),
+        *_parameters(findings),
+        *_table(findings),
+        f"<footer>nddlc, run {findings.run_id}, seed {findings.seed}. The same run gives the same page.</footer>",
+        "</main></body></html>",
+    ]
+    return "\n".join(parts) + "\n"
+
+
+def _head(findings: Findings) -> list[str]:
+    rate = findings.rate
+    word = verdict_word(findings)
+    flown = str(len(findings.results)) if not findings.is_interrupted else f"{len(findings.results)}/{findings.planned}"
+    tiles = [(flown, "missions flown"), (str(rate.failures), "failed"), (percent(rate.observed), "failure rate")]
+    tiles.append((percent(rate.limit), "accepted"))
+    if findings.errors:
+        tiles.append((str(len(findings.errors)), "errors of the tool"))
+    return [
+        f'<span class="verdict {word}">{word}</span>',
+        f"<h1>{escape(findings.agent.name)}</h1>",
+        f'<p class="soft">{escape(decision(findings))}</p>',
+        '<div class="tiles">',
+        *(f'<div class="tile"><b>{value}</b><span>{caption}</span></div>' for value, caption in tiles),
+        "</div>",
+        rate_plot(rate),
+        f'<p class="soft">{escape(rate_line(rate))}</p>',
+    ]
+
+
+def _faults(findings: Findings, excerpts: Excerpts, stories: Sequence[Story | None]) -> list[str]:
+    if not findings.faults:
+        return []
+    parts = ["<h2>What fails</h2>"]
+    for index, (fault, story) in enumerate(zip(findings.faults, stories, strict=True)):
+        parts += _fault(index, fault, findings, excerpts, story)
+    return parts
+
+
+def _fault(index: int, fault: Fault, findings: Findings, excerpts: Excerpts, story: Story | None) -> list[str]:
+    bucket = fault.bucket
+    first, last = bucket.first_tick, bucket.last_tick
+    when = f"at tick {first}" if first == last else f"at ticks {first} to {last}"
+    meaning = escape(CODE_NAMES.get(bucket.code, "unknown"))
+    parts = [
+        f'<section class="card fault" style="--colour: var(--f{index % COLOURS})">',
+        f"<h3>{missions(len(bucket.missions))} ({percent(bucket.share)}): {escape(bucket.reason)}</h3>",
+        f'<p class="soft">{bucket.code}, {meaning}; {escape(bucket.reactor)} gives up {when}</p>',
+    ]
+    places = [place for place in (bucket.blame.place, *bucket.blame.limits) if place is not None]
+    if places:
+        parts.append("<pre>" + "\n".join(_excerpt(place, excerpts, marked=True) for place in places) + "</pre>")
+    for threshold in fault.thresholds:
+        condition, _, evidence = threshold_text(threshold).partition(" (")
+        items = "".join(f"<li>{escape(item)}</li>" for item in evidence.removesuffix(")").split("; "))
+        parts.append(f'<p class="when">fails when <b>{escape(condition)}</b></p><ul class="evidence">{items}</ul>')
+    if fault.confirmation is not None:
+        parts.append(f'<p class="soft">z3 {escape(confirmation_text(fault))}.</p>')
+    if story is not None:
+        parts.append(f"<details open><summary>Mission {story.number}, from the draw to the abort</summary>")
+        parts.append('<ol class="chain">')
+        parts += [_step(step, excerpts) for step in story.steps]
+        parts.append("</ol></details>")
+    parts.append(f"<p><code>nddlc explain {findings.run_id}#{bucket.example}</code></p></section>")
+    return parts
+
+
+def _step(step: Step, excerpts: Excerpts) -> str:
+    when = f'<span class="soft">tick {step.tick}</span> ' if step.tick is not None else ""
+    places = [place for place in (step.place, *step.limits) if place is not None]
+    is_fault = step.kind == "fault"
+    lines = "\n".join(_excerpt(place, excerpts, marked=is_fault) for place in places)
+    source = f"<pre>{lines}</pre>" if lines else ""
+    return f'<li class="{step.kind}"><span class="why">{when}{escape(step.reason)}</span>{source}</li>'
+
+
+def _excerpt(place: Place, excerpts: Excerpts, *, marked: bool) -> str:
+    line = excerpts.line(place).expandtabs(4)
+    first = place.text.strip().split("\n")[0].strip()
+    start = line.find(first) if first else -1
+    text = escape(line)
+    if marked and start >= 0:
+        end = start + len(first)
+        text = f"{escape(line[:start])}<mark>{escape(line[start:end])}</mark>{escape(line[end:])}"
+    return f'<span class="at">{escape(excerpts.path(place))}</span>\n<span class="no">{place.line} | </span>{text}'
+
+
+def _parameters(findings: Findings) -> list[str]:
+    drawn = [one for one in findings.agent.parameters if one.distribution != "fixed"]
+    if not drawn or not findings.results:
+        return []
+    by_name = {parameter.name: _dots(findings, parameter) for parameter in drawn}
+    parts = ["<h2>What was drawn</h2>", '<p class="soft">Grey dots are missions that passed.</p>']
+    for parameter in drawn:
+        thresholds = [one for fault in findings.faults for one in fault.thresholds if one.parameter == parameter.name]
+        unique = list({one.condition: one for one in thresholds}.values())
+        parts.append(f'<h3>{escape(parameter.name)}</h3><p class="soft">{escape(describe(parameter))}</p>')
+        parts.append(strip_plot(parameter.name, by_name[parameter.name], (parameter.lower, parameter.upper), unique))
+    first = [one.parameter for fault in findings.faults for one in fault.thresholds]
+    ranked = sorted(drawn, key=lambda one: (one.name not in first, first.index(one.name) if one.name in first else 0))
+    if len(ranked) > 1:
+        one, other = ranked[0], ranked[1]
+        boxes = ((one.lower, one.upper), (other.lower, other.upper))
+        parts.append(f"<h3>{escape(one.name)} against {escape(other.name)}</h3>")
+        parts.append(scatter_plot((one.name, other.name), by_name[one.name], by_name[other.name], boxes))
+    return parts
+
+
+def _dots(findings: Findings, parameter: ParameterConfiguration) -> list[Dot]:
+    """The value of a parameter in force when each mission ended."""
+    fault_of = _fault_numbers(findings)
+    dots: list[Dot] = []
+    for result in findings.results:
+        draws = result.outcome.draws if result.outcome is not None else ()
+        values = [draw.value for draw in draws if draw.parameter == parameter.name]
+        if values:
+            dots.append(Dot(result.number, values[-1], fault_of.get(result.number)))
+    return dots
+
+
+def _fault_numbers(findings: Findings) -> dict[int, int]:
+    return {mission: index for index, fault in enumerate(findings.faults) for mission in fault.bucket.missions}
+
+
+def _table(findings: Findings) -> list[str]:
+    telling = [result for result in findings.results if result.verdict is not Verdict.PASS]
+    passing = [result for result in findings.results if result.verdict is Verdict.PASS]
+    parts = ["<h2>Missions</h2>"]
+    if telling:
+        parts += _rows(findings, telling)
+    if passing:
+        parts.append(f"<details><summary>{missions(len(passing))} passed</summary>")
+        parts += [*_rows(findings, passing), "</details>"]
+    return parts
+
+
+def _rows(findings: Findings, results: Sequence[MissionResult]) -> list[str]:
+    names = [parameter.name for parameter in findings.agent.parameters]
+    fault_of = _fault_numbers(findings)
+    captions = "".join(f'<th class="n">{escape(name)}</th>' for name in names)
+    parts = [
+        '<div class="scroll"><table><thead><tr><th class="n">mission</th><th>verdict</th><th class="n">tick</th>'
+        f'{captions}<th class="n">seed</th><th>reason</th></tr></thead><tbody>'
+    ]
+    for result in results[:MOST_ROWS]:
+        last = {draw.parameter: draw.value for draw in (result.outcome.draws if result.outcome else ())}
+        values = "".join(f'<td class="n">{number(last[name]) if name in last else ""}</td>' for name in names)
+        fault = fault_of.get(result.number)
+        colour = f' style="background: var(--f{fault % COLOURS})"' if fault is not None else ""
+        tick = result.outcome.last_tick if result.outcome is not None else ""
+        word = f"{result.verdict.value} {result.judgement.code}".strip()
+        parts.append(
+            f'<tr><td class="n">{result.number}</td><td class="v"><i class="chip"{colour}></i>{word}</td>'
+            f'<td class="n">{tick}</td>{values}<td class="n">{result.seed}</td>'
+            f"<td>{escape(result.judgement.reason)}</td></tr>"
+        )
+    parts.append("</tbody></table></div>")
+    if len(results) > MOST_ROWS:
+        parts.append(f'<p class="soft">{len(results) - MOST_ROWS} more are in the JSON report.</p>')
+    return parts

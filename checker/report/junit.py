@@ -1,0 +1,45 @@
+"""Findings in, a JUnit file out, for CI systems that show one test case per mission."""
+
+from xml.etree import ElementTree
+
+from checker.excerpts import Excerpts
+from checker.explain import threshold_text
+from checker.findings import Findings
+from checker.oracle import Verdict
+
+
+def junit_report(findings: Findings, excerpts: Excerpts) -> str:
+    """One suite with a test case per mission; durations are left out, so that equal runs give equal files."""
+    name = findings.agent.name
+    counts = {
+        "tests": str(len(findings.results)),
+        "failures": str(findings.count(Verdict.FAIL)),
+        "errors": str(findings.count(Verdict.ERROR)),
+    }
+    suites = ElementTree.Element("testsuites", counts)
+    suite = ElementTree.SubElement(suites, "testsuite", {"name": name, **counts})
+    faults = {mission: fault for fault in findings.faults for mission in fault.bucket.missions}
+    for result in findings.results:
+        attributes = {"classname": name, "name": f"mission {result.number} (seed {result.seed})"}
+        case = ElementTree.SubElement(suite, "testcase", attributes)
+        if result.verdict is Verdict.ERROR:
+            ElementTree.SubElement(case, "error", {"message": _printable(result.judgement.reason)})
+        elif result.verdict is Verdict.FAIL:
+            fault = faults[result.number]
+            message = f"{result.judgement.code}: {result.judgement.reason}"
+            failure = ElementTree.SubElement(case, "failure", {"type": result.judgement.code, "message": message})
+            lines = [f"fails when {threshold_text(threshold)}" for threshold in fault.thresholds]
+            if fault.bucket.blame.place is not None:
+                place = fault.bucket.blame.place
+                lines.insert(0, f"{excerpts.path(place)}: {excerpts.line(place).strip()}")
+            lines.append(f"nddlc explain {findings.run_id}#{result.number}")
+            failure.text = _printable("\n".join(lines))
+    ElementTree.indent(suites)
+    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(suites, encoding="unicode") + "\n"
+
+
+def _printable(text: str) -> str:
+    """`text` without the characters that XML cannot hold."""
+    return "".join(
+        letter if letter.isprintable() or letter in "\n\t" else "\N{REPLACEMENT CHARACTER}" for letter in text
+    )

@@ -1,0 +1,46 @@
+"""Findings in, SARIF 2.1.0 out: one result per fault, at the line to blame, for code hosts that annotate lines."""
+
+import json
+from typing import Any
+
+from checker.excerpts import Excerpts
+from checker.explain import threshold_text
+from checker.findings import Fault, Findings
+from checker.oracle import CODE_NAMES
+from checker.report.wording import missions, percent
+from runtime.executive.outcome import Place
+
+SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
+
+
+def sarif_report(findings: Findings, excerpts: Excerpts) -> str:
+    """The faults as SARIF text; a fault without a line points at the mission file."""
+    codes = dict.fromkeys(fault.bucket.code for fault in findings.faults)
+    driver = {
+        "name": "nddlc",
+        "rules": [{"id": code, "shortDescription": {"text": CODE_NAMES.get(code, code)}} for code in codes],
+    }
+    results = [_result(fault, findings, excerpts) for fault in findings.faults]
+    run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
+    document = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
+    return json.dumps(document, ensure_ascii=False, indent=1) + "\n"
+
+
+def _result(fault: Fault, findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
+    bucket = fault.bucket
+    parts = [f"{missions(len(bucket.missions))} ({percent(bucket.share)}) fail here: {bucket.reason}."]
+    parts += [f"Fails when {threshold_text(threshold)}." for threshold in fault.thresholds]
+    parts.append(f"Explained by `nddlc explain {findings.run_id}#{bucket.example}`.")
+    where = bucket.blame.place or Place(findings.mission.source.name, 1, 1, "")
+    return {
+        "ruleId": bucket.code,
+        "level": "error",
+        "message": {"text": " ".join(parts)},
+        "locations": [_location(where, excerpts)],
+        "relatedLocations": [_location(limit, excerpts) for limit in bucket.blame.limits],
+    }
+
+
+def _location(place: Place, excerpts: Excerpts) -> dict[str, Any]:
+    region = {"startLine": place.line, "startColumn": place.column}
+    return {"physicalLocation": {"artifactLocation": {"uri": excerpts.file(place)}, "region": region}}

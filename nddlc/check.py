@@ -1,0 +1,167 @@
+"""`nddlc check`: fly the missions of a mission file and say what fails and why; or check one model's text."""
+
+import json
+import os
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import click
+
+from checker.batch.store import StoreError, open_store
+from checker.campaign import Campaign
+from checker.excerpts import Excerpts
+from checker.findings import Findings
+from checker.flight import load
+from checker.mission import LARGEST_SEED, Mission, read_mission
+from checker.models import load_models
+from checker.oracle import Verdict
+from checker.report.document import json_report
+from checker.report.html import html_report
+from checker.report.junit import junit_report
+from checker.report.sarif import sarif_report
+from checker.report.text import text_report
+from checker.report.write import write_whole
+from nddl_lang.analysis import analyse_file
+from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.render import as_dict, render
+from nddlc.inputs import Unusable, chosen_dialect, colours, readable
+
+HOLDS, FINDINGS, UNUSABLE, BUG, INTERRUPTED = 0, 1, 2, 3, 130
+STORE = Path(".nddlc/runs.sqlite")
+REPORT = Path("nddlc-report")
+STYLES = ("text", "json", "html", "junit", "sarif")
+
+
+@click.command()
+@click.argument("path", metavar="PATH")
+@click.option("--missions", type=click.IntRange(1), help="How many missions to fly, whatever the file says.")
+@click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The batch seed, whatever the file says.")
+@click.option("--max-failure-rate", type=click.FloatRange(0.0, 1.0), help="The accepted rate, whatever the file says.")
+@click.option("--workers", type=click.IntRange(1), help="Processes to fly with; by default one per core.")
+@click.option("--format", "style", type=click.Choice(STYLES), default="text", help="What to print.")
+@click.option("--output", type=click.Path(path_type=Path), default=REPORT, help="Where reports go (./nddlc-report).")
+@click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where runs are kept.")
+@click.option("--no-store", is_flag=True, help="Keep nothing but the report.")
+@click.option("--resume", is_flag=True, help="Fly only what the same run has not finished before.")
+@click.pass_context
+def command(
+    ctx: click.Context,
+    path: str,
+    missions: int | None,
+    seed: int | None,
+    max_failure_rate: float | None,
+    workers: int | None,
+    style: str,
+    output: Path,
+    store_path: Path,
+    no_store: bool,
+    resume: bool,
+) -> int:
+    """Check a model by flying many missions, or check the text of one model.
+
+    PATH is a mission file (.toml): its models are checked first, then its missions are flown. Ends with 0 if not too
+    many missions fail, with 1 if too many do. If PATH is a model (.nddl), only its text is checked.
+    """
+    (file,) = readable((path,), ())
+    if file.suffix == ".nddl":
+        analysis = analyse_file(file, chosen_dialect(ctx, None))
+        _tell(analysis.diagnostics, style)
+        return UNUSABLE if analysis.has_errors else HOLDS
+    campaign = _prepare(file, missions, seed, max_failure_rate, style)
+    if campaign is None:
+        return UNUSABLE
+    count = workers or _cores()
+    try:
+        if no_store:
+            results, is_interrupted = campaign.fly(count, None, resume=False, progress=_progress)
+        else:
+            with open_store(store_path) as store:
+                results, is_interrupted = campaign.fly(count, store, resume=resume, progress=_progress)
+    except StoreError as problem:
+        raise Unusable(str(problem), "--store names another one, --no-store does without") from None
+    findings = campaign.assess(results, is_interrupted=is_interrupted, may_fly=True)
+    return _report(campaign, findings, style, output)
+
+
+def _prepare(
+    file: Path, missions: int | None, seed: int | None, max_failure_rate: float | None, style: str
+) -> Campaign | None:
+    """Read the mission and its models; None where they are in error, which the user has then been told."""
+    mission, found = read_mission(file)
+    if mission is None:
+        _tell(found, style)
+        return None
+    mission = _overridden(mission, missions, seed, max_failure_rate)
+    models = load_models(mission)
+    if models.has_errors:
+        _tell((*found, *models.diagnostics), style)
+        return None
+    if style == "text":
+        weighty = (Severity.ERROR, Severity.WARNING)
+        _tell(tuple(one for one in (*found, *models.diagnostics) if one.severity in weighty), style)
+    return Campaign(mission, models, load)
+
+
+def _overridden(mission: Mission, missions: int | None, seed: int | None, max_failure_rate: float | None) -> Mission:
+    check = mission.check
+    if missions is not None:
+        check = replace(check, missions=missions)
+    if seed is not None:
+        check = replace(check, seed=seed)
+    if max_failure_rate is not None:
+        check = replace(check, max_failure_rate=max_failure_rate)
+    return replace(mission, check=check)
+
+
+def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
+    """Print diagnostics: as text, or as data for whoever asked for a format that programs read."""
+    if style != "text":
+        click.echo(json.dumps({"diagnostics": [as_dict(one) for one in diagnostics]}, ensure_ascii=False, indent=1))
+        return
+    colour = colours()
+    for one in diagnostics:
+        click.echo(render(one, colour=colour))
+    errors = sum(one.severity is Severity.ERROR for one in diagnostics)
+    if errors:
+        click.echo(f"{errors} error{'' if errors == 1 else 's'}: nothing was flown")
+
+
+def _cores() -> int:
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def _progress(done: int, planned: int) -> None:
+    """A line that counts, on a terminal only."""
+    if sys.stderr.isatty():
+        end = "\r" if done < planned else "\r\x1b[K"
+        click.echo(f"\r{done} of {planned} missions{end}", nl=False, err=True)
+
+
+def _report(campaign: Campaign, findings: Findings, style: str, output: Path) -> int:
+    """Write every form of the report, print the one that was asked for, and say how it ended."""
+    excerpts = Excerpts(Path(campaign.models.agent.root))
+    reports = {
+        "json": ("report.json", json_report(findings, excerpts)),
+        "html": ("report.html", html_report(findings, excerpts, campaign.stories(findings))),
+        "junit": ("junit.xml", junit_report(findings, excerpts)),
+        "sarif": ("report.sarif", sarif_report(findings, excerpts)),
+    }
+    try:
+        for name, text in reports.values():
+            write_whole(output / name, text)
+    except OSError as problem:
+        raise Unusable(
+            f"cannot write the report to `{output}`: {problem.strerror}", "--output names a folder"
+        ) from None
+    if style == "text":
+        click.echo(text_report(findings, excerpts), nl=False)
+        click.echo(f"\nreport: {output / 'report.html'} (beside it report.json, junit.xml, report.sarif)")
+    else:
+        click.echo(reports[style][1], nl=False)
+    if findings.is_interrupted:
+        return INTERRUPTED
+    if findings.rate.exceeds:
+        return FINDINGS
+    return BUG if findings.count(Verdict.ERROR) else HOLDS

@@ -1,0 +1,148 @@
+"""`nddlc check` and `nddlc explain` from the user's side, with a stand-in for the agent."""
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from checker.batch.worker import Load
+from nddlc.main import run
+from tests.checker.fake_agent import load_broken, load_split, load_troubled
+
+GPS = Path("models/gps").resolve()
+
+
+@pytest.fixture
+def agent(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Put the stand-in where the agent is plugged in, and work in an empty folder."""
+    monkeypatch.chdir(tmp_path)
+    plug(monkeypatch, load_split)
+
+
+def plug(monkeypatch: pytest.MonkeyPatch, load: Load) -> None:
+    monkeypatch.setattr("nddlc.check.load", load)
+    monkeypatch.setattr("nddlc.explain.load", load)
+
+
+def test_a_failing_model_ends_with_findings_and_a_reason(agent: None, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", str(GPS / "mission.toml")]) == 1
+    text = capsys.readouterr().out
+    assert "gps: 200 missions, 10 failed" in text
+    assert "34 |   duration <= SURFACE_MAX;" in text
+    assert "5 | SURFACE_MAX = 66;" in text
+    assert "fails when GPS_HIT_RATE > 3.8" in text
+    assert len(text.splitlines()) <= 25
+    assert sorted(path.name for path in Path("nddlc-report").iterdir()) == [
+        "junit.xml",
+        "report.html",
+        "report.json",
+        "report.sarif",
+    ]
+    found = re.search(r"nddlc explain (\w+#\d+)", text)
+    assert found is not None
+    assert run(["explain", found[1]]) == 0
+    story = capsys.readouterr().out
+    order = ["sampledParameter(GPS_HIT_RATE)", "gpsHitRate * minHits", "SURFACE_MAX;   ", "gives up after 2 repairs"]
+    places = [story.find(words.strip()) for words in order]
+    assert -1 not in places
+    assert places == sorted(places)
+    assert "<== the line to blame" in story
+    assert run(["explain", "latest", "--format", "json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["thresholds"][0]["condition"] == "GPS_HIT_RATE > 3.8"
+    assert told["steps"][0]["kind"] == "draw"
+
+
+def test_a_model_that_keeps_the_limit_holds(agent: None, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", str(GPS / "mission.toml"), "--max-failure-rate", "0.2", "--missions", "60"]) == 0
+    assert "HOLDS: the rate is within the accepted 20 %" in capsys.readouterr().out
+
+
+def test_the_json_does_not_depend_on_the_workers(agent: None, tmp_path: Path) -> None:
+    for workers in ("1", "2"):
+        mission = str(GPS / "mission.toml")
+        assert run(["check", mission, "--workers", workers, "--output", f"out{workers}", "--no-store"]) == 1
+    for name in ("report.json", "report.html", "report.sarif", "junit.xml"):
+        assert (tmp_path / "out1" / name).read_bytes() == (tmp_path / "out2" / name).read_bytes()
+
+
+def test_a_batch_is_resumed(agent: None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    mission = str(GPS / "mission.toml")
+    assert run(["check", mission, "--missions", "20", "--format", "json"]) == 1
+    first = capsys.readouterr().out
+    plug(monkeypatch, load_broken)  # nothing that is flown again can succeed
+    assert run(["check", mission, "--missions", "20", "--format", "json", "--resume"]) == 1
+    assert json.loads(capsys.readouterr().out)["missions"] == json.loads(first)["missions"]
+
+
+def test_errors_of_the_tool_are_counted_apart(
+    agent: None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    plug(monkeypatch, load_troubled)
+    Path("m.toml").write_text((GPS / "mission.toml").read_text() + "time_limit = 1.0\n")
+    for name in GPS.glob("*.nddl"):
+        Path(name.name).write_text(name.read_text())
+    assert run(["check", "m.toml", "--missions", "12", "--max-failure-rate", "1"]) == 3
+    text = capsys.readouterr().out
+    assert "errors of the tool, counted nowhere:" in text
+    assert "UNDECIDED" in text
+
+
+def test_a_mission_that_passed_is_flown_again_on_request(agent: None, capsys: pytest.CaptureFixture[str]) -> None:
+    run(["check", str(GPS / "mission.toml"), "--missions", "20"])
+    capsys.readouterr()
+    assert run(["explain", "latest#1", "--events"]) == 0
+    text = capsys.readouterr().out
+    assert "mission 1 of run" in text
+    assert "passed" in text
+    assert "mission over at tick 900" in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["explain"], "there is no store"),
+        (["explain", "latest#x"], "`x` is no number of a mission"),
+        (["check", "nowhere.toml"], "no file `nowhere.toml`"),
+    ],
+)
+def test_what_cannot_be_done_is_said(
+    agent: None, capsys: pytest.CaptureFixture[str], arguments: list[str], complaint: str
+) -> None:
+    assert run(arguments) == 2
+    assert complaint in capsys.readouterr().err
+
+
+def test_a_model_with_three_mistakes_has_them_all_reported(agent: None, capsys: pytest.CaptureFixture[str]) -> None:
+    lines = ["class Lamp extends Timeline {", "  predicate On { int power; }", "}", "Lamp a = new Lmap();", ""]
+    lines += ["Lamp::On {", "  brightness == 3;", "  starts(object.Off o);", "}"]
+    Path("lamp.nddl").write_text("\n".join(lines) + "\n")
+    assert run(["check", "lamp.nddl", "--format", "json"]) == 2
+    found = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert [one["line"] for one in found] == [4, 7, 8]
+    Path("good.nddl").write_text("class Lamp extends Timeline {\n  predicate On { int power; }\n}\n")
+    assert run(["check", "good.nddl"]) == 0
+
+
+def test_a_mission_with_mistaken_models_flies_nothing(agent: None, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("navigator.nddl").write_text("int x = y;\nint x2 = z;\n")
+    Path("psim.nddl").write_text("Lamp l;\n")
+    Path("mission.toml").write_text((GPS / "mission.toml").read_text())
+    assert run(["check", "mission.toml"]) == 2
+    text = capsys.readouterr().out
+    assert "navigator.nddl:1:" in text
+    assert "navigator.nddl:2:" in text
+    assert "psim.nddl:1:" in text
+    assert "nothing was flown" in text
+
+
+def test_a_parameter_that_no_model_samples_is_refused(agent: None, capsys: pytest.CaptureFixture[str]) -> None:
+    for name in GPS.glob("*.nddl"):
+        Path(name.name).write_text(name.read_text())
+    text = (GPS / "mission.toml").read_text().replace("[parameters.GPS_HIT_RATE]", "[parameters.GPS_HITRATE]")
+    Path("mission.toml").write_text(text)
+    assert run(["check", "mission.toml"]) == 2
+    printed = capsys.readouterr().out
+    assert "no model samples a parameter `GPS_HITRATE`" in printed
+    assert "did you mean `GPS_HIT_RATE`?" in printed
