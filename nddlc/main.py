@@ -10,12 +10,15 @@ from typing import Any
 
 import click
 
+from nddl_lang.semantics.nearest import nearest
+
 # A subcommand is one file, imported only when it is used; a new one needs a line here and nothing else.
 COMMANDS = {
     "check": ("nddlc.check", "Fly the missions of a mission file, and say what fails and why."),
     "explain": ("nddlc.explain", "Explain why one mission of a run failed."),
     "load": ("nddlc.load", "Load models and show their tokens and variables."),
     "lint": ("nddlc.lint", "Report everything that is wrong with models."),
+    "plan": ("nddlc.plan", "Search a plan for a model."),
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 UNUSABLE, BUG, INTERRUPTED = 2, 3, 130
@@ -27,6 +30,16 @@ class Subcommands(click.Group):
     def list_commands(self, ctx: click.Context) -> list[str]:
         """The names, in the order of the table."""
         return list(COMMANDS)
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that is called; of a mistyped name, say which one may be meant."""
+        if args[0] not in COMMANDS and not args[0].startswith("-"):
+            meant = nearest(args[0], COMMANDS)
+            advice = f"; did you mean `{meant}`?" if meant is not None else ""
+            ctx.fail(f"there is no command `{args[0]}`{advice}")
+        return super().resolve_command(ctx, args)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """The command in its file, where the table names one."""

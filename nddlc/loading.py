@@ -1,0 +1,61 @@
+"""Load one model and tell what became of it: as a value, and as the object that the conformance suite reads."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from compiler.lower import compile_model
+from compiler.program import Program
+from nddl_lang.analysis import analyse_file
+from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.render import as_dict
+from runtime.plan.database import PlanDatabase
+from runtime.plan.readout import read
+
+Facts = dict[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """A model after its script has run; there is no database where its text is in error."""
+
+    file: str
+    diagnostics: tuple[Diagnostic, ...]
+    program: Program | None
+    database: PlanDatabase | None
+
+    @property
+    def is_refused(self) -> bool:
+        """Whether the text, or a statement of the script, is in error."""
+        return any(each.severity is Severity.ERROR for each in self.diagnostics)
+
+
+def load(path: Path, directories: tuple[str, ...], dialect: Dialect | None, name: str | None = None) -> Loaded:
+    """Analyse, compile and run the script of the model at `path`; the script stops at the first error."""
+    file = name or str(path)
+    analysis = analyse_file(path, dialect, directories)
+    found = tuple(analysis.diagnostics)
+    if any(each.severity is Severity.ERROR for each in found):
+        return Loaded(file, found, None, None)
+    program = compile_model(analysis)
+    database = PlanDatabase(program)
+    fault = database.run_script()
+    return Loaded(file, found if fault is None else (*found, fault), program, database)
+
+
+def facts(loaded: Loaded) -> Facts:
+    """What became of the model, as plain data; `solve` is for whoever plans."""
+    told: Facts = {
+        "file": loaded.file,
+        "load": "error" if loaded.is_refused else "ok",
+        "consistent": None,
+        "diagnostics": [as_dict(each) for each in loaded.diagnostics],
+        "domains": {},
+        "tokens": [],
+        "order": {},
+        "solve": None,
+    }
+    if loaded.database is not None and not loaded.is_refused:
+        told |= read(loaded.database)
+    return told
