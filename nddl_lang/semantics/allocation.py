@@ -13,7 +13,7 @@ from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr
 from nddl_lang.text.diagnostic import Code, Note, Severity
 from nddl_lang.text.source import Span
 
-NO_CONSTRUCTOR = Code("NDDL323", Severity.ERROR, "arity", "class `{name}` has no constructor that takes {arguments}")
+NO_CONSTRUCTOR = Code("NDDL323", Severity.ERROR, "arity", "class `{name}` has no constructor {arguments}")
 NO_BASE_CONSTRUCTOR = Code(
     "NDDL324",
     Severity.ERROR,
@@ -86,12 +86,12 @@ def choose(
     if best is None:
         if not context.world.is_partial(owner.name):
             described = ", ".join("?" if type_ is None else type_.name for type_ in types)
-            text = f"`({described})`" if types else "no arguments"
+            text = f"that takes `({described})`" if types else "without arguments"
             notes = constructor_notes(owner)
             context.complain(NO_CONSTRUCTOR.at(span, notes=notes, name=owner.name, arguments=text))
         return None
     for argument, parameter in zip(arguments, best.parameters, strict=True):
-        check_restriction(context, argument, parameter.type)
+        check_restriction(context, argument, parameter.type, parameter.name)
     return best
 
 

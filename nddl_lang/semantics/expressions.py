@@ -139,6 +139,7 @@ def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right:
         for side, type_ in ((binary.left, left), (binary.right, right)):
             if type_ is not None and type_.kind not in COUNTABLE:
                 context.complain(NO_ORDER.at(side.span, op=op, text=side.span.text, found=phrase(type_)))
+                break
         return BOOL
     if op in _LOGIC:
         for side, type_ in ((binary.left, left), (binary.right, right)):
@@ -178,12 +179,11 @@ def _is_sum_of_times(context: Context, expression: Expr) -> bool:
 
 
 def _arithmetic_type(context: Context, binary: BinaryExpr, left: Type | None, right: Type | None) -> Type | None:
-    is_sound = True
     for side, type_ in ((binary.left, left), (binary.right, right)):
         if type_ is not None and type_.kind not in NUMBERS:
-            is_sound = False
             context.complain(NOT_A_NUMBER.at(side.span, op=binary.op, text=side.span.text, found=phrase(type_)))
-    if left is None or right is None or not is_sound:
+            return None
+    if left is None or right is None:
         return None
     if left.kind is not right.kind and context.dialect is Dialect.NDDL3:
         context.complain(

@@ -103,32 +103,32 @@ class MethodRow:
 
 
 _METHODS = (
-    MethodRow("specify", Receiver.VARIABLE, signature("value:any"), "Decide the variable."),
-    MethodRow("reset", Receiver.VARIABLE, signature(""), "Undo the decision, and what followed from it."),
-    MethodRow("close", Receiver.VARIABLE, signature(""), "No further value or object joins the domain."),
-    MethodRow("activate", Receiver.TOKEN, signature(""), "Put the token into the plan; its rules run."),
-    MethodRow("merge", Receiver.TOKEN, signature("active:token"), "Let an active token stand for this one."),
-    MethodRow("reject", Receiver.TOKEN, signature(""), "Drop a rejectable token."),
-    MethodRow("cancel", Receiver.TOKEN, signature(""), "Make the token inactive again."),
+    MethodRow("specify", Receiver.VARIABLE, signature("value:any"), "decide the variable"),
+    MethodRow("reset", Receiver.VARIABLE, signature(""), "undo the decision, and what followed from it"),
+    MethodRow("close", Receiver.VARIABLE, signature(""), "no further value or object joins the domain"),
+    MethodRow("activate", Receiver.TOKEN, signature(""), "put the token into the plan; its rules run"),
+    MethodRow("merge", Receiver.TOKEN, signature("active:token"), "let an active token stand for this one"),
+    MethodRow("reject", Receiver.TOKEN, signature(""), "drop a rejectable token"),
+    MethodRow("cancel", Receiver.TOKEN, signature(""), "make the token inactive again"),
     MethodRow(
         "constrain",
         Receiver.OBJECT,
         signature("token:token next?:token"),
-        "Order the first token before the second on the object; one token alone is assigned to it.",
+        "order the first token before the second on the object; one token alone is assigned to it",
     ),
-    MethodRow("free", Receiver.OBJECT, signature("token:token next?:token"), "Undo `constrain`."),
+    MethodRow("free", Receiver.OBJECT, signature("token:token next?:token"), "undo `constrain`"),
     MethodRow(
-        "set_capacity", Receiver.OBJECT, signature("time:number lower:number upper:number"), "Change the capacity."
+        "set_capacity", Receiver.OBJECT, signature("time:number lower:number upper:number"), "change the capacity"
     ),
     MethodRow(
         "set_limit",
         Receiver.OBJECT,
         signature("time:number lower:number upper:number"),
-        "Change the limits of the level.",
+        "change the limits of the level",
         "EUROPA changes the capacity instead.",
     ),
-    MethodRow("close", Receiver.CLASS, signature(""), "No further objects of the class."),
-    MethodRow("close", Receiver.NOTHING, signature(""), "No further objects of any class."),
+    MethodRow("close", Receiver.CLASS, signature(""), "no further objects of the class"),
+    MethodRow("close", Receiver.NOTHING, signature(""), "no further objects of any class"),
 )
 
 METHODS: dict[tuple[Receiver, str], MethodRow] = {(row.receiver, row.name): row for row in _METHODS}

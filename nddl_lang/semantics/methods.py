@@ -27,7 +27,9 @@ WRONG_RECEIVER = Code("NDDL332", Severity.ERROR, "type", "`{name}` is called on 
 CLOSED_TWICE = Code("NDDL406", Severity.ERROR, "state", "{what} is closed already")
 NOT_INACTIVE = Code("NDDL407", Severity.ERROR, "state", "`{name}` cannot be {done}: it is {state}")
 MERGE_INACTIVE = Code("NDDL408", Severity.ERROR, "state", "`{name}` is not active, so nothing can be merged into it")
-MERGE_OTHER = Code("NDDL409", Severity.ERROR, "state", "`{name}` is a `{one}`; only another `{one}` can stand for it")
+MERGE_OTHER = Code(
+    "NDDL409", Severity.ERROR, "state", "`{name}` is a token of `{one}`; only another one of them can stand for it"
+)
 NOT_REJECTABLE = Code("NDDL410", Severity.ERROR, "state", "`{name}` is a {kind}, which cannot be rejected")
 ORDER_INACTIVE = Code("NDDL411", Severity.ERROR, "state", "`{name}` is not active, so it has no place on `{object}`")
 
@@ -155,9 +157,9 @@ def _check_transaction(context: Context, node: MethodCall, row: MethodRow, label
                 _check_merge(context, node, label)
             world.put_token_state(label.name, "MERGED")
         case "reject":
-            states = world.base_domain(f"{label.name}.state")
-            if states is not None and "REJECTED" not in getattr(states, "items", ()):
-                context.complain(NOT_REJECTABLE.at(node.span, name=label.name, kind="goal or fact"))
+            kind = world.token_kind(label.name)
+            if kind != "rejectable":
+                context.complain(NOT_REJECTABLE.at(node.span, name=label.name, kind=kind))
             elif state in ("ACTIVE", "REJECTED", "MERGED"):
                 _complain_state(context, node, label, "rejected", state)
             world.put_token_state(label.name, "REJECTED")
@@ -165,8 +167,17 @@ def _check_transaction(context: Context, node: MethodCall, row: MethodRow, label
             if state == "INACTIVE":
                 _complain_state(context, node, label, "cancelled", state)
             world.put_token_state(label.name, "INACTIVE")
+            if state != "MERGED":
+                _forget_merged(context)
         case _:
             world.put_token_state(label.name, None)
+
+
+def _forget_merged(context: Context) -> None:
+    """A cancelled token lets go of the tokens that were merged into it; which they are is not kept."""
+    for name in list(context.world.names("goal")):
+        if context.world.token_state(name) == "MERGED":
+            context.world.put_token_state(name, None)
 
 
 def _complain_state(context: Context, node: MethodCall, label: Label, done: str, state: str) -> None:
@@ -180,7 +191,7 @@ def _check_merge(context: Context, node: MethodCall, label: Label) -> None:
         return
     one, other = label.predicate, active.predicate
     if one.name != other.name or not context.world.is_subclass(other.class_name, one.class_name):
-        notes = (Note(f"`{active.name}` is a `{other.full_name}`", active.span),)
+        notes = (Note(f"`{active.name}` is a token of `{other.full_name}`", active.span),)
         context.complain(MERGE_OTHER.at(argument.span, notes=notes, name=label.name, one=one.full_name))
     elif context.world.token_state(active.name) not in (None, "ACTIVE"):
         help_ = f"activate it first: `{active.name}.activate();`"

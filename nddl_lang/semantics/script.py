@@ -54,7 +54,7 @@ def check_script_relation(context: Context, node: Relation) -> None:
     """Check a relation between tokens of the script."""
     for label in check_relation(context, Scope(Place.SCRIPT), node):
         if label is not None:
-            _note_token(context, label, "goal")
+            _note_token(context, label, "child")
 
 
 def check_new(context: Context, node: Allocation) -> None:
@@ -134,7 +134,7 @@ def note_state(context: Context, label: Label, state: Domain | None) -> None:
 def _note_token(context: Context, label: Label, kind: str) -> None:
     world = context.world
     is_active = any(owner.name in SELF_ACTIVATING for owner in world.ancestry(label.predicate.class_name))
-    world.put_token_state(label.name, "ACTIVE" if is_active else "INACTIVE")
+    world.put_token(label.name, kind, "ACTIVE" if is_active else "INACTIVE")
     world.put_base_domain(f"{label.name}.state", Values(_REJECTABLE_STATES if kind == "rejectable" else _GOAL_STATES))
 
 

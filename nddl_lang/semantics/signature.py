@@ -14,7 +14,7 @@ class ArgumentKind(Enum):
     OBJECT = "an object"
     TOKEN = "a token"
     RESOURCE = "an object of class `CBReusable`"
-    PARAMETER = "a global variable or an enum value"
+    PARAMETER = "a global number or an enum value"
     ANY = "anything"
     SAME = "anything comparable with the others"
 

@@ -77,7 +77,11 @@ def find_token(context: Context, scope: Scope, name: Identifier) -> Label | None
         return label
     if name.name == "this":
         context.complain(MISPLACED_THIS.at(name.span, place=scope.place.value))
-    elif scope.lost_at(name.name) is not None or scope.declared_below(name.name) is not None:
+    elif (other := find(context, scope, name.name)) is not None:
+        what = "a class" if isinstance(other, ClassReference) else "a variable"
+        help_ = f"`{name.name}` is {what}; relations link tokens"
+        context.complain(UNKNOWN_TOKEN.at(name.span, help=help_, name=name.name))
+    elif any(is_known(name.name) for is_known in (scope.lost_at, scope.declared_below, context.world.declared_below)):
         complain_unknown(context, scope, name)
     elif not scope.is_doubtful(name.name) and not context.world.is_doubtful(name.name):
         complaint = UNKNOWN_TOKEN.at(name.span, name=name.name)
@@ -98,8 +102,19 @@ def find_predicate(context: Context, owner: Class, name: Identifier) -> Predicat
     if found is None and not context.world.is_partial(owner.name) and not context.world.is_doubtful(name.name):
         notes = (Note(f"`{owner.name}` is declared here", owner.span),) if owner.span is not None else ()
         complaint = UNKNOWN_PREDICATE.at(name.span, notes=notes, owner=owner.name, name=name.name)
+        others = [other for other in context.world.names("class") if _has_predicate(context, other, name.name)]
+        if others:
+            help_ = (
+                "write " + " or ".join(f"`{other}.{name.name}`" for other in others[:3]) + " for that of another class"
+            )
+            complaint = UNKNOWN_PREDICATE.at(name.span, notes=notes, help=help_, owner=owner.name, name=name.name)
         context.complain(suggest_name(complaint, name, [*owner.predicates, *owner.inherited]))
     return found
+
+
+def _has_predicate(context: Context, class_name: str, name: str) -> bool:
+    owner = context.world.find_class(class_name)
+    return owner is not None and name in owner.predicates
 
 
 def _find_relation(context: Context, name: Identifier) -> RelationRow | None:

@@ -29,7 +29,7 @@ from nddl_lang.syntax.nodes import (
 )
 from nddl_lang.text.diagnostic import Code, Edit, Fix, Severity
 
-DOES_NOT_FIT = Code("NDDL304", Severity.ERROR, "type", "`{text}` is {found}; `{name}` is {wanted}")
+DOES_NOT_FIT = Code("NDDL304", Severity.ERROR, "type", "`{text}` is {found}; `{name}` takes {wanted}")
 OUTSIDE_TYPE = Code("NDDL313", Severity.ERROR, "domain", "`{text}` lies outside `{type}`, which is {domain}")
 
 
@@ -41,23 +41,24 @@ def check_value(context: Context, scope: Scope, expression: Expr, target: Type, 
     if not _fits(context, expression, type_, target):
         _complain_misfit(context, expression, type_, target, name)
         return None
-    check_restriction(context, expression, target)
-    return type_
+    return type_ if check_restriction(context, expression, target, name) else None
 
 
-def check_restriction(context: Context, expression: Expr, target: Type) -> None:
-    """Complain about values outside the domain that a typedef (or native class) allows."""
+def check_restriction(context: Context, expression: Expr, target: Type, name: str) -> bool:
+    """Complain about values outside the domain of a typedef or of a native parameter; whether there are none."""
     allowed = target.restriction
     value = constant(context, expression) if allowed is not None else None
     if allowed is None or value is None:
-        return
+        return True
     if isinstance(expression, SetExpr):
-        for item in expression.items:
-            check_restriction(context, item, target)
-    elif domains.intersect(value, allowed, target.kind) is None:
-        context.complain(
-            OUTSIDE_TYPE.at(expression.span, text=expression.span.text, type=target.name, domain=domains.text(allowed))
-        )
+        outside = [item for item in expression.items if not check_restriction(context, item, target, name)]
+        return not outside
+    if domains.intersect(value, allowed, target.kind) is not None:
+        return True
+    label = name if target.name == target.base else target.name
+    text = expression.span.text
+    context.complain(OUTSIDE_TYPE.at(expression.span, text=text, type=label, domain=domains.text(allowed)))
+    return False
 
 
 def constant(context: Context, expression: Expr) -> Domain | None:

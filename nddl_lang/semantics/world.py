@@ -238,6 +238,15 @@ class World:
         """Note what the base domain of a variable lies within."""
         self.put("domain", variable, domain)
 
+    def token_kind(self, goal: str) -> str:
+        """What made a token of the script: goal, fact, rejectable, or child (of a relation)."""
+        return cast(str, self.look("kind", goal))
+
+    def put_token(self, goal: str, kind: str, state: str) -> None:
+        """Note a new token of the script."""
+        self.put("kind", goal, kind)
+        self.put("state", goal, state)
+
     def token_state(self, goal: str) -> str | None:
         """The state of a token of the script, None where it is not known for certain."""
         return cast(str | None, self.look("state", goal))
