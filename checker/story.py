@@ -47,7 +47,8 @@ def tell(result: MissionResult, agent: AgentConfiguration, influence: Influence,
     assert outcome is not None
     parameters = _suspects(outcome, fault)
     draws = _draws(outcome, agent, influence, parameters)
-    way = [outcome.events[index] for index in events_to_abort(outcome, parameters)]
+    indices = {*events_to_abort(outcome, parameters), *_tokens_of(outcome, influence, parameters)}
+    way = [outcome.events[index] for index in sorted(indices)]
     if draws:
         way = [event for event in way if event.kind != "sample"]
     steps = [
@@ -73,6 +74,21 @@ def _suspects(outcome: Outcome, fault: Fault | None) -> tuple[str, ...]:
     if fault is not None and fault.thresholds:
         return tuple(threshold.parameter for threshold in fault.thresholds)
     return draws_behind(outcome)
+
+
+def _tokens_of(outcome: Outcome, influence: Influence, parameters: tuple[str, ...]) -> list[int]:
+    """The last observations of the tokens whose rules the draws act through: where a draw shows outside its reactor."""
+    found: list[int] = []
+    for predicate in dict.fromkeys(
+        rule.rpartition(".")[2] for name in parameters for rule, _ in influence.get(name, ())
+    ):
+        shown = [
+            index
+            for index, event in enumerate(outcome.events)
+            if event.kind == "observation" and event.text.partition("(")[0] == predicate
+        ]
+        found += shown[-1:]
+    return found
 
 
 def _draws(

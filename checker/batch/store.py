@@ -9,6 +9,7 @@ from pathlib import Path
 from checker.batch.result import MissionResult, read_result, write_result
 
 LATEST = "latest"
+FOLDER = ".nddlc"
 COMMIT_EVERY = 64  # results
 SCHEMA = """
 CREATE TABLE IF NOT EXISTS runs (
@@ -104,6 +105,8 @@ def open_store(path: Path) -> Iterator[Store]:
     """Open or make the store at `path`; whatever happens inside, finished missions are written."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        if path.parent.name == FOLDER and not (path.parent / ".gitignore").exists():
+            (path.parent / ".gitignore").write_text("*\n", encoding="ascii")  # nothing in here is for others
         connection = sqlite3.connect(path, timeout=10.0)
         connection.execute("PRAGMA journal_mode = WAL")
         connection.execute("PRAGMA synchronous = NORMAL")

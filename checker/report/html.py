@@ -1,5 +1,6 @@
 """Findings in, one self-contained HTML page out: no script, no external resource, light and dark."""
 
+import re
 from collections.abc import Sequence
 from html import escape
 from importlib.resources import files
@@ -40,6 +41,11 @@ def html_report(findings: Findings, excerpts: Excerpts, stories: Sequence[Story 
     return "\n".join(parts) + "\n"
 
 
+def _words(text: str) -> str:
+    """A sentence, with what stands in backquotes as code."""
+    return re.sub(r"`([^`]*)`", r"<code>\1</code>", escape(text))
+
+
 def _head(findings: Findings) -> list[str]:
     rate = findings.rate
     word = verdict_word(findings)
@@ -76,7 +82,7 @@ def _fault(index: int, fault: Fault, findings: Findings, excerpts: Excerpts, sto
     meaning = escape(CODE_NAMES.get(bucket.code, "unknown"))
     parts = [
         f'<section class="card fault" style="--colour: var(--f{index % COLOURS})">',
-        f"<h3>{missions(len(bucket.missions))} ({percent(bucket.share)}): {escape(bucket.reason)}</h3>",
+        f"<h3>{missions(len(bucket.missions))} ({percent(bucket.share)}): {_words(bucket.reason)}</h3>",
         f'<p class="soft">{bucket.code}, {meaning}; {escape(bucket.reactor)} gives up {when}</p>',
     ]
     places = [place for place in (bucket.blame.place, *bucket.blame.limits) if place is not None]
@@ -103,7 +109,7 @@ def _step(step: Step, excerpts: Excerpts) -> str:
     is_fault = step.kind == "fault"
     lines = "\n".join(_excerpt(place, excerpts, marked=is_fault) for place in places)
     source = f"<pre>{lines}</pre>" if lines else ""
-    return f'<li class="{step.kind}"><span class="why">{when}{escape(step.reason)}</span>{source}</li>'
+    return f'<li class="{step.kind}"><span class="why">{when}{_words(step.reason)}</span>{source}</li>'
 
 
 def _excerpt(place: Place, excerpts: Excerpts, *, marked: bool) -> str:
@@ -184,7 +190,7 @@ def _rows(findings: Findings, results: Sequence[MissionResult]) -> list[str]:
         parts.append(
             f'<tr><td class="n">{result.number}</td><td class="v"><i class="chip"{colour}></i>{word}</td>'
             f'<td class="n">{tick}</td>{values}<td class="n">{result.seed}</td>'
-            f"<td>{escape(result.judgement.reason)}</td></tr>"
+            f"<td>{_words(result.judgement.reason)}</td></tr>"
         )
     parts.append("</tbody></table></div>")
     if len(results) > MOST_ROWS:

@@ -1,0 +1,124 @@
+"""Every form of the report says the same, stands alone, and is well-formed."""
+
+import json
+import re
+from dataclasses import replace
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from checker.batch.pool import fly_all
+from checker.batch.result import MissionResult
+from checker.campaign import Campaign
+from checker.excerpts import Excerpts
+from checker.findings import Findings
+from checker.mission import read_mission
+from checker.models import load_models
+from checker.names import relative_name
+from checker.oracle import Judgement, Verdict
+from checker.report.document import json_report
+from checker.report.html import html_report
+from checker.report.junit import junit_report
+from checker.report.sarif import sarif_report
+from checker.report.svg import Axis
+from checker.report.text import text_report
+from checker.report.write import write_whole
+from runtime.executive.outcome import Place
+from tests.checker.fake_agent import load_split
+
+ROOT = Path("models/gps")
+
+
+@pytest.fixture(scope="module")
+def campaign() -> Campaign:
+    mission, _ = read_mission(ROOT / "mission.toml")
+    assert mission is not None
+    return Campaign(mission, load_models(mission), load_split)
+
+
+@pytest.fixture(scope="module")
+def findings(campaign: Campaign) -> Findings:
+    results: list[MissionResult] = []
+    agent, tasks = campaign.models.agent, [campaign.task(number) for number in range(1, 61)]
+    fly_all(load_split, agent, tasks, 1, 30.0, results.append)
+    broken = Judgement(Verdict.ERROR, "", "KeyError: <'x' & \x07>")
+    results[2] = replace(results[2], judgement=broken, outcome=None, has_trace=False)
+    return campaign.assess(tuple(results), is_interrupted=False, may_fly=True)
+
+
+def test_the_text_names_line_threshold_and_command(findings: Findings) -> None:
+    text = text_report(findings, Excerpts(ROOT))
+    assert "gps: 60 missions, 4 failed, 1 not flown to the end because of an error of the tool" in text
+    assert "--> models/gps/rules.nddl:34" in text
+    assert "fails when GPS_HIT_RATE > 3.8" in text
+    assert f"nddlc explain {findings.run_id}#16" in text
+
+
+def test_the_json_is_strict_and_complete(findings: Findings) -> None:
+    text = json_report(findings, Excerpts(ROOT))
+    data = json.loads(text, parse_constant=lambda word: pytest.fail(word))
+    assert data["counts"] == {"pass": 55, "fail": 4, "error": 1}
+    assert data["faults"][0]["place"]["file"] == "rules.nddl"
+    assert data["faults"][0]["limits"][0]["line"] == 5
+    assert len(data["missions"]) == 60
+    assert str(Path.cwd()) not in text
+
+
+def test_the_page_stands_alone(campaign: Campaign, findings: Findings) -> None:
+    page = html_report(findings, Excerpts(ROOT), campaign.stories(findings))
+    assert "<script" not in page
+    assert re.search(r"(src|href)=|url\(|https?:", page) is None
+    assert "prefers-color-scheme: dark" in page
+    assert page.count("<svg") == page.count("</svg>") == 4
+    assert "GPS_HIT_RATE &gt; 3.8" in page
+    assert "<mark>duration &lt;= SURFACE_MAX;</mark>" in page
+    for svg in re.findall(r"<svg.*?</svg>", page, re.DOTALL):
+        ElementTree.fromstring(svg)
+
+
+def test_junit_has_a_case_per_mission(findings: Findings) -> None:
+    suite = ElementTree.fromstring(junit_report(findings, Excerpts(ROOT)))[0]
+    assert (suite.get("tests"), suite.get("failures"), suite.get("errors")) == ("60", "4", "1")
+    failure = suite.find("testcase/failure")
+    assert failure is not None
+    assert failure.text is not None
+    assert "models/gps/rules.nddl:34: duration <= SURFACE_MAX;" in failure.text
+
+
+def test_sarif_points_at_the_line(findings: Findings) -> None:
+    (result,) = json.loads(sarif_report(findings, Excerpts(ROOT)))["runs"][0]["results"]
+    place = result["locations"][0]["physicalLocation"]
+    assert place == {
+        "artifactLocation": {"uri": "models/gps/rules.nddl"},
+        "region": {"startLine": 34, "startColumn": 3},
+    }
+
+
+def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
+    path = tmp_path / "deep" / "report.txt"
+    write_whole(path, "first")
+    with pytest.raises(UnicodeEncodeError):
+        write_whole(path, "half \ud800")
+    assert path.read_text() == "first"
+    assert [child.name for child in path.parent.iterdir()] == ["report.txt"]
+
+
+def test_an_excerpt_is_of_what_was_flown(tmp_path: Path) -> None:
+    (tmp_path / "m.nddl").write_text("int x;\nint changed;\n")
+    excerpts = Excerpts(tmp_path)
+    assert excerpts.line(Place("m.nddl", 1, 1, "int x;")) == "int x;"
+    assert excerpts.line(Place("m.nddl", 2, 1, "int y;")) == "int y;"
+    assert excerpts.line(Place("gone.nddl", 2, 1, "int z;")) == "int z;"
+
+
+def test_names_are_the_same_in_every_checkout(tmp_path: Path) -> None:
+    assert relative_name(str(tmp_path / "m" / "a.nddl"), tmp_path / "m") == "a.nddl"
+    assert relative_name(str(tmp_path / "common" / "a.nddl"), tmp_path / "m") == "../common/a.nddl"
+    assert relative_name("/x/nddl_lang/library/TREX.nddl", tmp_path) == "library/TREX.nddl"
+
+
+def test_ticks_of_an_axis_are_round() -> None:
+    assert Axis(0.0, 4.0, 0.0, 100.0).ticks() == [0.0, 1.0, 2.0, 3.0, 4.0]
+    assert Axis(-0.3, 0.3, 0.0, 100.0).ticks() == [-0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3]
+    assert Axis(2.0, 2.0, 0.0, 100.0).ticks()
