@@ -66,3 +66,15 @@ RESULT_NAMES = ("moved", "failed", "plan", "exhausted", "timeout")
 # ---- priorities: the best, and what a handler has that names none ----
 BEST_PRIORITY = 0.0
 WORST_PRIORITY = 99999.0
+
+# ---- a slot that is in no heap; what kind of entry a queue dropped ----
+NO_KEY = -(2**62)
+DROPPED_TOKEN, DROPPED_VARIABLE, DROPPED_EFFECT = range(3)
+NO_PRIORITY = 1.0e9
+
+# ---- what became of a choice; the phases of an open condition ----
+APPLIED, FAILED_CHOICE, NO_CHOICE = range(3)
+PHASE_MERGE, PHASE_ACTIVATE, PHASE_REJECT, PHASE_DONE = range(4)
+
+# ---- the reasons of a decision: all that came before ----
+EVERYTHING = -2

@@ -1,0 +1,139 @@
+"""Carry out the next choice of a decision; tell whether it holds, fails, or there is none left."""
+
+from runtime.constraints.bits import next_value, previous_value
+from runtime.constraints.codes import KIND_FLOAT, NEVER
+from runtime.plan.lifecycle import settle
+from runtime.plan.timelines import order
+from runtime.solver.codes import (
+    APPLIED,
+    FAILED_CHOICE,
+    HANDLER_HSTS_THREAT,
+    HANDLER_LISTED,
+    HANDLER_MAX,
+    HANDLER_RANDOM,
+    NO_CHOICE,
+    NONE,
+    OPEN_CONDITION,
+    THREAT,
+    UNBOUND_VARIABLE,
+)
+from runtime.solver.conditions import mend_open_condition
+from runtime.solver.decisions import Decisions
+from runtime.solver.places import fill_places
+from runtime.solver.preferences import listed_values, sort_places
+from runtime.solver.queues import Queues
+from runtime.solver.uses import mend_resource
+
+
+def mend(q: Queues, stack: Decisions, d: int, exact: bool) -> int:
+    """Carry out the next choice of decision `d`; the caller has set a mark, and goes back to it after a failure.
+
+    `exact`: offer the choices that EUROPA offers, so that failures count as they do there.
+    """
+    kind = stack.kind[d]
+    if kind == UNBOUND_VARIABLE:
+        return mend_variable(q, stack, d)
+    if kind == OPEN_CONDITION:
+        return mend_open_condition(q, stack, d, exact)
+    if kind == THREAT:
+        return mend_threat(q, stack, d, exact)
+    return mend_resource(q, stack, d)
+
+
+def mend_variable(q: Queues, stack: Decisions, d: int) -> int:
+    """Give a variable its next value."""
+    v = stack.item[d]
+    handler = q.treatments.handler_code[stack.handler[d]]
+    if handler == HANDLER_LISTED or q.engine.kind[v] == KIND_FLOAT:
+        return mend_by_list(q, stack, d)
+    if handler == HANDLER_RANDOM:
+        x = random_value(q, stack, d)
+    elif handler == HANDLER_MAX:
+        x = value_below(q, v, q.engine.ub[v] if stack.tries[d] == 0 else stack.cursor[d] - 1)
+    else:
+        x = value_above(q, v, q.engine.lb[v] if stack.tries[d] == 0 else stack.cursor[d] + 1)
+    if x == NEVER or x == -NEVER:
+        return NO_CHOICE
+    if q.probing:
+        return APPLIED
+    stack.cursor[d] = x
+    stack.tries[d] += 1
+    q.engine.decide_value(v, x, NONE, NONE)
+    return APPLIED if settle(q.plan) else FAILED_CHOICE
+
+
+def value_above(q: Queues, v: int, x: int) -> int:
+    """The first value from `x` on; NEVER if there is none."""
+    if x > q.engine.ub[v]:
+        return NEVER
+    return x if q.engine.word[v] < 0 else next_value(q.engine, v, x)
+
+
+def value_below(q: Queues, v: int, x: int) -> int:
+    """The last value up to `x`; -NEVER if there is none."""
+    if x < q.engine.lb[v]:
+        return -NEVER
+    return x if q.engine.word[v] < 0 else previous_value(q.engine, v, x)
+
+
+def random_value(q: Queues, stack: Decisions, d: int) -> int:
+    """The next value in an order that the variable's number alone fixes: every step-th one, round and round."""
+    v = stack.item[d]
+    count = q.filters.size(v)
+    if stack.tries[d] >= count:
+        return NEVER
+    step = count // 2 + 1
+    while not are_coprime(step, count):
+        step += 1
+    place = (v * 2654435761 + stack.tries[d] * step) % count
+    x = value_above(q, v, q.engine.lb[v])
+    if q.engine.word[v] < 0:
+        return x + place
+    while place > 0:
+        x = value_above(q, v, x + 1)
+        place -= 1
+    return x
+
+
+def are_coprime(a: int, b: int) -> bool:
+    """Whether two numbers have no common divisor."""
+    while b:
+        rest = a % b
+        a = b
+        b = rest
+    return a == 1
+
+
+def mend_by_list(q: Queues, stack: Decisions, d: int) -> int:
+    """Give a variable the next value of a list: what ValEnum names, or the values of a float."""
+    v = stack.item[d]
+    if stack.tries[d] == 0:
+        stack.lists[d] = listed_values(q, v, stack.handler[d])
+    values = stack.lists[d]
+    if stack.tries[d] >= len(values):
+        return NO_CHOICE
+    if q.probing:
+        return APPLIED
+    x = values[stack.tries[d]]
+    stack.tries[d] += 1
+    q.engine.decide(v, x, NONE, NONE)
+    return APPLIED if settle(q.plan) else FAILED_CHOICE
+
+
+def mend_threat(q: Queues, stack: Decisions, d: int, exact: bool) -> int:
+    """Put a token into its next place on a timeline."""
+    t = stack.item[d]
+    if stack.pool_count[d] < 0:
+        stack.pool_count[d] = 0
+        fill_places(q, stack, d, t, exact)
+        if q.treatments.handler_code[stack.handler[d]] == HANDLER_HSTS_THREAT:
+            sort_places(q, stack, d)
+    if stack.tries[d] >= stack.pool_count[d]:
+        return NO_CHOICE
+    if q.probing:
+        return APPLIED
+    at = stack.pool_first[d] + stack.tries[d]
+    stack.tries[d] += 1
+    if not order(q.plan, stack.pool_object[at], stack.pool_before[at], stack.pool_after[at], NONE):
+        return FAILED_CHOICE
+    return APPLIED if settle(q.plan) else FAILED_CHOICE

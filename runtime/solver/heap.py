@@ -1,0 +1,90 @@
+"""Keep entries in the order of a key and a tie; the smallest is on top. Entries may be stale: who reads them checks."""
+
+from array import array
+
+
+class Heap:
+    """A binary heap in three arrays."""
+
+    def __init__(self) -> None:
+        self.capacity = 64
+        self.length = 0
+        self.first = array("q", bytes(8 * 64))
+        self.second = array("q", bytes(8 * 64))
+        self.item = array("q", bytes(8 * 64))
+
+    def push(self, key: int, tie: int, entry: int) -> int:
+        """Add an entry."""
+        if self.length == self.capacity:
+            self.grow()
+        first = self.first
+        second = self.second
+        at = self.length
+        self.length = at + 1
+        while at > 0:
+            above = (at - 1) >> 1
+            if first[above] < key or (first[above] == key and second[above] <= tie):
+                break
+            first[at] = first[above]
+            second[at] = second[above]
+            self.item[at] = self.item[above]
+            at = above
+        first[at] = key
+        second[at] = tie
+        self.item[at] = entry
+        return 0
+
+    def top_key(self) -> int:
+        """Key of the entry on top."""
+        return self.first[0]
+
+    def top_tie(self) -> int:
+        """Tie of the entry on top."""
+        return self.second[0]
+
+    def top_item(self) -> int:
+        """What the entry on top is about."""
+        return self.item[0]
+
+    def pop(self) -> int:
+        """Take the top off."""
+        first = self.first
+        second = self.second
+        last = self.length - 1
+        self.length = last
+        key = first[last]
+        tie = second[last]
+        entry = self.item[last]
+        at = 0
+        while True:
+            below = 2 * at + 1
+            if below >= last:
+                break
+            if below + 1 < last and (
+                first[below + 1] < first[below]
+                or (first[below + 1] == first[below] and second[below + 1] < second[below])
+            ):
+                below += 1
+            if key < first[below] or (key == first[below] and tie <= second[below]):
+                break
+            first[at] = first[below]
+            second[at] = second[below]
+            self.item[at] = self.item[below]
+            at = below
+        first[at] = key
+        second[at] = tie
+        self.item[at] = entry
+        return 0
+
+    def clear(self) -> None:
+        """Forget all entries."""
+        self.length = 0
+
+    def grow(self) -> int:
+        """Double the arrays."""
+        empty = bytes(8 * self.capacity)
+        for name in ("first", "second", "item"):
+            longer = array("q", bytes(getattr(self, name)) + empty)
+            setattr(self, name, longer)
+        self.capacity *= 2
+        return 0

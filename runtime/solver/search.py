@@ -1,0 +1,188 @@
+"""Search for a plan: one decision per step, going back when there is no choice left."""
+
+from collections.abc import Callable
+
+from runtime.plan.database import PlanDatabase
+from runtime.solver.blame import Blame
+from runtime.solver.choices import mend
+from runtime.solver.codes import (
+    APPLIED,
+    EXHAUSTED,
+    FAILED,
+    MOVED,
+    NO_CHOICE,
+    PLAN,
+    TIMEOUT,
+)
+from runtime.solver.configuration import Configuration
+from runtime.solver.decisions import Decisions
+from runtime.solver.filters import Filters, Scope
+from runtime.solver.matching import Matching
+from runtime.solver.queues import Queues
+from runtime.solver.selection import select
+from runtime.solver.supports import Supports
+from runtime.solver.treatments import Treatments
+from runtime.solver.vocabulary import Texts
+from runtime.solver.watching import catch_up, note_levels, refresh
+
+NO_LIMIT = 2**62
+
+
+class Solver:
+    """The search. With `europa` it makes EUROPA's steps one for one; else it goes back as far as a conflict allows."""
+
+    def __init__(
+        self, database: PlanDatabase, configuration: Configuration, lower: int, upper: int, europa: bool
+    ) -> None:
+        self.database = database
+        self.plan = database.plan
+        self.engine = database.plan.engine
+        self.europa = europa
+        matching = Matching(configuration, database.program)
+        treatments = Treatments(matching, Texts(database), len(database.program.predicates))
+        self.filters = Filters(self.plan, treatments, lower, upper)
+        self.queues = Queues(self.plan, treatments, self.filters, Supports(database.program), not europa)
+        self.stack = Decisions()
+        self.blame = Blame(self.queues, self.stack)
+        self.steps = 0
+        self.failures = 0
+        self.steps_floor = 0
+        self.depth_floor = 0
+        self.max_steps = NO_LIMIT
+        self.max_depth = NO_LIMIT
+        self.has_active = False
+        self.is_exhausted = False
+        self.is_started = False
+
+    @property
+    def depth(self) -> int:
+        """How many decisions are in force."""
+        return self.stack.depth
+
+    def set_horizon(self, lower: int, upper: int) -> None:
+        """Plan from `lower` to `upper`; call `refresh` if the search has begun."""
+        self.filters.lower = lower
+        self.filters.upper = upper
+
+    def set_scope(self, scope: Scope | None) -> None:
+        """Mend only what `scope` admits; call `refresh` when what it says has changed."""
+        self.filters.has_scope = scope is not None
+        if scope is not None:
+            self.filters.scope = scope
+
+    def refresh(self) -> None:
+        """Look at the whole plan anew, because it was changed from outside; no decision may be on the stack."""
+        assert self.stack.depth == 0
+        self.is_started = True
+        self.has_active = False
+        self.is_exhausted = not self.database.settle()
+        refresh(self.queues)
+
+    def keep(self) -> None:
+        """Make all decisions final: the stack is empty, and nothing of it can be taken back."""
+        self.stack.clear()
+        self.has_active = False
+        self.database.commit()
+        refresh(self.queues)
+
+    def take_back(self) -> None:
+        """Undo all decisions."""
+        if self.has_active:
+            self.leave(self.stack.depth)
+        while self.stack.depth > 0:
+            self.leave(self.stack.depth - 1)
+        self.is_exhausted = False
+
+    def solve(self, max_steps: int, max_depth: int, is_late: Callable[[], bool] | None = None) -> int:
+        """Step until there is a plan, none, or no more time; `is_late` is asked every 64 steps."""
+        self.steps_floor = self.steps
+        self.depth_floor = self.stack.depth
+        self.max_steps = max_steps
+        self.max_depth = max_depth
+        outcome = MOVED
+        count = 0
+        while outcome == MOVED or outcome == FAILED:
+            outcome = self.step()
+            count += 1
+            if count & 63 == 0 and is_late is not None and is_late():
+                return TIMEOUT
+        return outcome
+
+    def step(self) -> int:
+        """Make one decision, or try one choice in vain."""
+        if not self.is_started:
+            self.refresh()
+        stack = self.stack
+        q = self.queues
+        while not self.is_exhausted:
+            d = stack.depth
+            if not self.has_active:
+                if not select(q):
+                    return PLAN
+                self.enter()
+            q.probing = (
+                self.steps - self.steps_floor >= self.max_steps or stack.depth - self.depth_floor > self.max_depth
+            )
+            outcome = NO_CHOICE
+            most = q.treatments.handler_most[stack.handler[d]]
+            if most == 0 or stack.tries[d] < most:
+                outcome = mend(q, stack, d, self.europa)
+            if outcome == NO_CHOICE:
+                self.give_up(d)
+                continue
+            if q.probing:
+                return TIMEOUT
+            self.steps += 1
+            if outcome == APPLIED:
+                catch_up(q, d + 1)
+                stack.depth = d + 1
+                self.has_active = False
+                return MOVED
+            self.failures += 1
+            if not self.europa:
+                note_levels(q, d + 1)
+                self.blame.learn(d)
+            self.database.rewind(stack.plan_mark[d])
+            return FAILED
+        return EXHAUSTED
+
+    def enter(self) -> int:
+        """Begin a decision about the flaw that was found."""
+        q = self.queues
+        stack = self.stack
+        d = stack.open(q.found_kind, q.found_manager, q.found_item, q.found_handler)
+        stack.rows_seen[d] = q.rows_seen
+        stack.engine_seen[d] = q.engine_seen
+        stack.dropped[d] = q.dropped_count
+        stack.loose[d] = q.loose_count
+        stack.plan_mark[d] = self.database.mark()
+        self.has_active = True
+        return d
+
+    def leave(self, d: int) -> int:
+        """Go back to where decision `d` was begun, and drop it."""
+        stack = self.stack
+        self.database.release(stack.plan_mark[d])
+        self.queues.go_back(stack.dropped[d], stack.loose[d], stack.rows_seen[d], stack.engine_seen[d])
+        stack.close(d)
+        stack.depth = d
+        self.has_active = False
+        return 0
+
+    def give_up(self, d: int) -> int:
+        """Drop a decision without choices, and go back to the one that may be at fault."""
+        target = d - 1 if self.europa else self.blame.target(d)
+        self.leave(d)
+        while self.stack.depth > target + 1:
+            self.leave(self.stack.depth - 1)
+        if target < 0:
+            self.is_exhausted = True
+            return 0
+        stack = self.stack
+        self.database.rewind(stack.plan_mark[target])
+        self.queues.go_back(
+            stack.dropped[target], stack.loose[target], stack.rows_seen[target], stack.engine_seen[target]
+        )
+        stack.depth = target
+        self.has_active = True
+        return 0

@@ -1,0 +1,67 @@
+"""List for each predicate the actions that can bring it about, in EUROPA's order."""
+
+from array import array
+from collections.abc import Iterable, Iterator
+
+from compiler.program import Child, Foreach, Guard, Instruction, Program
+
+
+class Supports:
+    """Ways to support a predicate: `action` and the number of its effect, rows `first[p]` to `first[p + 1]`."""
+
+    def __init__(self, program: Program) -> None:
+        index = {code.name: number for number, code in enumerate(program.predicates)}
+        bases = {code.name: code.base for code in program.classes}
+        declared = {(code.class_name, code.name.rpartition(".")[2]): code for code in program.predicates}
+        ways: list[list[tuple[int, int]]] = [[] for _ in program.predicates]
+        for code in sorted(program.predicates, key=lambda code: code.name):
+            base = bases.get(code.class_name)
+            inherited = declared.get((base, code.name.rpartition(".")[2])) if base is not None else None
+            if not code.is_action or (inherited is not None and inherited.span == code.span):
+                continue  # a subclass that only inherits an action is no other way to get its effects
+            counts: dict[int, int] = {}
+            for name in code.effects:
+                predicate = index[name]
+                number = counts.get(predicate, 0)
+                counts[predicate] = number + 1
+                ways[predicate].append((index[code.name], number))
+        self.first = array("q", [0])
+        self.action = array("q")
+        self.effect = array("q")
+        for rows in ways:
+            for action, effect in rows:
+                self.action.append(action)
+                self.effect.append(effect)
+            self.first.append(len(self.action))
+        self.reach = reachable(program, index, ways)
+
+    def leads_to(self, predicate: int, other: int) -> bool:
+        """Whether a token of one predicate, once active, may bring about a token of the other."""
+        return (self.reach[predicate] >> other) & 1 != 0
+
+
+def reachable(program: Program, index: dict[str, int], ways: list[list[tuple[int, int]]]) -> list[int]:
+    """For each predicate the set, as bits, of all that its rules, and actions that support it, may ask for."""
+    reach = [1 << number for number in range(len(program.predicates))]
+    for number, code in enumerate(program.predicates):
+        for rule in code.rules:
+            for name in children(program.rules[rule].body):
+                reach[number] |= 1 << index[name]
+        for action, _ in ways[number]:
+            reach[number] |= 1 << action
+    for middle in range(len(reach)):
+        for number in range(len(reach)):
+            if (reach[number] >> middle) & 1:
+                reach[number] |= reach[middle]
+    return reach
+
+
+def children(body: Iterable[Instruction]) -> Iterator[str]:
+    """The predicates that a body asks for, on any branch."""
+    for instruction in body:
+        if isinstance(instruction, Child):
+            yield instruction.predicate
+        elif isinstance(instruction, Guard):
+            yield from children((*instruction.then, *instruction.otherwise))
+        elif isinstance(instruction, Foreach):
+            yield from children(instruction.body)
