@@ -2,7 +2,7 @@
 
 from math import inf
 
-from runtime.constraints.codes import FLOAT_TOLERANCE, KIND_FLOAT
+from runtime.constraints.codes import FLAG_DECISION, FLAG_VALUES, FLOAT_TOLERANCE, KIND_FLOAT
 from runtime.constraints.store import Store
 
 
@@ -11,7 +11,7 @@ def base_low(s: Store, v: int) -> float:
     x = -inf
     r = s.restriction_head[v]
     while r >= 0:
-        if not s.restriction_flags[r] & 1 and s.restriction_lo[r] > x:
+        if not s.restriction_flags[r] & FLAG_DECISION and s.restriction_lo[r] > x:
             x = s.restriction_lo[r]
         r = s.restriction_next[r]
     return x
@@ -22,7 +22,7 @@ def base_high(s: Store, v: int) -> float:
     x = inf
     r = s.restriction_head[v]
     while r >= 0:
-        if not s.restriction_flags[r] & 1 and s.restriction_hi[r] < x:
+        if not s.restriction_flags[r] & FLAG_DECISION and s.restriction_hi[r] < x:
             x = s.restriction_hi[r]
         r = s.restriction_next[r]
     return x
@@ -35,7 +35,7 @@ def base_set(s: Store, v: int) -> list[float] | None:
     values: set[float] | None = None
     r = s.restriction_head[v]
     while r >= 0:
-        if s.restriction_flags[r] == 2:
+        if s.restriction_flags[r] == FLAG_VALUES:
             listed = s.restriction_values[r]
             values = set(listed) if values is None else values.intersection(listed)
         r = s.restriction_next[r]
@@ -52,7 +52,7 @@ def is_base_single(s: Store, v: int) -> bool:
         return True
     r = s.restriction_head[v]
     while r >= 0:
-        if s.restriction_flags[r] == 2 and not s.is_open[v]:
+        if s.restriction_flags[r] == FLAG_VALUES and not s.is_open[v]:
             values = base_set(s, v)
             return values is not None and len(values) == 1
         r = s.restriction_next[r]

@@ -245,6 +245,15 @@ def restore_bits(s: Store, v: int) -> None:
     s.hole_variable[entry] = -1
 
 
+def drop_log(s: Store, v: int) -> None:
+    """Free all log entries of a variable."""
+    while s.hole_head[v] >= 0:
+        entry = s.hole_head[v]
+        s.hole_head[v] = s.hole_next[entry]
+        s.hole_next[entry] = s.hole_free
+        s.hole_free = entry
+
+
 def grow_log(s: Store) -> None:
     """Double the rows of the log of holes."""
     room = 2 * len(s.hole_mask)

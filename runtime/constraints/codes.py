@@ -22,6 +22,10 @@ SUPPORT_EDGE = 0
 SUPPORT_CONSTRAINT = 1
 SUPPORT_RESTRICTION = 2
 
+# Flags of restrictions.
+FLAG_DECISION = 1  # it does not belong to the base domain
+FLAG_VALUES = 2  # it lists values
+
 # What may change about a domain; a watch is woken by the events in its mask.
 EVENT_LOWER = 1
 EVENT_UPPER = 2
@@ -50,7 +54,6 @@ TRAIL_VARIABLE = 10
 TRAIL_RESTRICTION = 11
 TRAIL_OPEN = 12
 TRAIL_LINK = 13
-TRAIL_STATE = 14
 
 # Kinds of conflict.
 CONFLICT_NONE = 0
@@ -155,8 +158,9 @@ OP_CIRCLE_MOD = 171  # degrees, value
 OP_TICK_DATE = 172  # tick, seconds, day, year
 OP_LL_DIST = 173  # distance, lat1, lon1, lat2, lon2
 OP_WGS_DISPLACE = 174  # lat, lon, north, east, lat', lon'
-OP_WGS_DISPLACEMENT = 175  # north, east, lat1, lon1, lat2, lon2
-OP_POWF = 176  # result, a, b
+OP_WGS_DISPLACEMENT = 175  # lat, lon, lat', lon', north, east
+OP_SANE_POS = 176  # lat, lon, ...: the position lies on the earth
 
 OP_WATCH = 192  # x, ...: narrows nothing; joins `woken` when one of its variables changes or is decided
-OP_EXTERNAL = 193  # a Python object decides, see `post_external`
+OP_EXTERNAL = 193  # an object decides, see `post_external`
+OP_NOTHING = 194  # no effect

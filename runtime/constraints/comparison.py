@@ -10,8 +10,6 @@ from runtime.constraints.bits import (
     clear_bits,
     has_value,
     next_place,
-    next_value,
-    previous_value,
     value_at,
 )
 from runtime.constraints.codes import (
@@ -39,6 +37,7 @@ from runtime.constraints.narrow import (
     raise_to,
     reduce_to,
     remove_value,
+    round_bounds,
     set_lower,
     set_upper,
 )
@@ -162,17 +161,6 @@ def exclude_missing(s: Store, a: int, b: int, support: int) -> bool:
                 clear_bits(s, b, place >> 6, ONE << (place & 63), support)
             place = next_place(s, b, place + 1)
     return round_bounds(s, b, support)
-
-
-def round_bounds(s: Store, v: int, support: int) -> bool:
-    """Move bounds that stand in a hole to the next value; they keep their support, the log of holes has the rest."""
-    x = next_value(s, v, s.lb[v])
-    if x > s.ub[v]:
-        return s.fail(v, SIDE_HOLES, support)
-    if x > s.lb[v] and not set_lower(s, v, x, s.lower_support[v]):
-        return False
-    x = previous_value(s, v, s.ub[v])
-    return x >= s.ub[v] or set_upper(s, v, x, s.upper_support[v])
 
 
 def differ(s: Store, a: int, b: int, support: int) -> bool:

@@ -1,43 +1,36 @@
 """Post constraints, narrow, propagate, go back: the one object through which all other rooms reason."""
 
+from collections.abc import Sequence
 from math import inf
 
 from runtime.constraints.arithmetic import run_arithmetic
 from runtime.constraints.bases import base_high, base_low, base_set, is_base_single
-from runtime.constraints.bits import count_values, has_value, next_place, place_above, place_below, value_at
+from runtime.constraints.cause import Cause, Link
 from runtime.constraints.codes import (
-    EVENT_ANY,
-    EVENT_DECIDED,
-    EVENT_DOMAIN,
-    EVENT_HOLES,
     FAMILY_ARITHMETIC,
     FAMILY_COMPARISON,
+    FAMILY_FUNCTION,
+    FAMILY_GEOMETRY,
     FAMILY_LOGIC,
-    FLOAT_TOLERANCE,
-    KIND_BOOL,
-    KIND_FLOAT,
-    KIND_INT,
-    MODE_EDGES,
-    MODE_REAL,
-    OP_ADD_EQ,
-    OP_ALL_MAX,
-    OP_ALL_MIN,
-    OP_EQ,
-    OP_EQ_MAXIMUM,
-    OP_EQ_MINIMUM,
-    OP_LEQ,
-    OP_LT,
-    OP_PLUS,
-    OP_TEST_SPECIFIED,
-    OP_WATCH,
-    PRIORITY_WATCH,
+    FAMILY_SETS,
+    FLAG_DECISION,
+    FLAG_VALUES,
+    OP_ELEMENT,
+    OP_EXTERNAL,
     SUPPORT_RESTRICTION,
 )
-from runtime.constraints.comparison import round_bounds, run_comparison
+from runtime.constraints.comparison import run_comparison
+from runtime.constraints.explain import explain_bound, explain_conflict
+from runtime.constraints.external import External
+from runtime.constraints.functions import run_function
+from runtime.constraints.geometry import run_geometry
 from runtime.constraints.logic import meet, run_logic
-from runtime.constraints.narrow import high, is_single, low, raise_to, reduce_to
+from runtime.constraints.narrow import high, is_single, low, raise_to, reduce_to, round_bounds
 from runtime.constraints.network import insert_edge, propagate_edges
-from runtime.constraints.posting import new_constraint, watch
+from runtime.constraints.posting import post_constraint
+from runtime.constraints.queries import has_finitely_many, listed, may_be, number_of_values
+from runtime.constraints.retract import decisions_of, edges_of, follow_again, retract
+from runtime.constraints.sets import run_sets
 from runtime.constraints.store import Store
 from runtime.constraints.trail import commit_trail, undo_to
 from runtime.constraints.variables import (
@@ -51,8 +44,9 @@ from runtime.constraints.variables import (
     take_row,
 )
 
-FLAG_DECISION = 1
-FLAG_VALUES = 2
+MOST_RUNS = (
+    20000  # of one constraint in one propagation: what creeps on for longer is left as it is, which loses nothing
+)
 
 
 class Engine(Store):
@@ -201,52 +195,19 @@ class Engine(Store):
 
     def contains(self, v: int, value: float) -> bool:
         """Tell whether `v` may still take a value."""
-        if self.kind[v] == KIND_FLOAT:
-            return self.flo[v] - FLOAT_TOLERANCE <= value <= self.fhi[v] + FLOAT_TOLERANCE
-        return value == int(value) and has_value(self, v, int(value))
+        return may_be(self, v, value)
 
     def is_finite(self, v: int) -> bool:
         """Tell whether `v` is closed and has finitely many values."""
-        if self.is_open[v]:
-            return False
-        if self.kind[v] == KIND_FLOAT:
-            return self.word[v] >= 0 or is_single(self, v)
-        return low(self, v) > -inf and high(self, v) < inf
+        return has_finitely_many(self, v)
 
     def size(self, v: int) -> int:
         """Count the values of a finite domain."""
-        if self.kind[v] == KIND_FLOAT:
-            return len(self.values_of(v))
-        return count_values(self, v)
+        return number_of_values(self, v)
 
     def values_of(self, v: int) -> list[float]:
         """List the values of a finite domain in ascending order; of an open one, those listed that are possible."""
-        if self.is_open[v]:
-            return [x for x in base_set(self, v) or [] if has_value(self, v, int(x))]
-        if self.kind[v] == KIND_FLOAT:
-            if self.word[v] < 0:
-                return [self.flo[v]]
-            return self.table_reals(v)
-        if self.word[v] < 0:
-            return list(range(self.lb[v], self.ub[v] + 1))
-        found: list[float] = []
-        last = place_below(self, v, self.ub[v])
-        place = next_place(self, v, place_above(self, v, self.lb[v]))
-        while 0 <= place <= last:
-            found.append(value_at(self, v, place))
-            place = next_place(self, v, place + 1)
-        return found
-
-    def table_reals(self, v: int) -> list[float]:
-        """List the values of a float that has a set."""
-        found = []
-        place = next_place(self, v, 0)
-        while place >= 0:
-            x = self.table_values[self.table[v] + place]
-            if self.flo[v] - FLOAT_TOLERANCE <= x <= self.fhi[v] + FLOAT_TOLERANCE:
-                found.append(x)
-            place = next_place(self, v, place + 1)
-        return found
+        return listed(self, v)
 
     def intersects(self, v: int, w: int) -> bool:
         """Tell whether two variables have a value in common."""
@@ -277,45 +238,60 @@ class Engine(Store):
 
     def post(self, op: int, arguments: list[int], span: int, owner: int) -> int:
         """Post a constraint, to be run by the next `propagate`; give its id."""
-        if op == OP_ALL_MAX or op == OP_ALL_MIN:
-            op = OP_EQ_MAXIMUM if op == OP_ALL_MAX else OP_EQ_MINIMUM
-            arguments = [arguments[-1], *arguments[:-1]]
-        elif op == OP_ADD_EQ and self.constant[arguments[0]] and not self.constant[arguments[1]]:
-            arguments = [arguments[1], arguments[0], arguments[2]]
-        c = new_constraint(self, op, len(arguments), span, owner)
-        real = False
-        whole = True
-        for v in arguments:
-            if self.kind[v] == KIND_FLOAT:
-                real = True
-            if self.kind[v] != KIND_INT or self.constant[v]:
-                whole = False
-        if real:
-            self.mode[c] = MODE_REAL
-        elif whole and (op == OP_LEQ or op == OP_LT or (op == OP_EQ and len(arguments) == 2)):
-            self.mode[c] = MODE_EDGES
-        elif op == OP_ADD_EQ and self.fixed_offset(arguments):
-            self.mode[c] = MODE_EDGES
-            self.op[c] = OP_PLUS
-        mask = EVENT_DOMAIN
-        if op == OP_WATCH:
-            self.priority[c] = PRIORITY_WATCH
-            mask = EVENT_ANY
-        elif op == OP_TEST_SPECIFIED:
-            mask = EVENT_DOMAIN | EVENT_DECIDED
-        elif self.mode[c] == MODE_EDGES:
-            mask = EVENT_HOLES if op == OP_EQ else 0
-        for position, v in enumerate(arguments):
-            watch(self, c, position, v, mask)
-        self.schedule(c)
+        return post_constraint(self, op, arguments, span, owner)
+
+    def post_element(
+        self, result: int, index: int, keys: list[int], variables: list[int], span: int, owner: int
+    ) -> int:
+        """Post: `result` equals the variable that stands beside the key which `index` takes."""
+        rows = sorted(zip(keys, variables, strict=True))
+        c = post_constraint(self, OP_ELEMENT, [result, index, *(v for _, v in rows)], span, owner)
+        for k, (key, _) in enumerate(rows):
+            self.slot_key[self.first[c] + 2 + k] = key
         return c
 
-    def fixed_offset(self, arguments: list[int]) -> bool:
-        """Tell whether a sum is an int, a constant whole number and another int: two edges can carry it."""
-        a, k, b = arguments
-        if self.kind[a] != KIND_INT or self.kind[b] != KIND_INT or self.constant[a] or self.constant[b]:
-            return False
-        return bool(self.constant[k] and self.kind[k] in (KIND_INT, KIND_BOOL) and self.lb[k] == self.ub[k])
+    def post_external(self, external: External, arguments: list[int], span: int, owner: int) -> int:
+        """Post a constraint that an object decides; it runs after all others."""
+        c = post_constraint(self, OP_EXTERNAL, arguments, span, owner)
+        self.externals[c] = external
+        return c
+
+    def set_parent(self, value: int, parent: int) -> None:
+        """Say that one object was created by the constructor of another, for `hasAncestor`."""
+        self.object_parent[value] = parent
+
+    def arguments(self, c: int) -> list[int]:
+        """List the variables of a constraint."""
+        return [self.slot_variable[self.first[c] + k] for k in range(self.arity[c])]
+
+    def keys(self, c: int) -> list[int]:
+        """List the keys of an element constraint."""
+        return [self.slot_key[self.first[c] + k] for k in range(2, self.arity[c])]
+
+    def constraints_of(self, v: int) -> list[int]:
+        """List the constraints on a variable that is no constant."""
+        found: dict[int, None] = {}
+        for head in (self.watch_head[v], self.mute_head[v]):
+            slot = head
+            while slot >= 0:
+                found[self.slot_constraint[slot]] = None
+                slot = self.slot_next[slot]
+        return list(found)
+
+    def edges_of(self, v: int) -> list[int]:
+        """List the edges of a variable."""
+        return edges_of(self, v)
+
+    def restrictions_of(self, v: int) -> list[int]:
+        """List the restrictions of a variable, the newest first."""
+        found = []
+        r = self.restriction_head[v]
+        while r >= 0:
+            found.append(r)
+            r = self.restriction_next[r]
+        return found
+
+    # ----------------------------------------------------------------------------------------------- propagation
 
     def propagate(self) -> bool:
         """Run all queues to the fixpoint: edges, then rounding to sets, then cheap constraints, then dear ones."""
@@ -346,16 +322,31 @@ class Engine(Store):
                 return True
 
     def run(self, c: int) -> bool:
-        """Run one constraint once."""
+        """Run one constraint once; false on a conflict."""
         self.scheduled[c] = 0
         self.runs += 1
+        if self.run_epoch[c] != self.epoch:
+            self.run_epoch[c] = self.epoch
+            self.run_count[c] = 0
+        self.run_count[c] += 1
+        if self.run_count[c] > MOST_RUNS:
+            return True
         family = self.op[c] >> 5
         if family == FAMILY_COMPARISON:
             return run_comparison(self, c)
         if family == FAMILY_ARITHMETIC:
             return run_arithmetic(self, c)
-        assert family == FAMILY_LOGIC
-        return run_logic(self, c)
+        if family == FAMILY_LOGIC:
+            return run_logic(self, c)
+        if family == FAMILY_SETS:
+            return run_sets(self, c)
+        if family == FAMILY_FUNCTION:
+            return run_function(self, c)
+        if family == FAMILY_GEOMETRY:
+            return run_geometry(self, c)
+        if self.op[c] == OP_EXTERNAL:
+            return bool(self.externals[c].propagate(self, c))
+        return True
 
     def clear_woken(self) -> None:
         """Let the watches in `woken` be woken again."""
@@ -363,7 +354,7 @@ class Engine(Store):
             self.scheduled[self.woken[i]] = 0
         self.woken_count = 0
 
-    # ------------------------------------------------------------------------------------------------------ time
+    # ------------------------------------------------------------------------------------------ time, explanations
 
     def mark(self) -> int:
         """Remember the present state, which must be a fixpoint; give what `rewind` takes, as often as wanted."""
@@ -380,3 +371,27 @@ class Engine(Store):
         """Forget all marks: what holds now is level 0."""
         commit_trail(self)
         self.marks = 0
+
+    def retract(
+        self,
+        constraints: Sequence[int] = (),
+        edges: Sequence[int] = (),
+        restrictions: Sequence[int] = (),
+        variables: Sequence[int] = (),
+    ) -> bool:
+        """Remove any of these at level 0, loosen exactly what they held, and propagate; false on a conflict."""
+        assert self.marks == 0 or self.trail_size == 0
+        again = retract(self, list(constraints), list(edges), list(restrictions), list(variables))
+        return follow_again(self, again) and self.propagate()
+
+    def undecide(self, v: int) -> bool:
+        """Take the decision on `v` back at level 0, and propagate."""
+        return self.retract(restrictions=decisions_of(self, v))
+
+    def explain(self) -> list[Cause]:
+        """Give the causes of the present conflict; `minimise.sufficient` checks them, `minimise.minimise` shrinks."""
+        return explain_conflict(self)
+
+    def support_chain(self, v: int, side: int) -> list[Link]:
+        """Tell why a bound (SIDE_LOWER, SIDE_UPPER) or a hole stands where it does, the nearest cause first."""
+        return explain_bound(self, v, side)

@@ -67,13 +67,13 @@ def assign(s: Store, v: int, x: int, support: int) -> bool:
 
 def remove_value(s: Store, v: int, x: int, support: int) -> bool:
     """Take the value x from a discrete variable; an interval of many values keeps what is not at its ends."""
-    if x == s.lb[v]:
-        return set_lower(s, v, x + 1, support)
-    if x == s.ub[v]:
-        return set_upper(s, v, x - 1, support)
     if x < s.lb[v] or x > s.ub[v]:
         return True
     if s.word[v] < 0:
+        if x == s.lb[v]:
+            return set_lower(s, v, x + 1, support)
+        if x == s.ub[v]:
+            return set_upper(s, v, x - 1, support)
         if s.ub[v] - s.lb[v] >= MOST_VALUES or (s.kind[v] == KIND_INT and not s.holes):
             return True
         attach_words(s, v, s.lb[v], s.ub[v] - s.lb[v] + 1)
@@ -81,7 +81,18 @@ def remove_value(s: Store, v: int, x: int, support: int) -> bool:
         return True
     place = place_above(s, v, x)
     clear_bits(s, v, place >> 6, ONE << (place & 63), support)
-    return True
+    return round_bounds(s, v, support)
+
+
+def round_bounds(s: Store, v: int, support: int) -> bool:
+    """Move bounds that stand in a hole to the next value; they keep their support, the log of holes has the rest."""
+    x = next_value(s, v, s.lb[v])
+    if x > s.ub[v]:
+        return s.fail(v, SIDE_HOLES, support)
+    if x > s.lb[v] and not set_lower(s, v, x, s.lower_support[v]):
+        return False
+    x = previous_value(s, v, s.ub[v])
+    return x >= s.ub[v] or set_upper(s, v, x, s.upper_support[v])
 
 
 def set_real_lower(s: Store, v: int, x: float, support: int) -> bool:

@@ -45,6 +45,14 @@ def link_edge(s: Store, source: int, target: int, weight: int, span: int, owner:
     s.edge_span[e] = span
     s.edge_owner[e] = owner
     s.edge_link[e] = link
+    attach_edge(s, e)
+    return e
+
+
+def attach_edge(s: Store, e: int) -> None:
+    """Put an edge into the lists of its ends."""
+    source = s.edge_source[e]
+    target = s.edge_target[e]
     other = s.out_head[source]
     s.out_next[e] = other
     s.out_prev[e] = -1
@@ -57,11 +65,10 @@ def link_edge(s: Store, source: int, target: int, weight: int, span: int, owner:
     s.in_head[target] = e
     if other >= 0:
         s.in_prev[other] = e
-    return e
 
 
-def unlink_edge(s: Store, e: int) -> None:
-    """Take an edge out of the lists of its ends and free its row."""
+def detach_edge(s: Store, e: int) -> None:
+    """Take an edge out of the lists of its ends."""
     before = s.out_prev[e]
     after = s.out_next[e]
     if before >= 0:
@@ -78,6 +85,10 @@ def unlink_edge(s: Store, e: int) -> None:
         s.in_head[s.edge_target[e]] = after
     if after >= 0:
         s.in_prev[after] = before
+
+
+def free_edge(s: Store, e: int) -> None:
+    """Free the row of an edge that is in no list."""
     s.edge_source[e] = -1
     s.out_next[e] = s.edge_free
     s.edge_free = e
@@ -85,12 +96,12 @@ def unlink_edge(s: Store, e: int) -> None:
 
 def insert_edge(s: Store, source: int, target: int, weight: int, span: int, owner: int, link: int) -> int:
     """Add an edge and propagate the network; give the edge. The store is inconsistent if that fails."""
-    if s.edge_first != s.edge_last:
+    if s.consistent and s.edge_first != s.edge_last:
         propagate_edges(s, -1, -1, -1)
     e = link_edge(s, source, target, weight, span, owner, link)
     s.save(e, TRAIL_EDGE, 0, 0)
-    if s.consistent:
-        follow_edge(s, e)
+    if not (s.consistent and follow_edge(s, e)):
+        s.suspects.append(e)
     return e
 
 
@@ -102,7 +113,10 @@ def tighten_edge(s: Store, e: int, weight: int) -> bool:
         return False
     s.save(e, TRAIL_WEIGHT, s.edge_weight[e], 0)
     s.edge_weight[e] = weight
-    return follow_edge(s, e)
+    if follow_edge(s, e):
+        return True
+    s.suspects.append(e)
+    return False
 
 
 def follow_edge(s: Store, e: int) -> bool:
@@ -112,7 +126,7 @@ def follow_edge(s: Store, e: int) -> bool:
     w = s.edge_weight[e]
     if u == v:
         if w < 0:
-            fail_cycle(s, v, SIDE_UPPER, e)
+            fail_cycle(s, v, SIDE_UPPER, e, e)
             return False
         return True
     x = s.ub[u] + w
@@ -132,13 +146,14 @@ def follow_edge(s: Store, e: int) -> bool:
     return propagate_edges(s, u, v, e)
 
 
-def fail_cycle(s: Store, v: int, side: int, e: int) -> None:
-    """Record that a path of edges comes back to `v` by `e` and tightens its own start."""
+def fail_cycle(s: Store, v: int, side: int, e: int, new: int) -> None:
+    """Record that a path of edges, `new` the first, comes back to `v` by `e` and tightens its own start."""
     s.consistent = False
     s.conflict_kind = CONFLICT_CYCLE
     s.conflict_variable = v
     s.conflict_side = side
     s.conflict_support = e * 4 + SUPPORT_EDGE
+    s.conflict_edge = new
 
 
 def changed_upper(s: Store, v: int) -> None:
@@ -180,7 +195,7 @@ def propagate_edges(s: Store, source: int, target: int, new: int) -> bool:
                 x = bound + s.edge_weight[e]
                 if x < s.ub[u]:
                     if u == source:
-                        fail_cycle(s, u, SIDE_UPPER, e)
+                        fail_cycle(s, u, SIDE_UPPER, e, new)
                         return False
                     if x < s.lb[u]:
                         return s.fail(u, SIDE_UPPER, e * 4 + SUPPORT_EDGE)
@@ -197,7 +212,7 @@ def propagate_edges(s: Store, source: int, target: int, new: int) -> bool:
                 x = bound - s.edge_weight[e]
                 if x > s.lb[u]:
                     if u == target:
-                        fail_cycle(s, u, SIDE_LOWER, e)
+                        fail_cycle(s, u, SIDE_LOWER, e, new)
                         return False
                     if x > s.ub[u]:
                         return s.fail(u, SIDE_LOWER, e * 4 + SUPPORT_EDGE)

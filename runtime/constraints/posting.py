@@ -1,14 +1,40 @@
 """Keep constraints in rows and their arguments in slots; put them on the watch lists of their variables."""
 
 from runtime.constraints.codes import (
+    EVENT_ANY,
+    EVENT_DECIDED,
+    EVENT_DOMAIN,
+    EVENT_HOLES,
+    KIND_BOOL,
+    KIND_FLOAT,
+    KIND_INT,
+    MODE_EDGES,
+    MODE_REAL,
     MODE_WHOLE,
+    OP_ADD_EQ,
+    OP_ALL_MAX,
+    OP_ALL_MIN,
+    OP_EQ,
+    OP_EQ_MAXIMUM,
+    OP_EQ_MINIMUM,
+    OP_EXTERNAL,
+    OP_LEQ,
+    OP_LT,
+    OP_PLUS,
+    OP_RAND,
+    OP_TEST_SPECIFIED,
+    OP_WATCH,
     PRIORITY_CHEAP,
+    PRIORITY_DEAR,
+    PRIORITY_WATCH,
     TRAIL_CONSTRAINT,
     TRAIL_LINK,
 )
 from runtime.constraints.grow import grown
 from runtime.constraints.network import insert_edge
 from runtime.constraints.store import Store
+
+MASK = 2**64 - 1
 
 
 def grow_constraints(s: Store) -> None:
@@ -39,6 +65,7 @@ def grow_slots(s: Store, need: int) -> None:
     s.slot_mask = grown(s.slot_mask, "b", room, 0)
     s.slot_next = grown(s.slot_next, "i", room, -1)
     s.slot_prev = grown(s.slot_prev, "i", room, -1)
+    s.slot_key = grown(s.slot_key, "q", room, 0)
 
 
 def allocate_slots(s: Store, count: int) -> int:
@@ -81,18 +108,22 @@ def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
 
 
 def watch(s: Store, c: int, position: int, v: int, mask: int) -> None:
-    """Fill in an argument and wake `c` at the events of `mask`; constants wake nobody."""
+    """Fill in an argument and wake `c` at the events of `mask`; without any it is mute. Constants have no lists."""
     slot = s.first[c] + position
     s.slot_variable[slot] = v
     s.slot_constraint[slot] = c
     s.slot_mask[slot] = mask
-    if s.constant[v] or mask == 0:
+    if s.constant[v]:
         s.slot_next[slot] = -2
         return
-    other = s.watch_head[v]
-    s.slot_next[slot] = other
     s.slot_prev[slot] = -1
-    s.watch_head[v] = slot
+    if mask:
+        other = s.watch_head[v]
+        s.watch_head[v] = slot
+    else:
+        other = s.mute_head[v]
+        s.mute_head[v] = slot
+    s.slot_next[slot] = other
     if other >= 0:
         s.slot_prev[other] = slot
 
@@ -107,14 +138,18 @@ def release_constraint(s: Store, c: int) -> None:
             before = s.slot_prev[slot]
             if before >= 0:
                 s.slot_next[before] = after
-            else:
+            elif s.slot_mask[slot]:
                 s.watch_head[s.slot_variable[slot]] = after
+            else:
+                s.mute_head[s.slot_variable[slot]] = after
             if after >= 0:
                 s.slot_prev[after] = before
         s.slot_constraint[slot] = -1
     if 0 < count <= 64:
         s.slot_next[first] = s.slot_free[count]
         s.slot_free[count] = first
+    if s.op[c] == OP_EXTERNAL:
+        del s.externals[c]
     s.op[c] = -1
     s.constraint_next[c] = s.constraint_free
     s.constraint_free = c
@@ -134,3 +169,63 @@ def tie_edge(s: Store, c: int, source: int, target: int, weight: int) -> bool:
     s.save(c, TRAIL_LINK, 0, 0)
     s.link_a[c] = insert_edge(s, source, target, weight, s.span[c], s.owner[c], c)
     return bool(s.consistent)
+
+
+def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: int) -> int:
+    """Make a constraint, choose how it is carried out, put it on the lists of its variables, schedule it."""
+    if op == OP_ALL_MAX or op == OP_ALL_MIN:
+        op = OP_EQ_MAXIMUM if op == OP_ALL_MAX else OP_EQ_MINIMUM
+        arguments = [arguments[-1], *arguments[:-1]]
+    elif op == OP_ADD_EQ and s.constant[arguments[0]] and not s.constant[arguments[1]]:
+        arguments = [arguments[1], arguments[0], arguments[2]]
+    c = new_constraint(s, op, len(arguments), span, owner)
+    choose_mode(s, c, arguments)
+    mask = EVENT_DOMAIN
+    if op == OP_WATCH:
+        s.priority[c] = PRIORITY_WATCH
+        mask = EVENT_ANY
+    elif op == OP_TEST_SPECIFIED:
+        mask = EVENT_DOMAIN | EVENT_DECIDED
+    elif op == OP_EXTERNAL:
+        s.priority[c] = PRIORITY_DEAR
+    elif op == OP_RAND:
+        s.aux[c] = random_whole(s.seed, span, owner)
+    elif s.mode[c] == MODE_EDGES:
+        mask = EVENT_HOLES if op == OP_EQ else 0
+    for position in range(s.arity[c]):
+        watch(s, c, position, arguments[position], mask)
+    s.schedule(c)
+    return c
+
+
+def choose_mode(s: Store, c: int, arguments: list[int]) -> None:
+    """Have comparisons of ints, and sums of an int and a constant, carried out by edges; reals by doubles."""
+    op = s.op[c]
+    edges = True
+    for v in arguments:
+        if s.kind[v] == KIND_FLOAT:
+            s.mode[c] = MODE_REAL
+        if s.kind[v] != KIND_INT or s.constant[v]:
+            edges = False
+    if op == OP_ADD_EQ:
+        if is_offset(s, arguments[0], arguments[1], arguments[2]):
+            s.mode[c] = MODE_EDGES
+            s.op[c] = OP_PLUS
+    elif op == OP_PLUS or (edges and (op == OP_LEQ or op == OP_LT or (op == OP_EQ and s.arity[c] == 2))):
+        s.mode[c] = MODE_EDGES
+
+
+def is_offset(s: Store, a: int, k: int, b: int) -> bool:
+    """Tell whether a + k = b relates two ints by a constant whole number."""
+    if s.kind[a] != KIND_INT or s.kind[b] != KIND_INT or s.constant[a] or s.constant[b] or not s.constant[k]:
+        return False
+    return (s.kind[k] == KIND_INT or s.kind[k] == KIND_BOOL) and s.lb[k] == s.ub[k]
+
+
+def random_whole(seed: int, span: int, owner: int) -> int:
+    """Draw from 0 to 32767: a function of the seed and of where the constraint was posted (splitmix64)."""
+    x = (seed * 1000003 + span * 8191 + owner + 2) & MASK
+    x = (x + 0x9E3779B97F4A7C15) & MASK
+    x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & MASK
+    x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & MASK
+    return (x ^ (x >> 31)) & 32767

@@ -1,13 +1,14 @@
 """Hold every variable's domain in arrays, with the trail that undoes changes and the queues that they wake."""
 
 from array import array
+from typing import Any
 
 from runtime.constraints.codes import (
     CONFLICT_DOMAIN,
     EVENT_DECIDED,
-    INF,
     PRIORITY_CHEAP,
     PRIORITY_WATCH,
+    TRAIL_DECIDED,
     TRAIL_LOWER,
     TRAIL_REAL_LOWER,
     TRAIL_REAL_UPPER,
@@ -49,6 +50,7 @@ class Store:
         self.constant = array("b", [0]) * room
         self.restriction_head = array("i", [-1]) * room
         self.watch_head = array("i", [-1]) * room
+        self.mute_head = array("i", [-1]) * room
         self.out_head = array("i", [-1]) * room
         self.in_head = array("i", [-1]) * room
         self.queued = array("b", [0]) * room
@@ -90,6 +92,7 @@ class Store:
         self.slot_mask = array("b", [0]) * room
         self.slot_next = array("i", [-1]) * room
         self.slot_prev = array("i", [-1]) * room
+        self.slot_key = array("q", [0]) * room
         self.slots_used = 0
         # Edges: `target - source <= weight`, in the lists of both ends; some carry out a constraint, their link.
         self.edges_used = 0
@@ -133,6 +136,23 @@ class Store:
         self.restriction_flags = array("b", [0]) * room
         self.restriction_values: dict[int, list[float]] = {}
         self.holes = True
+        # What some operations read beside their arguments.
+        self.externals: dict[int, Any] = {}
+        self.object_parent: dict[int, int] = {}
+        self.tick_seconds = 1.0
+        self.tick_epoch = 0.0
+        self.seed = 0
+        # Edges that could not be followed because the store was, or became, inconsistent.
+        self.suspects: list[int] = []
+        # Work space of explanations and retraction: bounds by key `v * 4 + side`.
+        self.reasons = array("q", [0]) * room
+        self.reason_count = 0
+        self.visit = array("q", [0]) * (4 * room)
+        self.visits_begun = 0
+        self.loose = array("b", [0]) * room
+        self.cone = array("q", [0]) * room
+        self.cone_count = 0
+        self.walk = array("q", [0]) * room
         # Queues: bounds whose edges must be visited, variables whose bounds may stand in a hole, constraints to run.
         self.edge_queue = array("i", [0]) * (4 * room)
         self.edge_mask = 4 * room - 1
@@ -161,6 +181,7 @@ class Store:
         self.conflict_variable = -1
         self.conflict_side = 0
         self.conflict_support = -1
+        self.conflict_edge = -1
         self.updates = 0
         self.visits = 0
         self.runs = 0
@@ -190,9 +211,12 @@ class Store:
         self.constant = grown(self.constant, "b", room, 0)
         self.restriction_head = grown(self.restriction_head, "i", room, -1)
         self.watch_head = grown(self.watch_head, "i", room, -1)
+        self.mute_head = grown(self.mute_head, "i", room, -1)
         self.out_head = grown(self.out_head, "i", room, -1)
         self.in_head = grown(self.in_head, "i", room, -1)
         self.queued = grown(self.queued, "b", room, 0)
+        self.visit = grown(self.visit, "q", 4 * room, 0)
+        self.loose = grown(self.loose, "b", room, 0)
         self.block_first = grown(self.block_first, "i", room, 0)
         self.block_size = grown(self.block_size, "i", room, 0)
         self.block_left = grown(self.block_left, "i", room, 0)
@@ -356,10 +380,6 @@ class Store:
     def set_decided(self, v: int, flag: int) -> None:
         """Mark `v` as specified, or no longer; watches see it."""
         if self.decided[v] != flag:
-            self.save(v, 6, self.decided[v], 0)
+            self.save(v, TRAIL_DECIDED, self.decided[v], 0)
             self.decided[v] = flag
             self.wake(v, EVENT_DECIDED)
-
-    def is_infinite_upper(self, v: int) -> bool:
-        """Tell whether a discrete variable has no finite upper bound."""
-        return self.ub[v] >= INF // 2

@@ -1,5 +1,7 @@
 """Go back in time: undo every change since a mark, in reverse order, at a cost of the number of changes."""
 
+from math import inf
+
 from runtime.constraints.bits import detach_words, restore_bits
 from runtime.constraints.codes import (
     CONFLICT_NONE,
@@ -18,7 +20,7 @@ from runtime.constraints.codes import (
     TRAIL_WEIGHT,
     TRAIL_WORDS,
 )
-from runtime.constraints.network import unlink_edge
+from runtime.constraints.network import detach_edge, free_edge
 from runtime.constraints.posting import release_constraint
 from runtime.constraints.store import Store
 from runtime.constraints.variables import drop_restriction, drop_variable
@@ -62,7 +64,8 @@ def undo_to(s: Store, size: int) -> None:
             s.upper_support[name] = s.trail_support[i]
             s.upper_when[name] = s.trail_when[i]
         elif code == TRAIL_EDGE:
-            unlink_edge(s, name)
+            detach_edge(s, name)
+            free_edge(s, name)
         elif code == TRAIL_WEIGHT:
             s.edge_weight[name] = s.trail_value[i]
         elif code == TRAIL_CONSTRAINT:
@@ -89,9 +92,13 @@ def undo_to(s: Store, size: int) -> None:
         elif code == TRAIL_RESTRICTION:
             drop_restriction(s, name)
         elif code == TRAIL_OPEN:
-            s.is_open[name] = s.trail_value[i]
+            s.is_open[name] = 1
+            s.restriction_lo[s.trail_support[i]] = -inf
+            s.restriction_hi[s.trail_support[i]] = inf
     s.trail_size = size
     s.consistent = True
+    if s.suspects:
+        s.suspects.clear()
     s.conflict_kind = CONFLICT_NONE
 
 

@@ -8,10 +8,12 @@ from runtime.constraints.bits import (
     attach_words,
     clear_bits,
     detach_words,
+    drop_log,
     next_place,
     value_at,
 )
 from runtime.constraints.codes import (
+    FLAG_VALUES,
     FLOAT_TOLERANCE,
     HALF_INF,
     INF,
@@ -22,11 +24,11 @@ from runtime.constraints.codes import (
     TRAIL_RESTRICTION,
     TRAIL_VARIABLE,
 )
-from runtime.constraints.comparison import round_bounds
 from runtime.constraints.grow import grown
 from runtime.constraints.narrow import (
     raise_to,
     reduce_to,
+    round_bounds,
     set_lower,
     set_upper,
 )
@@ -93,6 +95,7 @@ def clear_row(s: Store, v: int, kind: int) -> None:
     s.constant[v] = 0
     s.restriction_head[v] = -1
     s.watch_head[v] = -1
+    s.mute_head[v] = -1
     s.out_head[v] = -1
     s.in_head[v] = -1
     s.queued[v] = 0
@@ -101,11 +104,7 @@ def clear_row(s: Store, v: int, kind: int) -> None:
 
 def drop_variable(s: Store, v: int) -> None:
     """Free a variable that nothing names any more; its block is free when its last variable is."""
-    while s.hole_head[v] >= 0:
-        entry = s.hole_head[v]
-        s.hole_head[v] = s.hole_next[entry]
-        s.hole_next[entry] = s.hole_free
-        s.hole_free = entry
+    drop_log(s, v)
     if s.word[v] >= 0:
         detach_words(s, v)
     s.kind[v] = -1
@@ -164,7 +163,7 @@ def drop_restriction(s: Store, r: int) -> None:
         while s.restriction_next[other] != r:
             other = s.restriction_next[other]
         s.restriction_next[other] = s.restriction_next[r]
-    if s.restriction_flags[r] & 2:
+    if s.restriction_flags[r] & FLAG_VALUES:
         del s.restriction_values[r]
     s.restriction_variable[r] = -1
     s.restriction_next[r] = s.restriction_free
@@ -262,12 +261,14 @@ def keep_reals(s: Store, v: int, values: list[float], support: int) -> bool:
 
 def close_values(s: Store, v: int) -> bool:
     """End the growth of an open domain: from now on it is what was listed; false if propagation has excluded all."""
-    s.save(v, TRAIL_OPEN, s.is_open[v], 0)
-    s.is_open[v] = 0
     r = s.restriction_head[v]
     while s.restriction_next[r] >= 0:
         r = s.restriction_next[r]
-    values = sorted(s.restriction_values[r])
+    s.save(v, TRAIL_OPEN, 0, r)
+    s.is_open[v] = 0
+    values = s.restriction_values[r]
+    s.restriction_lo[r] = values[0] if values else 1.0
+    s.restriction_hi[r] = values[-1] if values else 0.0
     if not values and s.lb[v] <= -HALF_INF and s.ub[v] >= HALF_INF:
         # An empty closed domain is no conflict before a constraint needs a value.
         s.write_lower(v, 1, r * 4 + SUPPORT_RESTRICTION)

@@ -1,0 +1,382 @@
+"""Take constraints, edges, restrictions and variables out again at level 0, in any order, and loosen what they held.
+
+The cone of a removed thing is what it supported, what that supported, and so on. Its bounds go back to their base and
+are pulled tight along the remaining edges; all that touches them is propagated again. Cost: the cone and what it touches.
+
+A support that was overwritten is forgotten, so a bound that the removed thing once held may since hold itself up in a
+circle (x <= y / 2 and y <= x have shrunk both from 10). Such bounds are in the cone too: any bound of a touched
+constraint or edge whose supports do not lead back to restrictions without a circle.
+"""
+
+from math import inf
+
+from runtime.constraints.bits import drop_log, release_words
+from runtime.constraints.circles import holds_itself
+from runtime.constraints.codes import (
+    FLAG_DECISION,
+    FLAG_VALUES,
+    HALF_INF,
+    INF,
+    KIND_FLOAT,
+    NEVER,
+    OP_TEMPORAL_DISTANCE,
+    OP_WATCH,
+    SIDE_HOLES,
+    SIDE_LOWER,
+    SIDE_UPPER,
+    SUPPORT_CONSTRAINT,
+    SUPPORT_EDGE,
+    SUPPORT_RESTRICTION,
+)
+from runtime.constraints.grow import grown
+from runtime.constraints.network import attach_edge, detach_edge, follow_edge, free_edge
+from runtime.constraints.posting import release_constraint
+from runtime.constraints.reasons import is_carried
+from runtime.constraints.store import Store
+from runtime.constraints.trail import clear_queues, commit_trail
+from runtime.constraints.variables import drop_restriction, drop_variable, keep_values
+
+
+def retract(
+    s: Store, constraints: list[int], edges: list[int], restrictions: list[int], variables: list[int]
+) -> list[int]:
+    """Remove and loosen; leave the rest scheduled. Give the edges that must be followed again, one by one.
+
+    Constraints, edges and restrictions of the removed variables go too.
+    """
+    was_consistent = s.consistent
+    commit_trail(s)
+    if not was_consistent:
+        clear_queues(s)
+    s.consistent = True
+    s.conflict_kind = 0
+    s.visits_begun += 1
+    s.cone_count = 0
+    doomed = gather(s, constraints, variables)
+    for e in edges:
+        loosen_by_edge(s, e)
+    for c in doomed:
+        loosen_by_constraint(s, c)
+    for r in restrictions:
+        loosen_by(s, s.restriction_variable[r], r * 4 + SUPPORT_RESTRICTION)
+    suspects = [e for e in s.suspects if s.edge_source[e] >= 0]
+    s.suspects.clear()
+    for e in suspects:
+        loosen_by_edge(s, e)
+    follow_cone(s)
+    gone = set(edges)
+    for c in doomed:
+        for e in (s.link_a[c], s.link_b[c]):
+            if e >= 0:
+                gone.add(e)
+    for v in variables:
+        gone.update(edges_of(s, v))
+    for e in suspects:
+        detach_edge(s, e)
+    for e in sorted(gone):
+        if e not in suspects:
+            detach_edge(s, e)
+        free_edge(s, e)
+    for c in doomed:
+        release_constraint(s, c)
+    for r in restrictions:
+        drop_restriction(s, r)
+    reset_cone(s)
+    for v in variables:
+        while s.restriction_head[v] >= 0:
+            drop_restriction(s, s.restriction_head[v])
+        drop_variable(s, v)
+    renew_cone(s)
+    commit_trail(s)
+    if not was_consistent:
+        schedule_all(s)
+    return [e for e in suspects if e not in gone]
+
+
+def gather(s: Store, constraints: list[int], variables: list[int]) -> list[int]:
+    """List the constraints that go: the given ones and those on removed variables, each once."""
+    doomed = dict.fromkeys(constraints)
+    for v in variables:
+        for head in (s.watch_head[v], s.mute_head[v]):
+            slot = head
+            while slot >= 0:
+                doomed[s.slot_constraint[slot]] = None
+                slot = s.slot_next[slot]
+        for e in edges_of(s, v):
+            if s.edge_link[e] >= 0:
+                doomed[s.edge_link[e]] = None
+            loosen_by_edge(s, e)
+    return list(doomed)
+
+
+def edges_of(s: Store, v: int) -> list[int]:
+    """List the edges of a variable."""
+    found = []
+    e = s.out_head[v]
+    while e >= 0:
+        found.append(e)
+        e = s.out_next[e]
+    e = s.in_head[v]
+    while e >= 0:
+        found.append(e)
+        e = s.in_next[e]
+    return found
+
+
+def loosen(s: Store, v: int, side: int) -> None:
+    """Put a bound into the cone; a variable with a bit set goes in whole."""
+    if s.constant[v]:
+        return
+    if s.word[v] >= 0:
+        side = SIDE_HOLES
+    bit = 7 if side == SIDE_HOLES else 1 << side
+    new = bit & ~s.loose[v]
+    if new == 0:
+        return
+    s.loose[v] |= bit
+    if s.cone_count + 2 > len(s.cone):
+        s.cone = grown(s.cone, "q", 2 * len(s.cone), 0)
+    if new & 1:
+        s.cone[s.cone_count] = v * 4 + SIDE_LOWER
+        s.cone_count += 1
+    if new & 2:
+        s.cone[s.cone_count] = v * 4 + SIDE_UPPER
+        s.cone_count += 1
+
+
+def loosen_by(s: Store, v: int, support: int) -> None:
+    """Loosen what `support` holds of `v`, and what of `v` holds itself up."""
+    if s.constant[v]:
+        return
+    if s.word[v] >= 0:
+        entry = s.hole_head[v]
+        while entry >= 0:
+            if s.hole_support[entry] == support:
+                loosen(s, v, SIDE_HOLES)
+                return
+            entry = s.hole_next[entry]
+        if support & 3 == SUPPORT_RESTRICTION:
+            loosen(s, v, SIDE_HOLES)
+            return
+    for side in range(2):
+        if s.loose[v] & (1 << side) == 0:
+            holder = s.lower_support[v] if side == SIDE_LOWER else s.upper_support[v]
+            if holder == support or holds_itself(s, v, side):
+                loosen(s, v, side)
+
+
+def loosen_by_edge(s: Store, e: int) -> None:
+    """Loosen what an edge holds at both of its ends."""
+    support = e * 4 + SUPPORT_EDGE
+    v = s.edge_target[e]
+    if s.loose[v] & 2 == 0 and (s.upper_support[v] == support or holds_itself(s, v, SIDE_UPPER)):
+        loosen(s, v, SIDE_UPPER)
+    v = s.edge_source[e]
+    if s.loose[v] & 1 == 0 and (s.lower_support[v] == support or holds_itself(s, v, SIDE_LOWER)):
+        loosen(s, v, SIDE_LOWER)
+
+
+def loosen_by_constraint(s: Store, c: int) -> None:
+    """Loosen what a constraint holds, itself or by its edges."""
+    if s.link_a[c] >= 0:
+        loosen_by_edge(s, s.link_a[c])
+    if s.link_b[c] >= 0:
+        loosen_by_edge(s, s.link_b[c])
+    support = c * 4 + SUPPORT_CONSTRAINT
+    for slot in range(s.first[c], s.first[c] + s.arity[c]):
+        loosen_by(s, s.slot_variable[slot], support)
+
+
+def follow_cone(s: Store) -> None:
+    """Let the cone grow until it holds all that was held by its own bounds."""
+    i = 0
+    while i < s.cone_count:
+        v = s.cone[i] >> 2
+        if s.cone[i] & 3 == SIDE_UPPER:
+            e = s.out_head[v]
+            while e >= 0:
+                u = s.edge_target[e]
+                if s.loose[u] & 2 == 0 and s.edge_weight[e] < HALF_INF:
+                    if s.upper_support[u] == e * 4 + SUPPORT_EDGE or holds_itself(s, u, SIDE_UPPER):
+                        loosen(s, u, SIDE_UPPER)
+                e = s.out_next[e]
+        else:
+            e = s.in_head[v]
+            while e >= 0:
+                u = s.edge_source[e]
+                if s.loose[u] & 1 == 0 and s.edge_weight[e] < HALF_INF:
+                    if s.lower_support[u] == e * 4 + SUPPORT_EDGE or holds_itself(s, u, SIDE_LOWER):
+                        loosen(s, u, SIDE_LOWER)
+                e = s.in_next[e]
+        slot = s.watch_head[v]
+        while slot >= 0:
+            c = s.slot_constraint[slot]
+            if s.op[c] == OP_TEMPORAL_DISTANCE:
+                loosen_by_distance(s, c, v, s.cone[i] & 3)
+            elif s.op[c] != OP_WATCH:
+                loosen_by_constraint(s, c)
+            slot = s.slot_next[slot]
+        i += 1
+
+
+def loosen_by_distance(s: Store, c: int, v: int, side: int) -> None:
+    """Loosen what a distance holds: by its edge if it is the distance that has changed, else the distance itself."""
+    d = s.slot_variable[s.first[c] + 1]
+    if v == d:
+        if s.link_a[c] >= 0:
+            loosen_by_edge(s, s.link_a[c] if side == SIDE_UPPER else s.link_b[c])
+    else:
+        loosen_by(s, d, c * 4 + SUPPORT_CONSTRAINT)
+
+
+def reset_cone(s: Store) -> None:
+    """Give every bound of the cone its base value back, and every distance in it edges that hold nothing."""
+    for i in range(s.cone_count):
+        v = s.cone[i] >> 2
+        side = s.cone[i] & 3
+        if s.word[v] >= 0:
+            reset_set(s, v)
+        elif s.loose[v]:
+            reset_bound(s, v, side)
+        slot = s.watch_head[v]
+        while slot >= 0:
+            c = s.slot_constraint[slot]
+            if s.op[c] == OP_TEMPORAL_DISTANCE and s.slot_variable[s.first[c] + 1] == v and s.link_a[c] >= 0:
+                s.edge_weight[s.link_a[c] if side == SIDE_UPPER else s.link_b[c]] = NEVER
+            slot = s.slot_next[slot]
+
+
+def reset_bound(s: Store, v: int, side: int) -> None:
+    """Give one bound the tightest value that restrictions and decisions leave it."""
+    best = -inf if side == SIDE_LOWER else inf
+    support = -1
+    r = s.restriction_head[v]
+    while r >= 0:
+        x = s.restriction_lo[r] if side == SIDE_LOWER else s.restriction_hi[r]
+        # Of equal ones the oldest counts, as when they were carried out.
+        if support < 0 or (x >= best if side == SIDE_LOWER else x <= best):
+            best = x
+            support = r * 4 + SUPPORT_RESTRICTION
+        r = s.restriction_next[r]
+    if side == SIDE_LOWER:
+        s.lower_support[v] = support
+        s.lower_when[v] = -1
+        if s.kind[v] == KIND_FLOAT:
+            s.flo[v] = -inf if best <= -HALF_INF else best
+        else:
+            s.lb[v] = -INF if best <= -HALF_INF else int(best)
+    else:
+        s.upper_support[v] = support
+        s.upper_when[v] = -1
+        if s.kind[v] == KIND_FLOAT:
+            s.fhi[v] = inf if best >= HALF_INF else best
+        else:
+            s.ub[v] = INF if best >= HALF_INF else int(best)
+
+
+def reset_set(s: Store, v: int) -> None:
+    """Take the bit set of a variable away; `renew_cone` carries its restrictions to sets out again."""
+    drop_log(s, v)
+    release_words(s, s.word[v], s.words_of[v])
+    s.word[v] = -1
+    s.words_of[v] = 0
+    s.table[v] = -1
+    reset_bound(s, v, SIDE_LOWER)
+    reset_bound(s, v, SIDE_UPPER)
+
+
+def renew_cone(s: Store) -> None:
+    """Pull the bounds of the cone tight along the edges, restrict to sets, and schedule all that touches them."""
+    for i in range(s.cone_count):
+        v = s.cone[i] >> 2
+        side = s.cone[i] & 3
+        s.loose[v] = 0
+        if s.kind[v] < 0:
+            continue
+        if side == SIDE_LOWER:
+            pull_lower(s, v)
+        else:
+            pull_upper(s, v)
+        restrict_to_sets(s, v)
+        for head in (s.watch_head[v], s.mute_head[v]):
+            slot = head
+            while slot >= 0:
+                c = s.slot_constraint[slot]
+                if not (is_carried(s, c) and s.link_a[c] >= 0) or s.slot_mask[slot]:
+                    s.schedule(c)
+                slot = s.slot_next[slot]
+
+
+def restrict_to_sets(s: Store, v: int) -> None:
+    """Carry the restrictions of a variable to sets of values out again, the oldest first."""
+    listed = []
+    r = s.restriction_head[v]
+    while r >= 0:
+        if s.restriction_flags[r] & FLAG_VALUES and not s.is_open[v]:
+            listed.append(r)
+        r = s.restriction_next[r]
+    for r in reversed(listed):
+        if s.consistent and s.restriction_values[r]:
+            keep_values(s, v, s.restriction_values[r], r * 4 + SUPPORT_RESTRICTION)
+
+
+def pull_lower(s: Store, v: int) -> None:
+    """Raise a lower bound to what its edges ask for now."""
+    e = s.out_head[v]
+    while e >= 0:
+        x = s.lb[s.edge_target[e]] - s.edge_weight[e]
+        if x > s.ub[v]:
+            s.queue_edges(s.edge_target[e], 0)  # which will find the conflict
+        elif x > s.lb[v]:
+            s.lb[v] = x
+            s.lower_support[v] = e * 4 + SUPPORT_EDGE
+            s.lower_when[v] = s.trail_base
+        e = s.out_next[e]
+    s.queue_edges(v, 0)
+
+
+def pull_upper(s: Store, v: int) -> None:
+    """Reduce an upper bound to what its edges ask for now."""
+    e = s.in_head[v]
+    while e >= 0:
+        x = s.ub[s.edge_source[e]] + s.edge_weight[e]
+        if x < s.lb[v]:
+            s.queue_edges(s.edge_source[e], 1)
+        elif x < s.ub[v]:
+            s.ub[v] = x
+            s.upper_support[v] = e * 4 + SUPPORT_EDGE
+            s.upper_when[v] = s.trail_base
+        e = s.in_next[e]
+    s.queue_edges(v, 1)
+
+
+def schedule_all(s: Store) -> None:
+    """After a conflict at level 0 nothing is known to be propagated: schedule every constraint and every edge."""
+    for c in range(s.constraints_used):
+        if s.op[c] >= 0:
+            s.schedule(c)
+    for v in range(s.variables):
+        if s.kind[v] >= 0:
+            s.queue_edges(v, 0)
+            s.queue_edges(v, 1)
+
+
+def follow_again(s: Store, edges: list[int]) -> bool:
+    """Put edges that led to a conflict back, one by one; false if one does again."""
+    for e in edges:
+        attach_edge(s, e)
+        if not (s.consistent and follow_edge(s, e)):
+            s.suspects.append(e)
+    return s.consistent
+
+
+def decisions_of(s: Store, v: int) -> list[int]:
+    """Take the mark of a decision from a variable; give the decisions to retract."""
+    s.set_decided(v, 0)
+    found = []
+    r = s.restriction_head[v]
+    while r >= 0:
+        if s.restriction_flags[r] & FLAG_DECISION:
+            found.append(r)
+        r = s.restriction_next[r]
+    return found

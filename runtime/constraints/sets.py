@@ -1,0 +1,237 @@
+"""Propagate what relates whole domains: subsets, unions, locks, the fields of objects, objects inside objects."""
+
+from math import inf
+
+from runtime.constraints.bits import MOST_VALUES, count_values, has_value, next_value
+from runtime.constraints.codes import (
+    FLOAT_TOLERANCE,
+    HALF_INF,
+    KIND_FLOAT,
+    OP_COMMON_ANCESTOR,
+    OP_ELEMENT,
+    OP_EQ_UNION,
+    OP_HAS_ANCESTOR,
+    OP_LOCK,
+    OP_MEMBER_IMPLY,
+    OP_SUBSET_OF,
+    SIDE_HOLES,
+    SUPPORT_CONSTRAINT,
+)
+from runtime.constraints.comparison import equate, exclude_missing
+from runtime.constraints.logic import meet
+from runtime.constraints.narrow import high, is_single, low, raise_to, reduce_to, remove_value, set_lower, set_upper
+from runtime.constraints.store import Store
+
+
+def run_sets(s: Store, c: int) -> bool:
+    """Run a constraint of this family."""
+    op = s.op[c]
+    first = s.first[c]
+    a = s.slot_variable[first]
+    b = s.slot_variable[first + 1]
+    support = c * 4 + SUPPORT_CONSTRAINT
+    if op == OP_ELEMENT:
+        return look_up(s, first, s.arity[c], support)
+    if op == OP_SUBSET_OF:
+        return keep_inside(s, a, b, support)
+    if op == OP_EQ_UNION:
+        return keep_in_hull(s, first, s.arity[c], support)
+    if op == OP_MEMBER_IMPLY:
+        if not is_subset(s, b, s.slot_variable[first + 2]):
+            return True
+        return keep_inside(s, a, s.slot_variable[first + 3], support)
+    if op == OP_LOCK:
+        return (is_subset(s, b, a) or s.fail(a, SIDE_HOLES, support)) and keep_inside(s, a, b, support)
+    if op == OP_HAS_ANCESTOR:
+        return lie_inside(s, a, b, support)
+    assert op == OP_COMMON_ANCESTOR
+    return share_ancestor(s, a, b, s.slot_variable[first + 2], support)
+
+
+def is_subset(s: Store, a: int, b: int) -> bool:
+    """Tell whether every value of a is one of b."""
+    if s.kind[a] == KIND_FLOAT or s.kind[b] == KIND_FLOAT:
+        return low(s, a) >= low(s, b) - FLOAT_TOLERANCE and high(s, a) <= high(s, b) + FLOAT_TOLERANCE
+    if s.lb[a] < s.lb[b] or s.ub[a] > s.ub[b]:
+        return False
+    if s.word[b] < 0:
+        return True
+    if s.word[a] < 0 and s.ub[a] - s.lb[a] > 64 * s.words_of[b]:
+        return False
+    x = s.lb[a]
+    while x <= s.ub[a]:
+        if not has_value(s, b, x):
+            return False
+        x = x + 1 if s.word[a] < 0 else next_value(s, a, x + 1)
+    return True
+
+
+def keep_inside(s: Store, a: int, b: int, support: int) -> bool:
+    """Narrow a to the values of b; b stays."""
+    if not (raise_to(s, a, low(s, b), support) and reduce_to(s, a, high(s, b), support)):
+        return False
+    if s.kind[a] == KIND_FLOAT or s.kind[b] == KIND_FLOAT:
+        return True
+    return exclude_missing(s, b, a, support)
+
+
+def keep_in_hull(s: Store, first: int, count: int, support: int) -> bool:
+    """Narrow the first argument to the hull of all others."""
+    lo = inf
+    hi = -inf
+    for k in range(first + 1, first + count):
+        lo = min(lo, low(s, s.slot_variable[k]))
+        hi = max(hi, high(s, s.slot_variable[k]))
+    a = s.slot_variable[first]
+    return raise_to(s, a, lo, support) and reduce_to(s, a, hi, support)
+
+
+def look_up(s: Store, first: int, count: int, support: int) -> bool:
+    """Narrow result = the variable that the index's value selects, and the index to values whose variable can serve.
+
+    An index without bounds (an open domain) waits. O(rows + values of the result).
+    """
+    result = s.slot_variable[first]
+    index = s.slot_variable[first + 1]
+    if s.lb[index] <= -HALF_INF or s.ub[index] >= HALF_INF:
+        return True
+    lo = inf
+    hi = -inf
+    last_key = s.lb[index] - 1
+    able = -1
+    for k in range(first + 2, first + count):
+        key = s.slot_key[k]
+        v = s.slot_variable[k]
+        # Rows stand in the order of their keys: values between two keys have no row.
+        if not remove_between(s, index, last_key, key, support):
+            return False
+        last_key = key
+        if not has_value(s, index, key):
+            continue
+        if not meet(s, result, v):
+            if not remove_value(s, index, key, support):
+                return False
+            if has_value(s, index, key):
+                return True
+            continue
+        lo = min(lo, low(s, v))
+        hi = max(hi, high(s, v))
+        able = v if able == -1 else -2
+    if not remove_between(s, index, last_key, s.ub[index] + 1, support):
+        return False
+    if able == -1:
+        return s.fail(index, SIDE_HOLES, support)
+    if able >= 0:
+        return equate(s, result, able, support)
+    if not (raise_to(s, result, lo, support) and reduce_to(s, result, hi, support)):
+        return False
+    return s.kind[result] == KIND_FLOAT or remove_unsupported(s, first, count, support)
+
+
+def remove_between(s: Store, index: int, below: int, above: int, support: int) -> bool:
+    """Take from the index the values strictly between two keys."""
+    x = max(below + 1, s.lb[index])
+    while x < above and x <= s.ub[index]:
+        if not remove_value(s, index, x, support):
+            return False
+        x += 1
+    return True
+
+
+def remove_unsupported(s: Store, first: int, count: int, support: int) -> bool:
+    """Take from the result of a look-up the values that no selectable variable has."""
+    result = s.slot_variable[first]
+    index = s.slot_variable[first + 1]
+    if s.ub[result] - s.lb[result] >= MOST_VALUES:
+        return True
+    x = s.lb[result]
+    while x <= s.ub[result]:
+        if has_value(s, result, x):
+            found = False
+            for k in range(first + 2, first + count):
+                if has_value(s, index, s.slot_key[k]) and serves(s, s.slot_variable[k], x):
+                    found = True
+                    break
+            if not found and not remove_value(s, result, x, support):
+                return False
+        x += 1
+    return True
+
+
+def serves(s: Store, v: int, x: int) -> bool:
+    """Tell whether any variable may take the whole number x."""
+    if s.kind[v] == KIND_FLOAT:
+        return s.flo[v] - FLOAT_TOLERANCE <= x <= s.fhi[v] + FLOAT_TOLERANCE
+    return has_value(s, v, x)
+
+
+def is_listed(s: Store, v: int) -> bool:
+    """Tell whether the values of a discrete variable can be gone through."""
+    return s.lb[v] > -HALF_INF and s.ub[v] < HALF_INF and count_values(s, v) <= MOST_VALUES
+
+
+def has_ancestor_in(s: Store, value: int, p: int) -> bool:
+    """Tell whether an object lies inside one that p may be."""
+    while True:
+        parent = s.object_parent.get(value, -1)
+        if parent < 0:
+            return False
+        if has_value(s, p, parent):
+            return True
+        value = parent
+
+
+def is_inside(s: Store, value: int, ancestor: int) -> bool:
+    """Tell whether an object lies inside another one."""
+    while True:
+        value = s.object_parent.get(value, -1)
+        if value == ancestor:
+            return True
+        if value < 0:
+            return False
+
+
+def lie_inside(s: Store, x: int, p: int, support: int) -> bool:
+    """Narrow: the object x was created by the constructor of p, directly or not."""
+    if not is_listed(s, x):
+        return True
+    value = s.lb[x]
+    while value <= s.ub[x]:
+        if not has_ancestor_in(s, value, p) and not remove_value(s, x, value, support):
+            return False
+        value = next_object(s, x, value)
+    if not is_listed(s, p):
+        return True
+    ancestor = s.lb[p]
+    while ancestor <= s.ub[p]:
+        value = s.lb[x]
+        while value <= s.ub[x] and not is_inside(s, value, ancestor):
+            value = next_object(s, x, value)
+        if value > s.ub[x] and not remove_value(s, p, ancestor, support):
+            return False
+        ancestor = next_object(s, p, ancestor)
+    return True
+
+
+def next_object(s: Store, v: int, value: int) -> int:
+    """Give the next value of a discrete variable."""
+    return value + 1 if s.word[v] < 0 else next_value(s, v, value + 1)
+
+
+def share_ancestor(s: Store, a: int, b: int, p: int, support: int) -> bool:
+    """Narrow: a and b lie inside one of the objects of p; acts once a or b is known."""
+    for _ in range(2):
+        if is_single(s, a) and is_listed(s, p):
+            ancestor = s.lb[p]
+            while ancestor <= s.ub[p]:
+                if not is_inside(s, s.lb[a], ancestor) and not remove_value(s, p, ancestor, support):
+                    return False
+                ancestor = next_object(s, p, ancestor)
+            if is_listed(s, b):
+                value = s.lb[b]
+                while value <= s.ub[b]:
+                    if not has_ancestor_in(s, value, p) and not remove_value(s, b, value, support):
+                        return False
+                    value = next_object(s, b, value)
+        a, b = b, a
+    return set_lower(s, p, s.lb[p], support) and set_upper(s, p, s.ub[p], support)
