@@ -1,0 +1,1 @@
+"""NDDL text in; the same text in the one documented style out."""
