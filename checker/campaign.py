@@ -6,16 +6,15 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 from checker.batch.identity import model_digest, run_id
-from checker.batch.pool import fly_all
+from checker.batch.pool import Flyer, fly_all
 from checker.batch.result import MissionResult
 from checker.batch.store import Run, Store
-from checker.batch.worker import Load, Task, fly_one
+from checker.batch.worker import Load, Task
 from checker.findings import Fault, Findings, assess
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.sampling.seeds import mission_seed
 from checker.story import Story, tell
-from checker.threshold import Refly
 
 MOST_STORIES = 8
 
@@ -40,10 +39,6 @@ class Campaign:
     def task(self, number: int) -> Task:
         """Mission `number` with its seed."""
         return Task(number, mission_seed(self.mission.check.seed, number))
-
-    def refly(self) -> Refly:
-        """Fly single missions in this process, with an agent that may differ from the mission's own."""
-        return lambda agent, number, seed: fly_one(self.load(agent), Task(number, seed))
 
     def fly(
         self,
@@ -70,20 +65,32 @@ class Campaign:
             store.flush()
         return tuple(results[number] for number in sorted(results)), is_interrupted
 
-    def assess(self, results: tuple[MissionResult, ...], *, is_interrupted: bool, may_fly: bool) -> Findings:
-        """Judge the results; with `may_fly` thresholds are sharpened by flying examples again."""
-        refly = self.refly() if may_fly else None
-        run = self.run
-        return assess(
-            self.mission,
-            self.models.agent,
-            run.id,
-            run.seed,
-            run.missions,
-            results,
-            refly,
-            is_interrupted=is_interrupted,
-        )
+    def assess(
+        self,
+        results: tuple[MissionResult, ...],
+        *,
+        is_interrupted: bool = False,
+        may_fly: bool = True,
+        focus: int | None = None,
+    ) -> Findings:
+        """Judge the results; with `may_fly` thresholds are sharpened by flying examples again.
+
+        With a `focus` that is done only for the fault that mission `focus` belongs to.
+        """
+        run, agent = self.run, self.models.agent
+        with Flyer(self.load, agent, self.mission.check.time_limit) as flyer:
+            refly = flyer.fly if may_fly and not is_interrupted else None
+            return assess(
+                self.mission,
+                agent,
+                run.id,
+                run.seed,
+                run.missions,
+                results,
+                refly,
+                is_interrupted=is_interrupted,
+                focus=focus,
+            )
 
     def story(self, result: MissionResult, fault: Fault | None) -> Story:
         """Why a mission failed."""

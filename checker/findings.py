@@ -63,18 +63,22 @@ def assess(
     refly: Refly | None,
     *,
     is_interrupted: bool = False,
+    focus: int | None = None,
 ) -> Findings:
-    """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted."""
+    """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
+
+    With a `focus` it does so only for the fault that mission `focus` belongs to.
+    """
     ordered = tuple(sorted(results, key=lambda result: result.number))
     counted = sum(result.verdict is not Verdict.ERROR for result in ordered)
     failures = sum(result.verdict is Verdict.FAIL for result in ordered)
     check = mission.check
     rate = judge_rate(failures, counted, check.max_failure_rate, check.confidence)
-    faults = tuple(
-        _fault(bucket, ordered, agent, refly if number < MOST_SHARPENED and not is_interrupted else None)
-        for number, bucket in enumerate(group_failures(ordered))
-    )
-    return Findings(run_id, mission, agent, seed, planned, ordered, rate, faults, is_interrupted)
+    faults: list[Fault] = []
+    for position, bucket in enumerate(group_failures(ordered)):
+        is_wanted = position < MOST_SHARPENED if focus is None else focus in bucket.missions
+        faults.append(_fault(bucket, ordered, agent, refly if is_wanted else None))
+    return Findings(run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), is_interrupted)
 
 
 def _fault(bucket: Bucket, results: tuple[MissionResult, ...], agent: AgentConfiguration, refly: Refly | None) -> Fault:

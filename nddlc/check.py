@@ -80,7 +80,8 @@ def command(
                 results, is_interrupted = campaign.fly(count, store, resume=resume, progress=_progress)
     except StoreError as problem:
         raise Unusable(str(problem), "--store names another one, --no-store does without") from None
-    findings = campaign.assess(results, is_interrupted=is_interrupted, may_fly=True)
+    _progress(0, 0)
+    findings = campaign.assess(results, is_interrupted=is_interrupted)
     return _report(campaign, findings, style, output)
 
 
@@ -133,10 +134,9 @@ def _cores() -> int:
 
 
 def _progress(done: int, planned: int) -> None:
-    """A line that counts, on a terminal only."""
+    """A line that counts, on a terminal only; wiped out where nothing is planned."""
     if sys.stderr.isatty():
-        end = "\r" if done < planned else "\r\x1b[K"
-        click.echo(f"\r{done} of {planned} missions{end}", nl=False, err=True)
+        click.echo(f"\r{done} of {planned} missions" if planned else "\r\x1b[K", nl=False, err=True)
 
 
 def _report(campaign: Campaign, findings: Findings, style: str, output: Path) -> int:

@@ -51,9 +51,10 @@ def _explain(store: Store, name: str, number: int | None, style: str, events: bo
         raise Unusable(f"no single run is named `{name}`", f"runs in the store: {known or 'none'}")
     campaign, is_same = _campaign(run)
     results = tuple(store.results(run.id))
-    findings = campaign.assess(results, is_interrupted=False, may_fly=is_same)
+    first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
+    findings = campaign.assess(results, may_fly=is_same, focus=first)
     findings = replace(findings, run_id=run.id)
-    result = _result(run, number, campaign, findings, is_same)
+    result = _result(run, first, campaign, findings, is_same)
     fault = next((one for one in findings.faults if result.number in one.bucket.missions), None)
     excerpts = Excerpts(Path(campaign.models.agent.root))
     if not is_same and style == "text":
@@ -101,9 +102,7 @@ def _campaign(run: Run) -> tuple[Campaign, bool]:
 def _result(run: Run, number: int | None, campaign: Campaign, findings: Findings, is_same: bool) -> MissionResult:
     """The mission asked for, flown again from its seed where its trace was not kept."""
     if number is None:
-        if not findings.faults:
-            raise Unusable(f"no mission of run {run.id} failed", f"{run.id}#N shows mission N all the same")
-        number = findings.faults[0].bucket.example
+        raise Unusable(f"no mission of run {run.id} failed", f"{run.id}#N shows mission N all the same")
     if not 1 <= number <= run.missions:
         raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number}")
     stored = next((result for result in findings.results if result.number == number), None)

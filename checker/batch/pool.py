@@ -48,6 +48,52 @@ def fly_all(
             pool.stop()
 
 
+class Flyer:
+    """Flies single missions, each with an agent of its own, in one process that may die or hang without harm."""
+
+    def __init__(self, load: Load, agent: AgentConfiguration, time_limit: float) -> None:
+        self._load, self._agent, self._time_limit = load, agent, time_limit
+        self._worker: _Worker | None = None
+
+    def __enter__(self) -> "Flyer":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._worker is not None:
+            self._worker.kill()
+
+    def fly(self, agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
+        """The result of one mission; an ERROR where the process died or took too long."""
+        task = Task(number, seed, agent)
+        if self._worker is None:
+            self._worker = _Worker(self._load, self._agent)
+            if not self._worker.connection.poll(START_LIMIT):
+                return self._lost(task, "the process did not start")
+            message = self._heard()
+            if isinstance(message, LoadFailure):
+                raise WorkerError(message.detail)
+            if message != READY:
+                return self._lost(task, "the process did not start")
+        self._worker.give([task], self._time_limit)
+        if not self._worker.connection.poll(self._time_limit):
+            return self._lost(task, f"took longer than {self._time_limit:g} s")
+        result = self._heard()
+        return result if isinstance(result, MissionResult) else self._lost(task, "the process died")
+
+    def _heard(self) -> object:
+        assert self._worker is not None
+        try:
+            return self._worker.connection.recv()
+        except (EOFError, OSError):
+            return None
+
+    def _lost(self, task: Task, reason: str) -> MissionResult:
+        assert self._worker is not None
+        self._worker.kill()
+        self._worker = None
+        return error_result(task, reason)
+
+
 class _Worker:
     """A process, the way to it, and the missions that it still owes; the first of them is in flight."""
 
@@ -66,6 +112,12 @@ class _Worker:
         self.owed.extend(chunk)
         self.deadline = time.monotonic() + time_limit
         self.connection.send(chunk)
+
+    def kill(self) -> None:
+        """End the process, whatever it is doing."""
+        self.process.kill()
+        self.process.join()
+        self.connection.close()
 
 
 class _Pool:
@@ -104,9 +156,8 @@ class _Pool:
         """End every worker; idle ones have nothing to lose, busy ones are not waited for."""
         for worker in self.workers:
             worker.process.kill()
-            worker.connection.close()
         for worker in self.workers:
-            worker.process.join()
+            worker.kill()
 
     def _listen(self, worker: _Worker) -> None:
         """Take all that a worker has said."""
@@ -136,9 +187,7 @@ class _Pool:
 
     def _lose(self, worker: _Worker, reason: str) -> None:
         """Give up a worker and the mission in flight, and start another one for the rest."""
-        worker.process.kill()
-        worker.process.join()
-        worker.connection.close()
+        worker.kill()
         if worker.owed:
             self.missing -= 1
             self.take(error_result(worker.owed.popleft(), reason))

@@ -19,10 +19,11 @@ READY = "ready"
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """One mission to fly."""
+    """One mission to fly; `agent` where it is another than the one that the worker was started with."""
 
     number: int
     seed: int
+    agent: AgentConfiguration | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +45,7 @@ def work(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
         connection.send(READY)
         while (tasks := connection.recv()) is not None:
             for task in tasks:
-                connection.send(fly_one(fly, task))
+                connection.send(fly_one(fly if task.agent is None else load(task.agent), task))
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return  # the parent is gone
 

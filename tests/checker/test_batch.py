@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.pool import WorkerError, fly_all
+from checker.batch.pool import Flyer, WorkerError, fly_all
 from checker.batch.result import MissionResult, read_result, write_result
 from checker.batch.store import Run, StoreError, open_store
 from checker.batch.worker import Load, Task
@@ -58,6 +58,13 @@ def test_crashes_hangs_and_bugs_cost_one_mission_each() -> None:
         12: "took longer than 1 s",
         13: "the process died (exit code 9)",
     }
+
+
+def test_single_flights_survive_the_process_that_flies_them() -> None:
+    with Flyer(load_troubled, agent(), 1.0) as flyer:
+        verdicts = [flyer.fly(agent(), 1, seed).verdict for seed in (0, 1, 2, 3)]
+    assert verdicts[:3] == [Verdict.ERROR] * 3
+    assert verdicts[3] is not Verdict.ERROR
 
 
 def test_models_that_cannot_be_loaded_end_the_batch() -> None:

@@ -44,7 +44,7 @@ def findings(campaign: Campaign) -> Findings:
     fly_all(load_split, agent, tasks, 1, 30.0, results.append)
     broken = Judgement(Verdict.ERROR, "", "KeyError: <'x' & \x07>")
     results[2] = replace(results[2], judgement=broken, outcome=None, has_trace=False)
-    return campaign.assess(tuple(results), is_interrupted=False, may_fly=True)
+    return campaign.assess(tuple(results))
 
 
 def test_the_text_names_line_threshold_and_command(findings: Findings) -> None:
