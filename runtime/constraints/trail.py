@@ -82,7 +82,7 @@ def undo_to(s: Store, size: int) -> None:
             s.upper_support[name] = s.trail_support[i]
             s.upper_when[name] = s.trail_when[i]
         elif code == TRAIL_HOLES:
-            restore_bits(s, s.hole_variable[name])
+            restore_bits(s, name)
         elif code == TRAIL_WORDS:
             detach_words(s, name)
         elif code == TRAIL_DECIDED:

@@ -27,7 +27,8 @@ from runtime.solver.codes import (
     UNBOUND_VARIABLE,
 )
 from runtime.solver.decisions import Decisions
-from runtime.solver.queues import Queues, widened
+from runtime.solver.queues import Queues
+from runtime.solver.widening import widened
 
 NOW = 2**62
 

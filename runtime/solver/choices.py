@@ -58,7 +58,7 @@ def mend_variable(q: Queues, stack: Decisions, d: int) -> int:
         return APPLIED
     stack.cursor[d] = x
     stack.tries[d] += 1
-    q.engine.decide_value(v, x, NONE, NONE)
+    q.engine.decide(v, x, NONE, NONE)
     return APPLIED if settle(q.plan) else FAILED_CHOICE
 
 

@@ -138,7 +138,7 @@ def is_compatible(q: Queues, t: int, candidate: int, exact: bool) -> bool:
 
 def can_coincide(q: Queues, a: int, b: int) -> bool:
     """Whether two timepoints may be at the same time, each way by itself."""
-    return q.engine.admits(a, b, 0) and q.engine.admits(b, a, 0)
+    return q.distances.admits(a, b, 0) and q.distances.admits(b, a, 0)
 
 
 def mend_by_activating(q: Queues, stack: Decisions, d: int, t: int, exact: bool) -> int:

@@ -3,7 +3,7 @@
 from array import array
 
 from runtime.solver.codes import NONE
-from runtime.solver.queues import widened
+from runtime.solver.widening import widened
 
 
 class Decisions:
@@ -24,7 +24,8 @@ class Decisions:
         self.other = array("q", [0]) * room
         self.lists: dict[int, list[float]] = {}
         # The way back.
-        self.plan_mark = array("q", [0]) * room
+        self.rows_mark = array("q", [0]) * room
+        self.engine_mark = array("q", [0]) * room
         self.rows_seen = array("q", [0]) * room
         self.engine_seen = array("q", [0]) * room
         self.dropped = array("q", [0]) * room
@@ -87,7 +88,8 @@ class Decisions:
         self.phase = widened(self.phase, room, 0)
         self.cursor = widened(self.cursor, room, 0)
         self.other = widened(self.other, room, 0)
-        self.plan_mark = widened(self.plan_mark, room, 0)
+        self.rows_mark = widened(self.rows_mark, room, 0)
+        self.engine_mark = widened(self.engine_mark, room, 0)
         self.rows_seen = widened(self.rows_seen, room, 0)
         self.engine_seen = widened(self.engine_seen, room, 0)
         self.dropped = widened(self.dropped, room, 0)

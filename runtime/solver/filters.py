@@ -1,4 +1,4 @@
-"""Test what a filter keeps back now: tokens outside the horizon, infinite domains, loose parents, what is not in scope."""
+"""Test what a filter keeps back now: tokens outside the horizon, infinite domains, loose parents, the unscoped."""
 
 from runtime.constraints.bits import count_values
 from runtime.constraints.codes import FLOAT_TOLERANCE, HALF_INF, INF, KIND_FLOAT, KIND_INT

@@ -57,7 +57,7 @@ def can_precede(q: Queues, first: int, second: int, exact: bool) -> bool:
     start = q.rows.var0[second] + START
     if q.engine.lb[end] > q.engine.ub[start]:
         return False
-    return not exact or q.engine.admits(start, end, 0)
+    return not exact or q.distances.admits(start, end, 0)
 
 
 def fits_between(q: Queues, t: int, previous: int, following: int, exact: bool) -> bool:
@@ -71,4 +71,4 @@ def fits_between(q: Queues, t: int, previous: int, following: int, exact: bool) 
     if not exact:
         return True
     need = engine.lb[rows.var0[t] + END] - engine.ub[rows.var0[t] + START]
-    return engine.admits(start, end, -max(need, 1))
+    return q.distances.admits(start, end, -max(need, 1))

@@ -15,10 +15,12 @@ from runtime.solver.codes import (
     NONE,
     UNBOUND_VARIABLE,
 )
+from runtime.solver.distances import Distances
 from runtime.solver.filters import Filters
 from runtime.solver.heap import Heap
 from runtime.solver.supports import Supports
 from runtime.solver.treatments import Treatments
+from runtime.solver.widening import widened
 
 
 class Queues:
@@ -31,6 +33,7 @@ class Queues:
         self.treatments = treatments
         self.filters = filters
         self.supports = supports
+        self.distances = Distances(plan.engine)
         self.probing = False  # a choice is looked for, but not carried out
         self.managers = max(treatments.managers, 1)
         self.heaps = [Heap() for _ in range(treatments.heaps)]
@@ -278,10 +281,3 @@ class Queues:
         self.rows_seen = rows_seen
         self.engine_seen = engine_seen
         return 0
-
-
-def widened(old: "array[int]", room: int, fill: int) -> "array[int]":
-    """A copy of `old` with `room` cells."""
-    new = array("q", [fill]) * room
-    memoryview(new)[: len(old)] = memoryview(old)
-    return new

@@ -3,6 +3,8 @@
 from collections.abc import Callable
 
 from runtime.plan.database import PlanDatabase
+from runtime.plan.lifecycle import settle
+from runtime.plan.links import undo
 from runtime.solver.blame import Blame
 from runtime.solver.choices import mend
 from runtime.solver.codes import (
@@ -75,14 +77,16 @@ class Solver:
         assert self.stack.depth == 0
         self.is_started = True
         self.has_active = False
-        self.is_exhausted = not self.database.settle()
+        self.is_exhausted = not settle(self.plan)
         refresh(self.queues)
 
     def keep(self) -> None:
         """Make all decisions final: the stack is empty, and nothing of it can be taken back."""
         self.stack.clear()
         self.has_active = False
-        self.database.commit()
+        self.plan.rows.level = 0
+        self.plan.rows.trail_length = 0
+        self.engine.commit()
         refresh(self.queues)
 
     def take_back(self) -> None:
@@ -142,7 +146,7 @@ class Solver:
             if not self.europa:
                 note_levels(q, d + 1)
                 self.blame.learn(d)
-            self.database.rewind(stack.plan_mark[d])
+            self.rewind(d)
             return FAILED
         return EXHAUSTED
 
@@ -155,14 +159,26 @@ class Solver:
         stack.engine_seen[d] = q.engine_seen
         stack.dropped[d] = q.dropped_count
         stack.loose[d] = q.loose_count
-        stack.plan_mark[d] = self.database.mark()
+        stack.rows_mark[d] = self.plan.rows.trail_length
+        stack.engine_mark[d] = self.engine.mark()
+        self.plan.rows.level += 1
         self.has_active = True
         return d
+
+    def rewind(self, d: int) -> int:
+        """Bring plan and engine back to where decision `d` was begun."""
+        self.engine.rewind(self.stack.engine_mark[d])
+        undo(self.plan.rows, self.stack.rows_mark[d])
+        self.plan.stack_length = 0
+        self.plan.queue_length = 0
+        self.plan.operands_used = 0
+        return 0
 
     def leave(self, d: int) -> int:
         """Go back to where decision `d` was begun, and drop it."""
         stack = self.stack
-        self.database.release(stack.plan_mark[d])
+        self.rewind(d)
+        self.plan.rows.level -= 1
         self.queues.go_back(stack.dropped[d], stack.loose[d], stack.rows_seen[d], stack.engine_seen[d])
         stack.close(d)
         stack.depth = d
@@ -179,7 +195,7 @@ class Solver:
             self.is_exhausted = True
             return 0
         stack = self.stack
-        self.database.rewind(stack.plan_mark[target])
+        self.rewind(target)
         self.queues.go_back(
             stack.dropped[target], stack.loose[target], stack.rows_seen[target], stack.engine_seen[target]
         )

@@ -89,7 +89,7 @@ def catch_up(q: Queues, level: int) -> int:
         if code <= TRAIL_REAL_UPPER:
             see_change(q, name)
         elif code == TRAIL_HOLES:
-            see_change(q, engine.hole_variable[name])
+            see_change(q, name)
         elif code == TRAIL_VARIABLE and q.plan.variable_role[name] == ROLE_LOCAL:
             add_variable(q, name)
         at += 1

@@ -1,0 +1,58 @@
+"""Ask the temporal network whether one more edge would hold, without adding it."""
+
+from array import array
+
+from runtime.constraints.store import Store
+from runtime.solver.heap import Heap
+from runtime.solver.widening import widened
+
+
+class Distances:
+    """A bounded search for the shortest path (Dijkstra, upper bounds as potentials: at the fixpoint they are valid)."""
+
+    def __init__(self, engine: Store) -> None:
+        self.engine = engine
+        self.heap = Heap()
+        self.stamp = 0
+        self.stamped = array("q", [0]) * 64
+        self.distance = array("q", [0]) * 64
+
+    def admits(self, source: int, target: int, weight: int) -> bool:
+        """Whether `target - source <= weight` is possible: no path of edges back from `target` says otherwise.
+
+        Such a path has a length below `-weight`. In reduced lengths that is a search within a limit, which mostly is
+        empty at once.
+        """
+        engine = self.engine
+        if engine.lb[target] > engine.ub[source] + weight:
+            return False
+        limit = engine.ub[target] - engine.ub[source] - weight
+        if limit <= 0 or source == target:
+            return source != target or weight >= 0
+        if len(self.stamped) < len(engine.kind):
+            self.stamped = widened(self.stamped, len(engine.kind), 0)
+            self.distance = widened(self.distance, len(engine.kind), 0)
+        self.stamp += 1
+        heap = self.heap
+        heap.clear()
+        heap.push(0, 0, target)
+        self.stamped[target] = self.stamp
+        self.distance[target] = 0
+        while heap.length:
+            v = heap.top_item()
+            length = heap.top_key()
+            heap.pop()
+            if length > self.distance[v]:
+                continue
+            if v == source:
+                return False
+            e = engine.out_head[v]
+            while e >= 0:
+                u = engine.edge_target[e]
+                longer = length + engine.edge_weight[e] + engine.ub[v] - engine.ub[u]
+                if longer < limit and (self.stamped[u] != self.stamp or longer < self.distance[u]):
+                    self.stamped[u] = self.stamp
+                    self.distance[u] = longer
+                    heap.push(longer, 0, u)
+                e = engine.out_next[e]
+        return True
