@@ -50,7 +50,7 @@ def facts(loaded: Loaded) -> Facts:
         "file": loaded.file,
         "load": "error" if loaded.is_refused else "ok",
         "consistent": None,
-        "diagnostics": [as_dict(each) for each in loaded.diagnostics],
+        "diagnostics": [as_dict(each) for each in sorted(loaded.diagnostics, key=_is_about_meaning)],
         "domains": {},
         "tokens": [],
         "order": {},
@@ -59,3 +59,8 @@ def facts(loaded: Loaded) -> Facts:
     if loaded.database is not None and not loaded.is_refused:
         told |= read(loaded.database)
     return told
+
+
+def _is_about_meaning(diagnostic: Diagnostic) -> bool:
+    """Whether a complaint can arise only after the whole text was read: those of the syntax come first."""
+    return diagnostic.code.kind not in ("syntax", "include")

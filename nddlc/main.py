@@ -19,7 +19,6 @@ COMMANDS = {
     "load": ("nddlc.load", "Load models and show their tokens and variables."),
     "lint": ("nddlc.lint", "Report everything that is wrong with models."),
     "plan": ("nddlc.plan", "Search a plan for a model."),
-    "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 UNUSABLE, BUG, INTERRUPTED = 2, 3, 130
 

@@ -1,0 +1,206 @@
+"""The command line as its users meet it: words in, text and an exit code out."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from nddlc.main import COMMANDS, named, run
+
+Captured = pytest.CaptureFixture[str]
+
+LAMP = """class Lamp extends Timeline { predicate lit { int level = [1 3]; } }
+Lamp lamp = new Lamp();
+close();
+int watts = 60;
+goal(lamp.lit g);
+g.start = 5;
+"""
+BROKEN = "int a = 1;\nLmap l;\nfoo(a);\n"
+
+
+@pytest.fixture
+def lamp(tmp_path: Path) -> str:
+    path = tmp_path / "lamp.nddl"
+    path.write_text(LAMP, encoding="utf-8")
+    return str(path)
+
+
+@pytest.fixture
+def broken(tmp_path: Path) -> str:
+    path = tmp_path / "broken.nddl"
+    path.write_text(BROKEN, encoding="utf-8")
+    return str(path)
+
+
+def test_the_version_says_in_which_form_the_engine_runs(capsys: Captured) -> None:
+    assert run(["--version"]) == 0
+    shown = capsys.readouterr().out
+    assert "engine compiled" in shown or "engine interpreted" in shown
+
+
+def test_help_lists_every_command(capsys: Captured) -> None:
+    assert run(["--help"]) == 0
+    shown = capsys.readouterr().out
+    assert all(name in shown for name in COMMANDS)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_exists_and_explains_itself(name: str, capsys: Captured) -> None:
+    assert named(f"{COMMANDS[name][0]}:command").help
+    assert run([name, "--help"]) == 0
+    assert f"Usage: nddlc {name}" in capsys.readouterr().out
+
+
+def test_load_shows_tokens_and_variables(lamp: str, capsys: Captured) -> None:
+    assert run(["load", lamp]) == 0
+    shown = capsys.readouterr().out
+    assert "g      Lamp.lit   INACTIVE  {lamp} Lamp  5" in shown
+    assert "watts     {60} int" in shown
+    assert shown.endswith("consistent\n")
+
+
+def test_load_prints_one_object_per_file(lamp: str, broken: str, capsys: Captured) -> None:
+    assert run(["load", "--json", lamp, broken]) == 1
+    fine, refused = (json.loads(line) for line in capsys.readouterr().out.splitlines())
+    assert (fine["file"], fine["load"], fine["consistent"], fine["solve"]) == (lamp, "ok", True, None)
+    assert fine["domains"]["g.level"] == "[1, 3] int"
+    assert (refused["file"], refused["load"], refused["consistent"]) == (broken, "error", None)
+    assert [(each["kind"], each["line"]) for each in refused["diagnostics"]] == [("name", 2), ("name", 3)]
+
+
+def test_a_model_that_contradicts_itself_is_a_finding(tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text("int a = 5;\nint b = 6;\neq(a, b);\n", encoding="utf-8")
+    assert run(["load", str(path)]) == 1
+    assert "inconsistent" in capsys.readouterr().out
+
+
+def test_lint_is_silent_about_a_good_model(lamp: str, capsys: Captured) -> None:
+    assert run(["lint", lamp]) == 0
+    assert capsys.readouterr().out == "nothing wrong in 1 file\n"
+
+
+def test_lint_shows_each_finding_with_its_text(broken: str, capsys: Captured) -> None:
+    assert run(["lint", broken]) == 1
+    shown = capsys.readouterr().out
+    assert f"--> {broken}:2:1" in shown
+    assert "^^^^" in shown
+    assert shown.endswith("2 errors in 1 file\n")
+    assert "\x1b" not in shown
+
+
+def test_lint_speaks_json(broken: str, capsys: Captured) -> None:
+    assert run(["lint", "--format", "json", broken]) == 1
+    told = json.loads(capsys.readouterr().out)
+    assert [each["line"] for each in told["diagnostics"]] == [2, 3]
+
+
+def test_the_dialect_may_stand_before_the_command_or_after_it(tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text("int a = 1 + 2;\n", encoding="utf-8")
+    assert run(["lint", str(path)]) == 0
+    assert run(["--dialect", "nddl3", "lint", str(path)]) == 1
+    assert run(["lint", "--dialect", "nddl3", str(path)]) == 1
+    assert run(["--dialect", "nddl3", "lint", "--dialect", "nddlc", str(path)]) == 0
+    capsys.readouterr()
+
+
+UNUSABLE = [
+    (["lint", "no_such.nddl"], "no file `no_such.nddl`"),
+    (["lint", "."], "`.` is a directory"),
+    (["load", "--include", "nowhere", "x.nddl"], "no directory `nowhere`"),
+    (["lint"], "Missing argument 'FILE...'"),
+    (["lint", "--fromat", "json", "x.nddl"], "--format"),
+    (["lint", "--format", "yaml", "x.nddl"], "'yaml' is not one of"),
+    (["lnit", "x.nddl"], "did you mean `lint`?"),
+    (["--dialect", "europa", "lint"], "'europa' is not one of"),
+]
+
+
+@pytest.mark.parametrize(("words", "message"), UNUSABLE, ids=[" ".join(words) for words, _ in UNUSABLE])
+def test_an_unusable_command_line_is_told_from_a_finding(words: list[str], message: str, capsys: Captured) -> None:
+    assert run(words) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_a_file_that_may_be_meant_is_named(lamp: str, capsys: Captured) -> None:
+    assert run(["lint", lamp.removesuffix(".nddl")]) == 2
+    assert f"there is `{lamp}`" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may read everything")
+def test_an_unreadable_file_is_named(lamp: str, capsys: Captured) -> None:
+    Path(lamp).chmod(0)
+    assert run(["lint", lamp]) == 2
+    assert "Permission denied" in capsys.readouterr().err
+
+
+def test_nothing_to_do_shows_the_help(capsys: Captured) -> None:
+    assert run([]) == 2
+    assert "Commands:" in capsys.readouterr().err
+
+
+def test_an_empty_model_loads(tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "empty.nddl"
+    path.touch()
+    assert run(["load", str(path)]) == 0
+    assert capsys.readouterr().out == "consistent\n"
+
+
+def test_bytes_that_are_no_text_are_reported_where_they_stand(tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_bytes(b"int a = 1;\n// caf\xe9\nint b = 2;\n")
+    assert run(["lint", str(path)]) == 1
+    assert f"--> {path}:2:7" in capsys.readouterr().out
+
+
+def test_a_bug_is_admitted(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: Captured) -> None:
+    monkeypatch.setitem(COMMANDS, "fail", ("tests.cli.failing", "Fail."))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    assert run(["fail"]) == 3
+    told = capsys.readouterr().err
+    assert "a bug in nddlc, not in your model: ZeroDivisionError: nobody foresaw this" in told
+    (details,) = tmp_path.glob("nddlc-bug-*.txt")
+    assert str(details) in told
+    text = details.read_text(encoding="utf-8")
+    assert text.startswith("command: nddlc fail\n")
+    assert "Traceback" in text
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there is nothing to wait for")
+def test_an_interrupted_command_says_so(tmp_path: Path) -> None:
+    path = tmp_path / "pipe.nddl"
+    os.mkfifo(path)
+    command = [sys.executable, "-m", "nddlc.main", "lint", str(path)]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
+        writer = _writer(path)
+        process.send_signal(signal.SIGINT)
+        assert process.stderr is not None
+        assert process.stderr.read().endswith("nddlc: interrupted\n")
+        os.close(writer)
+    assert process.returncode == 130
+
+
+def _writer(path: Path) -> int:
+    """The other end of a pipe, once somebody reads it."""
+    while True:
+        try:
+            return os.open(path, os.O_WRONLY | os.O_NONBLOCK)
+        except OSError:
+            time.sleep(0.01)
+
+
+def test_lint_imports_neither_engine_nor_solver_nor_report(lamp: str) -> None:
+    script = "import sys; from nddlc.main import run; run(sys.argv[1:]); print(*sys.modules)"
+    told = subprocess.run(
+        [sys.executable, "-c", script, "lint", lamp], capture_output=True, text=True, check=True
+    ).stdout.splitlines()
+    roots = {".".join(name.split(".")[:2]) for name in told[-1].split()}
+    assert not roots & {"lark", "rich", "numpy", "z3", "networkx", "pygls", "runtime.constraints", "runtime.plan"}
+    assert not any(name.startswith(("checker", "compiler")) for name in roots)
