@@ -6,6 +6,7 @@ from compiler.program import Program
 from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.text.diagnostic import Diagnostic
 from runtime.constraints.engine import Engine
+from runtime.plan import lifecycle, marks, retracting, timelines
 from runtime.plan.codes import NONE
 from runtime.plan.flatten import Code
 from runtime.plan.loading import load_code, load_members, load_predicates, load_prototypes, load_relations
@@ -14,6 +15,7 @@ from runtime.plan.objects import Objects
 from runtime.plan.plan import Plan
 from runtime.plan.prototypes import Prototypes
 from runtime.plan.script import Script
+from runtime.plan.tokens import make_token
 
 Environment = Callable[[str], float | None]
 
@@ -69,9 +71,78 @@ class PlanDatabase:
         """Whether nothing contradicts anything so far."""
         return bool(self.engine.consistent)
 
+    def settle(self) -> bool:
+        """Propagate, and let guards fire, until nothing is left to do; False on a conflict."""
+        return lifecycle.settle(self.plan)
+
+    # ---- time ----
+
+    def mark(self) -> int:
+        """Remember the present state, which must be settled; what `rewind` and `release` take."""
+        return marks.mark(self.plan)
+
+    def rewind(self, mark: int) -> None:
+        """Go back to a mark; it stays, later ones are gone."""
+        marks.rewind(self.plan, mark)
+
+    def release(self, mark: int) -> None:
+        """Go back to a mark and drop it."""
+        marks.release(self.plan, mark)
+
+    def commit(self) -> None:
+        """Forget all marks: what holds now is level 0."""
+        marks.commit(self.plan)
+
+    # ---- tokens: False on a conflict; undone by `rewind`, or at level 0 by `cancel`, `free` and `remove_tokens` ----
+
+    def new_token(self, predicate: int, o: int, flags: int, span: int) -> int:
+        """Make a token of predicate number `predicate` on object `o` (NONE: on any); settle it yourself."""
+        given = NONE if o < 0 else self.plan.object_constant[o]
+        return make_token(self.plan, predicate, flags, NONE, NONE, given, span)
+
+    def activate(self, t: int, span: int = NONE) -> bool:
+        """Make an inactive token active; its rules fire."""
+        return lifecycle.activate(self.plan, t, span)
+
+    def merge(self, t: int, other: int, span: int = NONE) -> bool:
+        """Let an inactive token stand for an active one of the same predicate."""
+        return lifecycle.merge(self.plan, t, other, span)
+
+    def reject(self, t: int, span: int = NONE) -> bool:
+        """Drop a rejectable token."""
+        return lifecycle.reject(self.plan, t, span)
+
+    def cancel(self, t: int) -> bool:
+        """Make a token inactive again (level 0)."""
+        return retracting.cancel(self.plan, t) and self.settle()
+
+    def remove_tokens(self, tokens: list[int]) -> bool:
+        """Take tokens away with all that followed from them (level 0)."""
+        return retracting.remove_tokens(self.plan, tokens) and self.settle()
+
+    def order(self, o: int, before: int, after: int, span: int = NONE) -> bool:
+        """Put `before` in front of `after` on object `o`; the same token twice: it alone, behind what is there."""
+        return timelines.order(self.plan, o, before, after, span) and self.settle()
+
+    def free(self, before: int, after: int) -> bool:
+        """Undo `order` (level 0)."""
+        return retracting.free(self.plan, before, after, NONE) and self.settle()
+
+    # ---- variables ----
+
+    def specify(self, v: int, value: float, span: int = NONE) -> bool:
+        """Decide a variable."""
+        return self.engine.decide(v, value, span, NONE) and self.settle()
+
+    def reset(self, v: int) -> bool:
+        """Undo the decision of a variable (level 0)."""
+        return retracting.reset(self.plan, v) and self.settle()
+
+    # ---- names ----
+
     def local_type(self, v: int) -> str | None:
-        """The type name of a local variable, where its values do not tell it."""
-        return None
+        """The type name of a local variable."""
+        return self.code.local_types[self.plan.variable_name[v]]
 
     def token_label(self, t: int) -> str | None:
         """The name that the script gave a token."""

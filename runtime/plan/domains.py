@@ -17,12 +17,13 @@ def copy_current(plan: Plan, prototype: int, source: int) -> int:
     """A variable of a prototype's type whose base domain is the current domain of `source`."""
     engine = plan.engine
     v = make_variable(plan, prototype, ROLE_INTERNAL, NONE, NONE)
-    if engine.is_open[source]:
+    if engine.is_open[source] and not engine.is_singleton(source):
         values = engine.base_values(source)
         if values and not engine.is_open[v]:
             engine.restrict_base_values(v, values, NONE, NONE)
-    elif engine.is_finite(source) and (engine.word[source] >= 0 or engine.kind[source] > KIND_FLOAT):
-        engine.restrict_base_values(v, engine.values_of(source), NONE, NONE)
+    elif engine.kind[source] > KIND_FLOAT or engine.word[source] >= 0:
+        values = [engine.lower(source)] if engine.is_singleton(source) else engine.values_of(source)
+        engine.restrict_base_values(v, values, NONE, NONE)
     else:
         engine.restrict_base(v, engine.lower(source), engine.upper(source), NONE, NONE)
     return v

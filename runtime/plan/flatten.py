@@ -28,6 +28,7 @@ from compiler.program import (
     Relate,
     Sample,
     TokenVariable,
+    TypeCode,
     UnionOf,
 )
 from nddl_lang.text.source import Span
@@ -85,6 +86,7 @@ class Code:
         self.field_members: list[tuple[int, ...]] = []
         self.unions: list[tuple[tuple[int, int], ...]] = []
         self.objects: list[NewObject] = []
+        self.local_types: dict[int, str] = {}
         self.pending: deque[tuple[int, tuple[Instruction, ...]]] = deque()
 
     def span(self, span: Span | None) -> int:
@@ -123,7 +125,7 @@ class Code:
         match instruction:
             case NewVariable(slot=slot, name=name, type=type_, domain=domain, copy_of=copy):
                 prototype = self.prototypes.of(type_, domain)
-                label = NONE if name is None else self.names.number(name)
+                label = NONE if name is None else self.local(name, type_)
                 self.write(DO_VARIABLE, span, slot, label, prototype, *self.optional(copy))
             case Post(name=name, operands=operands, message=message):
                 if message is not None:
@@ -151,6 +153,12 @@ class Code:
                 raise AssertionError(f"{type(instruction).__name__} stands in the script only")
             case _:
                 assert_never(instruction)
+
+    def local(self, name: str, type_: TypeCode) -> int:
+        """The number of the name of a local variable; its type is remembered for read-out."""
+        number = self.names.number(name)
+        self.local_types[number] = type_.type_name
+        return number
 
     def post(self, name: str, operands: tuple[Operand, ...], span: int) -> None:
         """Write a constraint; temporal ones become distances."""

@@ -192,6 +192,8 @@ class Objects:
         target = operand(plan, scope, *step.target, span)
         if isinstance(step.value, New):
             made = self.make(step.value, scope, None if o is None else self.names[o])
+            if o is not None:
+                plan.engine.set_parent(made, o)
             source = plan.object_constant[made]
         else:
             source = operand(plan, scope, *step.value, span)

@@ -3,7 +3,6 @@
 from runtime.plan.codes import (
     HOLDS_CONSTRAINT,
     HOLDS_VARIABLES,
-    HOLDS_VARIABLES,
     IN_CONSTANT,
     IN_FIELD,
     IN_GLOBAL,
@@ -66,8 +65,8 @@ def member(plan: Plan, o: int, name: int) -> int:
 def proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
     """A variable that equals the member called `name` of the object that `index` turns out to be."""
     engine = plan.engine
-    values = []
-    members = []
+    values: list[int] = []
+    members: list[int] = []
     prototype = plan.name_prototype[name]
     for o in engine.base_values(index) or []:
         v = member(plan, int(o), name)

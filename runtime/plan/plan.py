@@ -110,6 +110,9 @@ class Plan:
         self.operand_capacity = 64
         self.operands_used = 0
         self.operands = blank(64)
+        self.mark_capacity = 64
+        self.mark_engine = blank(64)
+        self.mark_rows = blank(64)
         self.statement = 0
         self.self_object = NONE
         self.unions: list[tuple[tuple[int, int], ...]] = []

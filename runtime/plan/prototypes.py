@@ -77,10 +77,13 @@ class Prototypes:
         key = (type_, domain)
         v = self.made.get(key, NONE)
         if v < 0:
-            v = self.full(type_.kind, type_.type_name)
-            for restriction in (type_.domain, domain):
-                if restriction is not None:
-                    self.restrict(v, restriction)
+            restrictions = [each for each in (type_.domain, domain) if each is not None]
+            if type_.kind == "string" and restrictions:
+                v = self.listed(restrictions.pop(0))
+            else:
+                v = self.full(type_.kind, type_.type_name)
+            for restriction in restrictions:
+                self.restrict(v, restriction)
             self.made[key] = v
             number = self.class_numbers.get(type_.type_name, NONE) if type_.kind == "object" else NONE
             if number >= 0:
@@ -133,6 +136,12 @@ class Prototypes:
                 return engine.new_open(KIND_OBJECT, objects, NONE, NONE)
             case _:
                 return engine.new_open(KIND_STRING, [], NONE, NONE)
+
+    def listed(self, domain: DomainConstant) -> int:
+        """A variable with the listed texts."""
+        return self.engine.new_values(
+            KIND_STRING, [self.value(each, "string") for each in domain.values or ()], NONE, NONE
+        )
 
     def restrict(self, v: int, domain: DomainConstant) -> None:
         """Intersect the base domain of a prototype with a constant."""

@@ -25,5 +25,8 @@ class Resources:
         """Compute the levels anew; False if one is certainly out of bounds."""
         return True
 
+    def undo(self) -> None:
+        """Take note that the plan has gone back in time."""
+
     def set_capacity(self, o: int, bounds: list[float]) -> None:
         """Change the capacity of a resource from a time on."""

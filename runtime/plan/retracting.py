@@ -1,5 +1,6 @@
 """Take back at level 0 what scopes made: constraints, edges, variables, children and their children, in one sweep."""
 
+from runtime.constraints.codes import FLAG_DECISION
 from runtime.plan.codes import (
     ACTIVE,
     BRANCH_WAITING,
@@ -174,6 +175,11 @@ def collect_holds(plan: Plan, s: int, sweep: Sweep) -> None:
         rows.drop_hold(s)
 
 
+def decisions_of(plan: Plan, v: int) -> list[int]:
+    """The restrictions that decide a variable."""
+    return [r for r in plan.engine.restrictions_of(v) if plan.engine.restriction_flags[r] & FLAG_DECISION]
+
+
 def finish(plan: Plan, sweep: Sweep) -> bool:
     """Take tokens apart, one after the other with all their children; then let the engine forget everything."""
     rows = plan.rows
@@ -186,7 +192,11 @@ def finish(plan: Plan, sweep: Sweep) -> bool:
         unlink(rows, t, LIST_OPEN)
         rows.set_status(t, FREED)
         sweep.variables += range(rows.var0[t], rows.var0[t] + rows.width[t])
-    plan.engine.retract(sweep.edges, sweep.constraints, sweep.restrictions, sweep.undecided, sweep.variables)
+    gone = set(sweep.variables)
+    for v in sweep.undecided:
+        sweep.restrictions += decisions_of(plan, v)
+    restrictions = [r for r in dict.fromkeys(sweep.restrictions) if plan.engine.restriction_variable[r] not in gone]
+    plan.engine.retract(sweep.constraints, sweep.edges, restrictions, sweep.variables)
     for s in sweep.scopes:
         rows.release_scope(s)
     for t in reversed(sweep.tokens):

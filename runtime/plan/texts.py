@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from math import inf
 
 from runtime.constraints.codes import (
+    HALF_INF,
     KIND_BOOL,
     KIND_FLOAT,
     KIND_INT,
@@ -28,7 +29,7 @@ def domain_text(prototypes: Prototypes, engine: Engine, v: int, names: Sequence[
         if single:
             return f"{set_text(prototypes, kind, [engine.lower(v)], names)} {name}"
         return f"{set_text(prototypes, kind, values, names)} {name} open"
-    lower, upper = engine.lower(v), engine.upper(v)
+    lower, upper = wide(engine.lower(v)), wide(engine.upper(v))
     if kind in (KIND_INT, KIND_FLOAT):
         if lower == upper or (kind == KIND_FLOAT and engine.is_singleton(v)):
             return f"{{{number_text(lower, kind)}}} {name}"
@@ -42,6 +43,11 @@ def domain_text(prototypes: Prototypes, engine: Engine, v: int, names: Sequence[
     if name is None:
         name = symbol_type(prototypes, values)
     return f"{set_text(prototypes, kind, values, names)} {name}"
+
+
+def wide(x: float) -> float:
+    """A bound, infinite where the engine counts it as infinite."""
+    return inf if x >= HALF_INF else -inf if x <= -HALF_INF else x
 
 
 def symbol_type(prototypes: Prototypes, values: Sequence[float]) -> str:

@@ -1,0 +1,44 @@
+"""Go back in time, plan and engine together: marks nest, and are named by their depth."""
+
+from runtime.plan.links import undo
+from runtime.plan.plan import Plan
+from runtime.plan.rows import grown
+
+
+def mark(plan: Plan) -> int:
+    """Remember the present state, which must be settled; the number of the mark."""
+    level = plan.rows.level
+    if level == plan.mark_capacity:
+        plan.mark_capacity *= 2
+        plan.mark_engine = grown(plan.mark_engine, plan.mark_capacity)
+        plan.mark_rows = grown(plan.mark_rows, plan.mark_capacity)
+    if level == 0:
+        plan.rows.trail_length = 0
+    plan.mark_engine[level] = plan.engine.mark()
+    plan.mark_rows[level] = plan.rows.trail_length
+    plan.rows.level = level + 1
+    return level
+
+
+def rewind(plan: Plan, number: int) -> None:
+    """Go back to a mark; it stays, later ones are gone."""
+    plan.stack_length = 0
+    plan.queue_length = 0
+    plan.operands_used = 0
+    plan.engine.rewind(plan.mark_engine[number])
+    undo(plan.rows, plan.mark_rows[number])
+    plan.resources.undo()
+    plan.rows.level = number + 1
+
+
+def release(plan: Plan, number: int) -> None:
+    """Go back to a mark and drop it."""
+    rewind(plan, number)
+    plan.rows.level = number
+
+
+def commit(plan: Plan) -> None:
+    """Forget all marks: what holds now is level 0."""
+    plan.engine.commit()
+    plan.rows.trail_length = 0
+    plan.rows.level = 0
