@@ -29,7 +29,7 @@ SHORT = 256  # frames up to this length are used again
 def grown(old: "array[int]", length: int) -> "array[int]":
     """Copy `old` into an array of at least `length` cells, zeros behind."""
     fresh = array("q")
-    fresh.frombytes(old)
+    fresh.frombytes(memoryview(old).cast("B"))
     fresh.frombytes(bytes(8 * max(length - len(fresh), 0)))
     return fresh
 
