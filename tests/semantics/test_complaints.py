@@ -1,28 +1,26 @@
 """Each fixture marks its own complaints: the place, the words, what helps, and where the other half is."""
 
-import pkgutil
-from importlib import import_module
+import re
 from pathlib import Path
 
 import pytest
 
 import nddl_lang.semantics
 from nddl_lang.analysis import analyse_text
-from nddl_lang.text.diagnostic import Code, Severity
+from nddl_lang.semantics.pages import PAGES
+from nddl_lang.text.diagnostic import Severity
+from nddl_lang.text.page import RulePage
 from tests.semantics.marked import marked, unmarked
 
 FIXTURES = Path(__file__).parent / "fixtures"
 PATHS = sorted(FIXTURES.rglob("*.nddl"))
 
 
-def codes() -> dict[str, Code]:
-    """All codes of the passes, by id."""
-    found: dict[str, Code] = {}
-    for module in pkgutil.iter_modules(nddl_lang.semantics.__path__):
-        for value in vars(import_module(f"nddl_lang.semantics.{module.name}")).values():
-            if isinstance(value, Code):
-                assert found.setdefault(value.id, value) is value, f"{value.id} is given twice"
-    return found
+def declared_codes() -> list[str]:
+    """The ids of all codes in the passes, one for each time that it is given."""
+    folder = Path(next(iter(nddl_lang.semantics.__path__)))
+    texts = [path.read_text(encoding="utf-8") for path in sorted(folder.glob("*.py"))]
+    return re.findall(r'= Code\(\s*"(\w+)"', "\n".join(texts))
 
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.relative_to(FIXTURES).with_suffix("").as_posix())
@@ -32,18 +30,28 @@ def test_a_fixture_draws_the_complaints_that_it_marks(path: Path) -> None:
     assert marked(text, analyse_text(path.name, text).diagnostics) == expected
 
 
+def test_every_code_is_given_once_and_has_a_page() -> None:
+    assert sorted(declared_codes()) == list(PAGES)
+
+
 def test_every_code_has_a_fixture() -> None:
     marks = "\n".join(path.read_text(encoding="utf-8") for path in PATHS)
-    assert [code for code in sorted(codes()) if f" {code} " not in marks] == []
+    assert [code for code in PAGES if f" {code} " not in marks] == []
+
+
+@pytest.mark.parametrize("page", PAGES.values(), ids=PAGES.keys())
+def test_the_examples_of_a_page_are_bad_and_good(page: RulePage) -> None:
+    bad = analyse_text("bad.nddl", page.bad).diagnostics
+    assert {diagnostic.code for diagnostic in bad} == {page.code}
+    assert analyse_text("good.nddl", page.good).diagnostics == ()
 
 
 def test_messages_speak_to_the_user() -> None:
-    for code in codes().values():
-        words = code.template.lower().split()
-        assert "error" not in words, code
-        assert "invalid" not in words, code
-        assert code.template[0].islower() or code.template[0] in "`{", code
-        assert not code.template.endswith("."), code
+    for page in PAGES.values():
+        template = page.code.template
+        assert not {"error", "invalid"} & set(template.lower().split()), template
+        assert template[0].islower() or template[0] in "`{", template
+        assert not template.endswith("."), template
 
 
 def test_fixes_of_fixtures_leave_one_complaint_less() -> None:
@@ -59,5 +67,5 @@ def test_fixes_of_fixtures_leave_one_complaint_less() -> None:
                 assert fix.safe <= (len(left) < len(diagnostics)), (path.name, fix.title)
 
 
-def test_only_doubtful_declarations_are_warnings() -> None:
-    assert [code.id for code in codes().values() if code.severity is not Severity.ERROR] == ["NDDL222"]
+def test_only_a_repeated_native_class_is_no_error() -> None:
+    assert [code for code, page in PAGES.items() if page.code.severity is not Severity.ERROR] == ["NDDL222"]
