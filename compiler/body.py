@@ -41,6 +41,8 @@ class Model:
     globals: dict[Variable, int] = field(default_factory=dict)
     sampled: dict[str, ParameterSite] = field(default_factory=dict)
     sources: dict[Operand, tuple[Operand, ...]] = field(default_factory=dict)  # a global and what defines it
+    # A parameter that an expression defines, by predicate and number, and what defines it, for a token in slot 0.
+    parameters: dict[tuple[str, int], tuple[Operand, ...]] = field(default_factory=dict)
 
     def constant(self, expr: Expr) -> DomainConstant | None:
         """The domain that `expr` denotes if it is constant."""
@@ -60,7 +62,7 @@ class Frame:
 
     slots: int = 0
     tokens: int = 1
-    class_name: str | None = None  # of the rule's or predicate's own token
+    predicates: dict[int, Predicate] = field(default_factory=dict)  # of the token in each slot
     variables: dict[Variable, Operand] = field(default_factory=dict)
     labels: dict[Label, int] = field(default_factory=dict)
     sources: dict[Operand, tuple[Operand, ...]] = field(default_factory=dict)
@@ -70,8 +72,9 @@ class Frame:
         self.slots += 1
         return self.slots - 1
 
-    def new_token(self, label: Label | None) -> int:
+    def new_token(self, predicate: Predicate, label: Label | None) -> int:
         """The next token slot, known as `label` from now on."""
+        self.predicates[self.tokens] = predicate
         self.tokens += 1
         if label is not None:
             self.labels[label] = self.tokens - 1
@@ -108,9 +111,16 @@ class Body:
     def read(self, operand: Operand) -> Operand:
         """Note that the value of `operand` is used: a guard waits until all it uses is decided."""
         if self.leaves is not None:
-            known = self.frame.sources.get(operand) or self.model.sources.get(operand) or (operand,)
-            self.leaves += [leaf for leaf in known if _can_wait(leaf) and leaf not in self.leaves]
+            self.leaves += [leaf for leaf in self._sources(operand) if _can_wait(leaf) and leaf not in self.leaves]
         return operand
+
+    def _sources(self, operand: Operand) -> tuple[Operand, ...]:
+        """The variables that an expression defines `operand` by; else `operand` itself."""
+        if isinstance(operand, TokenVariable) and operand.token in self.frame.predicates:
+            key = (self.frame.predicates[operand.token].full_name, operand.variable)
+            if (known := self.model.parameters.get(key)) is not None:
+                return tuple(_moved(leaf, operand.token) for leaf in known)
+        return self.frame.sources.get(operand) or self.model.sources.get(operand) or (operand,)
 
     def operand(self, reference: Reference) -> Operand:
         """Where the variable that `reference` names is found."""
@@ -140,6 +150,17 @@ def variable_number(predicate: Predicate, name: str) -> int:
         if parameter.name == name:
             return FIRST_PARAMETER + position
     return BUILT_IN[name]
+
+
+def _moved(operand: Operand, token: int) -> Operand:
+    """`operand` with the token in slot `token` in place of that in slot 0."""
+    match operand:
+        case TokenVariable(variable=number):
+            return TokenVariable(token, number)
+        case Field(base=base, members=members) if base is not None:
+            return Field(_moved(base, token), members)
+        case _:
+            return operand
 
 
 def _can_wait(operand: Operand) -> bool:

@@ -112,13 +112,15 @@ def predicate_code(
     predicate: Predicate, rules: tuple[int, ...], effects: tuple[str, ...], model: Model
 ) -> PredicateCode:
     """A predicate as its class has it."""
-    frame = Frame(class_name=predicate.class_name)
+    frame = Frame(predicates={0: predicate})
     body = Body(model, frame)
     parameters: list[ParameterCode] = []
     for position, parameter in enumerate(predicate.parameters):
         type_ = constants.type_code(parameter.type)
         domain, copy_of = given(parameter.initialiser, type_, body)
-        link(TokenVariable(0, FIRST_PARAMETER + position), parameter.initialiser, body)
+        for target, leaves in link(TokenVariable(0, FIRST_PARAMETER + position), parameter.initialiser, body).items():
+            assert isinstance(target, TokenVariable)
+            model.parameters[predicate.full_name, target.variable] = leaves
         parameters.append(ParameterCode(parameter.name, type_, domain, copy_of, parameter.span))
     for node in predicate.nodes:
         for line in node.body:
@@ -167,7 +169,7 @@ def firing_rules(predicate: Predicate, schema: Schema) -> tuple[int, ...]:
 
 def rule_code(rule: Rule, declared_at: int, model: Model) -> RuleCode:
     """A rule with its flattened slots."""
-    frame = Frame(class_name=rule.predicate.class_name)
+    frame = Frame(predicates={0: rule.predicate})
     body = Body(model, frame)
     for node in rule.node.body:
         statement(node, body)

@@ -19,12 +19,13 @@ def compile_model(analysis: Analysis) -> Program:
         if isinstance(statement, RuleDecl):
             declared.append(len(script.code))
         execute(statement, script)
-    rules = [rule_code(rule, position, model) for rule, position in zip(schema.rules, declared, strict=True)]
     classes = tuple(class_code(class_, model) for class_ in schema.classes.values())
+    predicates = tuple(_predicates(model))  # before the rules: their guards ask what defines a parameter
+    rules = [rule_code(rule, position, model) for rule, position in zip(schema.rules, declared, strict=True)]
     return Program(
         tuple((enum.name, enum.values) for enum in schema.enums.values()),
         classes,
-        tuple(_predicates(model)),
+        predicates,
         tuple(rules),
         _globals(model),
         tuple(script.code),

@@ -96,7 +96,7 @@ def _token(kind: str, instance: Instance, body: Body) -> int:
     target = body.model.tables.targets[instance]
     holder = instance_object(instance, body)
     assert holder != "own", "the script has no token of its own"
-    slot = body.frame.new_token(target.label)
+    slot = body.frame.new_token(target.predicate, target.label)
     name = None if instance.name is None else instance.name.name
     body.emit(NewToken(slot, target.predicate.full_name, name, kind, holder, instance.span))
     return slot

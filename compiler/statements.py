@@ -180,7 +180,7 @@ def relation(node: Relation, body: Body) -> None:
     for instance in node.created:
         target = tables.targets[instance]
         holder = instance_object(instance, body)
-        slot = frame.new_token(target.label)
+        slot = frame.new_token(target.predicate, target.label)
         label = None if instance.name is None else instance.name.name
         full_name = target.predicate.full_name
         body.emit(Child(slot, full_name, label, instance.role, name, origin, bounds, holder, instance.span))

@@ -225,6 +225,14 @@ def test_a_guard_on_a_computed_local_waits_for_what_computes_it() -> None:
     assert "if v1 decided by (t0.p0, t0.p1)" in rule("int i = x * y; if (i == 4) { g; }")
 
 
+def test_a_guard_on_a_computed_parameter_waits_for_what_computes_it() -> None:
+    text = (
+        "class T extends Timeline { predicate p { int x; int y = x * 2; } }\n"
+        "T::p { meets(p q); if (q.y == 4) { q.x == x; } }\n"
+    )
+    assert "if v0 decided by (t1.p0)" in list(body(compiled(text).rules[0].body, 0))
+
+
 def test_else_if_nests() -> None:
     assert rule("if (g) { x == 1; } else if (h) { x == 2; } else { x == 3; }") == [
         "if t0.p3 decided by (t0.p3)",
