@@ -14,11 +14,13 @@ from nddl_lang.semantics.nearest import nearest
 
 # A subcommand is one file, imported only when it is used; a new one needs a line here and nothing else.
 COMMANDS = {
+    "lint": ("nddlc.lint", "Report everything that is wrong with models."),
+    "fmt": ("nddlc.fmt", "Put models into the one style."),
+    "load": ("nddlc.load", "Load models and show their tokens and variables."),
+    "plan": ("nddlc.plan", "Search a plan for a model."),
     "check": ("nddlc.check", "Fly the missions of a mission file, and say what fails and why."),
     "explain": ("nddlc.explain", "Explain why one mission of a run failed."),
-    "load": ("nddlc.load", "Load models and show their tokens and variables."),
-    "lint": ("nddlc.lint", "Report everything that is wrong with models."),
-    "plan": ("nddlc.plan", "Search a plan for a model."),
+    "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 UNUSABLE, BUG, INTERRUPTED = 2, 3, 130
 

@@ -204,3 +204,70 @@ def test_lint_imports_neither_engine_nor_solver_nor_report(lamp: str) -> None:
     roots = {".".join(name.split(".")[:2]) for name in told[-1].split()}
     assert not roots & {"lark", "rich", "numpy", "z3", "networkx", "pygls", "runtime.constraints", "runtime.plan"}
     assert not any(name.startswith(("checker", "compiler")) for name in roots)
+
+
+def test_a_code_is_explained_by_examples(capsys: Captured) -> None:
+    assert run(["rule", "nddl201"]) == 0
+    shown = capsys.readouterr().out
+    assert shown.startswith("NDDL201 (error): ")
+    assert "Instead of" in shown
+
+
+def test_all_codes_are_listed(capsys: Captured) -> None:
+    assert run(["rule"]) == 0
+    listed = [line.split()[0] for line in capsys.readouterr().out.splitlines()]
+    assert listed == sorted(set(listed))
+    assert {"NDDL110", "NDDL201", "NDDL651"} <= set(listed)
+
+
+def test_an_unknown_code_is_refused(capsys: Captured) -> None:
+    assert run(["rule", "NDDL999"]) == 2
+    assert "there is no code `NDDL999`" in capsys.readouterr().err
+
+
+UNTIDY = "int   a=1 ;\nint b = 2;   // two\n"
+TIDY = "int a = 1;\nint b = 2;  // two\n"
+
+
+def test_fmt_puts_a_file_into_the_style(tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text(UNTIDY, encoding="utf-8")
+    path.chmod(0o640)
+    assert run(["fmt", str(path)]) == 0
+    assert capsys.readouterr().out == f"formatted {path}\n"
+    assert path.read_text(encoding="utf-8") == TIDY
+    assert path.stat().st_mode & 0o777 == 0o640
+    assert list(tmp_path.iterdir()) == [path]
+    assert run(["fmt", str(path)]) == 0
+    assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize("option", ["--check", "--diff"])
+def test_fmt_can_tell_without_writing(option: str, tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text(UNTIDY, encoding="utf-8")
+    assert run(["fmt", option, str(path)]) == 1
+    assert str(path) in capsys.readouterr().out
+    assert path.read_text(encoding="utf-8") == UNTIDY
+
+
+def test_fmt_reads_standard_input() -> None:
+    told = subprocess.run(
+        [sys.executable, "-m", "nddlc.main", "fmt", "-"], input=UNTIDY, capture_output=True, text=True, check=True
+    )
+    assert told.stdout == TIDY
+
+
+def test_fmt_leaves_mistakes_as_they_are(tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text("int   a  = = 1;\nint   b=2;\n", encoding="utf-8")
+    assert run(["fmt", str(path)]) == 1
+    assert path.read_text(encoding="utf-8") == "int   a  = = 1;\nint b = 2;\n"
+    capsys.readouterr()
+
+
+def test_fmt_does_not_touch_what_is_no_text(tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_bytes(b"int a = 1;\n// caf\xe9\n")
+    assert run(["fmt", str(path)]) == 2
+    assert "is not UTF-8 text (line 2)" in capsys.readouterr().err

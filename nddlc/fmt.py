@@ -1,0 +1,85 @@
+"""`nddlc fmt`: put models into the one style, or tell which are not in it."""
+
+import difflib
+import os
+import sys
+from pathlib import Path
+
+import click
+
+from nddl_lang.formatter.format import format_text
+from nddl_lang.syntax.dialect import Dialect, declared_dialect
+from nddl_lang.text.diagnostic import Severity
+from nddl_lang.text.render import render
+from nddlc.inputs import Unusable, chosen_dialect, colours, readable
+
+STDIN = "-"
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, metavar="FILE...")
+@click.option("--dialect", type=click.Choice(["nddl3", "nddlc"]), help="The same option as before the command.")
+@click.option("--check", "only_check", is_flag=True, help="Write nothing; end with 1 if a file is not in the style.")
+@click.option("--diff", "with_diff", is_flag=True, help="Write nothing; show what would change.")
+@click.pass_context
+def command(ctx: click.Context, files: tuple[str, ...], dialect: str | None, only_check: bool, with_diff: bool) -> int:
+    """Put models into the one style; `-` reads a text and prints it.
+
+    Statements with mistakes stay as they are. Ends with 1 if there are such, or if --check or --diff finds
+    something to change.
+    """
+    chosen = chosen_dialect(ctx, dialect)
+    dry = only_check or with_diff
+    changed, broken = 0, 0
+    for name in files:
+        before = _read(name)
+        formatted = format_text(before, chosen or declared_dialect(before) or Dialect.NDDLC, name)
+        mistakes = [each for each in formatted.diagnostics if each.severity is Severity.ERROR]
+        broken += bool(mistakes)
+        for each in mistakes:
+            click.echo(render(each, colour=colours()), err=True)
+        if formatted.text != before:
+            changed += 1
+            if with_diff:
+                click.echo(_difference(name, before, formatted.text), nl=False)
+            elif only_check:
+                click.echo(f"would format {name}")
+            elif name != STDIN:
+                _write(Path(name), formatted.text)
+                click.echo(f"formatted {name}")
+        if name == STDIN and not dry:
+            sys.stdout.buffer.write(formatted.text.encode("utf-8"))
+    return int(broken > 0 or (dry and changed > 0))
+
+
+def _read(name: str) -> str:
+    if name == STDIN:
+        content, name = sys.stdin.buffer.read(), "the standard input"
+    else:
+        (path,) = readable((name,), ())
+        content = path.read_bytes()
+    try:
+        return content.decode("utf-8")
+    except UnicodeDecodeError as problem:
+        place = content.count(b"\n", 0, problem.start) + 1
+        raise Unusable(
+            f"`{name}` is not UTF-8 text (line {place})", "formatting it could change what it says"
+        ) from None
+
+
+def _write(path: Path, text: str) -> None:
+    """Put the file in place whole: written beside, then renamed."""
+    target = path.resolve()
+    beside = target.with_name(f".{target.name}.{os.getpid()}.tmp")
+    try:
+        beside.write_bytes(text.encode("utf-8"))
+        beside.chmod(target.stat().st_mode)
+        beside.replace(target)
+    except OSError as problem:
+        beside.unlink(missing_ok=True)
+        raise Unusable(f"cannot write `{path}`: {problem.strerror or problem}") from None
+
+
+def _difference(name: str, before: str, after: str) -> str:
+    lines = difflib.unified_diff(before.splitlines(True), after.splitlines(True), name, f"{name} (formatted)")
+    return "".join(line if line.endswith("\n") else f"{line}\n\\ no line end\n" for line in lines)
