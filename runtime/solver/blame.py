@@ -16,8 +16,18 @@ from runtime.constraints.codes import (
     SUPPORT_CONSTRAINT,
     SUPPORT_EDGE,
 )
-from runtime.constraints.reasons import collect_reasons
-from runtime.plan.codes import HEAD_PREDICATE, LIST_ORDER, LIST_PREDICATE, OBJECT, ROLE_TOKEN, STATE
+from runtime.constraints.reasons import collect_reasons, collect_weight
+from runtime.plan.codes import (
+    DURATION,
+    END,
+    HEAD_PREDICATE,
+    LIST_ORDER,
+    LIST_PREDICATE,
+    OBJECT,
+    ROLE_TOKEN,
+    START,
+    STATE,
+)
 from runtime.plan.rows import LISTS
 from runtime.solver.codes import (
     EVERYTHING,
@@ -266,12 +276,43 @@ class Blame:
         return 0
 
     def blame_difference(self, mine: int, theirs: int, width: int) -> int:
-        """Why two tokens are incompatible, if they are: a pair of variables without a common value."""
+        """Why two tokens are incompatible, if they are: variables without a common value, times that differ."""
         for k in range(OBJECT, width):
             if not self.engine.intersects(mine + k, theirs + k):
                 self.ask_domain(mine + k)
                 self.ask_domain(theirs + k)
                 return 0
+        for k in range(START, END + 1):
+            if self.blame_edge(mine + k, theirs + k, 0) or self.blame_edge(theirs + k, mine + k, 0):
+                return 0
+        return 0
+
+    def blame_edge(self, source: int, target: int, weight: int) -> bool:
+        """Why `target - source <= weight` is impossible, if it is: two bounds, or a path of edges."""
+        distances = self.queues.distances
+        if distances.admits(source, target, weight):
+            return False
+        if distances.by_bounds:
+            self.ask(target, SIDE_LOWER, NOW)
+            self.ask(source, SIDE_UPPER, NOW)
+            return True
+        v = source
+        while v != target:
+            e = distances.via[v]
+            self.meet(self.queues.edge_level[e])
+            self.ask_weight(e)
+            v = self.engine.edge_source[e]
+        return True
+
+    def ask_weight(self, e: int) -> int:
+        """Ask for the bound of the distance that the weight of an edge follows, if it does."""
+        self.engine.reason_count = 0
+        collect_weight(self.engine, e)
+        for k in range(self.engine.reason_count):
+            self.ask(self.engine.reasons[k] >> 2, self.engine.reasons[k] & 3, NOW)
+        c = self.engine.edge_link[e]
+        if c >= 0:
+            self.meet(self.queues.constraint_level[c])
         return 0
 
     def may_bring(self, d: int, predicate: int) -> bool:
@@ -287,16 +328,30 @@ class Blame:
         return t < 0 or q.supports.leads_to(q.rows.predicate[t], predicate)
 
     def blame_neighbours(self, t: int) -> int:
-        """Why a token had no more places: its objects, and all who have a place there."""
+        """Why a token had no more places: its objects, all who have a place there, and where it could not fit."""
         q = self.queues
-        rows = q.rows
-        v = rows.var0[t] + OBJECT
+        v = q.rows.var0[t] + OBJECT
         self.meet(q.active_level[t])
         self.ask_domain(v)
         for o in range(self.engine.lb[v], self.engine.ub[v] + 1):
             if q.plan.object_timeline[o] and self.engine.contains(v, o):
-                other = rows.head_first[q.plan.object_head[o]]
+                other = q.rows.head_first[q.plan.object_head[o]]
                 while other >= 0:
                     self.meet(q.order_level[other])
-                    other = rows.link_after[LISTS * other + LIST_ORDER]
+                    after = q.rows.link_after[LISTS * other + LIST_ORDER]
+                    self.blame_times(t, other, after)
+                    other = after
+        return 0
+
+    def blame_times(self, t: int, other: int, after: int) -> int:
+        """Why a token fits neither before another one, nor behind it, nor between it and the one after (NONE: none)."""
+        var0 = self.queues.rows.var0
+        lb = self.engine.lb
+        ub = self.engine.ub
+        self.blame_edge(var0[other] + START, var0[t] + END, 0)
+        self.blame_edge(var0[t] + START, var0[other] + END, 0)
+        if after >= 0 and ub[var0[after] + START] - lb[var0[other] + END] < lb[var0[t] + DURATION]:
+            self.ask(var0[other] + END, SIDE_LOWER, NOW)
+            self.ask(var0[after] + START, SIDE_UPPER, NOW)
+            self.ask(var0[t] + DURATION, SIDE_LOWER, NOW)
         return 0

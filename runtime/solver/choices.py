@@ -19,7 +19,7 @@ from runtime.solver.codes import (
 )
 from runtime.solver.conditions import mend_open_condition
 from runtime.solver.decisions import Decisions
-from runtime.solver.places import fill_places
+from runtime.solver.places import fill_places, is_open_place
 from runtime.solver.preferences import listed_values, sort_places
 from runtime.solver.queues import Queues
 from runtime.solver.uses import mend_resource
@@ -121,19 +121,25 @@ def mend_by_list(q: Queues, stack: Decisions, d: int) -> int:
 
 
 def mend_threat(q: Queues, stack: Decisions, d: int, exact: bool) -> int:
-    """Put a token into its next place on a timeline."""
+    """Put a token into its next place on a timeline; `cursor` is the last place looked at."""
     t = stack.item[d]
     if stack.pool_count[d] < 0:
         stack.pool_count[d] = 0
-        fill_places(q, stack, d, t, exact)
+        fill_places(q, stack, d, t)
         if q.treatments.handler_code[stack.handler[d]] == HANDLER_HSTS_THREAT:
             sort_places(q, stack, d)
-    if stack.tries[d] >= stack.pool_count[d]:
-        return NO_CHOICE
-    if q.probing:
-        return APPLIED
-    at = stack.pool_first[d] + stack.tries[d]
-    stack.tries[d] += 1
-    if not order(q.plan, stack.pool_object[at], stack.pool_before[at], stack.pool_after[at], NONE):
-        return FAILED_CHOICE
-    return APPLIED if settle(q.plan) else FAILED_CHOICE
+    place = stack.cursor[d] + 1
+    while place < stack.pool_count[d]:
+        at = stack.pool_first[d] + place
+        before = stack.pool_before[at]
+        after = stack.pool_after[at]
+        if is_open_place(q, t, before, after, exact):
+            if q.probing:
+                return APPLIED
+            stack.cursor[d] = place
+            stack.tries[d] += 1
+            if not order(q.plan, stack.pool_object[at], before, after, NONE):
+                return FAILED_CHOICE
+            return APPLIED if settle(q.plan) else FAILED_CHOICE
+        place += 1
+    return NO_CHOICE

@@ -35,7 +35,7 @@ from runtime.solver.codes import (
     PHASE_REJECT,
 )
 from runtime.solver.decisions import Decisions
-from runtime.solver.places import fill_places
+from runtime.solver.places import fill_places, is_open_place
 from runtime.solver.preferences import sorted_candidates
 from runtime.solver.queues import Queues
 
@@ -53,7 +53,7 @@ def mend_open_condition(q: Queues, stack: Decisions, d: int, exact: bool) -> int
         outcome = NO_CHOICE
         if phase == PHASE_MERGE:
             if choice != ACTIVATE_ONLY or not is_hsts:
-                outcome = mend_by_merging(q, stack, d, t, exact)
+                outcome = mend_by_merging(q, stack, d, t)
         elif phase == PHASE_ACTIVATE:
             if choice != MERGE_ONLY or not is_hsts:
                 outcome = mend_by_activating(q, stack, d, t, exact)
@@ -76,12 +76,12 @@ def may_become(q: Queues, t: int, symbol: int) -> bool:
     return has_value(q.engine, q.rows.var0[t] + STATE, symbol)
 
 
-def mend_by_merging(q: Queues, stack: Decisions, d: int, t: int, exact: bool) -> int:
+def mend_by_merging(q: Queues, stack: Decisions, d: int, t: int) -> int:
     """Merge with the next compatible active token; `cursor` is the last one tried."""
     if not may_become(q, t, SYMBOL_MERGED):
         return NO_CHOICE
     if q.treatments.token_order[stack.handler[d]] != ORDER_KEY:
-        return mend_by_sorted_merging(q, stack, d, t, exact)
+        return mend_by_sorted_merging(q, stack, d, t)
     rows = q.rows
     candidate = stack.cursor[d]
     if candidate < 0:
@@ -89,7 +89,7 @@ def mend_by_merging(q: Queues, stack: Decisions, d: int, t: int, exact: bool) ->
     else:
         candidate = rows.link_after[LISTS * candidate + LIST_PREDICATE]
     while candidate >= 0:
-        if is_compatible(q, t, candidate, exact):
+        if is_compatible(q, t, candidate):
             if q.probing:
                 return APPLIED
             stack.cursor[d] = candidate
@@ -99,13 +99,13 @@ def mend_by_merging(q: Queues, stack: Decisions, d: int, t: int, exact: bool) ->
     return NO_CHOICE
 
 
-def mend_by_sorted_merging(q: Queues, stack: Decisions, d: int, t: int, exact: bool) -> int:
+def mend_by_sorted_merging(q: Queues, stack: Decisions, d: int, t: int) -> int:
     """Merge with the next compatible active token in the order of the handler; `cursor` counts them."""
     if stack.cursor[d] < 0:
         found = []
         candidate = q.rows.head_first[HEAD_PREDICATE + q.rows.predicate[t]]
         while candidate >= 0:
-            if is_compatible(q, t, candidate, exact):
+            if is_compatible(q, t, candidate):
                 found.append(candidate)
             candidate = q.rows.link_after[LISTS * candidate + LIST_PREDICATE]
         stack.lists[d] = sorted_candidates(q, t, found, q.treatments.token_order[stack.handler[d]])
@@ -115,13 +115,13 @@ def mend_by_sorted_merging(q: Queues, stack: Decisions, d: int, t: int, exact: b
         return NO_CHOICE
     if q.probing:
         return APPLIED
-    candidate = candidates[stack.cursor[d]]
+    candidate = int(candidates[stack.cursor[d]])
     stack.cursor[d] += 1
     stack.tries[d] += 1
     return APPLIED if merge(q.plan, t, candidate, NONE) else FAILED_CHOICE
 
 
-def is_compatible(q: Queues, t: int, candidate: int, exact: bool) -> bool:
+def is_compatible(q: Queues, t: int, candidate: int) -> bool:
     """Whether all variables of two tokens intersect, and their times can coincide."""
     mine = q.rows.var0[t]
     theirs = q.rows.var0[candidate]
@@ -131,8 +131,6 @@ def is_compatible(q: Queues, t: int, candidate: int, exact: bool) -> bool:
     for k in range(OBJECT, q.rows.width[t]):
         if not engine.intersects(mine + k, theirs + k):
             return False
-    if not exact:
-        return True
     return can_coincide(q, mine + START, theirs + START) and can_coincide(q, mine + END, theirs + END)
 
 
@@ -172,8 +170,12 @@ def has_place(q: Queues, stack: Decisions, d: int, t: int, exact: bool) -> bool:
     if not q.plan.predicate_timeline[q.rows.predicate[t]]:
         return True
     stack.pool_count[d] = 0
-    fill_places(q, stack, d, t, exact)
-    found = stack.pool_count[d] > 0
+    fill_places(q, stack, d, t)
+    found = False
+    for at in range(stack.pool_first[d], stack.pool_first[d] + stack.pool_count[d]):
+        if is_open_place(q, t, stack.pool_before[at], stack.pool_after[at], exact):
+            found = True
+            break
     stack.pool_count[d] = NONE
     stack.pool_used = stack.pool_first[d]
     return found

@@ -1,6 +1,7 @@
 """Hold the stack of decisions as rows of numbers: what each mends, which choice it is at, and how to go back."""
 
 from array import array
+from collections.abc import Sequence
 
 from runtime.solver.codes import NONE
 from runtime.solver.widening import widened
@@ -22,10 +23,9 @@ class Decisions:
         self.phase = array("q", [0]) * room
         self.cursor = array("q", [0]) * room
         self.other = array("q", [0]) * room
-        self.lists: dict[int, list[float]] = {}
+        self.lists: dict[int, Sequence[float]] = {}
         # The way back.
-        self.rows_mark = array("q", [0]) * room
-        self.engine_mark = array("q", [0]) * room
+        self.mark = array("q", [0]) * room
         self.rows_seen = array("q", [0]) * room
         self.engine_seen = array("q", [0]) * room
         self.dropped = array("q", [0]) * room
@@ -88,8 +88,7 @@ class Decisions:
         self.phase = widened(self.phase, room, 0)
         self.cursor = widened(self.cursor, room, 0)
         self.other = widened(self.other, room, 0)
-        self.rows_mark = widened(self.rows_mark, room, 0)
-        self.engine_mark = widened(self.engine_mark, room, 0)
+        self.mark = widened(self.mark, room, 0)
         self.rows_seen = widened(self.rows_seen, room, 0)
         self.engine_seen = widened(self.engine_seen, room, 0)
         self.dropped = widened(self.dropped, room, 0)

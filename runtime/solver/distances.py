@@ -16,15 +16,19 @@ class Distances:
         self.stamp = 0
         self.stamped = array("q", [0]) * 64
         self.distance = array("q", [0]) * 64
+        self.via = array("q", [0]) * 64
+        self.by_bounds = False
 
     def admits(self, source: int, target: int, weight: int) -> bool:
         """Whether `target - source <= weight` is possible: no path of edges back from `target` says otherwise.
 
+        After a refusal `by_bounds` tells whether the bounds said so, else `via` leads from `source` back on the path.
         Such a path has a length below `-weight`. In reduced lengths that is a search within a limit, which mostly is
         empty at once.
         """
         engine = self.engine
-        if engine.lb[target] > engine.ub[source] + weight:
+        self.by_bounds = engine.lb[target] > engine.ub[source] + weight
+        if self.by_bounds:
             return False
         limit = engine.ub[target] - engine.ub[source] - weight
         if limit <= 0 or source == target:
@@ -32,6 +36,7 @@ class Distances:
         if len(self.stamped) < len(engine.kind):
             self.stamped = widened(self.stamped, len(engine.kind), 0)
             self.distance = widened(self.distance, len(engine.kind), 0)
+            self.via = widened(self.via, len(engine.kind), 0)
         self.stamp += 1
         heap = self.heap
         heap.clear()
@@ -53,6 +58,7 @@ class Distances:
                 if longer < limit and (self.stamped[u] != self.stamp or longer < self.distance[u]):
                     self.stamped[u] = self.stamp
                     self.distance[u] = longer
+                    self.via[u] = e
                     heap.push(longer, 0, u)
                 e = engine.out_next[e]
         return True

@@ -8,64 +8,82 @@ from runtime.solver.decisions import Decisions
 from runtime.solver.queues import Queues
 
 
-def fill_places(q: Queues, stack: Decisions, d: int, t: int, exact: bool) -> int:
+def fill_places(q: Queues, stack: Decisions, d: int, t: int) -> int:
     """Put all places of token `t` into the pool of decision `d`, by object, then from left to right."""
     engine = q.engine
     v = q.rows.var0[t] + OBJECT
     o = engine.lb[v]
-    while o != NEVER and o <= engine.ub[v]:
+    while o <= engine.ub[v]:
         if engine.word[v] >= 0:
             o = next_value(engine, v, o)
             if o == NEVER or o > engine.ub[v]:
                 break
         if q.plan.object_timeline[o]:
-            fill_timeline(q, stack, d, t, o, exact)
+            fill_timeline(q, stack, d, t, o)
         o += 1
     return 0
 
 
-def fill_timeline(q: Queues, stack: Decisions, d: int, t: int, o: int, exact: bool) -> int:
-    """Put the places of token `t` on object `o` into the pool."""
-    rows = q.rows
-    head = q.plan.object_head[o]
-    first = rows.head_first[head]
-    if first < 0:
+def fill_timeline(q: Queues, stack: Decisions, d: int, t: int, o: int) -> int:
+    """Put the places of token `t` on object `o` into the pool, also those between neighbours that may be too near.
+
+    `first` is the first token that `t` can precede, `behind` how many can precede `t`: along a sequence each answer
+    changes only once, so that halving finds it. EUROPA makes the same tests one by one, from left to right.
+    """
+    count = q.take_sequence(o)
+    if count == 0:
         stack.add_to_pool(d, o, t, t)
         return 0
-    current = first
-    while current >= 0 and not can_precede(q, t, current, exact):
-        current = rows.link_after[LISTS * current + LIST_ORDER]
-    if current == first:
-        stack.add_to_pool(d, o, t, first)
-        current = rows.link_after[LISTS * first + LIST_ORDER]
-    while current >= 0:
-        previous = rows.link_before[LISTS * current + LIST_ORDER]
-        if not can_precede(q, previous, t, exact):
-            return 0
-        if fits_between(q, t, previous, current, exact):
-            stack.add_to_pool(d, o, t, current)
-        current = rows.link_after[LISTS * current + LIST_ORDER]
-    last = rows.head_last[head]
-    if can_precede(q, last, t, exact):
-        stack.add_to_pool(d, o, last, t)
+    first = 0
+    last = count
+    if not can_precede(q, t, q.sequence[count - 1]):
+        first = count
+    elif can_precede(q, t, q.sequence[0]):
+        last = 0
+    while first < last:
+        middle = (first + last) >> 1
+        if can_precede(q, t, q.sequence[middle]):
+            last = middle
+        else:
+            first = middle + 1
+    behind = 0
+    last = count
+    if can_precede(q, q.sequence[count - 1], t):
+        behind = count
+    elif not can_precede(q, q.sequence[0], t):
+        last = 0
+    while behind < last:
+        middle = (behind + last) >> 1
+        if can_precede(q, q.sequence[middle], t):
+            behind = middle + 1
+        else:
+            last = middle
+    if first == 0:
+        stack.add_to_pool(d, o, t, q.sequence[0])
+        first = 1
+    for gap in range(first, min(behind, count - 1) + 1):
+        stack.add_to_pool(d, o, t, q.sequence[gap])
+    if behind == count:
+        stack.add_to_pool(d, o, q.sequence[count - 1], t)
     return 0
 
 
-def can_precede(q: Queues, first: int, second: int, exact: bool) -> bool:
-    """Whether the end of `first` may lie before the start of `second`; `exact` asks the whole network."""
-    end = q.rows.var0[first] + END
-    start = q.rows.var0[second] + START
-    if q.engine.lb[end] > q.engine.ub[start]:
-        return False
-    return not exact or q.distances.admits(start, end, 0)
+def can_precede(q: Queues, first: int, second: int) -> bool:
+    """Whether the end of `first` may lie before the start of `second`."""
+    return q.distances.admits(q.rows.var0[second] + START, q.rows.var0[first] + END, 0)
 
 
-def fits_between(q: Queues, t: int, previous: int, following: int, exact: bool) -> bool:
-    """Whether the gap between two neighbours may become as long as `t`."""
+def is_open_place(q: Queues, t: int, before: int, after: int, exact: bool) -> bool:
+    """Whether a place of token `t` is an end of the sequence, or a gap that may become as long as `t`."""
     engine = q.engine
     rows = q.rows
+    if before != t:
+        return True
+    previous = rows.link_before[LISTS * after + LIST_ORDER]
+    if previous < 0 or after == t:
+        return True
     end = rows.var0[previous] + END
-    start = rows.var0[following] + START
+    start = rows.var0[after] + START
     if engine.ub[start] < HALF_INF and engine.ub[start] - engine.lb[end] < engine.lb[rows.var0[t] + DURATION]:
         return False
     if not exact:

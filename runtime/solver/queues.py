@@ -6,8 +6,9 @@ key that a slot has now is in `token_key` or `variable_key`, NO_KEY if it is in 
 
 from array import array
 
-from runtime.plan.codes import FREED
+from runtime.plan.codes import FREED, LIST_ORDER
 from runtime.plan.plan import Plan
+from runtime.plan.rows import LISTS
 from runtime.solver.codes import (
     DROPPED_TOKEN,
     DROPPED_VARIABLE,
@@ -44,6 +45,7 @@ class Queues:
                 first = treatments.manager_heap[manager]
                 for heap in range(first, first + treatments.manager_heaps[manager]):
                     self.sorted_by_size[heap] = 1 if by_size or treatments.heap_priority[heap] != 0.0 else 0
+        self.sequence = array("q", [0]) * 64
         self.level = 0
         self.found_manager = NONE
         self.found_kind = NONE
@@ -117,6 +119,18 @@ class Queues:
             self.restriction_room = len(self.engine.restriction_span)
             self.restriction_level = widened(self.restriction_level, self.restriction_room, 0)
         return 0
+
+    def take_sequence(self, o: int) -> int:
+        """Put the tokens of a timeline into `sequence`; how many there are."""
+        count = 0
+        t = self.rows.head_first[self.plan.object_head[o]]
+        while t >= 0:
+            if count == len(self.sequence):
+                self.sequence = widened(self.sequence, 2 * count, 0)
+            self.sequence[count] = t
+            count += 1
+            t = self.rows.link_after[LISTS * t + LIST_ORDER]
+        return count
 
     def clear(self) -> None:
         """Forget all candidates."""

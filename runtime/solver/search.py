@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import settle
-from runtime.plan.links import undo
+from runtime.plan.marks import commit, mark, release, rewind
 from runtime.solver.blame import Blame
 from runtime.solver.choices import mend
 from runtime.solver.codes import (
@@ -40,6 +40,7 @@ class Solver:
         self.plan = database.plan
         self.engine = database.plan.engine
         self.europa = europa
+        self.engine.holes = not europa  # EUROPA keeps an int that is an interval without holes
         matching = Matching(configuration, database.program)
         treatments = Treatments(matching, Texts(database), len(database.program.predicates))
         self.filters = Filters(self.plan, treatments, lower, upper)
@@ -84,9 +85,7 @@ class Solver:
         """Make all decisions final: the stack is empty, and nothing of it can be taken back."""
         self.stack.clear()
         self.has_active = False
-        self.plan.rows.level = 0
-        self.plan.rows.trail_length = 0
-        self.engine.commit()
+        commit(self.plan)
         refresh(self.queues)
 
     def take_back(self) -> None:
@@ -146,7 +145,7 @@ class Solver:
             if not self.europa:
                 note_levels(q, d + 1)
                 self.blame.learn(d)
-            self.rewind(d)
+            rewind(self.plan, stack.mark[d])
             return FAILED
         return EXHAUSTED
 
@@ -155,30 +154,18 @@ class Solver:
         q = self.queues
         stack = self.stack
         d = stack.open(q.found_kind, q.found_manager, q.found_item, q.found_handler)
+        stack.mark[d] = mark(self.plan)
         stack.rows_seen[d] = q.rows_seen
         stack.engine_seen[d] = q.engine_seen
         stack.dropped[d] = q.dropped_count
         stack.loose[d] = q.loose_count
-        stack.rows_mark[d] = self.plan.rows.trail_length
-        stack.engine_mark[d] = self.engine.mark()
-        self.plan.rows.level += 1
         self.has_active = True
         return d
-
-    def rewind(self, d: int) -> int:
-        """Bring plan and engine back to where decision `d` was begun."""
-        self.engine.rewind(self.stack.engine_mark[d])
-        undo(self.plan.rows, self.stack.rows_mark[d])
-        self.plan.stack_length = 0
-        self.plan.queue_length = 0
-        self.plan.operands_used = 0
-        return 0
 
     def leave(self, d: int) -> int:
         """Go back to where decision `d` was begun, and drop it."""
         stack = self.stack
-        self.rewind(d)
-        self.plan.rows.level -= 1
+        release(self.plan, stack.mark[d])
         self.queues.go_back(stack.dropped[d], stack.loose[d], stack.rows_seen[d], stack.engine_seen[d])
         stack.close(d)
         stack.depth = d
@@ -195,7 +182,7 @@ class Solver:
             self.is_exhausted = True
             return 0
         stack = self.stack
-        self.rewind(target)
+        rewind(self.plan, stack.mark[target])
         self.queues.go_back(
             stack.dropped[target], stack.loose[target], stack.rows_seen[target], stack.engine_seen[target]
         )

@@ -41,7 +41,7 @@ def refresh(q: Queues) -> int:
     for v in range(q.engine.variables):
         if q.engine.kind[v] >= 0:
             add_variable(q, v)
-    q.rows_seen = q.rows.trail_length
+    q.rows_seen = q.rows.trail_length if q.rows.level else 0  # the first mark empties that trail
     q.engine_seen = q.engine.trail_size
     return 0
 
@@ -86,9 +86,7 @@ def catch_up(q: Queues, level: int) -> int:
     while at < engine.trail_size:
         code = engine.trail_key[at] & 15
         name = engine.trail_key[at] >> 4
-        if code <= TRAIL_REAL_UPPER:
-            see_change(q, name)
-        elif code == TRAIL_HOLES:
+        if code <= TRAIL_REAL_UPPER or code == TRAIL_HOLES:
             see_change(q, name)
         elif code == TRAIL_VARIABLE and q.plan.variable_role[name] == ROLE_LOCAL:
             add_variable(q, name)
