@@ -179,18 +179,18 @@ def differ_all(s: Store, first: int, count: int, support: int) -> bool:
     k = 0
     while k < count:
         a = s.slot_variable[first + k]
-        k += 1
-        if not is_single(s, a):
-            continue
-        for j in range(count):
-            if j != k - 1:
-                b = s.slot_variable[first + j]
-                was_single = is_single(s, b)
-                if not differ(s, a, b, support):
-                    return False
-                if not was_single and is_single(s, b) and j < k - 1:
-                    k = 0
-        # A value that became known behind us is looked at again from the start.
+        following = k + 1
+        if is_single(s, a):
+            for j in range(count):
+                if j != k:
+                    b = s.slot_variable[first + j]
+                    was_single = is_single(s, b)
+                    if not differ(s, a, b, support):
+                        return False
+                    # A value that becomes known behind us is looked at from the start.
+                    if j < k and not was_single and is_single(s, b):
+                        following = 0
+        k = following
     return True
 
 

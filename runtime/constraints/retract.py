@@ -1,13 +1,14 @@
 """Take constraints, edges, restrictions and variables out again at level 0, in any order, and loosen what they held.
 
 The cone of a removed thing is what it supported, what that supported, and so on. Its bounds go back to their base and
-are pulled tight along the remaining edges; all that touches them is propagated again. Cost: the cone and what it touches.
+are pulled tight along the remaining edges; what touches them is propagated again. Cost: the cone and its neighbours.
 
 A support that was overwritten is forgotten, so a bound that the removed thing once held may since hold itself up in a
 circle (x <= y / 2 and y <= x have shrunk both from 10). Such bounds are in the cone too: any bound of a touched
 constraint or edge whose supports do not lead back to restrictions without a circle.
 """
 
+import math
 from math import inf
 
 from runtime.constraints.bits import drop_log, release_words
@@ -15,6 +16,7 @@ from runtime.constraints.circles import holds_itself
 from runtime.constraints.codes import (
     FLAG_DECISION,
     FLAG_VALUES,
+    FLOAT_TOLERANCE,
     HALF_INF,
     INF,
     KIND_FLOAT,
@@ -29,7 +31,8 @@ from runtime.constraints.codes import (
     SUPPORT_RESTRICTION,
 )
 from runtime.constraints.grow import grown
-from runtime.constraints.network import attach_edge, detach_edge, follow_edge, free_edge
+from runtime.constraints.narrow import raise_to, reduce_to
+from runtime.constraints.network import attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
 from runtime.constraints.posting import release_constraint
 from runtime.constraints.reasons import is_carried
 from runtime.constraints.store import Store
@@ -259,19 +262,29 @@ def reset_bound(s: Store, v: int, side: int) -> None:
             support = r * 4 + SUPPORT_RESTRICTION
         r = s.restriction_next[r]
     if side == SIDE_LOWER:
-        s.lower_support[v] = support
-        s.lower_when[v] = -1
-        if s.kind[v] == KIND_FLOAT:
-            s.flo[v] = -inf if best <= -HALF_INF else best
-        else:
-            s.lb[v] = -INF if best <= -HALF_INF else int(best)
+        set_base_lower(s, v, best, support)
     else:
-        s.upper_support[v] = support
-        s.upper_when[v] = -1
-        if s.kind[v] == KIND_FLOAT:
-            s.fhi[v] = inf if best >= HALF_INF else best
-        else:
-            s.ub[v] = INF if best >= HALF_INF else int(best)
+        set_base_upper(s, v, best, support)
+
+
+def set_base_lower(s: Store, v: int, x: float, support: int) -> None:
+    """Set a lower bound as it was before all propagation."""
+    s.lower_support[v] = support
+    s.lower_when[v] = -1
+    if s.kind[v] == KIND_FLOAT:
+        s.flo[v] = -inf if x <= -HALF_INF else x
+    else:
+        s.lb[v] = -INF if x <= -HALF_INF else int(math.ceil(x - FLOAT_TOLERANCE))
+
+
+def set_base_upper(s: Store, v: int, x: float, support: int) -> None:
+    """Set an upper bound as it was before all propagation."""
+    s.upper_support[v] = support
+    s.upper_when[v] = -1
+    if s.kind[v] == KIND_FLOAT:
+        s.fhi[v] = inf if x >= HALF_INF else x
+    else:
+        s.ub[v] = INF if x >= HALF_INF else int(math.floor(x + FLOAT_TOLERANCE))
 
 
 def reset_set(s: Store, v: int) -> None:
@@ -285,6 +298,28 @@ def reset_set(s: Store, v: int) -> None:
     reset_bound(s, v, SIDE_UPPER)
 
 
+def uncross(s: Store, v: int, side: int) -> None:
+    """Where restrictions contradict, record the conflict and let the variable's declaration alone bound this side."""
+    if s.kind[v] == KIND_FLOAT:
+        if s.flo[v] <= s.fhi[v]:
+            return
+        if s.flo[v] <= s.fhi[v] + FLOAT_TOLERANCE:
+            s.fhi[v] = s.flo[v]
+            return
+    elif s.lb[v] <= s.ub[v]:
+        return
+    r = s.restriction_head[v]
+    while s.restriction_next[r] >= 0:
+        r = s.restriction_next[r]
+    if s.restriction_lo[r] > s.restriction_hi[r]:
+        return
+    s.fail(v, side, s.lower_support[v] if side == SIDE_LOWER else s.upper_support[v])
+    if side == SIDE_LOWER:
+        set_base_lower(s, v, s.restriction_lo[r], r * 4 + SUPPORT_RESTRICTION)
+    else:
+        set_base_upper(s, v, s.restriction_hi[r], r * 4 + SUPPORT_RESTRICTION)
+
+
 def renew_cone(s: Store) -> None:
     """Pull the bounds of the cone tight along the edges, restrict to sets, and schedule all that touches them."""
     for i in range(s.cone_count):
@@ -293,6 +328,7 @@ def renew_cone(s: Store) -> None:
         s.loose[v] = 0
         if s.kind[v] < 0:
             continue
+        uncross(s, v, side)
         if side == SIDE_LOWER:
             pull_lower(s, v)
         else:
@@ -351,18 +387,26 @@ def pull_upper(s: Store, v: int) -> None:
 
 
 def schedule_all(s: Store) -> None:
-    """After a conflict at level 0 nothing is known to be propagated: schedule every constraint and every edge."""
+    """After a conflict at level 0 nothing is known to be carried out: restrict again, schedule all, visit all edges."""
+    for r in range(s.restrictions_used):
+        v = s.restriction_variable[r]
+        if v >= 0 and s.consistent and not (s.is_open[v] and s.restriction_flags[r] & FLAG_VALUES):
+            support = r * 4 + SUPPORT_RESTRICTION
+            if raise_to(s, v, s.restriction_lo[r], support):
+                reduce_to(s, v, s.restriction_hi[r], support)
     for c in range(s.constraints_used):
         if s.op[c] >= 0:
             s.schedule(c)
     for v in range(s.variables):
         if s.kind[v] >= 0:
+            restrict_to_sets(s, v)
             s.queue_edges(v, 0)
             s.queue_edges(v, 1)
 
 
 def follow_again(s: Store, edges: list[int]) -> bool:
     """Put edges that led to a conflict back, one by one; false if one does again."""
+    propagate_edges(s, -1, -1, -1)
     for e in edges:
         attach_edge(s, e)
         if not (s.consistent and follow_edge(s, e)):

@@ -29,8 +29,6 @@ from runtime.constraints.narrow import (
     raise_to,
     reduce_to,
     round_bounds,
-    set_lower,
-    set_upper,
 )
 from runtime.constraints.store import Store
 
@@ -221,14 +219,13 @@ def keep_values(s: Store, v: int, values: list[float], support: int) -> bool:
         inside = [x for x in values if s.lb[v] <= x <= s.ub[v]]
         if not inside:
             return s.fail(v, SIDE_HOLES, support)
-        if not (set_lower(s, v, int(inside[0]), support) and set_upper(s, v, int(inside[-1]), support)):
-            return False
         if s.ub[v] - s.lb[v] + 1 == len(inside):
             return True
         if s.ub[v] - s.lb[v] >= WIDEST_SET:
             attach_table(s, v, inside)
-            return True
+            return round_bounds(s, v, support)
         attach_words(s, v, s.lb[v], s.ub[v] - s.lb[v] + 1)
+    # Bounds that stand in a hole now are rounded, but keep their support: the log of holes has this one.
     wanted = set(values)
     place = next_place(s, v, 0)
     while place >= 0:

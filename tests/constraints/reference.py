@@ -1,0 +1,250 @@
+"""A slow, obviously right judge of the engine: distances between all pairs of points, enumeration of small domains."""
+
+import itertools
+import os
+import random
+from dataclasses import dataclass, field
+from math import inf
+
+from runtime.constraints import codes
+from runtime.constraints.engine import Engine
+
+RUNS = int(os.environ.get("NDDLC_RANDOM_RUNS", "150"))
+
+Values = tuple[int, ...]
+Post = tuple[int, tuple[int, ...]]  # operation, arguments
+Edge = tuple[int, int, int]  # source, target, weight
+
+
+def shortest_distances(count: int, edges: list[Edge]) -> list[list[float]] | None:
+    """Give the shortest path between all pairs of points (Floyd and Warshall); None if there is a negative cycle."""
+    d = [[0.0 if i == j else inf for j in range(count)] for i in range(count)]
+    for source, target, weight in edges:
+        d[source][target] = min(d[source][target], weight)
+    for k in range(count):
+        for i in range(count):
+            for j in range(count):
+                d[i][j] = min(d[i][j], d[i][k] + d[k][j])
+    return None if any(d[i][i] < 0 for i in range(count)) else d
+
+
+def holds(op: int, x: Values) -> bool:
+    """Tell whether a constraint holds for known values."""
+    match op:
+        case codes.OP_EQ:
+            return len(set(x)) == 1
+        case codes.OP_NEQ:
+            return x[0] != x[1]
+        case codes.OP_LT:
+            return x[0] < x[1]
+        case codes.OP_LEQ:
+            return x[0] <= x[1]
+        case codes.OP_ALL_DIFF:
+            return len(set(x)) == len(x)
+        case codes.OP_TEMPORAL_DISTANCE:
+            return x[2] - x[0] == x[1]
+        case codes.OP_ADD_EQ:
+            return x[0] + x[1] == x[2]
+        case codes.OP_MUL_EQ:
+            return x[0] * x[1] == x[2]
+        case codes.OP_DIV_EQ:
+            return x[1] != 0 and x[2] * x[1] == x[0]
+        case codes.OP_EQ_SUM:
+            return x[0] == sum(x[1:])
+        case codes.OP_EQ_PRODUCT:
+            product = 1
+            for y in x[1:]:
+                product *= y
+            return x[0] == product
+        case codes.OP_EQ_MAXIMUM:
+            return x[0] == max(x[1:])
+        case codes.OP_EQ_MINIMUM:
+            return x[0] == min(x[1:])
+        case codes.OP_ABS_VAL:
+            return x[0] == abs(x[1])
+        case codes.OP_NEG:
+            return x[0] == -x[1]
+        case codes.OP_DIFF_SQUARE:
+            return x[2] == (x[0] - x[1]) ** 2
+        case codes.OP_TEST_EQ:
+            return x[0] == (x[1] == x[2])
+        case codes.OP_TEST_NEQ:
+            return x[0] == (x[1] != x[2])
+        case codes.OP_TEST_LEQ:
+            return x[0] == (x[1] <= x[2])
+        case codes.OP_TEST_LT:
+            return x[0] == (x[1] < x[2])
+        case codes.OP_TEST_AND:
+            return (x[0] != 0) == (x[1] != 0 and x[2] != 0)
+        case codes.OP_TEST_OR:
+            return (x[0] != 0) == (x[1] != 0 or x[2] != 0)
+        case codes.OP_OR:
+            return any(x)
+        case codes.OP_COUNT_ZEROES:
+            return x[0] == sum(y == 0 for y in x[1:])
+        case codes.OP_COUNT_NON_ZEROES:
+            return x[0] == sum(y != 0 for y in x[1:])
+        case codes.OP_COND_ALL_DIFF:
+            return (x[0] != 0) == (len(set(x[1:])) == len(x) - 1)
+        case codes.OP_COND_EQ:
+            return (x[0] != 0) == (len(set(x[1:])) == 1)
+        case codes.OP_MAXF:
+            return x[0] == max(x[1:])
+        case codes.OP_ABSF:
+            return x[0] == abs(x[1])
+    raise AssertionError(op)
+
+
+# How strongly an operation narrows: to the values, or to the bounds, that its solutions have; else it only is sound.
+BY_VALUE = (
+    codes.OP_EQ,
+    codes.OP_NEQ,
+    codes.OP_LT,
+    codes.OP_LEQ,
+    codes.OP_TEST_EQ,
+    codes.OP_TEST_NEQ,
+    codes.OP_TEST_LEQ,
+    codes.OP_TEST_LT,
+    codes.OP_TEST_AND,
+    codes.OP_TEST_OR,
+    codes.OP_OR,
+)
+BY_BOUND = (codes.OP_ADD_EQ, codes.OP_TEMPORAL_DISTANCE, codes.OP_EQ_SUM, codes.OP_EQ_MAXIMUM, codes.OP_EQ_MINIMUM)
+ONLY_SOUND = (
+    codes.OP_ALL_DIFF,
+    codes.OP_MUL_EQ,
+    codes.OP_DIV_EQ,
+    codes.OP_EQ_PRODUCT,
+    codes.OP_ABS_VAL,
+    codes.OP_NEG,
+    codes.OP_DIFF_SQUARE,
+    codes.OP_COUNT_ZEROES,
+    codes.OP_COUNT_NON_ZEROES,
+    codes.OP_COND_ALL_DIFF,
+    codes.OP_COND_EQ,
+    codes.OP_MAXF,
+    codes.OP_ABSF,
+)
+TRUTH_FIRST = range(codes.OP_TEST_EQ, codes.OP_TEST_OR + 1)
+LENGTHS = {
+    codes.OP_EQ: (2, 3),
+    codes.OP_ALL_DIFF: (3, 4),
+    codes.OP_ADD_EQ: (3, 3),
+    codes.OP_MUL_EQ: (3, 3),
+    codes.OP_DIV_EQ: (3, 3),
+    codes.OP_TEMPORAL_DISTANCE: (3, 3),
+    codes.OP_DIFF_SQUARE: (3, 3),
+    codes.OP_EQ_SUM: (3, 4),
+    codes.OP_EQ_PRODUCT: (3, 4),
+    codes.OP_EQ_MAXIMUM: (3, 4),
+    codes.OP_EQ_MINIMUM: (3, 4),
+    codes.OP_MAXF: (3, 4),
+    codes.OP_OR: (1, 3),
+    codes.OP_COUNT_ZEROES: (2, 4),
+    codes.OP_COUNT_NON_ZEROES: (2, 4),
+    codes.OP_COND_ALL_DIFF: (3, 4),
+    codes.OP_COND_EQ: (3, 4),
+}
+
+
+@dataclass
+class Problem:
+    """Variables by kind and values, restrictions by variable and values, and constraints over them."""
+
+    kinds: list[int] = field(default_factory=list)
+    domains: list[set[int]] = field(default_factory=list)
+    posts: list[Post] = field(default_factory=list)
+
+    def solutions(self) -> list[Values]:
+        """Enumerate all solutions."""
+        return [
+            x
+            for x in itertools.product(*(sorted(domain) for domain in self.domains))
+            if all(holds(op, tuple(x[v] for v in arguments)) for op, arguments in self.posts)
+        ]
+
+    def propagated(self) -> list[set[int]] | None:
+        """Narrow naively to the fixpoint, each constraint by all of its solutions; None if a domain is empty."""
+        domains = [set(domain) for domain in self.domains]
+        changed = True
+        while changed:
+            changed = False
+            for op, arguments in self.posts:
+                for v, kept in zip(arguments, narrowed(op, arguments, domains), strict=True):
+                    if not domains[v] <= kept:
+                        domains[v] &= kept
+                        changed = True
+                if not all(domains):
+                    return None
+        return domains
+
+
+def narrowed(op: int, arguments: tuple[int, ...], domains: list[set[int]]) -> list[set[int]]:
+    """Give the values that a constraint leaves its arguments, at the strength of its operation."""
+    ranges = [domains[v] for v in arguments]
+    if op in BY_BOUND:
+        ranges = [set(range(min(domain), max(domain) + 1)) for domain in ranges]
+    found = [x for x in itertools.product(*ranges) if agrees(arguments, x) and holds(op, x)]
+    kept = [{x[k] for x in found} for k in range(len(arguments))]
+    if op in BY_BOUND:
+        return [set(range(min(k), max(k) + 1)) if k else set() for k in kept]
+    return kept
+
+
+def agrees(arguments: tuple[int, ...], x: Values) -> bool:
+    """Tell whether a variable that stands twice has one value."""
+    return len(set(arguments)) == len(set(zip(arguments, x, strict=True)))
+
+
+def random_problem(chance: random.Random, operations: tuple[int, ...], variables: int, posts: int) -> Problem:
+    """Draw a problem over bools, ints and symbols with few values."""
+    problem = Problem()
+    for _ in range(variables):
+        kind = chance.choice((codes.KIND_INT, codes.KIND_INT, codes.KIND_SYMBOL, codes.KIND_BOOL))
+        if kind == codes.KIND_BOOL:
+            domain = {0, 1}
+        else:
+            lo = chance.randint(-3, 3)
+            domain = set(range(lo, lo + chance.randint(1, 6)))
+            if chance.random() < 0.3:
+                domain = set(chance.sample(sorted(domain), chance.randint(1, len(domain))))
+        problem.kinds.append(kind)
+        problem.domains.append(domain)
+    bools = [v for v in range(variables) if problem.kinds[v] == codes.KIND_BOOL]
+    for _ in range(posts):
+        op = chance.choice(operations)
+        least, most = LENGTHS.get(op, (3, 3) if op in TRUTH_FIRST else (2, 2))
+        count = chance.randint(least, most)
+        if count > variables:
+            continue
+        arguments = chance.sample(range(variables), count)
+        if op in TRUTH_FIRST or op in (codes.OP_COND_ALL_DIFF, codes.OP_COND_EQ):
+            if not bools:
+                continue
+            arguments[0] = chance.choice(bools)
+            if arguments[0] in arguments[1:]:
+                continue
+        if op in (codes.OP_TEST_AND, codes.OP_TEST_OR) and not set(arguments) <= set(bools):
+            continue
+        if op == codes.OP_TEMPORAL_DISTANCE and any(problem.kinds[v] != codes.KIND_INT for v in arguments):
+            continue
+        problem.posts.append((op, tuple(arguments)))
+    return problem
+
+
+def built(problem: Problem, posts: list[Post] | None = None) -> Engine:
+    """Make an engine with the variables of a problem, and its constraints or others."""
+    engine = Engine()
+    for v, (kind, domain) in enumerate(zip(problem.kinds, problem.domains, strict=True)):
+        if len(domain) == max(domain) - min(domain) + 1:
+            engine.new_interval(kind, min(domain), max(domain), v, -1)
+        else:
+            engine.new_values(kind, sorted(domain), v, -1)
+    for k, (op, arguments) in enumerate(problem.posts if posts is None else posts):
+        engine.post(op, list(arguments), 1000 + k, -1)
+    return engine
+
+
+def domains_of(engine: Engine, count: int) -> list[set[int]]:
+    """List the domains of the first variables."""
+    return [{int(x) for x in engine.values_of(v)} for v in range(count)]

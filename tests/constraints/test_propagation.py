@@ -1,0 +1,52 @@
+"""The engine narrows as enumeration says, loses no solution, and decides known values."""
+
+import random
+
+import pytest
+
+from runtime.constraints import codes
+from tests.constraints.reference import BY_BOUND, BY_VALUE, ONLY_SOUND, RUNS, built, domains_of, random_problem
+
+
+@pytest.mark.parametrize("seed", range(RUNS))
+def test_bounds_and_values_equal_those_of_the_naive_fixpoint(seed: int) -> None:
+    chance = random.Random(seed)
+    problem = random_problem(chance, BY_VALUE + BY_BOUND, chance.randint(2, 6), chance.randint(1, 6))
+    engine = built(problem)
+    expected = problem.propagated()
+    assert engine.propagate() == (expected is not None)
+    if expected is not None:
+        assert domains_of(engine, len(expected)) == expected
+
+
+@pytest.mark.parametrize("seed", range(RUNS))
+def test_no_solution_is_lost_and_known_values_are_judged(seed: int) -> None:
+    chance = random.Random(seed)
+    problem = random_problem(chance, BY_VALUE + BY_BOUND + ONLY_SOUND, chance.randint(2, 5), chance.randint(1, 5))
+    solutions = problem.solutions()
+    engine = built(problem)
+    if not engine.propagate():
+        assert not solutions
+        return
+    domains = domains_of(engine, len(problem.domains))
+    for solution in solutions:
+        assert all(x in domain for x, domain in zip(solution, domains, strict=True))
+    values = tuple(chance.choice(sorted(domain)) for domain in domains)
+    holding = all(engine.decide(v, x, 0, -1) for v, x in enumerate(values)) and engine.propagate()
+    assert holding == (values in solutions)
+
+
+@pytest.mark.parametrize("seed", range(RUNS))
+def test_reals_keep_every_whole_solution(seed: int) -> None:
+    chance = random.Random(seed)
+    problem = random_problem(chance, BY_BOUND[:1] + BY_BOUND[2:] + ONLY_SOUND[1:], chance.randint(2, 5), 3)
+    problem.kinds = [
+        codes.KIND_FLOAT if kind == codes.KIND_INT and chance.random() < 0.6 else kind for kind in problem.kinds
+    ]
+    solutions = problem.solutions()
+    engine = built(problem)
+    if not engine.propagate():
+        assert not solutions
+        return
+    for solution in solutions:
+        assert all(engine.contains(v, x) for v, x in enumerate(solution))

@@ -1,0 +1,150 @@
+"""Rewinding and retracting leave the state that would be there had what is gone never been posted."""
+
+import random
+
+import pytest
+
+from runtime.constraints import codes
+from runtime.constraints.engine import Engine
+from tests.constraints.reference import (
+    BY_BOUND,
+    BY_VALUE,
+    ONLY_SOUND,
+    RUNS,
+    Post,
+    built,
+    domains_of,
+    random_problem,
+)
+
+ALL = BY_VALUE + BY_BOUND + ONLY_SOUND
+
+
+@pytest.mark.parametrize("seed", range(RUNS))
+def test_rewinding_restores_every_domain(seed: int) -> None:
+    chance = random.Random(seed)
+    problem = random_problem(chance, ALL, chance.randint(2, 6), 8)
+    engine = built(problem, [])
+    count = len(problem.domains)
+    stack = []
+    for op, arguments in problem.posts:
+        stack.append((engine.mark(), domains_of(engine, count)))
+        engine.post(op, list(arguments), 0, -1)
+        holding = engine.propagate()
+        if holding and chance.random() < 0.3:
+            v = chance.randrange(count)
+            holding = engine.decide(v, chance.choice(sorted(domains_of(engine, count)[v])), 0, -1)
+            holding = holding and engine.propagate()
+        while stack and (not holding or chance.random() < 0.2):
+            mark, before = stack.pop()
+            engine.rewind(mark)
+            holding = True
+            assert domains_of(engine, count) == before
+            assert all(engine.decided[v] == 0 for v in range(count)) or stack
+
+
+@pytest.mark.parametrize("seed", range(2 * RUNS))
+def test_retracting_equals_never_having_posted(seed: int) -> None:
+    chance = random.Random(seed)
+    problem = random_problem(chance, ALL, chance.randint(2, 6), 8)
+    engine = built(problem, [])
+    count = len(problem.domains)
+    kept: dict[int, Post] = {}
+    restrictions: dict[int, tuple[int, int, int]] = {}
+    for post in problem.posts:
+        c = engine.post(post[0], list(post[1]), 0, -1)
+        engine.propagate()
+        engine.commit()
+        kept[c] = post
+        if engine.consistent and chance.random() < 0.4:
+            v = chance.randrange(count)
+            lo = chance.randint(-3, 3)
+            engine.restrict_base(v, lo, lo + 3, 0, -1)
+            restrictions[engine.newest_restriction] = (v, lo, lo + 3)
+            engine.propagate()
+            engine.commit()
+        if chance.random() < 0.4 or not engine.consistent:
+            gone = chance.sample(sorted(kept), chance.randint(0, len(kept)))
+            loosened = chance.sample(sorted(restrictions), chance.randint(0, len(restrictions)))
+            holding = engine.retract(constraints=gone, restrictions=loosened)
+            for c in gone:
+                del kept[c]
+            for r in loosened:
+                del restrictions[r]
+            fresh = built(problem, list(kept.values()))
+            fresh_holding = all(fresh.restrict_base(*r, 0, -1) for r in restrictions.values()) and fresh.propagate()
+            assert holding == fresh_holding
+            if holding:
+                assert domains_of(engine, count) == domains_of(fresh, count)
+
+
+def test_bounds_that_hold_each_other_up_are_loosened() -> None:
+    engine = Engine()
+    x = engine.new_interval(codes.KIND_INT, 0, float("inf"), 0, -1)
+    y = engine.new_interval(codes.KIND_INT, 0, float("inf"), 0, -1)
+    two = engine.new_constant(codes.KIND_INT, 2, 2)
+    engine.restrict_base(y, 0, 10, 1, -1)
+    limit = engine.newest_restriction
+    twice = engine.new_interval(codes.KIND_INT, 0, float("inf"), 0, -1)
+    engine.post(codes.OP_MUL_EQ, [x, two, twice], 2, -1)
+    engine.post(codes.OP_LEQ, [twice, y], 3, -1)
+    engine.post(codes.OP_LEQ, [y, x], 4, -1)
+    assert engine.propagate()
+    assert (engine.upper(x), engine.upper(y)) == (0, 0)
+    engine.commit()
+    assert engine.retract(restrictions=[limit])
+    assert (engine.upper(x), engine.upper(y)) == (float("inf"), float("inf"))
+
+
+def test_a_decision_can_be_taken_back_and_leaves_the_base_domain() -> None:
+    engine = Engine()
+    a = engine.new_interval(codes.KIND_INT, 1, 9, 0, -1)
+    b = engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), 0, -1)
+    engine.post(codes.OP_ADD_EQ, [a, engine.new_constant(codes.KIND_INT, 1, 1), b], 1, -1)
+    assert engine.propagate() and engine.decide(a, 5, 2, -1) and engine.propagate()
+    assert (engine.lower(b), engine.upper(b), engine.base_upper(a), engine.is_decided(a)) == (6, 6, 9, True)
+    engine.commit()
+    assert engine.undecide(a)
+    assert (engine.lower(b), engine.upper(b), engine.is_decided(a)) == (2, 10, False)
+
+
+def test_rows_of_what_was_undone_are_used_again() -> None:
+    engine = Engine()
+    base = [engine.new_interval(codes.KIND_INT, 0, 50, 0, -1) for _ in range(4)]
+    engine.commit()
+    sizes = []
+    for turn in range(300):
+        mark = engine.mark()
+        first = engine.reserve(3)
+        start, duration, end = (engine.new_interval(codes.KIND_INT, 0, 50, 0, -1) for _ in range(3))
+        colour = engine.new_values(codes.KIND_SYMBOL, [3, 5, 9], 0, -1)
+        assert first == start
+        engine.post(codes.OP_TEMPORAL_DISTANCE, [start, duration, end], 0, -1)
+        engine.post(codes.OP_NEQ, [base[turn % 4], base[(turn + 1) % 4]], 0, -1)
+        engine.post(codes.OP_LEQ, [end, base[turn % 4]], 0, -1)
+        engine.post(codes.OP_ALL_DIFF, [colour, base[0], base[1]], 0, -1)
+        assert engine.propagate()
+        engine.decide(base[0], 7, 0, -1)
+        assert engine.propagate()
+        if turn % 2:
+            engine.commit()
+            assert engine.undecide(base[0])
+            engine.commit()
+            left = [c for v in base for c in engine.constraints_of(v)]
+            assert engine.retract(constraints=left, variables=[start, duration, end, colour])
+            engine.commit()
+        else:
+            engine.rewind(mark)
+            engine.commit()
+        sizes.append(
+            (
+                engine.variables,
+                engine.edges_used,
+                engine.constraints_used,
+                engine.slots_used,
+                engine.restrictions_used,
+                engine.bits_used,
+                engine.holes_used,
+            )
+        )
+    assert sizes[20] == sizes[-1]
