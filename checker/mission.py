@@ -44,13 +44,17 @@ class CheckConfiguration:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Mission:
-    """A mission file's meaning; `parameter_spans` say where each parameter is described."""
+    """A mission file's meaning; `text` tells where each of its keys stands."""
 
-    source: Source
+    text: MissionText
     agent: AgentConfiguration
     check: CheckConfiguration
-    parameter_spans: tuple[tuple[str, Span], ...]
     needs_range: tuple[str, ...]  # parameters whose range is the base domain in the model
+
+    @property
+    def source(self) -> Source:
+        """The file as it was read."""
+        return self.text.source
 
 
 def read_mission(path: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
@@ -86,8 +90,7 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
     found = tuple(sorted(text.diagnostics, key=lambda diagnostic: diagnostic.span.begin))
     if any(diagnostic.severity is Severity.ERROR for diagnostic in found):
         return None, found
-    spans = tuple((one.name, text.key_span(("parameters", one.name))) for one in parameters)
-    return Mission(source, agent, check, spans, unranged), found
+    return Mission(text, agent, check, unranged), found
 
 
 def _not_toml(source: Source, problem: str) -> Diagnostic:

@@ -19,3 +19,6 @@ NO_GOALS = Code(
 ILL_DISTRIBUTION = Code("NDDL713", Severity.ERROR, "domain", "{reason}")
 UNUSED_PARAMETER = Code("NDDL714", Severity.ERROR, "name", "no model samples a parameter `{name}`")
 NO_RANGE = Code("NDDL715", Severity.ERROR, "domain", "the parameter `{name}` has no range, here or in the model")
+NO_TIMELINE = Code("NDDL716", Severity.ERROR, "name", "the model `{model}` has no object `{timeline}`")
+NO_PREDICATE = Code("NDDL717", Severity.ERROR, "name", "`{class_name}` has no predicate `{predicate}`")
+NO_ARGUMENT = Code("NDDL718", Severity.ERROR, "name", "`{predicate}` has no parameter `{name}`")

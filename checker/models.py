@@ -1,18 +1,17 @@
 """The models of a mission, read and checked: programs, what they sample, and all that is wrong with them."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from checker.influence import Influence, lines_of_influence
 from checker.mission import Mission
-from checker.mission_codes import NO_RANGE, UNUSED_PARAMETER
-from checker.mission_table import nearest
+from checker.model_fit import complete, find_misfits, sampling_misfits
 from checker.names import relative_name
 from compiler.lower import compile_model
-from compiler.program import DomainConstant, ParameterSite, Program
+from compiler.program import ParameterSite, Program
 from nddl_lang.analysis import Analysis, analyse_file
-from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
-from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from nddl_lang.text.diagnostic import Diagnostic, Severity
+from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Place
 
 
@@ -53,8 +52,9 @@ def load_models(mission: Mission) -> ModelSet:
         return ModelSet(agent, {}, texts, {}, tuple(found.values()))
     programs = {model: compile_model(analysis) for model, analysis in analyses.items()}
     sites = _sites(programs)
-    completed, complaints = _complete(mission, sites)
-    return ModelSet(completed, programs, texts, _influence(programs, sites, root), (*found.values(), *complaints))
+    misfits = [*find_misfits(mission, programs), *sampling_misfits(mission, sites)]
+    completed = complete(mission, sites)
+    return ModelSet(completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits))
 
 
 def analyse_models(agent: AgentConfiguration) -> dict[str, Analysis]:
@@ -83,48 +83,3 @@ def _influence(programs: dict[str, Program], sites: dict[str, ParameterSite], ro
         )
         for name in sites
     }
-
-
-def _complete(mission: Mission, sites: dict[str, ParameterSite]) -> tuple[AgentConfiguration, list[Diagnostic]]:
-    """Fill in what the mission file leaves to the models; complain of what neither says."""
-    spans = dict(mission.parameter_spans)
-    diagnostics: list[Diagnostic] = []
-    parameters: list[ParameterConfiguration] = []
-    for parameter in mission.agent.parameters:
-        site = sites.get(parameter.name)
-        if site is None:
-            close = nearest(parameter.name, [*sites])
-            listed = "sampled parameters: " + (", ".join(sites) or "none")
-            advice = f"did you mean `{close}`?" if close else listed
-            diagnostics.append(UNUSED_PARAMETER.at(spans[parameter.name], name=parameter.name, help=advice))
-            continue
-        box = (parameter.lower, parameter.upper)
-        if parameter.name in mission.needs_range:
-            default = _bounds(site.default)
-            if default is None:
-                notes = tuple(Note("sampled here", span) for span in site.uses[:1])
-                diagnostics.append(NO_RANGE.at(spans[parameter.name], name=parameter.name, notes=notes))
-            box = default or box
-        is_whole = parameter.is_whole or site.kind == "int"
-        parameters.append(replace(parameter, lower=box[0], upper=box[1], is_whole=is_whole))
-    listed_names = {parameter.name for parameter in mission.agent.parameters}
-    for name, site in sites.items():
-        if name not in listed_names:
-            bounds = _bounds(site.default)
-            if bounds is None:
-                advice = f"write [parameters.{name}] with a `range` in {mission.source.name}"
-                diagnostics.append(NO_RANGE.at(site.uses[0], name=name, help=advice))
-            else:
-                parameters.append(ParameterConfiguration(name, *bounds, is_whole=site.kind == "int"))
-    return replace(mission.agent, parameters=tuple(parameters)), diagnostics
-
-
-def _bounds(domain: DomainConstant | None) -> tuple[float, float] | None:
-    """A finite range of numbers, if that is what the domain is."""
-    if domain is None:
-        return None
-    if domain.interval is not None:
-        lower, upper = domain.interval
-        return (float(lower), float(upper)) if max(abs(lower), abs(upper)) < 2**51 else None
-    numbers = [float(value) for value in domain.values or () if isinstance(value, int | float)]
-    return (min(numbers), max(numbers)) if numbers and len(numbers) == len(domain.values or ()) else None

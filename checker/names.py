@@ -1,8 +1,10 @@
 """Name files so that the name is the same in every checkout and on every machine."""
 
+from functools import cache
 from pathlib import Path, PurePosixPath
 
 
+@cache
 def relative_name(name: str, root: Path) -> str:
     """`name` relative to the mission's folder, with `/`; a file of nddlc's own library is `library/` and its name."""
     path, folder = Path(name).resolve(), root.resolve()

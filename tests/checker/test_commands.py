@@ -137,6 +137,21 @@ def test_a_mission_with_mistaken_models_flies_nothing(agent: None, capsys: pytes
     assert "nothing was flown" in text
 
 
+def test_a_mission_that_does_not_fit_its_models_is_refused(agent: None, capsys: pytest.CaptureFixture[str]) -> None:
+    for name in GPS.glob("*.nddl"):
+        Path(name.name).write_text(name.read_text())
+    text = (GPS / "mission.toml").read_text()
+    text = text.replace('"motion"', '"motions"').replace('"Transit"', '"Transot"', 1).replace("distance =", "way =")
+    Path("mission.toml").write_text(text)
+    assert run(["check", "mission.toml", "--format", "json"]) == 2
+    found = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert [(one["code"], one["message"], one["help"]) for one in found] == [
+        ("NDDL716", "the model `psim.nddl` has no object `motions`", "did you mean `motion`?"),
+        ("NDDL717", "`Nav` has no predicate `Transot`", "did you mean `Transit`?"),
+        ("NDDL718", "`Nav.Transit` has no parameter `way`", "parameters: distance"),
+    ]
+
+
 def test_a_parameter_that_no_model_samples_is_refused(agent: None, capsys: pytest.CaptureFixture[str]) -> None:
     for name in GPS.glob("*.nddl"):
         Path(name.name).write_text(name.read_text())

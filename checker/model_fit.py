@@ -1,0 +1,109 @@
+"""Hold a mission file against its models: timelines, goals and parameters that they do not have, ranges they give."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+
+from checker.mission import Mission
+from checker.mission_codes import NO_ARGUMENT, NO_PREDICATE, NO_RANGE, NO_TIMELINE, UNUSED_PARAMETER
+from checker.mission_table import nearest
+from compiler.program import DomainConstant, ParameterSite, PredicateCode, Program
+from nddl_lang.text.diagnostic import Diagnostic, Note
+from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+
+Bounds = tuple[float, float]
+INFINITE = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
+
+
+def find_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[Diagnostic]:
+    """Complain of timelines, predicates and arguments that the models of their reactors do not have."""
+    text = mission.text
+    owners: dict[str, Program] = {}
+    for number, reactor in enumerate(mission.agent.reactors):
+        program = programs[reactor.model]
+        objects = _objects(program)
+        for key, timelines in (("internal", reactor.internal), ("external", reactor.external)):
+            for index, timeline in enumerate(timelines):
+                if timeline not in objects:
+                    span = text.value_span(("reactor", number, key, index))
+                    advice = _advice(timeline, [*objects], "objects of the model")
+                    yield NO_TIMELINE.at(span, model=reactor.model, timeline=timeline, help=advice)
+                elif key == "internal":
+                    owners[timeline] = program
+    for number, goal in enumerate(mission.agent.goals):
+        owner = owners.get(goal.timeline)
+        if owner is None:
+            continue
+        class_name = _objects(owner)[goal.timeline]
+        predicates = {one.name.rpartition(".")[2]: one for one in owner.predicates if one.class_name == class_name}
+        predicate = predicates.get(goal.predicate)
+        if predicate is None:
+            span = text.value_span(("goal", number, "predicate"))
+            advice = _advice(goal.predicate, [*predicates], "predicates")
+            yield NO_PREDICATE.at(span, class_name=class_name, predicate=goal.predicate, help=advice)
+        else:
+            yield from _strange_arguments(mission, number, predicate)
+
+
+def _strange_arguments(mission: Mission, number: int, predicate: PredicateCode) -> Iterator[Diagnostic]:
+    known = [parameter.name for parameter in predicate.parameters]
+    for name, _ in mission.agent.goals[number].parameters:
+        if name not in known:
+            span = mission.text.key_span(("goal", number, "parameters", name))
+            advice = _advice(name, known, "parameters")
+            yield NO_ARGUMENT.at(span, predicate=predicate.name, name=name, help=advice)
+
+
+def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> Iterator[Diagnostic]:
+    """Complain of parameters that no model samples, and of those that have no range anywhere."""
+    for parameter in mission.agent.parameters:
+        site = sites.get(parameter.name)
+        span = mission.text.key_span(("parameters", parameter.name))
+        if site is None:
+            advice = _advice(parameter.name, [*sites], "sampled parameters")
+            yield UNUSED_PARAMETER.at(span, name=parameter.name, help=advice)
+        elif parameter.name in mission.needs_range and _bounds(site.default) is None:
+            notes = tuple(Note("sampled here", use) for use in site.uses[:1])
+            yield NO_RANGE.at(span, name=parameter.name, notes=notes)
+    listed = {parameter.name for parameter in mission.agent.parameters}
+    for name, site in sites.items():
+        if name not in listed and _bounds(site.default) is None:
+            advice = f"write [parameters.{name}] with a `range` in {mission.source.name}"
+            yield NO_RANGE.at(site.uses[0], name=name, help=advice)
+
+
+def complete(mission: Mission, sites: Mapping[str, ParameterSite]) -> AgentConfiguration:
+    """The agent with what the mission file leaves to the models: ranges, whole numbers, parameters that it omits."""
+    parameters: list[ParameterConfiguration] = []
+    for parameter in mission.agent.parameters:
+        site = sites.get(parameter.name)
+        bounds = _bounds(site.default) if site is not None and parameter.name in mission.needs_range else None
+        lower, upper = bounds or (parameter.lower, parameter.upper)
+        is_whole = parameter.is_whole or (site is not None and site.kind == "int")
+        parameters.append(replace(parameter, lower=lower, upper=upper, is_whole=is_whole))
+    listed = {parameter.name for parameter in mission.agent.parameters}
+    for name, site in sites.items():
+        bounds = _bounds(site.default)
+        if name not in listed and bounds is not None:
+            parameters.append(ParameterConfiguration(name, *bounds, is_whole=site.kind == "int"))
+    return replace(mission.agent, parameters=tuple(parameters))
+
+
+def _objects(program: Program) -> dict[str, str]:
+    """The class of each object that a global variable holds."""
+    return {name: code.type_name for name, code in program.globals if code.kind == "object"}
+
+
+def _advice(name: str, known: list[str], what: str) -> str:
+    close = nearest(name, known)
+    return f"did you mean `{close}`?" if close else f"{what}: {', '.join(known) or 'none'}"
+
+
+def _bounds(domain: DomainConstant | None) -> Bounds | None:
+    """A finite range of numbers, if that is what the domain is."""
+    if domain is None:
+        return None
+    if domain.interval is not None:
+        lower, upper = domain.interval
+        return (float(lower), float(upper)) if max(abs(lower), abs(upper)) < INFINITE else None
+    numbers = [float(value) for value in domain.values or () if isinstance(value, int | float)]
+    return (min(numbers), max(numbers)) if numbers and len(numbers) == len(domain.values or ()) else None
