@@ -192,10 +192,14 @@ def loop(plan: Plan, scope: int, at: int, span: int) -> int:
 def use(plan: Plan, scope: int, at: int, span: int) -> int:
     """Charge a resource without a token."""
     first = collect(plan, scope, at + 2, 4, span)
-    resource, quantity, start, end = plan.operands[first : first + 4]
-    u = plan.resources.charge(resource, quantity, start, end, span)
+    owner = plan.rows.scope_token[scope]
+    holder = plan.operands[first]
+    quantity = plan.operands[first + 1]
+    start = plan.operands[first + 2]
+    end = plan.operands[first + 3]
     plan.operands_used = first
-    if plan.rows.scope_token[scope] >= 0:
+    u = plan.resources.add_use(owner, -1, holder, quantity, start, end, plan.rows.level)
+    if owner >= 0:
         plan.rows.hold(scope, HOLDS_USE, u, 1)
     return 10
 

@@ -165,7 +165,8 @@ class Calls:
             case _:
                 assert call.method in ("set_capacity", "set_limit"), f"no method {call.method} of objects"
                 bounds = [self.plan.engine.lower(operand(self.plan, self.scope, *each, span)) for each in arguments]
-                self.plan.resources.set_capacity(self.object_of(v, name, call.span), bounds)
+                o = self.object_of(v, name, call.span)
+                self.plan.resources.set_capacity(o, int(bounds[0]), bounds[1], bounds[-1])
 
     def specify(self, v: int, source: int, name: str, span: Span, number: int) -> None:
         """Decide a variable for a value of its base domain."""

@@ -56,6 +56,9 @@ HOLDS_EDGE, HOLDS_CONSTRAINT, HOLDS_VARIABLES, HOLDS_RESTRICTION, HOLDS_USE = ra
 # ---- what an engine variable is; nobody decides an internal one ----
 ROLE_INTERNAL, ROLE_GLOBAL, ROLE_MEMBER, ROLE_TOKEN, ROLE_LOCAL = range(5)
 
+# ---- what a token of a resource does ----
+RESOURCE_HOLDS, RESOURCE_PRODUCES, RESOURCE_CONSUMES = range(1, 4)
+
 # ---- trail entries: a field's old value, or something to take back ----
 (
     UNDO_STATUS,
@@ -70,8 +73,7 @@ ROLE_INTERNAL, ROLE_GLOBAL, ROLE_MEMBER, ROLE_TOKEN, ROLE_LOCAL = range(5)
     UNDO_LINK,
     UNDO_UNLINK,
     UNDO_NEW_PAIR,
-    UNDO_NEW_USE,
-) = range(13)
+) = range(12)
 
 # ---- lists that tokens are on ----
 LIST_OPEN, LIST_THREAT, LIST_PREDICATE, LIST_ORDER = range(4)

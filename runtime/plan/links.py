@@ -14,6 +14,7 @@ from runtime.plan.codes import (
     UNDO_MERGED,
     UNDO_NEW_CELLS,
     UNDO_NEW_HOLD,
+    UNDO_NEW_PAIR,
     UNDO_NEW_SCOPE,
     UNDO_NEW_TOKEN,
     UNDO_STATUS,
@@ -116,6 +117,8 @@ def undo(rows: Rows, length: int) -> None:
             undo_scope(rows, index)
         elif code == UNDO_NEW_CELLS:
             undo_cells(rows, index, old)
+        elif code == UNDO_NEW_PAIR:
+            undo_pair(rows, index)
         elif code == UNDO_STATUS:
             rows.status[index] = old
         elif code == UNDO_BRANCH:
@@ -157,6 +160,17 @@ def undo_scope(rows: Rows, s: int) -> None:
     else:
         rows.scope_next[s] = rows.free_scope
         rows.free_scope = s
+
+
+def undo_pair(rows: Rows, p: int) -> None:
+    """Take back the making of pair `p`, the latest of both its tokens."""
+    rows.pairs_out[rows.pair_first[p]] = rows.pair_next_out[p]
+    rows.pairs_in[rows.pair_second[p]] = rows.pair_next_in[p]
+    if p == rows.pair_count - 1:
+        rows.pair_count -= 1
+    else:
+        rows.pair_next_out[p] = rows.free_pair
+        rows.free_pair = p
 
 
 def undo_cells(rows: Rows, start: int, size: int) -> None:

@@ -18,6 +18,9 @@ from runtime.plan.codes import (
     FLAG_NATIVE,
     HEAD_PREDICATE,
     NONE,
+    RESOURCE_CONSUMES,
+    RESOURCE_HOLDS,
+    RESOURCE_PRODUCES,
     START,
 )
 from runtime.plan.flatten import Code
@@ -118,7 +121,10 @@ def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: 
         flags.append(flag | (FLAG_NATIVE if is_resource else 0))
         heirs = (c for c in range(len(program.classes)) if number in prototypes.ancestry(c))
         timeline.append(int(any(program.classes[c].native == "Timeline" for c in heirs)))
-        resource.append(int(is_resource))
+        kind = RESOURCE_HOLDS
+        if predicate.is_event:
+            kind = RESOURCE_PRODUCES if predicate.name.endswith(".produce") else RESOURCE_CONSUMES
+        resource.append(kind if is_resource else 0)
         starts.append(len(parameters))
         for parameter in predicate.parameters:
             parameters.append(prototypes.of(parameter.type, parameter.domain))

@@ -12,10 +12,12 @@ def mark(plan: Plan) -> int:
         plan.mark_capacity *= 2
         plan.mark_engine = grown(plan.mark_engine, plan.mark_capacity)
         plan.mark_rows = grown(plan.mark_rows, plan.mark_capacity)
+        plan.mark_uses = grown(plan.mark_uses, plan.mark_capacity)
     if level == 0:
         plan.rows.trail_length = 0
     plan.mark_engine[level] = plan.engine.mark()
     plan.mark_rows[level] = plan.rows.trail_length
+    plan.mark_uses[level] = plan.resources.count
     plan.rows.level = level + 1
     return level
 
@@ -27,7 +29,7 @@ def rewind(plan: Plan, number: int) -> None:
     plan.operands_used = 0
     plan.engine.rewind(plan.mark_engine[number])
     undo(plan.rows, plan.mark_rows[number])
-    plan.resources.undo()
+    plan.resources.truncate(plan.mark_uses[number])
     plan.rows.level = number + 1
 
 

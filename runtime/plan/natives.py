@@ -28,3 +28,11 @@ DEFAULTS: dict[str, dict[str, float]] = {
     "CBReusable": dict.fromkeys(("consumptionMax", "consumptionRateMax"), inf),
     "Unary": {"consumptionMax": inf},
 }
+
+# class -> members that hold initial level, minimum, maximum, rate and sum of consumption, rate and sum of production
+LIMITS_OF: dict[str, tuple[str, ...]] = {
+    "Reservoir": (*LEVELS, "consumptionRateMax", "consumptionMax", "productionRateMax", "productionMax"),
+    "Reusable": ("capacity", "levelLimitMin", "", "consumptionRateMax", "consumptionMax", "", ""),
+    "CBReusable": ("capacity", "levelLimitMin", "", "consumptionRateMax", "consumptionMax", "", ""),
+    "Unary": ("", "", "", "", "consumptionMax", "", ""),
+}

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from compiler.program import Assign, ConstructorCode, NewObject, Program, SuperCode, TypeCode
+from compiler.program import Assign, ClassCode, ConstructorCode, NewObject, Program, SuperCode, TypeCode
 from nddl_lang.text.source import Span
-from runtime.constraints.codes import KIND_OBJECT
+from runtime.constraints.codes import KIND_FLOAT, KIND_OBJECT
 from runtime.plan.bodies import run
 from runtime.plan.codes import NONE, ROLE_INTERNAL, ROLE_MEMBER, SCOPE_SCRIPT
 from runtime.plan.domains import assign_domain, copy_current
@@ -12,10 +12,11 @@ from runtime.plan.faults import CLOSED_CLASS, ScriptError
 from runtime.plan.flatten import Code
 from runtime.plan.holding import make_variable
 from runtime.plan.links import new_head
-from runtime.plan.natives import DEFAULTS, FILLED
+from runtime.plan.natives import DEFAULTS, FILLED, LIMITS_OF
 from runtime.plan.operands import operand
 from runtime.plan.plan import Plan
 from runtime.plan.prototypes import Prototypes
+from runtime.plan.resources import INITIAL, MINIMUM
 
 Place = tuple[int, int]  # an operand as flattened code has it
 
@@ -128,6 +129,8 @@ class Objects:
         constant = engine.new_constant(KIND_OBJECT, o, o)
         plan.object_constant[o] = constant
         plan.note_variable(constant, ROLE_INTERNAL, NONE, NONE)
+        if class_.native in LIMITS_OF:
+            self.make_resource(o, class_)
         for ancestor in self.prototypes.ancestry(number):
             self.prototypes.objects[ancestor].append(o)
             for v in self.prototypes.still_open(ancestor):
@@ -184,6 +187,8 @@ class Objects:
                     plan.push(plan.block_start[step], plan.block_end[step], scope, NONE, NONE)
                     run(plan)
         plan.self_object = outer
+        if plan.rows.level == 0:
+            plan.rows.release_scope(scope)
 
     def fill(self, step: Fill, scope: int, o: int | None) -> None:
         """Carry out an assignment; `o` is the object under construction."""
@@ -214,6 +219,16 @@ class Objects:
         for member, value in DEFAULTS[name].items():
             if member not in filled:
                 engine.restrict_base(where[member], value, value, NONE, NONE)
+
+    def make_resource(self, o: int, class_: ClassCode) -> None:
+        """Have the levels of a resource watched."""
+        where = {member.name: self.plan.object_var0[o] + k for k, member in enumerate(class_.members)}
+        assert class_.native is not None
+        limits = [where.get(name, NONE) for name in LIMITS_OF[class_.native]]
+        if class_.native == "Unary":
+            limits[INITIAL] = self.plan.engine.new_constant(KIND_FLOAT, 1.0, 1.0)
+            limits[MINIMUM] = self.plan.engine.new_constant(KIND_FLOAT, 0.0, 0.0)
+        self.plan.resources.add_resource(o, limits)
 
     def close(self, number: int) -> None:
         """End the making of objects of a class and of its subclasses."""

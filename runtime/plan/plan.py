@@ -113,11 +113,12 @@ class Plan:
         self.mark_capacity = 64
         self.mark_engine = blank(64)
         self.mark_rows = blank(64)
+        self.mark_uses = blank(64)
         self.statement = 0
         self.self_object = NONE
         self.unions: list[tuple[tuple[int, int], ...]] = []
         self.services: Services
-        self.resources = Resources()
+        self.resources = Resources(engine)
 
     def set_globals(self, count: int) -> None:
         """Make room for the global variables, none of which exists yet."""

@@ -1,32 +1,229 @@
-"""Keep the levels of resources: who uses them when, and where they are certainly or possibly out of bounds."""
+"""Keep who uses which resource, and refuse what certainly exceeds one.
+
+A use is charged from `start` to `end` (Reusable, Unary, CBReusable), or once at `start` (`produce`, `consume`). Bounds
+are compared with those of the last check, so that going back in time needs no notice.
+"""
+
+from math import inf
+
+from runtime.constraints.engine import Engine
+from runtime.plan.codes import NONE
+from runtime.plan.excess import Excess
+from runtime.plan.levels import Levels
+from runtime.plan.rows import blank, blank_reals, grown, grown_reals
+
+ROOM = 32
+
+# Limits of a resource, in the order of its row.
+LIMITS = 7
+INITIAL, MINIMUM, MAXIMUM, RATE, TOTAL, PRODUCTION_RATE, PRODUCTION_TOTAL = range(LIMITS)
 
 
 class Resources:
-    """All resources of a plan."""
+    """Uses `u` as rows of numbers; resources are named by their object."""
 
-    def enter(self, t: int) -> None:
-        """Take the active token `t` into account."""
+    def __init__(self, engine: Engine) -> None:
+        self.engine = engine
+        self.levels = Levels()
+        self.room = ROOM
+        self.count = 0
+        self.free: list[int] = []
+        self.token = blank(ROOM)
+        self.sign = blank(ROOM)
+        self.holder = blank(ROOM)
+        self.quantity = blank(ROOM)
+        self.start = blank(ROOM)
+        self.end = blank(ROOM)
+        self.on = blank(ROOM)
+        self.start_low = blank(ROOM)
+        self.start_high = blank(ROOM)
+        self.end_low = blank(ROOM)
+        self.end_high = blank(ROOM)
+        self.least = blank_reals(ROOM)
+        self.most = blank_reals(ROOM)
+        # Resources: the variables of their limits, and whether one of their uses has changed.
+        self.object_room = ROOM
+        self.is_resource = blank(ROOM)
+        self.is_grounded = blank(ROOM)
+        self.changed = blank(ROOM)
+        self.limits = blank(ROOM * LIMITS)
+        self.steps: dict[int, list[tuple[int, float, float]]] = {}  # set_capacity: from when on, between what
+        self.pending = 0
+        self.refusals: list[int] = []
 
-    def leave(self, t: int) -> None:
-        """Forget token `t`."""
+    # ---- resources and uses ----
 
-    def charge(self, resource: int, quantity: int, start: int, end: int, span: int) -> int:
-        """Charge a resource by a constraint; the number of the use."""
-        return 0
+    def add_resource(self, o: int, limits: list[int]) -> None:
+        """Make object `o` a resource with the variables of its limits (NONE: not limited)."""
+        while o >= self.object_room:
+            self.object_room *= 2
+            self.is_resource = grown(self.is_resource, self.object_room)
+            self.is_grounded = grown(self.is_grounded, self.object_room)
+            self.changed = grown(self.changed, self.object_room)
+            self.limits = grown(self.limits, self.object_room * LIMITS)
+        self.is_resource[o] = 1
+        for k in range(LIMITS):
+            self.limits[o * LIMITS + k] = limits[k]
 
-    def discharge(self, u: int) -> None:
-        """Forget a use."""
+    def add_use(self, token: int, sign: int, holder: int, quantity: int, start: int, end: int, level: int) -> int:
+        """Charge a resource from now on; what has no end (NONE) changes the level for good. The number of the use."""
+        if self.free and level == 0:
+            u = self.free.pop()
+        else:
+            if self.count == self.room:
+                self.grow_uses()
+            u = self.count
+            self.count += 1
+        self.token[u] = token
+        self.sign[u] = sign
+        self.holder[u] = holder
+        self.quantity[u] = quantity
+        self.start[u] = start
+        self.end[u] = end
+        self.on[u] = NONE
+        return u
+
+    def remove_use(self, u: int) -> None:
+        """Forget a use (level 0)."""
+        if self.on[u] >= 0:
+            self.changed[self.on[u]] = 1
+            self.pending = 1
+        self.sign[u] = 0
+        self.free.append(u)
+
+    def remove_token(self, t: int) -> None:
+        """Forget the use that is token `t` (level 0)."""
+        for u in range(self.count):
+            if self.sign[u] and self.token[u] == t:
+                self.remove_use(u)
+
+    def truncate(self, count: int) -> None:
+        """Forget the uses that a search has added."""
+        self.count = count
+
+    def grow_uses(self) -> None:
+        """Double the rows."""
+        self.room *= 2
+        self.token = grown(self.token, self.room)
+        self.sign = grown(self.sign, self.room)
+        self.holder = grown(self.holder, self.room)
+        self.quantity = grown(self.quantity, self.room)
+        self.start = grown(self.start, self.room)
+        self.end = grown(self.end, self.room)
+        self.on = grown(self.on, self.room)
+        self.start_low = grown(self.start_low, self.room)
+        self.start_high = grown(self.start_high, self.room)
+        self.end_low = grown(self.end_low, self.room)
+        self.end_high = grown(self.end_high, self.room)
+        self.least = grown_reals(self.least, self.room)
+        self.most = grown_reals(self.most, self.room)
+
+    def set_capacity(self, o: int, start: int, lower: float, upper: float) -> None:
+        """Change the capacity from a time on."""
+        self.steps.setdefault(o, []).append((start, lower, upper))
+        self.changed[o] = 1
+        self.pending = 1
+
+    # ---- checking ----
 
     def is_quiet(self) -> bool:
-        """Whether nothing changed that levels depend on."""
+        """Whether no use has changed since the last check."""
+        engine = self.engine
+        for u in range(self.count):
+            if not self.sign[u]:
+                continue
+            holder = self.holder[u]
+            o = engine.lb[holder] if engine.lb[holder] == engine.ub[holder] else NONE
+            start = self.start[u]
+            end = self.end[u]
+            q = self.quantity[u]
+            if (
+                o != self.on[u]
+                or engine.lb[start] != self.start_low[u]
+                or engine.ub[start] != self.start_high[u]
+                or engine.flo[q] != self.least[u]
+                or engine.fhi[q] != self.most[u]
+                or (end >= 0 and (engine.lb[end] != self.end_low[u] or engine.ub[end] != self.end_high[u]))
+            ):
+                if self.on[u] >= 0:
+                    self.changed[self.on[u]] = 1
+                self.on[u] = o
+                self.start_low[u] = engine.lb[start]
+                self.start_high[u] = engine.ub[start]
+                if end >= 0:
+                    self.end_low[u] = engine.lb[end]
+                    self.end_high[u] = engine.ub[end]
+                self.least[u] = engine.flo[q]
+                self.most[u] = engine.fhi[q]
+                if o >= 0 and self.is_resource[o]:
+                    self.changed[o] = 1
+                    self.pending = 1
+        return not self.pending
+
+    def check(self, level: int) -> bool:
+        """Refuse what certainly exceeds a resource; False if something does."""
+        self.pending = 0
+        if self.refusals and level == 0:
+            self.engine.retract(self.refusals)
+            self.refusals = []
+        for o in range(self.object_room):
+            if self.changed[o] and self.is_resource[o]:
+                self.changed[o] = 0
+                self.fill(self.levels, o)
+                if self.levels.violation():
+                    self.changed[o] = 1
+                    return self.refuse(o, level)
         return True
 
-    def check(self) -> bool:
-        """Compute the levels anew; False if one is certainly out of bounds."""
-        return True
+    def fill(self, levels: Levels, o: int) -> None:
+        """Put the uses and limits of a resource into `levels`."""
+        at = o * LIMITS
+        low = self.lower(at + INITIAL, 0.0)
+        high = self.upper(at + INITIAL, 0.0)
+        levels.set_limits(low, high, self.lower(at + MINIMUM, -inf), self.upper(at + MAXIMUM, inf))
+        levels.rate = self.upper(at + RATE, inf)
+        levels.total = self.upper(at + TOTAL, inf)
+        levels.production_rate = self.upper(at + PRODUCTION_RATE, inf)
+        levels.production_total = self.upper(at + PRODUCTION_TOTAL, inf)
+        for u in range(self.count):
+            if self.sign[u] and self.on[u] == o:
+                i = levels.add(u, self.sign[u], self.end[u] < 0)
+                levels.start_low[i] = self.start_low[u]
+                levels.start_high[i] = self.start_high[u]
+                levels.end_low[i] = self.end_low[u]
+                levels.end_high[i] = self.end_high[u]
+                levels.least[i] = self.least[u]
+                levels.most[i] = self.most[u]
+        for start, lower, upper in self.steps.get(o, ()):
+            levels.add_step(start, low - upper, high - lower)
+            low, high = lower, upper
 
-    def undo(self) -> None:
-        """Take note that the plan has gone back in time."""
+    def lower(self, place: int, otherwise: float) -> float:
+        """The lower bound of a limit."""
+        return otherwise if self.limits[place] < 0 else self.engine.flo[self.limits[place]]
 
-    def set_capacity(self, o: int, bounds: list[float]) -> None:
-        """Change the capacity of a resource from a time on."""
+    def upper(self, place: int, otherwise: float) -> float:
+        """The upper bound of a limit."""
+        return otherwise if self.limits[place] < 0 else self.engine.fhi[self.limits[place]]
+
+    def refuse(self, o: int, level: int) -> bool:
+        """Post a constraint on all uses of a resource that finds the same, so that the engine can explain it."""
+        excess = Excess(o, self.levels.wrong, self.levels.at, self.levels.excess, list(self.steps.get(o, ())))
+        variables: list[int] = []
+        for k in range(LIMITS):
+            if self.limits[o * LIMITS + k] >= 0:
+                excess.limits.append(k)
+                variables.append(self.limits[o * LIMITS + k])
+        span_owner = NONE
+        for i in range(self.levels.count):
+            u = self.levels.use[i]
+            if u >= 0:
+                excess.signs.append(self.sign[u] * (2 if self.end[u] >= 0 else 1))
+                variables += [self.holder[u], self.quantity[u], self.start[u]]
+                if self.end[u] >= 0:
+                    variables.append(self.end[u])
+                span_owner = self.token[u]
+        c = self.engine.post_external(excess, variables, NONE, span_owner)
+        if level == 0:
+            self.refusals.append(c)
+        return self.engine.propagate()

@@ -121,7 +121,7 @@ def deactivate(plan: Plan, t: int, sweep: Sweep) -> None:
         while rows.merged[t] >= 0:
             deactivate(plan, rows.merged[t], sweep)
         if plan.predicate_resource[rows.predicate[t]]:
-            plan.resources.leave(t)
+            plan.resources.remove_token(t)
     elif status == MERGED:
         rows.unset_merged(t)
     rows.set_status(t, INACTIVE)
@@ -171,7 +171,7 @@ def collect_holds(plan: Plan, s: int, sweep: Sweep) -> None:
         elif kind == HOLDS_VARIABLES:
             sweep.variables.append(rows.hold_id[h])
         elif kind == HOLDS_USE:
-            plan.resources.discharge(rows.hold_id[h])
+            plan.resources.remove_use(rows.hold_id[h])
         rows.drop_hold(s)
 
 

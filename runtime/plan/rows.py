@@ -27,16 +27,27 @@ SHORT = 256  # frames up to this length are used again
 
 
 def grown(old: "array[int]", length: int) -> "array[int]":
-    """Copy `old` into an array of at least `length` cells, zeros behind."""
-    fresh = array("q")
-    fresh.frombytes(memoryview(old).cast("B"))
-    fresh.frombytes(bytes(8 * max(length - len(fresh), 0)))
+    """Copy `old` into an array of `length` cells, zeros behind."""
+    fresh = blank(length)
+    memoryview(fresh)[: len(old)] = memoryview(old)
     return fresh
 
 
 def blank(length: int) -> "array[int]":
     """An array of `length` zeros."""
     return array("q", bytes(8 * length))
+
+
+def grown_reals(old: "array[float]", length: int) -> "array[float]":
+    """Copy `old` into an array of `length` reals, zeros behind."""
+    fresh = blank_reals(length)
+    memoryview(fresh)[: len(old)] = memoryview(old)
+    return fresh
+
+
+def blank_reals(length: int) -> "array[float]":
+    """An array of `length` zeros."""
+    return array("d", bytes(8 * length))
 
 
 class Rows:

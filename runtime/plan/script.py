@@ -18,7 +18,6 @@ from compiler.program import (
     Program,
     Relate,
     Sample,
-    TypeCode,
 )
 from nddl_lang.text.diagnostic import Diagnostic
 from runtime.plan.calls import Calls
@@ -125,17 +124,13 @@ class Script:
     def prepare_object(self, new: NewObject) -> Action:
         """An object, and the global variable that holds it."""
         ready = self.objects.prepare_new(new)
-        type_ = new.type or TypeCode("object", new.class_name, None)
-        prototype = self.prototypes.of(type_, None)
 
         def act() -> None:
             plan = self.plan
             index = new.global_index
             o = self.objects.make(ready, self.scope, None)
             if index is not None:
-                v = make_variable(plan, prototype, ROLE_GLOBAL, index, index)
-                plan.globals[index] = v
-                self.objects.restrict(v, plan.object_constant[o], new.name or "", new.span)
+                plan.globals[index] = make_variable(plan, plan.object_constant[o], ROLE_GLOBAL, index, index)
 
         return act
 

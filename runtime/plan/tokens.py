@@ -18,6 +18,8 @@ from runtime.plan.codes import (
     LIST_THREAT,
     NONE,
     OBJECT,
+    RESOURCE_HOLDS,
+    RESOURCE_PRODUCES,
     ROLE_TOKEN,
     SCOPE_BODY,
     SCOPE_RULE,
@@ -95,8 +97,12 @@ def activation(plan: Plan, t: int, span: int) -> bool:
     link_by_key(rows, t, LIST_PREDICATE, HEAD_PREDICATE + predicate)
     if plan.predicate_timeline[predicate]:
         link_by_key(rows, t, LIST_THREAT, HEAD_THREAT)
-    if plan.predicate_resource[predicate]:
-        plan.resources.enter(t)
+    kind = plan.predicate_resource[predicate]
+    if kind:
+        first = rows.var0[t]
+        sign = 1 if kind == RESOURCE_PRODUCES else -1
+        end = first + END if kind == RESOURCE_HOLDS else NONE
+        plan.resources.add_use(t, sign, first + OBJECT, first + FIRST_PARAMETER, first + START, end, rows.level)
     holds = plan.engine.decide(rows.var0[t] + STATE, SYMBOL_ACTIVE, span, t)
     made = 0
     for index in range(plan.first_rule[predicate], plan.first_rule[predicate + 1]):

@@ -1,0 +1,183 @@
+"""The arithmetic of resource levels: which uses are certain at an instant, which possible, and what follows.
+
+Bounds of times alone are looked at; `flaws` knows the order of uses as well.
+"""
+
+from math import inf
+
+from runtime.constraints.codes import FLOAT_TOLERANCE
+from runtime.plan.rows import blank, blank_reals, grown, grown_reals
+
+ROOM = 16
+TOO_LOW, TOO_HIGH, TOO_FAST, TOO_MUCH = range(1, 5)
+
+
+class Levels:
+    """The bounds of the uses of one resource at one moment, and the limits of its level.
+
+    `sign` is -1 for what consumes, +1 for what produces. What is `lasting` has no end: an event of a reservoir. Of
+    limits that are variables the value that helps the plan most is taken.
+    """
+
+    def __init__(self) -> None:
+        self.room = ROOM
+        self.count = 0
+        self.use = blank(ROOM)
+        self.sign = blank(ROOM)
+        self.lasting = blank(ROOM)
+        self.start_low = blank(ROOM)
+        self.start_high = blank(ROOM)
+        self.end_low = blank(ROOM)
+        self.end_high = blank(ROOM)
+        self.least = blank_reals(ROOM)
+        self.most = blank_reals(ROOM)
+        self.set_limits(0.0, 0.0, -inf, inf)
+        self.set_flows(inf, inf, inf, inf)
+        self.wrong = 0
+        self.at = 0
+        self.excess = 0.0
+
+    def set_limits(self, initial_low: float, initial_high: float, minimum: float, maximum: float) -> None:
+        """Fix the first level and its bounds, and forget all uses."""
+        self.count = 0
+        self.initial_low = initial_low
+        self.initial_high = initial_high
+        self.minimum = minimum
+        self.maximum = maximum
+
+    def set_flows(self, rate: float, total: float, production_rate: float, production_total: float) -> None:
+        """Fix how much may be consumed and produced at one instant, and altogether."""
+        self.rate = rate
+        self.total = total
+        self.production_rate = production_rate
+        self.production_total = production_total
+
+    def add(self, use: int, sign: int, lasting: int) -> int:
+        """Take a row for a use; its bounds are for the caller to fill in."""
+        i = self.count
+        if i == self.room:
+            self.grow()
+        self.count = i + 1
+        self.use[i] = use
+        self.sign[i] = sign
+        self.lasting[i] = lasting
+        return i
+
+    def add_step(self, start: int, least: float, most: float) -> None:
+        """Take away between `least` and `most` of the level for good, at a fixed time (negative: add)."""
+        sign = -1 if most > 0 else 1
+        i = self.add(-1, sign, 1)
+        self.start_low[i] = start
+        self.start_high[i] = start
+        self.least[i] = max(least, 0.0) if sign < 0 else max(-most, 0.0)
+        self.most[i] = most if sign < 0 else -least
+
+    def grow(self) -> None:
+        """Double the rows."""
+        self.room *= 2
+        self.use = grown(self.use, self.room)
+        self.sign = grown(self.sign, self.room)
+        self.lasting = grown(self.lasting, self.room)
+        self.start_low = grown(self.start_low, self.room)
+        self.start_high = grown(self.start_high, self.room)
+        self.end_low = grown(self.end_low, self.room)
+        self.end_high = grown(self.end_high, self.room)
+        self.least = grown_reals(self.least, self.room)
+        self.most = grown_reals(self.most, self.room)
+
+    # ---- the level at an instant ----
+
+    def best_for_consumers(self, t: int) -> float:
+        """The highest level that `t` may have: only certain consumption, all possible production."""
+        level = self.initial_high
+        for i in range(self.count):
+            if self.sign[i] < 0:
+                if self.start_high[i] <= t and (self.lasting[i] or self.end_low[i] > t):
+                    level -= self.least[i]
+            elif self.start_low[i] <= t:
+                level += self.most[i]
+        return level
+
+    def worst_for_consumers(self, t: int) -> float:
+        """The lowest level that `t` may have."""
+        level = self.initial_low
+        for i in range(self.count):
+            if self.sign[i] < 0:
+                if self.start_low[i] <= t and (self.lasting[i] or self.end_high[i] > t):
+                    level -= self.most[i]
+            elif self.start_high[i] <= t:
+                level += self.least[i]
+        return level
+
+    def grounded(self, t: int) -> float:
+        """The level at `t` if all happens as early as it can."""
+        level = self.initial_low
+        for i in range(self.count):
+            if self.start_low[i] <= t and (self.lasting[i] or self.end_low[i] > t):
+                level += self.sign[i] * self.most[i]
+        return level
+
+    # ---- what is certainly wrong ----
+
+    def violation(self) -> int:
+        """What is certainly out of bounds (0: nothing); `at` and `excess` tell when and by how much."""
+        self.wrong = self.flow_violation()
+        if self.wrong == 0:
+            self.wrong = self.level_violation()
+        return self.wrong
+
+    def level_violation(self) -> int:
+        """Whether the level is certainly out of bounds somewhere."""
+        least_consumed = 0.0
+        least_produced = 0.0
+        for i in range(self.count):
+            if self.sign[i] < 0:
+                least_consumed += self.least[i]
+            else:
+                least_produced += self.least[i]
+        if self.initial_high - least_consumed < self.minimum - FLOAT_TOLERANCE:
+            for i in range(self.count):
+                if self.sign[i] < 0:
+                    self.at = self.start_high[i]
+                    self.excess = self.minimum - self.best_for_consumers(self.at)
+                    if self.excess > FLOAT_TOLERANCE:
+                        return TOO_LOW
+        if self.initial_low + least_produced > self.maximum + FLOAT_TOLERANCE:
+            for i in range(self.count):
+                if self.sign[i] > 0:
+                    self.at = self.start_high[i]
+                    self.excess = self.worst_for_consumers(self.at) - self.maximum
+                    if self.excess > FLOAT_TOLERANCE:
+                        return TOO_HIGH
+        return 0
+
+    def flow_violation(self) -> int:
+        """Whether what flows at one instant, or altogether, is certainly too much."""
+        if min(self.rate, self.total, self.production_rate, self.production_total) == inf:
+            return 0
+        consumed = 0.0
+        produced = 0.0
+        for i in range(self.count):
+            self.at = self.start_high[i]
+            flow = max(self.least[i], self.together(i))
+            if self.sign[i] < 0:
+                consumed += self.least[i]
+                self.excess = flow - self.rate
+            else:
+                produced += self.least[i]
+                self.excess = flow - self.production_rate
+            if self.excess > FLOAT_TOLERANCE:
+                return TOO_FAST
+        self.excess = max(consumed - self.total, produced - self.production_total)
+        return TOO_MUCH if self.excess > FLOAT_TOLERANCE else 0
+
+    def together(self, i: int) -> float:
+        """What certainly flows at the same instant as use `i`, with it."""
+        if self.start_low[i] != self.start_high[i]:
+            return 0.0
+        flow = 0.0
+        for j in range(self.count):
+            same = self.start_low[j] == self.start_low[i] and self.start_high[j] == self.start_low[i]
+            if same and self.sign[j] == self.sign[i]:
+                flow += self.least[j]
+        return flow
