@@ -110,12 +110,13 @@ class Blame:
             before = self.work_before[self.work_count]
             v = key >> 2
             side = key & 3
-            if side == SIDE_HOLES:
+            if engine.word[v] >= 0:  # a bound of a set is rounded to a value that is no hole
                 hole = engine.hole_head[v]
                 while hole >= 0:
                     if engine.hole_when[hole] < before:
-                        self.expand(engine.hole_support[hole], v, side, engine.hole_when[hole])
+                        self.expand(engine.hole_support[hole], v, SIDE_HOLES, engine.hole_when[hole])
                     hole = engine.hole_next[hole]
+            if side == SIDE_HOLES:
                 continue
             if side == SIDE_LOWER:
                 when = engine.lower_when[v]

@@ -1,0 +1,147 @@
+"""Write small random models, and say by trying everything whether they have a plan."""
+
+from dataclasses import dataclass
+from itertools import permutations, product
+from random import Random
+
+
+@dataclass(frozen=True)
+class Puzzle:
+    """A model's text and whether a plan exists."""
+
+    text: str
+    has_plan: bool
+
+
+def variables_puzzle(seed: int) -> Puzzle:
+    """Global variables with constraints between them."""
+    random = Random(seed)
+    count = random.randint(2, 5)
+    lines, domains = [], []
+    for i in range(count):
+        low = random.randint(-2, 2)
+        values = list(range(low, low + random.randint(1, 4)))
+        if random.random() < 0.3 and len(values) > 2:
+            values.remove(random.choice(values[1:-1]))
+            lines.append(f"int v{i} = {{{', '.join(map(str, values))}}};")
+        else:
+            lines.append(f"int v{i} = [{values[0]} {values[-1]}];")
+        domains.append(values)
+    tests = []
+    for _ in range(random.randint(1, 2 * count)):
+        a, b, c = (random.randrange(count) for _ in range(3))
+        kind = random.choice(("neq", "leq", "lt", "eq", "addEq", "mulEq"))
+        if kind in ("neq", "lt") and a == b:
+            continue
+        names = (a, b, c) if kind in ("addEq", "mulEq") else (a, b)
+        lines.append(f"{kind}({', '.join(f'v{n}' for n in names)});")
+        tests.append((kind, names))
+    checks = {
+        "neq": lambda x, y: x != y,
+        "leq": lambda x, y: x <= y,
+        "lt": lambda x, y: x < y,
+        "eq": lambda x, y: x == y,
+        "addEq": lambda x, y, z: x + y == z,
+        "mulEq": lambda x, y, z: x * y == z,
+    }
+    has_plan = any(
+        all(checks[kind](*(values[n] for n in names)) for kind, names in tests) for values in product(*domains)
+    )
+    return Puzzle("\n".join(lines) + "\n", has_plan)
+
+
+def timelines_puzzle(seed: int) -> Puzzle:
+    """Goals with windows, durations, precedences and a choice of timelines; none can merge, all must be in the plan."""
+    random = Random(seed)
+    count, places = random.randint(2, 5), random.randint(1, 2)
+    end = random.randint(4, 14)
+    lines = ["class T extends Timeline { predicate p { int n; } }"]
+    lines += [f"T t{i} = new T();" for i in range(places)] + ["close();"]
+    tokens: list[tuple[int, int, int, int | None]] = []
+    for i in range(count):
+        length = random.randint(1, 4)
+        low = random.randint(0, end - 1)
+        high = random.randint(low, end)
+        fixed = random.randrange(places) if random.random() < 0.5 else None
+        lines.append(f"goal({'T' if fixed is None else f't{fixed}'}.p g{i});")
+        lines += [f"eq(g{i}.n, {i});", f"eq(g{i}.duration, {length});", f"g{i}.start = [{low} {high}];"]
+        lines.append(f"leq(g{i}.end, {end});")
+        tokens.append((length, low, high, fixed))
+    orders = []
+    for _ in range(random.randint(0, 2)):
+        a, b = random.sample(range(count), 2)
+        lines.append(f"g{a} before g{b};")
+        orders.append((a, b))
+    return Puzzle("\n".join(lines) + "\n", any_schedule(tokens, orders, places, end))
+
+
+def any_schedule(
+    tokens: list[tuple[int, int, int, int | None]], orders: list[tuple[int, int]], places: int, end: int
+) -> bool:
+    """Whether the tokens fit: some assignment, some order, each as early as it can be in that order."""
+    count = len(tokens)
+    for chosen in product(range(places), repeat=count):
+        if any(fixed is not None and fixed != place for (_, _, _, fixed), place in zip(tokens, chosen, strict=True)):
+            continue
+        for sequence in permutations(range(count)):
+            if starts_hold(tokens, orders, chosen, sequence, end):
+                return True
+    return False
+
+
+def starts_hold(
+    tokens: list[tuple[int, int, int, int | None]],
+    orders: list[tuple[int, int]],
+    chosen: tuple[int, ...],
+    sequence: tuple[int, ...],
+    end: int,
+) -> bool:
+    """Whether the tokens fit when they start in this order."""
+    place_in = {token: position for position, token in enumerate(sequence)}
+    if any(place_in[a] > place_in[b] for a, b in orders):
+        return False
+    free: dict[int, int] = {}
+    done: dict[int, int] = {}
+    for i in sequence:
+        length, low, high, _ = tokens[i]
+        start = max(low, free.get(chosen[i], 0), *(done[a] for a, b in orders if b == i), 0)
+        if start > high or start + length > end:
+            return False
+        done[i] = free[chosen[i]] = start + length
+    return True
+
+
+def rules_model(seed: int) -> str:
+    """Goals, facts and rejectables whose rules ask for more tokens, behind guards too; nobody knows the verdict."""
+    random = Random(seed)
+    end = random.randint(6, 16)
+    predicates = [f"p{i}" for i in range(random.randint(2, 4))]
+    lines = ["class T extends Timeline {"]
+    lines += [f"    predicate {name} {{ int x; }}" for name in predicates]
+    lines += ["}"]
+    for i, name in enumerate(predicates):
+        body = [f"duration >= {random.randint(1, 2)};", f"duration <= {random.randint(2, 4)};", f"leq(end, {end});"]
+        body += ["leq(0, x);", f"leq(x, {random.randint(1, 3)});"]
+        for child in predicates[i + 1 :]:
+            if random.random() < 0.5:
+                relation = random.choice(("before", "meets", "met_by", "contains", "after"))
+                where = random.choice(("object", "T"))
+                body.append(f"{relation}({where}.{child} c_{child});")
+                if random.random() < 0.5:
+                    body.append(random.choice((f"eq(c_{child}.x, x);", f"neq(c_{child}.x, x);", f"lt(x, c_{child}.x);")))
+        if i + 1 < len(predicates) and random.random() < 0.5:
+            child = predicates[-1]
+            body.append(f"if (x == {random.randint(0, 2)}) {{ meets(object.{child} g_{child}); }}")
+        if random.random() < 0.4:
+            body.append(f"int k = [0 {random.randint(1, 2)}];")
+            body.append(random.choice(("neq(k, x);", "eq(k, x);", "leq(x, k);")))
+        lines.append(f"T::{name} {{ {' '.join(body)} }}")
+    lines += [f"T t{i} = new T();" for i in range(random.randint(1, 2))] + ["close();"]
+    for i in range(random.randint(2, 4)):
+        kind = random.choice(("goal", "goal", "fact", "rejectable"))
+        lines.append(f"{kind}({random.choice(('t0', 'T'))}.{random.choice(predicates)} g{i});")
+        low = random.randint(0, end - 2)
+        lines.append(f"g{i}.start = [{low} {random.randint(low, end)}];")
+        if random.random() < 0.3:
+            lines.append(f"eq(g{i}.x, {random.randint(0, 2)});")
+    return "\n".join(lines) + "\n"
