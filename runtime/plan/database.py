@@ -17,6 +17,7 @@ from runtime.plan.prototypes import Prototypes
 from runtime.plan.script import Script
 from runtime.plan.tokens import make_token
 
+GROUNDED = "GroundedProfile"
 Environment = Callable[[str], float | None]
 
 
@@ -42,6 +43,7 @@ class PlanDatabase:
         self.script = Script(self.plan, program, self.prototypes, self.code, predicates, self.objects)
         load_code(self.plan, self.code)
         self.plan.services = self
+        self.plan.resources.grounded_text = self.prototypes.texts.number(GROUNDED)
         self.environment = environment
         self.marks: list[tuple[int, int]] = []
 

@@ -7,7 +7,6 @@ from runtime.constraints.external import External, argument, refuse
 from runtime.constraints.store import Store
 from runtime.plan.levels import Levels
 
-
 Step = tuple[int, float, float]  # set_capacity: from when on, between what
 
 

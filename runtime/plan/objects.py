@@ -228,7 +228,7 @@ class Objects:
         if class_.native == "Unary":
             limits[INITIAL] = self.plan.engine.new_constant(KIND_FLOAT, 1.0, 1.0)
             limits[MINIMUM] = self.plan.engine.new_constant(KIND_FLOAT, 0.0, 0.0)
-        self.plan.resources.add_resource(o, limits)
+        self.plan.resources.add_resource(o, limits, where.get("profileType", NONE))
 
     def close(self, number: int) -> None:
         """End the making of objects of a class and of its subclasses."""

@@ -44,7 +44,8 @@ class Resources:
         # Resources: the variables of their limits, and whether one of their uses has changed.
         self.object_room = ROOM
         self.is_resource = blank(ROOM)
-        self.is_grounded = blank(ROOM)
+        self.profile = blank(ROOM)  # the variable that chooses how levels are computed
+        self.grounded_text = NONE
         self.changed = blank(ROOM)
         self.limits = blank(ROOM * LIMITS)
         self.steps: dict[int, list[tuple[int, float, float]]] = {}  # set_capacity: from when on, between what
@@ -53,17 +54,23 @@ class Resources:
 
     # ---- resources and uses ----
 
-    def add_resource(self, o: int, limits: list[int]) -> None:
+    def add_resource(self, o: int, limits: list[int], profile: int) -> None:
         """Make object `o` a resource with the variables of its limits (NONE: not limited)."""
         while o >= self.object_room:
             self.object_room *= 2
             self.is_resource = grown(self.is_resource, self.object_room)
-            self.is_grounded = grown(self.is_grounded, self.object_room)
+            self.profile = grown(self.profile, self.object_room)
             self.changed = grown(self.changed, self.object_room)
             self.limits = grown(self.limits, self.object_room * LIMITS)
         self.is_resource[o] = 1
+        self.profile[o] = profile
         for k in range(LIMITS):
             self.limits[o * LIMITS + k] = limits[k]
+
+    def is_grounded(self, o: int) -> bool:
+        """Whether levels are those of the earliest schedule: the resource asks for a "GroundedProfile"."""
+        v = self.profile[o]
+        return v >= 0 and self.engine.lb[v] == self.grounded_text and self.engine.ub[v] == self.grounded_text
 
     def add_use(self, token: int, sign: int, holder: int, quantity: int, start: int, end: int, level: int) -> int:
         """Charge a resource from now on; what has no end (NONE) changes the level for good. The number of the use."""
