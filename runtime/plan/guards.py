@@ -24,6 +24,8 @@ def wait(plan: Plan, scope: int, at: int, condition: int, first: int, span: int)
     listen(plan, condition)
     for i in range(count):
         listen(plan, rows.cells[inputs + 2 + i])
+    for position in range(first, plan.operands_used):
+        plan.await_variable(plan.operands[position])
     watch = constraint(plan, s, OP_WATCH, first, span)
     plan.note_watch(watch, s)
     rows.scope_at[s] = at

@@ -13,11 +13,14 @@ def mark(plan: Plan) -> int:
         plan.mark_engine = grown(plan.mark_engine, plan.mark_capacity)
         plan.mark_rows = grown(plan.mark_rows, plan.mark_capacity)
         plan.mark_uses = grown(plan.mark_uses, plan.mark_capacity)
+        plan.mark_awaited = grown(plan.mark_awaited, plan.mark_capacity)
     if level == 0:
         plan.rows.trail_length = 0
+        plan.awaited_count = 0
     plan.mark_engine[level] = plan.engine.mark()
     plan.mark_rows[level] = plan.rows.trail_length
     plan.mark_uses[level] = plan.resources.count
+    plan.mark_awaited[level] = plan.awaited_count
     plan.rows.level = level + 1
     return level
 
@@ -30,6 +33,7 @@ def rewind(plan: Plan, number: int) -> None:
     plan.engine.rewind(plan.mark_engine[number])
     undo(plan.rows, plan.mark_rows[number])
     plan.resources.truncate(plan.mark_uses[number])
+    plan.forget_awaited(plan.mark_awaited[number])
     plan.rows.level = number + 1
 
 
@@ -44,3 +48,4 @@ def commit(plan: Plan) -> None:
     plan.engine.commit()
     plan.rows.trail_length = 0
     plan.rows.level = 0
+    plan.awaited_count = 0

@@ -93,6 +93,10 @@ class Plan:
         self.variable_guards = blank(256)
         self.proxy_index = blank(256)
         self.proxy_member = blank(256)
+        # Variables that guards wait for, in the order in which a search made them so.
+        self.awaited_capacity = 64
+        self.awaited_count = 0
+        self.awaited = blank(64)
         # Constraints that wake guards.
         self.watch_capacity = 256
         self.guard_of = blank(256)
@@ -114,6 +118,7 @@ class Plan:
         self.mark_engine = blank(64)
         self.mark_rows = blank(64)
         self.mark_uses = blank(64)
+        self.mark_awaited = blank(64)
         self.statement = 0
         self.self_object = NONE
         self.unions: list[tuple[tuple[int, int], ...]] = []
@@ -196,6 +201,22 @@ class Plan:
                 self.watch_capacity *= 2
             self.guard_of = grown(self.guard_of, self.watch_capacity)
         self.guard_of[constraint] = guard
+
+    def await_variable(self, v: int) -> None:
+        """Count a guard that waits for `v`."""
+        self.variable_guards[v] += 1
+        if self.rows.level:
+            if self.awaited_count == self.awaited_capacity:
+                self.awaited_capacity *= 2
+                self.awaited = grown(self.awaited, self.awaited_capacity)
+            self.awaited[self.awaited_count] = v
+            self.awaited_count += 1
+
+    def forget_awaited(self, count: int) -> None:
+        """Go back to where a search had made `count` variables awaited."""
+        while self.awaited_count > count:
+            self.awaited_count -= 1
+            self.variable_guards[self.awaited[self.awaited_count]] -= 1
 
     def note_variable(self, v: int, role: int, owner: int, name: int) -> None:
         """Remember what a variable of the engine is."""

@@ -159,6 +159,9 @@ def drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: Sweep) -> None:
 def collect_holds(plan: Plan, s: int, sweep: Sweep) -> None:
     """Collect what one scope holds, and give the holds back."""
     rows = plan.rows
+    if rows.scope_watch[s] >= 0:
+        for v in plan.engine.arguments(rows.scope_watch[s]):
+            plan.variable_guards[v] -= 1
     while rows.scope_holds[s] >= 0:
         h = rows.scope_holds[s]
         kind = rows.hold_kind[h]
