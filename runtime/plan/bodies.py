@@ -177,8 +177,13 @@ def sample(plan: Plan, scope: int, at: int, span: int) -> int:
 
 
 def loop(plan: Plan, scope: int, at: int, span: int) -> int:
-    """Run a block once per object of a domain, in the order of their making, and freeze the domain."""
+    """Run a block once per object of a domain, in the order of their making, and freeze the domain.
+
+    What stands above the loop counts, so it is propagated first.
+    """
     v = operand(plan, scope, plan.code[at + 3], plan.code[at + 4], span)
+    if not plan.engine.propagate():
+        return 6
     block = plan.code[at + 5]
     objects = plan.engine.values_of(v)
     frozen = plan.engine.new_constant_values(plan.engine.kind[v], objects)
