@@ -20,6 +20,7 @@ COMMANDS = {
     "plan": ("nddlc.plan", "Search a plan for a model."),
     "check": ("nddlc.check", "Fly the missions of a mission file, and say what fails and why."),
     "explain": ("nddlc.explain", "Explain why one mission of a run failed."),
+    "lsp": ("nddlc.lsp", "Serve an editor over standard input and output."),
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 UNUSABLE, BUG, INTERRUPTED = 2, 3, 130

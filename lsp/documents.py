@@ -1,0 +1,233 @@
+"""Keep what is open in the editor, and the models that these texts belong to; say what is wrong with each file."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from lsprotocol.types import Diagnostic as Shown
+from lsprotocol.types import Range
+
+from lsp.complaints import Conversion
+from lsp.places import key_of, path_of, uri_of
+from lsp.positions import Encoding, Lines, replaced
+from lsp.project import Project, Settings, Snapshot
+from lsp.roots import root_of
+from nddl_lang.syntax.parser import Parse
+from nddl_lang.text.read import read_text
+from nddl_lang.text.source import Source
+
+
+@dataclass(slots=True)
+class Document:
+    """A text that is open in the editor, with the version that the editor gave it."""
+
+    uri: str
+    key: str
+    name: str
+    path: Path | None
+    version: int
+    lines: Lines
+
+
+@dataclass(frozen=True, slots=True)
+class Publication:
+    """All that is wrong with one file now; `version` is that of its open text, None where it is not open."""
+
+    uri: str
+    version: int | None
+    diagnostics: tuple[Shown, ...]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class View:
+    """An open text as part of its model: what requests about it are answered from."""
+
+    document: Document
+    snapshot: Snapshot
+    parse: Parse
+
+
+class Documents:
+    """The open texts. Each belongs to at least one project: its own, or those of texts that include it.
+
+    Methods that change something return what the editor must be told, each file that changed once.
+    """
+
+    def __init__(self, settings: Settings | None = None, encoding: Encoding = Encoding.UTF16) -> None:
+        self.encoding = encoding
+        self.settings = settings or Settings()
+        self._open: dict[str, Document] = {}  # by key, in order of opening
+        self._uris: dict[str, str] = {}  # of what is open: URI -> key
+        self._projects: dict[str, Project] = {}
+        self._found: dict[str, dict[str, tuple[Shown, ...]]] = {}  # project -> URI -> complaints
+        self._published: dict[str, tuple[Shown, ...]] = {}
+
+    # ---- what the editor does ----
+
+    def open(self, uri: str, version: int, text: str) -> list[Publication]:
+        """A text is open now."""
+        path = path_of(uri)
+        name = str(path) if path is not None else _plain(uri)
+        key = key_of(path) if path is not None else name
+        if (other := self._open.pop(key, None)) is not None:
+            self._uris.pop(other.uri, None)
+        self._open[key] = Document(uri, key, name, path, version, Lines(text, self.encoding))
+        self._uris[uri] = key
+        return self._follow({key}, key)
+
+    def change(self, uri: str, version: int, edits: list[tuple[Range | None, str]]) -> list[Publication]:
+        """A text was edited: each edit stands in the text that the ones before left; without a range it is all."""
+        document = self.find(uri)
+        if document is None:
+            return []
+        for place, text in edits:
+            whole = text if place is None else replaced(document.lines, place, text)
+            document.lines = Lines(whole, self.encoding)
+        document.version = version
+        return self._follow({document.key}, document.key)
+
+    def save(self, uri: str) -> list[Publication]:
+        """A text was saved; other files may have changed as well."""
+        del uri
+        return self.refresh()
+
+    def refresh(self) -> list[Publication]:
+        """Files may have changed on the disk."""
+        return self._follow({member for project in self._projects.values() for member in project.members}, None)
+
+    def close(self, uri: str) -> list[Publication]:
+        """A text is no longer open: what is on the disk counts from now on."""
+        document = self.find(uri)
+        if document is None:
+            return []
+        del self._open[document.key], self._uris[document.uri]
+        # What was understood as a part of it looks for its model afresh.
+        self._drop(document.key)
+        return self._follow({document.key}, None)
+
+    # ---- what requests ask ----
+
+    def find(self, uri: str) -> Document | None:
+        """The open text that the editor calls `uri`."""
+        key = self._uris.get(uri)
+        return self._open[key] if key is not None else None
+
+    def view(self, uri: str) -> View | None:
+        """The open text with the model that it belongs to."""
+        document = self.find(uri)
+        if document is None:
+            return None
+        for project in self._around(document.key):
+            return View(document, project.snapshot, project.snapshot.parses[document.key])
+        return None
+
+    def uri(self, source: Source) -> str:
+        """What the editor calls the file that `source` was read from."""
+        key = key_of(Path(source.name))
+        document = self._open.get(source.name) or self._open.get(key)
+        return document.uri if document is not None else uri_of(Path(source.name))
+
+    # ---- projects ----
+
+    def _around(self, key: str) -> Iterator[Project]:
+        """The projects that a text belongs to; first those whose own text is open."""
+        around = [project for project in self._projects.values() if key in project.snapshot.parses]
+        yield from sorted(around, key=lambda project: project.key not in self._open)
+
+    def _follow(self, changed: set[str], edited: str | None) -> list[Publication]:
+        """Analyse again what a change of these texts touches, and tell what is new."""
+        for project in list(self._projects.values()):
+            if not changed.isdisjoint(project.snapshot.parses):
+                self._analyse(project)
+        self._found_projects()
+        self._drop_projects()
+        self._found_projects()
+        return list(self._news(edited))
+
+    def _found_projects(self) -> None:
+        """Give each open text that belongs to no project one."""
+        for document in list(self._open.values()):
+            if next(self._around(document.key), None) is None:
+                self._found_project(document)
+
+    def _found_project(self, document: Document) -> None:
+        """Give a text a model: the one that it is a part of on the disk, or one of its own."""
+        root = root_of(document.path) if document.path is not None else None
+        if root is not None:
+            project = Project(key_of(root), self.settings)
+            if self._analyse(project) and document.key in project.snapshot.parses:
+                self._projects[project.key] = project
+                return
+            self._found.pop(project.key, None)
+        project = Project(document.key, self.settings)
+        self._analyse(project)
+        self._projects[project.key] = project
+
+    def _drop_projects(self) -> None:
+        """Drop the projects whose texts all belong to others, or are all closed."""
+        for project in list(self._projects.values()):
+            others = [other for other in self._projects.values() if other is not project]
+            mine = [key for key in project.snapshot.parses if key in self._open]
+            if project.key in self._open:
+                is_needed = not any(project.key in other.snapshot.parses for other in others)
+            else:
+                is_needed = not all(self._is_held(key, others) for key in mine)
+            if not is_needed:
+                self._drop(project.key)
+
+    def _drop(self, key: str) -> None:
+        self._projects.pop(key, None)
+        self._found.pop(key, None)
+
+    def _is_held(self, key: str, projects: list[Project]) -> bool:
+        return any(key in project.snapshot.parses and project.key in self._open for project in projects)
+
+    def _analyse(self, project: Project) -> bool:
+        """Take a new snapshot of a project; whether its text could be read."""
+        document = self._open.get(project.key)
+        if document is not None:
+            name, text = document.name, document.lines.text
+        else:
+            name = project.key
+            try:
+                text = read_text(Path(name)) or ""
+            except (OSError, ValueError):
+                text = ""
+        project.analyse(name, text, self._text)
+        self._found[project.key] = self._complaints(project.snapshot)
+        return bool(text)
+
+    def _text(self, path: Path) -> str | None:
+        """What an include of `path` reads."""
+        document = self._open.get(key_of(path))
+        return document.lines.text if document is not None else read_text(path)
+
+    # ---- complaints ----
+
+    def conversion(self) -> Conversion:
+        """What turns our places into the editor's."""
+        return Conversion(self.encoding, self.uri, {one.uri: one.lines for one in self._open.values()})
+
+    def _complaints(self, snapshot: Snapshot) -> dict[str, tuple[Shown, ...]]:
+        return self.conversion().by_file(snapshot.analysis.diagnostics)
+
+    def _news(self, edited: str | None) -> Iterator[Publication]:
+        """What differs from what the editor was told; of the text that was edited always, for its version."""
+        merged: dict[str, tuple[Shown, ...]] = {}
+        for project in self._projects.values():
+            for uri, complaints in self._found[project.key].items():
+                before = merged.get(uri, ())
+                merged[uri] = (*before, *(each for each in complaints if each not in before)) if before else complaints
+        told = self._open.get(edited) if edited is not None else None
+        for uri in dict.fromkeys([*([told.uri] if told is not None else ()), *merged, *self._published]):
+            complaints = merged.get(uri, ())
+            if complaints == self._published.get(uri, ()) and (told is None or uri != told.uri):
+                continue
+            document = self.find(uri)
+            yield Publication(uri, document.version if document is not None else None, complaints)
+        self._published = merged
+
+
+def _plain(uri: str) -> str:
+    """`uri` without what the name of a file cannot hold."""
+    return uri.replace("\0", "").encode("utf-8", "replace").decode("utf-8")

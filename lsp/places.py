@@ -1,0 +1,39 @@
+"""Names of files as editors write them in, paths out; and back."""
+
+import os
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
+
+
+def path_of(uri: str) -> Path | None:
+    """The file that `uri` names; None where it names none, such as a text that was never saved."""
+    try:
+        parts = urlsplit(uri)
+    except ValueError:
+        return None
+    if parts.scheme != "file":
+        return None
+    host = f"//{parts.netloc}" if parts.netloc not in ("", "localhost") else ""
+    path = Path(url2pathname(host + parts.path))
+    return path if path.is_absolute() and _can_be_a_name(path) else None
+
+
+def _can_be_a_name(path: Path) -> bool:
+    try:
+        return b"\0" not in os.fsencode(path)
+    except UnicodeEncodeError:
+        return False
+
+
+def uri_of(path: Path) -> str:
+    """What an editor calls the file at `path`."""
+    return Path(os.path.abspath(path)).as_uri()  # noqa: PTH100  (links stay as they are)
+
+
+def key_of(path: Path) -> str:
+    """What is the same for all ways to name one file; never raises."""
+    try:
+        return os.path.realpath(path)
+    except (OSError, ValueError):
+        return str(path)

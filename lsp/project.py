@@ -1,0 +1,91 @@
+"""One model under edit: its texts in, its analysis out, with all that an edit leaves alone kept from before."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from lsp.places import key_of
+from nddl_lang.analysis import Analyser, Analysis
+from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.syntax.includes import load_module_graph
+from nddl_lang.syntax.incremental import Incremental
+from nddl_lang.syntax.parser import Parse
+from nddl_lang.syntax.placement import CLASS, TOP
+from nddl_lang.text.source import Source
+
+OpenText = Callable[[Path], str | None]
+_Place = tuple[str, Dialect, bool]
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What holds for all models: the dialect that is asked for, and where included files are looked for."""
+
+    dialect: Dialect | None = None
+    directories: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Snapshot:
+    """The analysis of a model as it stands, and the parse of each of its texts, by the key of its file."""
+
+    analysis: Analysis
+    parses: dict[str, Parse]
+
+
+class Project:
+    """A text, known by the key of its file, with all that it includes."""
+
+    def __init__(self, key: str, settings: Settings) -> None:
+        self.key = key
+        self._settings = settings
+        self._analyser = Analyser()
+        self._kept: dict[_Place, tuple[Incremental, Parse]] = {}
+        self._used: dict[_Place, tuple[Incremental, Parse]] = {}
+        self._snapshot: Snapshot | None = None
+
+    @property
+    def snapshot(self) -> Snapshot:
+        """What the last `analyse` found."""
+        assert self._snapshot is not None
+        return self._snapshot
+
+    @property
+    def members(self) -> Sequence[str]:
+        """The keys of its texts, the first one its own."""
+        return tuple(self.snapshot.parses)
+
+    def analyse(self, name: str, text: str, open_text: OpenText) -> None:
+        """Take a new snapshot: the model is `text`, called `name`, and what `open_text` gives for its includes."""
+        # Should this fail half-way, nothing half-done is kept.
+        analyser, self._analyser = self._analyser, Analyser()
+        self._used = {}
+        loaded = load_module_graph(
+            Source(name, text),
+            self._settings.directories,
+            self._settings.dialect,
+            open_text=open_text,
+            parse_text=self._parse,
+        )
+        self._kept, self._used = self._used, {}
+        parses = {key_of(loaded.paths[parse.source]): parse for parse in loaded.parses}
+        parses.pop(self.key, None)
+        self._snapshot = Snapshot(analyser.analyse(loaded), {self.key: loaded.parses[0], **parses})
+        self._analyser = analyser
+
+    def _parse(self, path: Path, source: Source, dialect: Dialect, is_in_class: bool) -> Parse:
+        place = (str(path), dialect, is_in_class)
+        known = self._kept.pop(place, None)
+        if known is None:
+            incremental = Incremental(source.name, dialect, CLASS if is_in_class else TOP)
+            parse = incremental.update(source.text)
+        else:
+            incremental, parse = known
+            if parse.source.text != source.text:
+                parse = incremental.update(source.text)
+        # All spans point into the source that the includes were followed from.
+        for piece in parse.pieces:
+            piece.anchor.source = source
+        parse = replace(parse, source=source)
+        self._used[place] = (incremental, parse)
+        return parse

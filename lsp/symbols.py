@@ -1,0 +1,82 @@
+"""A text in; the outline of what it declares out."""
+
+from collections.abc import Iterable, Iterator
+
+from lsprotocol.types import DocumentSymbol, SymbolKind
+
+from lsp.positions import Lines
+from nddl_lang.syntax.nodes import (
+    ClassDecl,
+    ConstructorDecl,
+    Declarator,
+    EnumDecl,
+    GoalStatement,
+    Identifier,
+    NewExpr,
+    PredicateDecl,
+    RuleDecl,
+    TypedefDecl,
+    VariableDecl,
+)
+from nddl_lang.syntax.parser import Parse
+from nddl_lang.text.source import Span
+
+
+def outline(parse: Parse, lines: Lines) -> list[DocumentSymbol]:
+    """The declarations of the text, in order, members inside their classes."""
+    return _Outline(lines).all(parse.module.statements)
+
+
+class _Outline:
+    def __init__(self, lines: Lines) -> None:
+        self._lines = lines
+
+    def all(self, nodes: Iterable[object]) -> list[DocumentSymbol]:
+        return [symbol for node in nodes for symbol in self._symbols(node)]
+
+    def _symbols(self, node: object) -> Iterator[DocumentSymbol]:
+        match node:
+            case ClassDecl(name=name, base=base, members=members, span=span):
+                detail = f"extends {base.name}" if base is not None else None
+                yield self._symbol(name, SymbolKind.Class, span, detail, members or ())
+            case EnumDecl(name=name, values=values, span=span):
+                yield self._symbol(name, SymbolKind.Enum, span, None, values)
+            case Identifier(span=span):  # a value of an enum
+                yield self._symbol(node, SymbolKind.EnumMember, span)
+            case TypedefDecl(name=name, base=base, span=span):
+                yield self._symbol(name, SymbolKind.TypeParameter, span, base.name)
+            case VariableDecl(type_name=type_name, declarators=declarators):
+                for declarator in declarators:
+                    yield self._variable(declarator, type_name.name)
+            case ConstructorDecl(name=name, parameters=parameters, span=span):
+                formals = ", ".join(f"{each.type_name.name} {each.name.name}" for each in parameters)
+                yield self._symbol(name, SymbolKind.Constructor, span, f"({formals})")
+            case PredicateDecl(name=name, is_action=is_action, body=body, span=span):
+                yield self._symbol(name, SymbolKind.Method, span, "action" if is_action else "predicate", body)
+            case RuleDecl(class_name=class_name, predicate=predicate, span=span):
+                name = Identifier(f"{class_name.name}::{predicate.name}", class_name.span.to(predicate.span))
+                yield self._symbol(name, SymbolKind.Event, span, "rule")
+            case GoalStatement(kind=kind, instances=instances):
+                for instance in instances:
+                    if instance.name is not None:
+                        detail = f"{kind} {instance.path.span.text}"
+                        yield self._symbol(instance.name, SymbolKind.Object, instance.span, detail)
+            case _:
+                pass
+
+    def _variable(self, declarator: Declarator, type_name: str) -> DocumentSymbol:
+        kind = SymbolKind.Object if isinstance(declarator.initialiser, NewExpr) else SymbolKind.Variable
+        return self._symbol(declarator.name, kind, declarator.span, type_name)
+
+    def _symbol(
+        self,
+        name: Identifier,
+        kind: SymbolKind,
+        span: Span,
+        detail: str | None = None,
+        inside: Iterable[object] = (),
+    ) -> DocumentSymbol:
+        whole = self._lines.range(min(span.begin, name.span.begin), max(span.finish, name.span.finish))
+        place = self._lines.range(name.span.begin, name.span.finish)
+        # Editors refuse an outline with an empty name.
+        return DocumentSymbol(name.name or "?", kind, whole, place, detail, children=self.all(inside) or None)

@@ -1,0 +1,19 @@
+"""`nddlc lsp`: the language server, for editors to start."""
+
+import click
+
+from lsp.project import Settings
+from lsp.server import serve
+from nddlc.inputs import chosen_dialect, readable
+
+
+@click.command("lsp")
+@click.option("-I", "--include", "directories", multiple=True, metavar="DIR", help="Look for included files here too.")
+@click.option("--dialect", type=click.Choice(["nddl3", "nddlc"]), help="The same option as before the command.")
+@click.option("--stdio", is_flag=True, help="Speak over standard input and output, as is done anyway.")
+@click.pass_context
+def command(ctx: click.Context, directories: tuple[str, ...], dialect: str | None, stdio: bool) -> int:
+    """Serve an editor over standard input and output: complaints while typing, and what is under the cursor."""
+    del stdio
+    readable((), directories)
+    return 0 if serve(Settings(chosen_dialect(ctx, dialect), directories)) else 1
