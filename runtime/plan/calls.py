@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from compiler.program import OBJECT, STATE, Call, Program, TokenVariable
+from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 from runtime.plan import lifecycle, retracting, timelines
 from runtime.plan.codes import (
@@ -24,7 +25,6 @@ from runtime.plan.faults import (
     SEVERAL_VALUES,
     WRONG_OBJECT,
     WRONG_STATE,
-    ScriptError,
 )
 from runtime.plan.flatten import Code
 from runtime.plan.objects import Objects
@@ -33,7 +33,7 @@ from runtime.plan.plan import Plan
 from runtime.plan.prototypes import Prototypes
 from runtime.plan.texts import base_text
 
-Action = Callable[[], None]
+Action = Callable[[], Diagnostic | None]
 
 
 class Calls:
@@ -97,82 +97,92 @@ class Calls:
                 assert call.method == "cancel", f"no method {call.method} of tokens"
                 return lambda: self.cancel(self.token(slot), call.span)
 
-    def check_state(self, t: int, wanted: int, symbol: int, action: str, span: Span) -> None:
-        """Only a token in the right state can change it."""
+    def wrong_state(self, t: int, wanted: int, symbol: int, action: str, span: Span) -> Diagnostic | None:
+        """What is wrong if a token is in another state than an action needs."""
         status = self.plan.rows.status[t]
         if status != wanted:
-            state = STATE_NAMES[status].lower()
-            raise ScriptError(WRONG_STATE.at(span, name=self.name(t), state=state, action=action))
+            return WRONG_STATE.at(span, name=self.name(t), state=STATE_NAMES[status].lower(), action=action)
         if symbol >= 0 and not self.plan.engine.contains(self.plan.rows.var0[t] + STATE, symbol):
-            raise ScriptError(WRONG_STATE.at(span, name=self.name(t), state="so constrained", action=action))
+            return WRONG_STATE.at(span, name=self.name(t), state="so constrained", action=action)
+        return None
 
-    def activate(self, t: int, span: Span, number: int) -> None:
+    def activate(self, t: int, span: Span, number: int) -> Diagnostic | None:
         """Activate; once more is no mistake."""
-        if self.plan.rows.status[t] != ACTIVE:
-            self.check_state(t, INACTIVE, NONE, "activated", span)
-            lifecycle.activate(self.plan, t, number)
+        if self.plan.rows.status[t] == ACTIVE:
+            return None
+        if (wrong := self.wrong_state(t, INACTIVE, NONE, "activated", span)) is not None:
+            return wrong
+        lifecycle.activate(self.plan, t, number)
+        return None
 
-    def merge(self, t: int, other: int, span: Span, number: int) -> None:
+    def merge(self, t: int, other: int, span: Span, number: int) -> Diagnostic | None:
         """Merge into an active token of the same predicate."""
         rows = self.plan.rows
-        self.check_state(t, INACTIVE, SYMBOL_MERGED, "merged", span)
-        self.check_state(other, ACTIVE, NONE, "merged into", span)
+        wrong = self.wrong_state(t, INACTIVE, SYMBOL_MERGED, "merged", span)
+        wrong = wrong or self.wrong_state(other, ACTIVE, NONE, "merged into", span)
+        if wrong is not None:
+            return wrong
         if rows.predicate[t] != rows.predicate[other]:
-            names = [self.program.predicates[rows.predicate[each]].name for each in (t, other)]
-            fault = OTHER_PREDICATE.at(
-                span, name=self.name(t), other=self.name(other), predicate=names[0], others=names[1]
-            )
-            raise ScriptError(fault)
+            one, another = (self.program.predicates[rows.predicate[each]].name for each in (t, other))
+            return OTHER_PREDICATE.at(span, name=self.name(t), other=self.name(other), predicate=one, others=another)
         lifecycle.merge(self.plan, t, other, number)
+        return None
 
-    def reject(self, t: int, span: Span, number: int) -> None:
+    def reject(self, t: int, span: Span, number: int) -> Diagnostic | None:
         """Reject a rejectable token."""
         if not self.plan.rows.flags[t] & FLAG_REJECTABLE:
-            raise ScriptError(NOT_REJECTABLE.at(span, name=self.name(t)))
-        self.check_state(t, INACTIVE, SYMBOL_REJECTED, "rejected", span)
+            return NOT_REJECTABLE.at(span, name=self.name(t))
+        if (wrong := self.wrong_state(t, INACTIVE, SYMBOL_REJECTED, "rejected", span)) is not None:
+            return wrong
         lifecycle.reject(self.plan, t, number)
+        return None
 
-    def cancel(self, t: int, span: Span) -> None:
+    def cancel(self, t: int, span: Span) -> Diagnostic | None:
         """Undo what made a token active, merged or rejected."""
         if self.plan.rows.flags[t] & FLAG_NATIVE:
-            raise ScriptError(WRONG_STATE.at(span, name=self.name(t), state="a use of a resource", action="cancelled"))
+            return WRONG_STATE.at(span, name=self.name(t), state="a use of a resource", action="cancelled")
         retracting.cancel(self.plan, t)
+        return None
 
     # ---- variables and objects ----
 
     def of_variable(
         self, call: Call, kind: int, value: int, arguments: list[tuple[int, int]], tokens: list[int], span: int
-    ) -> None:
+    ) -> Diagnostic | None:
         """A call on a variable, or on the object that it holds."""
         v = operand(self.plan, self.scope, kind, value, span)
         name = call.span.text.rpartition(f".{call.method}")[0]
         match call.method:
             case "specify":
-                self.specify(v, operand(self.plan, self.scope, *arguments[0], span), name, call.span, span)
+                return self.specify(v, operand(self.plan, self.scope, *arguments[0], span), name, call.span, span)
             case "reset":
                 retracting.reset(self.plan, v)
+                return None
             case "close":
                 if not self.plan.engine.is_open[v]:
-                    raise ScriptError(CLOSED_ALREADY.at(call.span, name=name))
+                    return CLOSED_ALREADY.at(call.span, name=name)
                 self.plan.engine.close(v)
+                return None
+        if not self.plan.engine.is_singleton(v):
+            return NOT_ONE_OBJECT.at(call.span, name=name)
+        o = int(self.plan.engine.lower(v))
+        chosen = [self.token(slot) for slot in tokens]
+        match call.method:
             case "constrain":
-                self.constrain(
-                    self.object_of(v, name, call.span), [self.token(slot) for slot in tokens], call.span, span
-                )
+                return self.constrain(o, chosen, call.span, span)
             case "free":
-                chosen = [self.token(slot) for slot in tokens]
                 retracting.free(self.plan, chosen[0], chosen[-1], span)
             case _:
                 assert call.method in ("set_capacity", "set_limit"), f"no method {call.method} of objects"
                 bounds = [self.plan.engine.lower(operand(self.plan, self.scope, *each, span)) for each in arguments]
-                o = self.object_of(v, name, call.span)
                 self.plan.resources.set_capacity(o, int(bounds[0]), bounds[1], bounds[-1])
+        return None
 
-    def specify(self, v: int, source: int, name: str, span: Span, number: int) -> None:
+    def specify(self, v: int, source: int, name: str, span: Span, number: int) -> Diagnostic | None:
         """Decide a variable for a value of its base domain."""
         engine = self.plan.engine
         if not engine.is_singleton(source):
-            raise ScriptError(SEVERAL_VALUES.at(span, name=name))
+            return SEVERAL_VALUES.at(span, name=name)
         value = engine.lower(source)
         values = engine.base_values(v)
         inside = engine.base_lower(v) <= value <= engine.base_upper(v)
@@ -180,36 +190,34 @@ class Calls:
             inside = value in values
         if not inside:
             text = base_text(self.prototypes, engine, source, self.objects.names)
-            raise ScriptError(OUTSIDE_DOMAIN.at(span, value=text, name=name))
+            return OUTSIDE_DOMAIN.at(span, value=text, name=name)
         engine.decide(v, value, number, NONE)
+        return None
 
-    def object_of(self, v: int, name: str, span: Span) -> int:
-        """The object that a variable holds."""
-        if not self.plan.engine.is_singleton(v):
-            raise ScriptError(NOT_ONE_OBJECT.at(span, name=name))
-        return int(self.plan.engine.lower(v))
-
-    def constrain(self, o: int, tokens: list[int], span: Span, number: int) -> None:
+    def constrain(self, o: int, tokens: list[int], span: Span, number: int) -> Diagnostic | None:
         """Order two tokens on an object, or put one on it."""
         for t in tokens:
-            self.check_state(t, ACTIVE, NONE, "put on an object", span)
+            if (wrong := self.wrong_state(t, ACTIVE, NONE, "put on an object", span)) is not None:
+                return wrong
             if not self.plan.engine.contains(self.plan.rows.var0[t] + OBJECT, o):
-                raise ScriptError(WRONG_OBJECT.at(span, name=self.name(t), object=self.objects.names[o]))
+                return WRONG_OBJECT.at(span, name=self.name(t), object=self.objects.names[o])
         if len(tokens) == 1:
             timelines.assign_object(self.plan, o, tokens[0], number)
         else:
             timelines.order(self.plan, o, tokens[0], tokens[1], number)
+        return None
 
     # ---- classes ----
 
-    def of_class(self, call: Call) -> None:
+    def of_class(self, call: Call) -> Diagnostic | None:
         """`C.close()` and `close()`."""
         assert call.method == "close", f"no method {call.method} of classes"
-        if call.class_name is not None:
-            number = self.prototypes.class_numbers[call.class_name]
-            if self.prototypes.is_closed[number]:
-                raise ScriptError(CLOSED_ALREADY.at(call.span, name=call.class_name))
-            self.objects.close(number)
-        else:
+        if call.class_name is None:
             for number in range(len(self.program.classes)):
                 self.objects.close(number)
+            return None
+        number = self.prototypes.class_numbers[call.class_name]
+        if self.prototypes.is_closed[number]:
+            return CLOSED_ALREADY.at(call.span, name=call.class_name)
+        self.objects.close(number)
+        return None

@@ -58,6 +58,10 @@ class PlanDatabase:
         value = None if self.environment is None else self.environment(self.names.text(parameter))
         return NONE if value is None else self.engine.new_constant(self.engine.kind[v], value, value)
 
+    def forget_objects(self, count: int) -> None:
+        """Go back to where there were `count` objects."""
+        self.objects.truncate(count)
+
     def note_open(self, v: int, prototype: int) -> None:
         """Remember an open variable, to which later objects are added."""
         self.prototypes.note(v, prototype)

@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 
+from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 from runtime.constraints.codes import FLOAT_TOLERANCE, KIND_FLOAT
 from runtime.constraints.engine import Engine
 from runtime.plan.codes import NONE, ROLE_INTERNAL
-from runtime.plan.faults import OUTSIDE_DOMAIN, ScriptError
+from runtime.plan.faults import OUTSIDE_DOMAIN
 from runtime.plan.holding import make_variable
 from runtime.plan.plan import Plan
 from runtime.plan.prototypes import Prototypes
@@ -57,9 +58,10 @@ def assign_domain(
     name: str,
     span: Span,
     number: int,
-) -> None:
-    """Intersect the base domain of `v` with that of `source`; a fault if they have no value in common."""
+) -> Diagnostic | None:
+    """Intersect the base domain of `v` with that of `source`; what is wrong if they have no value in common."""
     engine = plan.engine
     if not overlap(engine, v, source):
-        raise ScriptError(OUTSIDE_DOMAIN.at(span, value=base_text(prototypes, engine, source, objects), name=name))
+        return OUTSIDE_DOMAIN.at(span, value=base_text(prototypes, engine, source, objects), name=name)
     engine.restrict_base_to(v, source, number, NONE)
+    return None

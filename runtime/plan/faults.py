@@ -1,6 +1,6 @@
 """What only running the script shows to be wrong: codes of statements that are not allowed when their turn comes."""
 
-from nddl_lang.text.diagnostic import Code, Diagnostic, Severity
+from nddl_lang.text.diagnostic import Code, Severity
 
 OUTSIDE_DOMAIN = Code("NDDL651", Severity.ERROR, "domain", "{value} is not among the values that `{name}` may have")
 NO_OBJECT = Code("NDDL652", Severity.ERROR, "state", "there is no object of class `{name}` yet that could hold a token")
@@ -14,11 +14,3 @@ SEVERAL_VALUES = Code("NDDL659", Severity.ERROR, "domain", "a single value is ne
 WRONG_OBJECT = Code("NDDL660", Severity.ERROR, "domain", "`{name}` cannot be on `{object}`")
 NO_MEMBER = Code("NDDL661", Severity.ERROR, "state", "no object is known yet whose `{name}` this could be")
 DUPLICATE_NAME = Code("NDDL662", Severity.ERROR, "duplicate", "there is an object called `{name}` already")
-
-
-class ScriptError(Exception):
-    """Carries a diagnostic from where a statement fails to `run_script`, which returns it."""
-
-    def __init__(self, diagnostic: Diagnostic) -> None:
-        super().__init__(diagnostic.message)
-        self.diagnostic = diagnostic

@@ -14,6 +14,7 @@ def mark(plan: Plan) -> int:
         plan.mark_rows = grown(plan.mark_rows, plan.mark_capacity)
         plan.mark_uses = grown(plan.mark_uses, plan.mark_capacity)
         plan.mark_awaited = grown(plan.mark_awaited, plan.mark_capacity)
+        plan.mark_objects = grown(plan.mark_objects, plan.mark_capacity)
     if level == 0:
         plan.rows.trail_length = 0
         plan.awaited_count = 0
@@ -21,6 +22,7 @@ def mark(plan: Plan) -> int:
     plan.mark_rows[level] = plan.rows.trail_length
     plan.mark_uses[level] = plan.resources.count
     plan.mark_awaited[level] = plan.awaited_count
+    plan.mark_objects[level] = plan.object_count
     plan.rows.level = level + 1
     return level
 
@@ -34,6 +36,8 @@ def rewind(plan: Plan, number: int) -> None:
     undo(plan.rows, plan.mark_rows[number])
     plan.resources.truncate(plan.mark_uses[number])
     plan.forget_awaited(plan.mark_awaited[number])
+    if plan.object_count > plan.mark_objects[number]:
+        plan.services.forget_objects(plan.mark_objects[number])
     plan.rows.level = number + 1
 
 

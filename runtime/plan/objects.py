@@ -3,12 +3,13 @@
 from dataclasses import dataclass
 
 from compiler.program import Assign, ClassCode, ConstructorCode, NewObject, Program, SuperCode, TypeCode
+from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 from runtime.constraints.codes import KIND_FLOAT, KIND_OBJECT
 from runtime.plan.bodies import run
 from runtime.plan.codes import NONE, ROLE_INTERNAL, ROLE_MEMBER, SCOPE_SCRIPT
 from runtime.plan.domains import assign_domain, copy_current
-from runtime.plan.faults import CLOSED_CLASS, ScriptError
+from runtime.plan.faults import CLOSED_CLASS
 from runtime.plan.flatten import Code
 from runtime.plan.holding import make_variable
 from runtime.plan.links import new_head
@@ -71,6 +72,7 @@ class Objects:
         self.code = code
         self.names: list[str] = []
         self.numbers: dict[str, int] = {}
+        self.fault: Diagnostic | None = None
         self.constructors = [[self.prepare(each) for each in class_.constructors] for class_ in program.classes]
         self.in_rules = [self.prepare_new(new) for new in code.objects]
 
@@ -109,12 +111,10 @@ class Objects:
 
     # ---- making ----
 
-    def allocate(self, number: int, name: str | None, span: Span) -> int:
+    def allocate(self, number: int, name: str | None) -> int:
         """Make an object with unrestricted members."""
         plan, engine = self.plan, self.plan.engine
         class_ = self.program.classes[number]
-        if self.prototypes.is_closed[number]:
-            raise ScriptError(CLOSED_CLASS.at(span, name=class_.name))
         o = plan.new_object(number, class_.native == "Timeline")
         new_head(plan.rows, plan.object_head[o])
         label = self.unique(name, o)
@@ -133,9 +133,19 @@ class Objects:
             self.make_resource(o, class_)
         for ancestor in self.prototypes.ancestry(number):
             self.prototypes.objects[ancestor].append(o)
-            for v in self.prototypes.still_open(ancestor):
-                engine.add_value(v, o)
+            if plan.rows.level == 0:
+                for v in self.prototypes.still_open(ancestor):
+                    engine.add_value(v, o)
         return o
+
+    def truncate(self, count: int) -> None:
+        """Forget the objects that a search has made."""
+        while len(self.names) > count:
+            del self.numbers[self.names.pop()]
+            o = len(self.names)
+            for ancestor in self.prototypes.ancestry(self.plan.object_class[o]):
+                self.prototypes.objects[ancestor].remove(o)
+        self.plan.object_count = count
 
     def unique(self, name: str | None, o: int) -> str:
         """A name that no other object has."""
@@ -144,69 +154,85 @@ class Objects:
         return name if name not in self.numbers else f"{name}_{o}"
 
     def make_in_rule(self, scope: int, number: int) -> int:
-        """Carry out a `new` of a rule; the variable that holds the object."""
-        return self.plan.object_constant[self.make(self.in_rules[number], scope, None)]
+        """Carry out a `new` of a rule; the variable that holds the object. A fault is left in `fault`.
 
-    def make(self, new: New, scope: int, parent: str | None) -> int:
-        """Carry out a `new`; the object."""
+        Where the class is closed, any object of it is given, so that the rule can be carried out to its end.
+        """
+        made = self.make(self.in_rules[number], scope, None)
+        if isinstance(made, Diagnostic):
+            self.fault = self.fault or made
+            return self.plan.class_prototype[self.in_rules[number].class_number]
+        return self.plan.object_constant[made]
+
+    def make(self, new: New, scope: int, parent: str | None) -> int | Diagnostic:
+        """Carry out a `new`; the object, or what is wrong."""
         plan = self.plan
         span = self.code.span(new.span)
         arguments = []
         for each in new.arguments:
             if isinstance(each, New):
-                arguments.append(plan.object_constant[self.make(each, scope, parent)])
+                inner = self.make(each, scope, parent)
+                if isinstance(inner, Diagnostic):
+                    return inner
+                arguments.append(plan.object_constant[inner])
             else:
                 arguments.append(operand(plan, scope, each[0], each[1], span))
-        name = new.name if parent is None or new.name is None else f"{parent}.{new.name}"
-        o = self.allocate(new.class_number, name, new.span)
-        self.construct(new.class_number, new.constructor, o, arguments)
-        return o
+        if self.prototypes.is_closed[new.class_number]:
+            return CLOSED_CLASS.at(new.span, name=self.program.classes[new.class_number].name)
+        o = self.allocate(new.class_number, new.name if parent is None or new.name is None else f"{parent}.{new.name}")
+        return self.construct(new.class_number, new.constructor, o, arguments) or o
 
-    def construct(self, number: int, chosen: int, o: int, arguments: list[int]) -> None:
+    def construct(self, number: int, chosen: int, o: int, arguments: list[int]) -> Diagnostic | None:
         """Run a constructor of class `number` on object `o`; arguments pass their current domains."""
         plan = self.plan
         name = self.program.classes[number].name
         if name in DEFAULTS:
             self.fill_native(name, o, arguments)
-            return
+            return None
         constructor = self.constructors[number][chosen]
         scope = plan.rows.new_scope(SCOPE_SCRIPT, NONE, NONE, NONE, constructor.slots, constructor.slots)
         frame = plan.rows.scope_frame[scope]
         for slot, (prototype, argument) in enumerate(zip(constructor.parameters, arguments, strict=True)):
             plan.rows.cells[frame + slot] = copy_current(plan, prototype, argument)
         outer = plan.self_object
+        fault: Diagnostic | None = None
         for step in constructor.steps:
             plan.self_object = o
             match step:
                 case Super(class_number=base, constructor=of_base, arguments=places, span=span):
                     passed = [operand(plan, scope, kind, value, self.code.span(span)) for kind, value in places]
-                    self.construct(base, of_base, o, passed)
+                    fault = self.construct(base, of_base, o, passed)
                 case Fill():
-                    self.fill(step, scope, o)
+                    fault = self.fill(step, scope, o)
                 case _:
                     plan.push(plan.block_start[step], plan.block_end[step], scope, NONE, NONE)
                     run(plan)
+            if fault is not None:
+                break
         plan.self_object = outer
         if plan.rows.level == 0:
             plan.rows.release_scope(scope)
+        return fault
 
-    def fill(self, step: Fill, scope: int, o: int | None) -> None:
+    def fill(self, step: Fill, scope: int, o: int | None) -> Diagnostic | None:
         """Carry out an assignment; `o` is the object under construction."""
         plan = self.plan
         span = self.code.span(step.span)
         target = operand(plan, scope, *step.target, span)
         if isinstance(step.value, New):
             made = self.make(step.value, scope, None if o is None else self.names[o])
+            if isinstance(made, Diagnostic):
+                return made
             if o is not None:
                 plan.engine.set_parent(made, o)
             source = plan.object_constant[made]
         else:
             source = operand(plan, scope, *step.value, span)
-        self.restrict(target, source, step.name, step.span)
+        return self.restrict(target, source, step.name, step.span)
 
-    def restrict(self, v: int, source: int, name: str, span: Span) -> None:
-        """Intersect the base domain of `v` with that of `source`; a fault if they have no value in common."""
-        assign_domain(self.prototypes, self.names, self.plan, v, source, name, span, self.code.span(span))
+    def restrict(self, v: int, source: int, name: str, span: Span) -> Diagnostic | None:
+        """Intersect the base domain of `v` with that of `source`; what is wrong if they have no value in common."""
+        return assign_domain(self.prototypes, self.names, self.plan, v, source, name, span, self.code.span(span))
 
     def fill_native(self, name: str, o: int, arguments: list[int]) -> None:
         """Give the members of a resource their values."""

@@ -18,6 +18,9 @@ class Services(Protocol):
     def draw(self, parameter: int, v: int) -> int:
         """A constant with the value that the environment draws for a parameter, of the kind of `v`; or NONE."""
 
+    def forget_objects(self, count: int) -> None:
+        """Go back to where there were `count` objects."""
+
     def note_open(self, v: int, prototype: int) -> None:
         """Remember an open variable, to which later objects are added."""
 
@@ -119,6 +122,7 @@ class Plan:
         self.mark_rows = blank(64)
         self.mark_uses = blank(64)
         self.mark_awaited = blank(64)
+        self.mark_objects = blank(64)
         self.statement = 0
         self.self_object = NONE
         self.unions: list[tuple[tuple[int, int], ...]] = []

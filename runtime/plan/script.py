@@ -22,7 +22,7 @@ from compiler.program import (
 from nddl_lang.text.diagnostic import Diagnostic
 from runtime.plan.calls import Calls
 from runtime.plan.codes import FLAG_FACT, FLAG_GOAL, FLAG_REJECTABLE, NONE, ROLE_GLOBAL, SCOPE_SCRIPT
-from runtime.plan.faults import NO_OBJECT, ScriptError
+from runtime.plan.faults import NO_OBJECT
 from runtime.plan.flatten import Code
 from runtime.plan.holding import make_variable
 from runtime.plan.lifecycle import settle
@@ -33,7 +33,7 @@ from runtime.plan.prototypes import Prototypes
 from runtime.plan.tokens import make_token
 
 KINDS = {"goal": FLAG_GOAL, "fact": FLAG_FACT, "rejectable": FLAG_REJECTABLE}
-Action = Callable[[], None]
+Action = Callable[[], Diagnostic | None]
 
 
 class Script:
@@ -69,14 +69,13 @@ class Script:
             self.plan.statement = self.next
             action = self.actions[self.next]
             self.next += 1
-            try:
-                action()
+            fault = action()
+            if fault is None:
                 settle(self.plan)
-            except ScriptError as fault:
-                self.plan.stack_length = 0
-                self.plan.operands_used = 0
+                fault = self.objects.fault
+            if fault is not None:
                 self.next = len(self.actions)
-                return fault.diagnostic
+                return fault
             self.plan.engine.commit()
         self.plan.statement = len(self.actions)
         return None
@@ -101,9 +100,10 @@ class Script:
             case _:
                 assert_never(instruction)
 
-    def push(self, block: int) -> None:
+    def push(self, block: int) -> Diagnostic | None:
         """Have a block run by the next `settle`."""
         self.plan.push(self.plan.block_start[block], self.plan.block_end[block], self.scope, NONE, NONE)
+        return None
 
     def prepare_global(self, new: NewGlobal) -> Action:
         """A global variable with its base domain."""
@@ -111,13 +111,14 @@ class Script:
         kind, value = self.code.optional(new.copy_of)
         span = self.code.span(new.span)
 
-        def act() -> None:
+        def act() -> Diagnostic | None:
             plan = self.plan
             v = make_variable(plan, prototype, ROLE_GLOBAL, new.index, new.index)
             plan.globals[new.index] = v
             if new.copy_of is not None:
                 source = operand(plan, self.scope, kind, value, span)
-                self.objects.restrict(v, source, new.name, new.span)
+                return self.objects.restrict(v, source, new.name, new.span)
+            return None
 
         return act
 
@@ -125,12 +126,15 @@ class Script:
         """An object, and the global variable that holds it."""
         ready = self.objects.prepare_new(new)
 
-        def act() -> None:
+        def act() -> Diagnostic | None:
             plan = self.plan
             index = new.global_index
             o = self.objects.make(ready, self.scope, None)
+            if isinstance(o, Diagnostic):
+                return o
             if index is not None:
                 plan.globals[index] = make_variable(plan, plan.object_constant[o], ROLE_GLOBAL, index, index)
+            return None
 
         return act
 
@@ -142,15 +146,16 @@ class Script:
         class_name = self.program.predicates[predicate].class_name
         number = self.prototypes.class_numbers[class_name]
 
-        def act() -> None:
+        def act() -> Diagnostic | None:
             plan = self.plan
             if not self.prototypes.objects[number]:
-                raise ScriptError(NO_OBJECT.at(new.span, name=class_name))
+                return NO_OBJECT.at(new.span, name=class_name)
             given = NONE if kind < 0 else operand(plan, self.scope, kind, value, span)
             t = make_token(plan, predicate, KINDS[new.kind], NONE, NONE, given, span)
             if new.label is not None:
                 self.labels[t] = new.label
             rows = plan.rows
             rows.cells[rows.scope_frame[self.scope] + self.program.script_slots + new.slot] = t
+            return None
 
         return act
