@@ -7,6 +7,7 @@ from compiler.body import Body
 from compiler.expressions import value
 from compiler.program import (
     STATE,
+    Assign,
     Call,
     GlobalVariable,
     NewGlobal,
@@ -58,7 +59,7 @@ def execute(node: Statement, body: Body) -> None:
         case Allocation(value=expr):
             body.emit(new_object(expr, None, body))
         case MethodCall():
-            body.emit(_call(node, body))
+            body.emit(_restriction(node, body) or _call(node, body))
         case ClassDecl() | EnumDecl() | TypedefDecl() | RuleDecl() | Include():
             pass
         case BrokenStatement():
@@ -111,6 +112,18 @@ def _relation(node: Relation, body: Body) -> None:
         targets.append(frame.token(tables.existing[node]))
     for target in targets:
         body.emit(Relate(node.relation.name, origin, target, bounds, node.span))
+
+
+def _restriction(node: MethodCall, body: Body) -> Assign | None:
+    """`v.specify([1 5])`: with several values it restricts the variable, as an assignment does."""
+    if node.method.name != "specify" or len(node.arguments) != 1:
+        return None
+    domain = body.model.constant(node.arguments[0])
+    if domain is None or constants.single(domain) is not None:
+        return None
+    target = body.operand(body.model.tables.references[node.target])
+    type_ = constants.type_code(body.model.type_of(node.target))
+    return Assign(target, constants.converted(domain, type_), None, node.span)
 
 
 def _call(node: MethodCall, body: Body) -> Call:

@@ -280,6 +280,7 @@ SCRIPT = [
         ["t0 = goal T.a q on g3", "t0.activate()", "g3.constrain(t0.state)"],
     ),
     ("n.specify(4);", ["g4.specify({4} int)"]),
+    ("n.specify([4 7]);", ["g4 = [4, 7] int"]),
     ("goal(t.a q); q.x.reset();", ["t0 = goal T.a q on g3", "t0.p0.reset()"]),
     ("close();", ["close()"]),
     ("L.close();", ["L.close()"]),
