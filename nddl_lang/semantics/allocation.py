@@ -6,7 +6,7 @@ from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.schema import Chosen, Class, Constructor, Kind, Type
 from nddl_lang.semantics.scope import Context, Deferred, Place, Scope
 from nddl_lang.semantics.typenames import find_defined_class
-from nddl_lang.semantics.types import fits
+from nddl_lang.semantics.types import fits, object_type
 from nddl_lang.semantics.values import check_restriction
 from nddl_lang.semantics.world import World
 from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr
@@ -26,6 +26,7 @@ CLASS_IS_CLOSED = Code("NDDL403", Severity.ERROR, "state", "no object of class `
 def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | None:
     """Check `new C(...)` and choose its constructor; the class, None after a complaint."""
     types = argument_types(context, scope, new.arguments)
+    context.tables.types[new] = object_type(new.class_name.name)
     known = context.world.find_class(new.class_name.name)
     if scope.place is not Place.SCRIPT and (known is None or not known.is_defined):
         context.deferred.append(Deferred(new, tuple(types)))

@@ -343,17 +343,15 @@ def sampled_parameter(context: Context, scope: Scope, owner: object, expression:
     if reference is None and isinstance(expression, PathExpr):
         return FLOAT
     argument = row.signature.required[-1]
-    match reference:
-        case EnumValue():
+    if isinstance(reference, EnumValue | GlobalReference):
+        found = reference_type(reference, None)
+        assert found is not None
+        context.tables.types[expression] = found
+        if isinstance(reference, EnumValue) or found.kind in NUMBERS:
             context.tables.sampled[owner] = reference
-            return FLOAT
-        case GlobalReference(variable=variable) if variable.type.kind in NUMBERS:
-            context.tables.sampled[owner] = reference
-            return plain(variable.type)
-        case GlobalReference(variable=variable):
-            complain_argument(context, row.name, argument, expression, phrase(variable.type))
-        case ClassReference():
-            complain_argument(context, row.name, argument, expression, "a class")
-        case _:
-            complain_argument(context, row.name, argument, expression, "neither")
+            return FLOAT if isinstance(reference, EnumValue) else plain(found)
+        complain_argument(context, row.name, argument, expression, phrase(found))
+    else:
+        what = "a class" if isinstance(reference, ClassReference) else "neither"
+        complain_argument(context, row.name, argument, expression, what)
     return FLOAT

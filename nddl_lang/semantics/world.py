@@ -67,7 +67,7 @@ class World:
     def replay(self, writes: dict[Fact, object]) -> None:
         """Leave behind what a statement left behind when it was analysed."""
         for (table, name), value in writes.items():
-            self.put(table, name, value)
+            self._apply(table, name, value)
 
     def suppose(self, table: str, name: str, value: object) -> None:
         """State a fact about the script as a whole, which no statement puts."""
@@ -83,8 +83,11 @@ class World:
 
     def put(self, table: str, name: str, value: object) -> None:
         """Put a fact; a declaration enters the schema."""
-        self._facts[table, name] = value
         self.writes[table, name] = value
+        self._apply(table, name, value)
+
+    def _apply(self, table: str, name: str, value: object) -> None:
+        self._facts[table, name] = value
         match value:
             case Class():
                 self.schema.classes[name] = value
