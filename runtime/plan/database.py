@@ -9,6 +9,7 @@ from runtime.constraints.engine import Engine
 from runtime.plan import lifecycle, marks, retracting, timelines
 from runtime.plan.codes import NONE
 from runtime.plan.flatten import Code
+from runtime.plan.flaws import Flaws
 from runtime.plan.loading import load_code, load_members, load_predicates, load_prototypes, load_relations
 from runtime.plan.names import Names
 from runtime.plan.objects import Objects
@@ -43,6 +44,7 @@ class PlanDatabase:
         self.script = Script(self.plan, program, self.prototypes, self.code, predicates, self.objects)
         load_code(self.plan, self.code)
         self.plan.services = self
+        self.plan.envelope = Flaws(self.plan)
         self.plan.resources.grounded_text = self.prototypes.texts.number(GROUNDED)
         self.environment = environment
         self.marks: list[tuple[int, int]] = []

@@ -23,8 +23,8 @@ class Flaws:
     """
 
     def __init__(self, plan: Plan) -> None:
-        self.plan = plan
         self.engine = plan.engine
+        self.resources = plan.resources
         self.levels = Levels()
         self.resource = NONE
         self.at = 0
@@ -57,13 +57,41 @@ class Flaws:
 
     def find(self, o: int) -> bool:
         """The first instant at which resource `o` may be out of bounds; what it is stands in the fields."""
-        resources = self.plan.resources
+        resources = self.resources
         levels = self.levels
         resources.fill(levels, o)
         self.resource = o
         if levels.initial_low + self.change(-1) < levels.minimum - FLOAT_TOLERANCE and self.find_side(o, 1):
             return True
         return levels.initial_high + self.change(1) > levels.maximum + FLOAT_TOLERANCE and self.find_side(o, 0)
+
+    def find_certain(self, o: int) -> bool:
+        """Whether the order of uses makes certain what their times alone leave open: the whole envelope is outside."""
+        levels = self.levels
+        self.resources.fill(levels, o)
+        self.resource = o
+        self.grounded = False
+        self.is_low = 0
+        if self.envelope_is_outside(-1):
+            return True
+        self.is_low = 1
+        return self.envelope_is_outside(1)
+
+    def envelope_is_outside(self, sign: int) -> bool:
+        """Whether at some instant the highest level is below the minimum (or the lowest above the maximum)."""
+        levels = self.levels
+        self.prepare()
+        for i in range(levels.count):
+            if levels.sign[i] == sign:
+                self.at = levels.start_high[i]
+                if sign < 0:
+                    self.excess = levels.minimum - levels.best_for_consumers(self.at)
+                else:
+                    self.excess = levels.worst_for_consumers(self.at) - levels.maximum
+                self.excess += self.given_back()
+                if self.excess > FLOAT_TOLERANCE:
+                    return True
+        return False
 
     def change(self, sign: int) -> float:
         """The greatest change of the level in one direction."""
@@ -78,7 +106,7 @@ class Flaws:
         """The first instant at which the level may be too low (or too high)."""
         levels = self.levels
         self.is_low = is_low
-        grounded = self.plan.resources.is_grounded(o)
+        grounded = self.resources.is_grounded(o)
         self.grounded = grounded
         if not grounded:
             self.prepare()
@@ -123,7 +151,7 @@ class Flaws:
         levels = self.levels
         n = levels.count
         self.make_room(n)
-        resources = self.plan.resources
+        resources = self.resources
         taker = -1 if self.is_low else 1
         for i in range(n):
             u = levels.use[i]

@@ -117,6 +117,14 @@ class Levels:
                 level += self.sign[i] * self.most[i]
         return level
 
+    def flows_both_ways(self) -> bool:
+        """Whether something is produced and something consumed for good."""
+        signs = 0
+        for i in range(self.count):
+            if self.lasting[i]:
+                signs |= 1 if self.sign[i] < 0 else 2
+        return signs == 3
+
     # ---- what is certainly wrong ----
 
     def violation(self) -> int:

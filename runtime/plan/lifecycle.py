@@ -36,7 +36,7 @@ def settle(plan: Plan) -> bool:
         if plan.queue_length == 0:
             if plan.resources.is_quiet():
                 return True
-            if not plan.resources.check(plan.rows.level):
+            if not plan.resources.check(plan.envelope, plan.rows.level):
                 return False
             continue
         count = plan.queue_length

@@ -5,7 +5,7 @@ from typing import Protocol
 
 from runtime.constraints.engine import Engine
 from runtime.plan.codes import NONE
-from runtime.plan.resources import Resources
+from runtime.plan.resources import Envelope, Resources
 from runtime.plan.rows import Rows, blank, grown
 
 
@@ -128,6 +128,7 @@ class Plan:
         self.unions: list[tuple[tuple[int, int], ...]] = []
         self.services: Services
         self.resources = Resources(engine)
+        self.envelope: Envelope
 
     def set_globals(self, count: int) -> None:
         """Make room for the global variables, none of which exists yet."""

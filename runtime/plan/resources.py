@@ -5,6 +5,7 @@ are compared with those of the last check, so that going back in time needs no n
 """
 
 from math import inf
+from typing import Protocol
 
 from runtime.constraints.engine import Engine
 from runtime.plan.codes import NONE
@@ -17,6 +18,13 @@ ROOM = 32
 # Limits of a resource, in the order of its row.
 LIMITS = 7
 INITIAL, MINIMUM, MAXIMUM, RATE, TOTAL, PRODUCTION_RATE, PRODUCTION_TOTAL = range(LIMITS)
+
+
+class Envelope(Protocol):
+    """What knows the order of uses."""
+
+    def find_certain(self, o: int) -> bool:
+        """Whether the order of uses makes certain what their times alone leave open."""
 
 
 class Resources:
@@ -167,20 +175,27 @@ class Resources:
                     self.pending = 1
         return not self.pending
 
-    def check(self, level: int) -> bool:
+    def check(self, envelope: "Envelope", level: int) -> bool:
         """Refuse what certainly exceeds a resource; False if something does."""
         self.pending = 0
-        if self.refusals and level == 0:
-            self.engine.retract(self.refusals)
-            self.refusals = []
         for o in range(self.object_room):
             if self.changed[o] and self.is_resource[o]:
                 self.changed[o] = 0
                 self.fill(self.levels, o)
-                if self.levels.violation():
-                    self.changed[o] = 1
-                    return self.refuse(o, level)
+                by_order = False
+                if not self.levels.violation():
+                    by_order = self.levels.flows_both_ways() and envelope.find_certain(o)
+                    if not by_order:
+                        continue
+                self.changed[o] = 1
+                return self.refuse(o, level, by_order)
         return True
+
+    def take_refusals(self) -> list[int]:
+        """Give up the constraints that refused at level 0, as the reason may go."""
+        taken = self.refusals
+        self.refusals = []
+        return taken
 
     def fill(self, levels: Levels, o: int) -> None:
         """Put the uses and limits of a resource into `levels`."""
@@ -213,9 +228,13 @@ class Resources:
         """The upper bound of a limit."""
         return otherwise if self.limits[place] < 0 else self.engine.fhi[self.limits[place]]
 
-    def refuse(self, o: int, level: int) -> bool:
-        """Post a constraint on all uses of a resource that finds the same, so that the engine can explain it."""
+    def refuse(self, o: int, level: int, by_order: bool) -> bool:
+        """Post a constraint on all uses of a resource that finds the same, so that the engine can explain it.
+
+        What follows from the order of uses is not found again from bounds: such a constraint refuses in any case.
+        """
         excess = Excess(o, self.levels.wrong, self.levels.at, self.levels.excess, list(self.steps.get(o, ())))
+        excess.is_repeatable = not by_order
         variables: list[int] = []
         for k in range(LIMITS):
             if self.limits[o * LIMITS + k] >= 0:

@@ -199,6 +199,7 @@ def finish(plan: Plan, sweep: Sweep) -> bool:
     for v in sweep.undecided:
         sweep.restrictions += decisions_of(plan, v)
     restrictions = [r for r in dict.fromkeys(sweep.restrictions) if plan.engine.restriction_variable[r] not in gone]
+    sweep.constraints += plan.resources.take_refusals()
     plan.engine.retract(sweep.constraints, sweep.edges, restrictions, sweep.variables)
     for s in sweep.scopes:
         rows.release_scope(s)
