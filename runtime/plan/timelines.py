@@ -14,7 +14,7 @@ from runtime.plan.codes import (
     START,
     UNDO_NEW_PAIR,
 )
-from runtime.plan.holding import decide
+from runtime.plan.holding import equate
 from runtime.plan.links import link, link_by_key, unlink
 from runtime.plan.plan import Plan
 from runtime.plan.rows import LISTS, Rows
@@ -52,7 +52,7 @@ def insert(plan: Plan, o: int, t: int, previous: int, span: int) -> None:
     v = rows.var0[t] + OBJECT
     if not plan.engine.is_decided(v):
         scope = rows.new_scope(SCOPE_PLACE, t, NONE, NONE, 0, 0)
-        decide(plan, scope, v, o, span)
+        equate(plan, scope, v, plan.object_constant[o], span)
     if previous >= 0:
         pair(plan, previous, t, span)
     following = rows.link_after[LISTS * t + LIST_ORDER]
