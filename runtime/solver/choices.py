@@ -19,25 +19,25 @@ from runtime.solver.codes import (
 )
 from runtime.solver.conditions import mend_open_condition
 from runtime.solver.decisions import Decisions
+from runtime.solver.instants import mend_instant
 from runtime.solver.places import fill_places, is_open_place
 from runtime.solver.preferences import listed_values, sort_places
 from runtime.solver.queues import Queues
-from runtime.solver.uses import mend_resource
 
 
-def mend(q: Queues, stack: Decisions, d: int, exact: bool) -> int:
+def mend(q: Queues, stack: Decisions, d: int) -> int:
     """Carry out the next choice of decision `d`; the caller has set a mark, and goes back to it after a failure.
 
-    `exact`: offer the choices that EUROPA offers, so that failures count as they do there.
+    With `q.exact` the choices are those that EUROPA offers, so that failures count as they do there.
     """
     kind = stack.kind[d]
     if kind == UNBOUND_VARIABLE:
         return mend_variable(q, stack, d)
     if kind == OPEN_CONDITION:
-        return mend_open_condition(q, stack, d, exact)
+        return mend_open_condition(q, stack, d)
     if kind == THREAT:
-        return mend_threat(q, stack, d, exact)
-    return mend_resource(q, stack, d)
+        return mend_threat(q, stack, d)
+    return mend_instant(q, stack, d)
 
 
 def mend_variable(q: Queues, stack: Decisions, d: int) -> int:
@@ -120,7 +120,7 @@ def mend_by_list(q: Queues, stack: Decisions, d: int) -> int:
     return APPLIED if settle(q.plan) else FAILED_CHOICE
 
 
-def mend_threat(q: Queues, stack: Decisions, d: int, exact: bool) -> int:
+def mend_threat(q: Queues, stack: Decisions, d: int) -> int:
     """Put a token into its next place on a timeline; `cursor` is the last place looked at."""
     t = stack.item[d]
     if stack.pool_count[d] < 0:
@@ -133,7 +133,7 @@ def mend_threat(q: Queues, stack: Decisions, d: int, exact: bool) -> int:
         at = stack.pool_first[d] + place
         before = stack.pool_before[at]
         after = stack.pool_after[at]
-        if is_open_place(q, t, before, after, exact):
+        if is_open_place(q, t, before, after):
             if q.probing:
                 return APPLIED
             stack.cursor[d] = place

@@ -40,7 +40,7 @@ from runtime.solver.preferences import sorted_candidates
 from runtime.solver.queues import Queues
 
 
-def mend_open_condition(q: Queues, stack: Decisions, d: int, exact: bool) -> int:
+def mend_open_condition(q: Queues, stack: Decisions, d: int) -> int:
     """Carry out the next choice for an inactive token: by phase, merge, activate, reject."""
     t = stack.item[d]
     handler = stack.handler[d]
@@ -56,7 +56,7 @@ def mend_open_condition(q: Queues, stack: Decisions, d: int, exact: bool) -> int
                 outcome = mend_by_merging(q, stack, d, t)
         elif phase == PHASE_ACTIVATE:
             if choice != MERGE_ONLY or not is_hsts:
-                outcome = mend_by_activating(q, stack, d, t, exact)
+                outcome = mend_by_activating(q, stack, d, t)
         elif stack.other[d] == NONE and may_become(q, t, SYMBOL_REJECTED):
             if q.probing:
                 return APPLIED
@@ -139,7 +139,7 @@ def can_coincide(q: Queues, a: int, b: int) -> bool:
     return q.distances.admits(a, b, 0) and q.distances.admits(b, a, 0)
 
 
-def mend_by_activating(q: Queues, stack: Decisions, d: int, t: int, exact: bool) -> int:
+def mend_by_activating(q: Queues, stack: Decisions, d: int, t: int) -> int:
     """Activate a token, or have the next action support it; `cursor` counts the ways tried."""
     if not may_become(q, t, SYMBOL_ACTIVE):
         return NO_CHOICE
@@ -156,7 +156,7 @@ def mend_by_activating(q: Queues, stack: Decisions, d: int, t: int, exact: bool)
             stack.cursor[d] = way
             stack.tries[d] += 1
             return support(q, t, q.supports.action[first + way], q.supports.effect[first + way])
-    if way > 0 or (code == HANDLER_HSTS and not has_place(q, stack, d, t, exact)):
+    if way > 0 or (code == HANDLER_HSTS and not has_place(q, stack, d, t)):
         return NO_CHOICE
     if q.probing:
         return APPLIED
@@ -165,7 +165,7 @@ def mend_by_activating(q: Queues, stack: Decisions, d: int, t: int, exact: bool)
     return APPLIED if activate(q.plan, t, NONE) else FAILED_CHOICE
 
 
-def has_place(q: Queues, stack: Decisions, d: int, t: int, exact: bool) -> bool:
+def has_place(q: Queues, stack: Decisions, d: int, t: int) -> bool:
     """Whether a token would find a place on a timeline; always true where it needs none."""
     if not q.plan.predicate_timeline[q.rows.predicate[t]]:
         return True
@@ -173,7 +173,7 @@ def has_place(q: Queues, stack: Decisions, d: int, t: int, exact: bool) -> bool:
     fill_places(q, stack, d, t)
     found = False
     for at in range(stack.pool_first[d], stack.pool_first[d] + stack.pool_count[d]):
-        if is_open_place(q, t, stack.pool_before[at], stack.pool_after[at], exact):
+        if is_open_place(q, t, stack.pool_before[at], stack.pool_after[at]):
             found = True
             break
     stack.pool_count[d] = NONE

@@ -7,14 +7,15 @@ from runtime.solver.queues import Queues
 TRUTHS = {"true": 1.0, "TRUE": 1.0, "True": 1.0, "false": 0.0, "FALSE": 0.0, "False": 0.0}
 
 
-def guarded_handler(q: Queues, row: int, t: int, v: int) -> int:
-    """The handler of `row` for token `t` or for variable `v`, which belongs to `t` (NONE: to nobody)."""
+def handler_now(q: Queues, row: int, t: int) -> int:
+    """The handler of a row that applies now; `t` is the token that the flaw belongs to (NONE: to nobody)."""
     first = q.treatments.first_handler[row]
-    for at in range(first, first + q.treatments.handler_count[row]):
+    count = q.treatments.handler_count[row]
+    for at in range(first, first + count - 1):
         handler = q.treatments.handler_of[at]
         if guards_hold(q, handler, t):
             return handler
-    return q.treatments.handler_of[first + q.treatments.handler_count[row] - 1]
+    return q.treatments.handler_of[first + count - 1]
 
 
 def guards_hold(q: Queues, handler: int, t: int) -> bool:

@@ -73,7 +73,7 @@ def can_precede(q: Queues, first: int, second: int) -> bool:
     return q.distances.admits(q.rows.var0[second] + START, q.rows.var0[first] + END, 0)
 
 
-def is_open_place(q: Queues, t: int, before: int, after: int, exact: bool) -> bool:
+def is_open_place(q: Queues, t: int, before: int, after: int) -> bool:
     """Whether a place of token `t` is an end of the sequence, or a gap that may become as long as `t`."""
     engine = q.engine
     rows = q.rows
@@ -86,7 +86,7 @@ def is_open_place(q: Queues, t: int, before: int, after: int, exact: bool) -> bo
     start = rows.var0[after] + START
     if engine.ub[start] < HALF_INF and engine.ub[start] - engine.lb[end] < engine.lb[rows.var0[t] + DURATION]:
         return False
-    if not exact:
+    if not q.exact:
         return True
     need = engine.lb[rows.var0[t] + END] - engine.ub[rows.var0[t] + START]
     return q.distances.admits(start, end, -max(need, 1))

@@ -6,7 +6,7 @@ key that a slot has now is in `token_key` or `variable_key`, NO_KEY if it is in 
 
 from array import array
 
-from runtime.plan.codes import FREED, LIST_ORDER
+from runtime.plan.codes import FREED, LIST_ORDER, OBJECT, ROLE_TOKEN
 from runtime.plan.plan import Plan
 from runtime.plan.rows import LISTS
 from runtime.solver.codes import (
@@ -21,20 +21,26 @@ from runtime.solver.filters import Filters
 from runtime.solver.heap import Heap
 from runtime.solver.supports import Supports
 from runtime.solver.treatments import Treatments
+from runtime.solver.uses import Uses
 from runtime.solver.widening import widened
 
 
 class Queues:
     """The heaps, the loose slots that are looked at in every step, the parked ones, and the levels of everything."""
 
-    def __init__(self, plan: Plan, treatments: Treatments, filters: Filters, supports: Supports, by_size: bool) -> None:
+    def __init__(self, plan: Plan, treatments: Treatments, filters: Filters, supports: Supports, exact: bool) -> None:
         self.plan = plan
         self.rows = plan.rows
         self.engine = plan.engine
         self.treatments = treatments
         self.filters = filters
         self.supports = supports
+        self.exact = exact  # make EUROPA's steps
         self.distances = Distances(plan.engine)
+        self.uses = Uses(plan, self.distances, array("q", [0]))
+        self.takers = Heap()
+        self.found_at = 0
+        self.found_low = 0
         self.probing = False  # a choice is looked for, but not carried out
         self.managers = max(treatments.managers, 1)
         self.heaps = [Heap() for _ in range(treatments.heaps)]
@@ -44,7 +50,7 @@ class Queues:
             if treatments.manager_kind[manager] == UNBOUND_VARIABLE:
                 first = treatments.manager_heap[manager]
                 for heap in range(first, first + treatments.manager_heaps[manager]):
-                    self.sorted_by_size[heap] = 1 if by_size or treatments.heap_priority[heap] != 0.0 else 0
+                    self.sorted_by_size[heap] = 1 if not exact or treatments.heap_priority[heap] != 0.0 else 0
         self.sequence = array("q", [0]) * 64
         self.level = 0
         self.found_manager = NONE
@@ -119,6 +125,21 @@ class Queues:
             self.restriction_room = len(self.engine.restriction_span)
             self.restriction_level = widened(self.restriction_level, self.restriction_room, 0)
         return 0
+
+    def is_decided(self, v: int) -> bool:
+        """Whether a variable is decided.
+
+        In a rule EUROPA only equates the object of a new token with the one that the rule names: unless its class has
+        a single object, it still is to be decided, in a step with one choice. Elsewhere it counts as given.
+        """
+        if not self.engine.is_decided(v):
+            return False
+        if not self.exact or self.engine.decided[v] or self.plan.variable_role[v] != ROLE_TOKEN:
+            return True
+        t = self.plan.variable_owner[v]
+        if self.rows.master[t] < 0 or v - self.rows.var0[t] != OBJECT:
+            return True
+        return self.engine.is_decided(self.plan.class_prototype[self.plan.predicate_class[self.rows.predicate[t]]])
 
     def take_sequence(self, o: int) -> int:
         """Put the tokens of a timeline into `sequence`; how many there are."""

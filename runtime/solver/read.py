@@ -23,6 +23,16 @@ from runtime.solver.configuration import Configuration, FlawFilter, FlawHandler,
 from runtime.solver.element import Element
 from runtime.solver.read_toml import read_toml
 from runtime.solver.read_xml import read_xml
+from runtime.solver.words import (
+    CHOICES,
+    CONSTRAINTS,
+    INSTANT_ORDERS,
+    ITERATIONS,
+    KEEPS,
+    PAIR_ORDERS,
+    POLICIES,
+    TOKEN_ORDERS,
+)
 
 THREATS, OPEN_CONDITIONS, VARIABLES, RESOURCES = MANAGER_NAMES
 HANDLERS = {
@@ -63,15 +73,6 @@ MATCHES = {  # the ways to write an attribute, the one that counts first
     "token_name": ("tokenName",),
 }
 MATCH_NAMES = {name for names in MATCHES.values() for name in names} | {"label", "component"}
-POLICIES = ("PartiallyContained", "PossiblyContained", "TotallyContained")
-CHOICES = ("mergeFirst", "activateFirst", "mergeOnly", "activateOnly")
-TOKEN_ORDERS = ("early", "late", "near", "far", "ascendingKey")
-INSTANT_ORDERS = ("lower", "upper", "most", "least", "earliest", "latest")
-PAIR_WORDS = ("earliest", "latest", "longest", "shortest", "ascendingKey", "descendingKey")
-PAIR_ORDERS = (*(word + end for word in PAIR_WORDS for end in ("Predecessor", "Successor")), "leastImpact")
-KEEPS = ("none", "predecessorNot", "successor", "both")
-CONSTRAINTS = ("precedesOnly", "precedesFirst", "concurrentOnly", "concurrentFirst")
-ITERATIONS = ("pairFirst", "constraintFirst")
 HANDLER_ATTRIBUTES = {
     "HSTSOpenConditionDecisionPoint": {"choice", "order"},
     "HSTSThreatDecisionPoint": {"order"},

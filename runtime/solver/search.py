@@ -14,6 +14,7 @@ from runtime.solver.codes import (
     MOVED,
     NO_CHOICE,
     PLAN,
+    RESOURCE_THREAT,
     TIMEOUT,
 )
 from runtime.solver.configuration import Configuration
@@ -24,7 +25,8 @@ from runtime.solver.queues import Queues
 from runtime.solver.selection import select
 from runtime.solver.supports import Supports
 from runtime.solver.treatments import Treatments
-from runtime.solver.vocabulary import Texts
+from runtime.solver.uses import Uses
+from runtime.solver.vocabulary import Texts, grounded
 from runtime.solver.watching import catch_up, note_levels, refresh
 
 NO_LIMIT = 2**62
@@ -44,7 +46,8 @@ class Solver:
         matching = Matching(configuration, database.program)
         treatments = Treatments(matching, Texts(database), len(database.program.predicates))
         self.filters = Filters(self.plan, treatments, lower, upper)
-        self.queues = Queues(self.plan, treatments, self.filters, Supports(database.program), not europa)
+        self.queues = Queues(self.plan, treatments, self.filters, Supports(database.program), europa)
+        self.queues.uses = Uses(self.plan, self.queues.distances, grounded(database))
         self.stack = Decisions()
         self.blame = Blame(self.queues, self.stack)
         self.steps = 0
@@ -129,7 +132,7 @@ class Solver:
             outcome = NO_CHOICE
             most = q.treatments.handler_most[stack.handler[d]]
             if most == 0 or stack.tries[d] < most:
-                outcome = mend(q, stack, d, self.europa)
+                outcome = mend(q, stack, d)
             if outcome == NO_CHOICE:
                 self.give_up(d)
                 continue
@@ -154,6 +157,9 @@ class Solver:
         q = self.queues
         stack = self.stack
         d = stack.open(q.found_kind, q.found_manager, q.found_item, q.found_handler)
+        if q.found_kind == RESOURCE_THREAT:
+            stack.phase[d] = q.found_low
+            stack.other[d] = q.found_at
         stack.mark[d] = mark(self.plan)
         stack.rows_seen[d] = q.rows_seen
         stack.engine_seen[d] = q.engine_seen

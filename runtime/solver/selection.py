@@ -14,9 +14,9 @@ from runtime.solver.codes import (
     THREAT,
     UNBOUND_VARIABLE,
 )
-from runtime.solver.guarding import guarded_handler
+from runtime.solver.guarding import handler_now
+from runtime.solver.instants import select_instant
 from runtime.solver.queues import Queues
-from runtime.solver.uses import select_resource
 
 
 def select(q: Queues) -> bool:
@@ -30,7 +30,7 @@ def select(q: Queues) -> bool:
         if q.found_priority == BEST_PRIORITY:
             break
         if q.treatments.manager_kind[manager] == RESOURCE_THREAT:
-            select_resource(q, manager)
+            select_instant(q, manager)
             continue
         select_from_heaps(q, manager)
         if q.loose_count:
@@ -45,7 +45,7 @@ def select_effect(q: Queues, manager: int) -> bool:
         slot = heap.top_item()
         t = slot // q.managers
         if q.rows.key[t] == heap.top_key() and q.rows.status[t] == INACTIVE:
-            take(q, manager, t, handler_now(q, q.token_row[slot], t, NONE), BEST_PRIORITY)
+            take(q, manager, t, handler_now(q, q.token_row[slot], t), BEST_PRIORITY)
             return True
         is_stale = q.rows.key[t] != heap.top_key()
         heap.pop()
@@ -62,14 +62,6 @@ def take(q: Queues, manager: int, item: int, handler: int, priority: float) -> i
     q.found_handler = handler
     q.found_priority = priority
     return 0
-
-
-def handler_now(q: Queues, row: int, t: int, v: int) -> int:
-    """The handler of a row that applies now: the most specific one whose guards hold."""
-    first = q.treatments.first_handler[row]
-    if q.treatments.handler_count[row] == 1:
-        return q.treatments.handler_of[first]
-    return guarded_handler(q, row, t, v)
 
 
 def select_from_heaps(q: Queues, manager: int) -> int:
@@ -145,7 +137,7 @@ def is_token_flaw(q: Queues, t: int, kind: int) -> bool:
 
 def is_variable_flaw(q: Queues, v: int) -> bool:
     """Whether a variable exists and is not decided."""
-    return q.engine.kind[v] >= 0 and not q.engine.is_decided(v)
+    return q.engine.kind[v] >= 0 and not q.is_decided(v)
 
 
 def select_loose(q: Queues, manager: int) -> int:
@@ -164,12 +156,12 @@ def select_loose(q: Queues, manager: int) -> int:
             row = q.variable_row[slot]
             if not is_variable_flaw(q, item) or q.filters.keeps_variable(row, item):
                 continue
-            handler = handler_now(q, row, q.filters.token_of(item), item)
+            handler = handler_now(q, row, q.filters.token_of(item))
         else:
             row = q.token_row[slot]
             if not is_token_flaw(q, item, kind) or q.filters.keeps_token(row, item):
                 continue
-            handler = handler_now(q, row, item, NONE)
+            handler = handler_now(q, row, item)
         priority = q.treatments.handler_priority[handler]
         own = tie(q, item, kind, priority)
         if priority < q.found_priority or (is_mine and priority == q.found_priority and own < best_tie):

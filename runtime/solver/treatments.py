@@ -14,9 +14,11 @@ from runtime.solver.codes import (
     FILTER_NOT_SINGLETON,
     NONE,
     ORDER_KEY,
+    PREFER_EARLIEST,
 )
 from runtime.solver.configuration import FlawHandler
 from runtime.solver.matching import CHOICE_CODES, HANDLER_CODES, ORDER_CODES, Matching, TokenKind, Treatment
+from runtime.solver.words import CONSTRAINTS, INSTANT_ORDERS, ITERATIONS
 
 
 class Vocabulary(Protocol):
@@ -67,6 +69,13 @@ class Treatments:
         self.handler_most = array("q", [one.max_choices for one in handlers])
         self.handler_choice = array("q", [CHOICE_CODES[one.choice] for one in handlers])
         self.token_order = array("q", [order_code(one) for one in handlers])
+        self.handler_constraint = array("q", [CONSTRAINTS.index(one.constraint) for one in handlers])
+        self.handler_iterate = array("q", [ITERATIONS.index(one.iterate) for one in handlers])
+        self.pairs_by_default = array("q", [1 if not one.order and one.keep == "none" else 0 for one in handlers])
+        orders = [[INSTANT_ORDERS.index(word) for word in one.order] for one in self.matching.managers]
+        self.instant_order = array("q", [code for codes in orders for code in codes])
+        self.instant_orders = array("q", [sum(map(len, orders[:k])) for k in range(len(orders) + 1)])
+        self.prefers_earliest = array("q", [1 if codes[:1] == [PREFER_EARLIEST] else 0 for codes in orders])
         self.handler_guards = array("q", [len(one.guards) + len(one.master_guards) for one in handlers])
         priorities: list[float] = []
         first, count = [], []
@@ -175,6 +184,15 @@ class Treatments:
         """What a manager of variables does about a member of objects of class `owner`."""
         texts = self.vocabulary
         return self.row(manager, self.matching.member(manager, texts.class_text(owner), texts.member_text(owner, name)))
+
+    def instant_row(self, manager: int, owner: int) -> int:
+        """What a manager of resources does about resources of class `owner`."""
+        key = (manager, owner, NONE, NONE)
+        row = self.variable_rows.get(key)
+        if row is None:
+            row = self.row(manager, self.matching.instant(manager, self.vocabulary.class_text(owner)))
+            self.variable_rows[key] = row
+        return row
 
     def global_row(self, manager: int, name: int) -> int:
         """What a manager of variables does about a global variable."""

@@ -208,7 +208,7 @@ def add_variable(q: Queues, v: int) -> int:
         kind = kind_of(q, owner)
     elif role != ROLE_GLOBAL and role != ROLE_MEMBER:
         return 0
-    if q.engine.is_decided(v):
+    if q.is_decided(v):
         return 0
     for manager in range(q.treatments.managers):
         if q.treatments.manager_kind[manager] != UNBOUND_VARIABLE:

@@ -1,0 +1,160 @@
+"""Choose the instant of a resource to mend next, and order pairs of uses there one after the other."""
+
+from runtime.solver.codes import (
+    APPLIED,
+    BEST_PRIORITY,
+    CONCURRENT_FIRST,
+    CONCURRENT_ONLY,
+    CONSTRAINT_FIRST,
+    FAILED_CHOICE,
+    NO_CHOICE,
+    NONE,
+    PRECEDES_FIRST,
+    PREFER_EARLIEST,
+    PREFER_LATEST,
+    PREFER_LEAST,
+    PREFER_LOWER,
+    PREFER_MOST,
+    PREFER_UPPER,
+)
+from runtime.solver.decisions import Decisions
+from runtime.solver.guarding import handler_now
+from runtime.solver.pairs import sorted_pairs
+from runtime.solver.queues import Queues
+
+
+def select_instant(q: Queues, manager: int) -> int:
+    """Compare the instants of all resources with the best flaw so far.
+
+    With `q.exact` the worst instant by the manager's order, as EUROPA does. Otherwise the first one of the first resource:
+    whatever is ordered there is not undone by what comes later.
+    """
+    uses = q.uses
+    is_mine = False
+    at = 0
+    low = 0
+    excess = 0.0
+    for o in range(q.plan.object_count):
+        if o >= q.plan.resources.object_room or not q.plan.resources.is_resource[o]:
+            continue
+        row = q.treatments.instant_row(manager, q.plan.object_class[o])
+        if row < 0:
+            continue
+        handler = handler_now(q, row, NONE)
+        priority = q.treatments.handler_priority[handler]
+        if priority > q.found_priority or (priority == q.found_priority and not is_mine):
+            continue
+        takes_first = not q.exact or priority == BEST_PRIORITY or q.treatments.prefers_earliest[manager]
+        if not (uses.first_flaw(o) if takes_first else uses.worst_flaw(o)):
+            continue
+        is_rival = is_mine and priority == q.found_priority
+        if is_rival and (not q.exact or not is_better(q, manager, at, low, excess)):
+            continue
+        q.found_manager = manager
+        q.found_kind = q.treatments.manager_kind[manager]
+        q.found_item = o
+        q.found_handler = handler
+        q.found_priority = priority
+        is_mine = True
+        at = uses.found_at
+        low = uses.found_low
+        excess = uses.found_excess
+        if priority == BEST_PRIORITY:
+            break
+    if is_mine:
+        q.found_at = at
+        q.found_low = low
+    return 0
+
+
+def is_better(q: Queues, manager: int, other_at: int, other_low: int, other_excess: float) -> bool:
+    """Whether the instant that was found comes before another one in the order of a manager."""
+    at = q.uses.found_at
+    low = q.uses.found_low
+    excess = q.uses.found_excess
+    for k in range(q.treatments.instant_orders[manager], q.treatments.instant_orders[manager + 1]):
+        code = q.treatments.instant_order[k]
+        difference = 0.0
+        if code == PREFER_EARLIEST:
+            difference = other_at - at
+        elif code == PREFER_LATEST:
+            difference = at - other_at
+        elif code == PREFER_MOST:
+            difference = excess - other_excess
+        elif code == PREFER_LEAST:
+            difference = other_excess - excess
+        elif code == PREFER_LOWER:
+            difference = low - other_low
+        elif code == PREFER_UPPER:
+            difference = other_low - low
+        if difference > 0:
+            return True
+        if difference < 0:
+            return False
+    return False
+
+
+def mend_instant(q: Queues, stack: Decisions, d: int) -> int:
+    """Order the next pair of uses; `cursor` counts pairs (and kinds of order), row by row of the pool."""
+    handler = stack.handler[d]
+    if stack.pool_count[d] < 0:
+        stack.pool_count[d] = 0
+        if q.exact or not q.treatments.pairs_by_default[handler]:
+            sorted_pairs(q, stack, d)
+        else:
+            useful_pairs(q, stack, d)
+    kinds = q.treatments.handler_constraint[handler]
+    rounds = 2 if kinds == PRECEDES_FIRST or kinds == CONCURRENT_FIRST else 1
+    count = stack.pool_count[d]
+    step = stack.cursor[d] + 1
+    while step < count * rounds:
+        if q.treatments.handler_iterate[handler] == CONSTRAINT_FIRST:
+            pair = step // rounds
+            turn = step % rounds
+        else:
+            pair = step % count
+            turn = step // count
+        at = stack.pool_first[d] + pair
+        first = stack.pool_before[at]
+        second = stack.pool_after[at]
+        if q.uses.may_order(first, second):
+            if q.probing:
+                return APPLIED
+            stack.cursor[d] = step
+            stack.tries[d] += 1
+            together = kinds == CONCURRENT_ONLY or (kinds == CONCURRENT_FIRST and turn == 0)
+            together = together or (kinds == PRECEDES_FIRST and turn == 1)
+            return APPLIED if q.uses.order(first, second, 1 if together else 0) else FAILED_CHOICE
+        step += 1
+    return NO_CHOICE
+
+
+def useful_pairs(q: Queues, stack: Decisions, d: int) -> int:
+    """Pairs that can change the level at the instant: what may give later, before what may take by then.
+
+    No schedule within bounds lacks all of them: at the last of the takers by then, one of the givers has given. The
+    giver that may be first comes first, then the taker that has most time left.
+    """
+    uses = q.uses
+    engine = q.engine
+    at = stack.other[d]
+    grounded = uses.grounded[stack.item[d]]
+    uses.gather(stack.item[d])
+    taker = 1 if stack.phase[d] else 0
+    uses.agenda.clear()
+    for k in range(uses.count):
+        v = uses.point[k]
+        if uses.takes[k] != taker and (engine.lb[v] > at if grounded else engine.ub[v] > at):
+            uses.agenda.push(engine.lb[v], v, v)
+    while uses.agenda.length:
+        giver = uses.agenda.top_item()
+        uses.agenda.pop()
+        q.takers.clear()
+        for k in range(uses.count):
+            v = uses.point[k]
+            if uses.takes[k] == taker and engine.lb[v] <= at:
+                q.takers.push(-engine.ub[v], -v, v)
+        while q.takers.length:
+            stack.add_to_pool(d, 0, giver, q.takers.top_item())
+            q.takers.pop()
+    return 0
