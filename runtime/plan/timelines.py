@@ -153,5 +153,5 @@ def assign_object(plan: Plan, o: int, t: int, span: int) -> bool:
         insert(plan, o, t, NONE, span)
     elif not plan.engine.is_decided(rows.var0[t] + OBJECT):
         scope = rows.new_scope(SCOPE_PLACE, t, NONE, NONE, 0, 0)
-        decide(plan, scope, rows.var0[t] + OBJECT, o, span)
+        equate(plan, scope, rows.var0[t] + OBJECT, plan.object_constant[o], span)
     return bool(plan.engine.consistent)
