@@ -26,8 +26,8 @@ from runtime.solver.queues import Queues
 def select_instant(q: Queues, manager: int) -> int:
     """Compare the instants of all resources with the best flaw so far.
 
-    With `q.exact` the worst instant by the manager's order, as EUROPA does. Otherwise the first one of the first resource:
-    whatever is ordered there is not undone by what comes later.
+    With `q.exact` the worst instant by the manager's order, as EUROPA does. Otherwise the first one of the first
+    resource: whatever is ordered there is not undone by what comes later.
     """
     uses = q.uses
     is_mine = False
