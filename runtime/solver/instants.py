@@ -97,12 +97,14 @@ def is_better(q: Queues, manager: int, other_at: int, other_low: int, other_exce
 def mend_instant(q: Queues, stack: Decisions, d: int) -> int:
     """Order the next pair of uses; `cursor` counts pairs (and kinds of order), row by row of the pool."""
     handler = stack.handler[d]
+    if q.exact and q.treatments.pairs_by_default[handler]:
+        return mend_in_order_of_ids(q, stack, d)
     if stack.pool_count[d] < 0:
         stack.pool_count[d] = 0
-        if q.exact or not q.treatments.pairs_by_default[handler]:
-            sorted_pairs(q, stack, d)
-        else:
+        if q.treatments.pairs_by_default[handler]:
             useful_pairs(q, stack, d)
+        else:
+            sorted_pairs(q, stack, d)
     kinds = q.treatments.handler_constraint[handler]
     rounds = 2 if kinds == PRECEDES_FIRST or kinds == CONCURRENT_FIRST else 1
     count = stack.pool_count[d]
@@ -125,6 +127,38 @@ def mend_instant(q: Queues, stack: Decisions, d: int) -> int:
             together = kinds == CONCURRENT_ONLY or (kinds == CONCURRENT_FIRST and turn == 0)
             together = together or (kinds == PRECEDES_FIRST and turn == 1)
             return APPLIED if q.uses.order(first, second, 1 if together else 0) else FAILED_CHOICE
+        step += 1
+    return NO_CHOICE
+
+
+def mend_in_order_of_ids(q: Queues, stack: Decisions, d: int) -> int:
+    """Order the next pair that EUROPA would: by the first timepoint, then by the second one, as they were made."""
+    uses = q.uses
+    lb = q.engine.lb
+    ub = q.engine.ub
+    if stack.pool_count[d] < 0:
+        stack.pool_count[d] = 0
+        uses.gather(stack.item[d])
+        uses.agenda.clear()
+        for k in range(uses.count):
+            uses.agenda.push(uses.point[k], 0, uses.point[k])
+        while uses.agenda.length:
+            stack.add_to_pool(d, 0, uses.agenda.top_item(), 0)
+            uses.agenda.pop()
+    count = stack.pool_count[d]
+    base = stack.pool_first[d]
+    at = stack.other[d]
+    step = stack.cursor[d] + 1
+    while step < count * count:
+        first = stack.pool_before[base + step // count]
+        second = stack.pool_before[base + step % count]
+        is_here = lb[first] <= at <= ub[first] or lb[second] <= at <= ub[second]
+        if is_here and lb[second] <= ub[first] and uses.may_order(first, second):
+            if q.probing:
+                return APPLIED
+            stack.cursor[d] = step
+            stack.tries[d] += 1
+            return APPLIED if uses.order(first, second, 0) else FAILED_CHOICE
         step += 1
     return NO_CHOICE
 

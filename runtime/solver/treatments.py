@@ -71,7 +71,10 @@ class Treatments:
         self.token_order = array("q", [order_code(one) for one in handlers])
         self.handler_constraint = array("q", [CONSTRAINTS.index(one.constraint) for one in handlers])
         self.handler_iterate = array("q", [ITERATIONS.index(one.iterate) for one in handlers])
-        self.pairs_by_default = array("q", [1 if not one.order and one.keep == "none" else 0 for one in handlers])
+        self.pairs_by_default = array(
+            "q",
+            [1 if not one.order and one.keep == "none" and one.constraint == "precedesOnly" else 0 for one in handlers],
+        )
         orders = [[INSTANT_ORDERS.index(word) for word in one.order] for one in self.matching.managers]
         self.instant_order = array("q", [code for codes in orders for code in codes])
         self.instant_orders = array("q", [sum(map(len, orders[:k])) for k in range(len(orders) + 1)])
