@@ -1,9 +1,67 @@
 """Fly real missions: load the models of an agent once, then run the executive from a seed."""
 
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
 from checker.batch.worker import Fly
+from checker.names import relative_name
+from compiler.lower import compile_model
+from nddl_lang.analysis import analyse_file
+from nddl_lang.text.read import read_source
 from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.mission import MissionPrograms, run_mission
+from runtime.executive.outcome import Cause, Conflict, Outcome
+from runtime.solver.configuration import Configuration, default_configuration
+from runtime.solver.read import read_configuration
+
+Reactors = tuple[tuple[str, str | None], ...]  # model and solver of each
 
 
 def load(agent: AgentConfiguration) -> Fly:
     """Compile the models of `agent`; the result flies one mission per call."""
-    raise NotImplementedError("the executive is not there yet")
+    root = Path(agent.root)
+    programs = load_programs(root, tuple((reactor.model, reactor.solver) for reactor in agent.reactors))
+
+    def fly(seed: int) -> Outcome:
+        return _relative(run_mission(agent, programs, seed), root)
+
+    return fly
+
+
+@lru_cache(maxsize=4)
+def load_programs(root: Path, reactors: Reactors) -> MissionPrograms:
+    """The compiled models and the flaw handling of some reactors; kept, for flights that differ in parameters only."""
+    models = {
+        model: compile_model(analyse_file(root / model)) for model in dict.fromkeys(model for model, _ in reactors)
+    }
+    solvers = tuple(load_solver(root, solver) for _, solver in reactors)
+    return MissionPrograms(tuple(models[model] for model, _ in reactors), solvers)
+
+
+def load_solver(root: Path, path: str | None) -> Configuration:
+    """The flaw handling in a file; the default where none is named."""
+    if path is None:
+        return default_configuration()
+    configuration, _ = read_configuration(read_source(root / path))
+    return configuration or default_configuration()
+
+
+def _relative(outcome: Outcome, root: Path) -> Outcome:
+    """The outcome with files named relative to the mission, so that it is the same in every checkout."""
+    abort = outcome.abort
+    if abort is None:
+        return outcome
+    conflict = None if abort.conflict is None else _renamed(abort.conflict, root)
+    repairs = tuple(_renamed(one, root) for one in abort.repairs)
+    return replace(outcome, abort=replace(abort, conflict=conflict, repairs=repairs))
+
+
+def _renamed(conflict: Conflict, root: Path) -> Conflict:
+    return replace(conflict, causes=tuple(_placed(cause, root) for cause in conflict.causes))
+
+
+def _placed(cause: Cause, root: Path) -> Cause:
+    if cause.place is None:
+        return cause
+    return replace(cause, place=replace(cause.place, file=relative_name(cause.place.file, root)))

@@ -1,0 +1,247 @@
+"""Run one mission: the clock, and each tick every reactor in turn; a configuration goes in, an outcome comes out."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.messages import Observation, Request
+from runtime.executive.outcome import Abort, Conflict, Outcome
+from runtime.executive.trace import Trace
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """Why a reactor cannot go on; `conflict` is what broke first, `repairs` what stopped each repair."""
+
+    code: str
+    summary: str
+    timelines: tuple[str, ...]
+    conflict: Conflict | None
+    relaxes: int
+    repairs: tuple[Conflict, ...] = ()
+    causes: tuple[int, ...] = ()
+
+
+class Reactor(Protocol):
+    """A controller that owns timelines and uses those of others (T-REX 1.1)."""
+
+    name: str
+    internal: tuple[str, ...]
+    external: tuple[str, ...]
+    latency: int
+    lookahead: int
+    due: int  # the next tick at which it has something to do; earlier ones cost nothing
+
+    def start_tick(self, tick: int) -> None:
+        """Set "now"."""
+
+    def next_tick(self, tick: int) -> int:
+        """The next tick at which something can happen without news from outside."""
+
+    def notify(self, observation: Observation) -> None:
+        """Take note of what an owner published this tick; it is due then."""
+
+    def synchronise(self, tick: int) -> Failure | None:
+        """Make the plan agree with the world at `tick`, or say why that is impossible."""
+
+    def observations(self, tick: int) -> list[Observation]:
+        """What its own timelines have begun to hold at `tick`."""
+
+    def step(self, tick: int) -> bool:
+        """Make one planning decision; False if there is nothing to decide."""
+
+    def failure(self) -> Failure | None:
+        """Why planning has failed for good, if it has."""
+
+    def requests(self, tick: int) -> list[Request]:
+        """What is to be asked of owners now."""
+
+    def recalls(self) -> list[int]:
+        """Numbers of the requests that are taken back."""
+
+    def accept(self, request: Request) -> None:
+        """Queue a request for one of its timelines."""
+
+    def recall(self, number: int) -> None:
+        """Drop a request that has not started."""
+
+    def unmet_goals(self) -> list[str]:
+        """Mandatory goals that were not achieved."""
+
+
+class OwnershipError(ValueError):
+    """Reactors whose timelines have no owner, several owners, or owners in a circle."""
+
+
+def in_order(reactors: Sequence[Reactor]) -> list[Reactor]:
+    """Reactors with owners before users, otherwise as given (T-REX 1.3).
+
+    Raises `OwnershipError` where a timeline has no owner or several, or where owners depend on each other.
+    """
+    owner: dict[str, Reactor] = {}
+    for reactor in reactors:
+        for timeline in reactor.internal:
+            if timeline in owner:
+                raise OwnershipError(f"`{timeline}` is owned by `{owner[timeline].name}` and by `{reactor.name}`")
+            owner[timeline] = reactor
+    waiting = list(reactors)
+    done: list[Reactor] = []
+    while waiting:
+        for reactor in waiting:
+            for timeline in reactor.external:
+                if timeline not in owner:
+                    raise OwnershipError(f"`{reactor.name}` uses `{timeline}`, which no reactor owns")
+            if all(owner[timeline] in done for timeline in reactor.external):
+                break
+        else:
+            names = ", ".join(f"`{reactor.name}`" for reactor in waiting)
+            raise OwnershipError(f"reactors wait for each other's timelines in a circle: {names}")
+        waiting.remove(reactor)
+        done.append(reactor)
+    return done
+
+
+class Agent:
+    """Reactors under one step clock; `run` carries out the mission once."""
+
+    def __init__(
+        self,
+        configuration: AgentConfiguration,
+        reactors: Sequence[Reactor],
+        goals: Sequence[tuple[int, Request]],
+        seed: int,
+        trace: Trace,
+    ) -> None:
+        self.configuration = configuration
+        self.goals = goals
+        self.reactors = in_order(reactors)
+        self.awake: list[Reactor] = []
+        self.owners = {timeline: reactor for reactor in self.reactors for timeline in reactor.internal}
+        self.seed = seed
+        self.trace = trace
+        self.tick = 0
+
+    def run(self) -> Outcome:
+        """Carry out the mission from tick 0 to the final tick, or to the abort."""
+        abort: Abort | None = None
+        final_tick = self.configuration.final_tick
+        while True:
+            self.trace.tick = self.tick
+            self._send_goals()
+            abort = self._synchronise() or self._deliberate()
+            if abort is not None or self.tick >= final_tick or not self.reactors:
+                break
+            self._dispatch()
+            self._advance()
+        unmet = [goal for reactor in self.reactors for goal in reactor.unmet_goals()]
+        self.trace.phase = "end"
+        if abort is None:
+            self.trace.record("end", "", "", f"mission over at tick {self.tick}")
+        return Outcome(
+            self.seed,
+            self.tick,
+            final_tick,
+            abort,
+            tuple(self.trace.draws),
+            tuple(self.trace.events),
+            tuple(unmet),
+        )
+
+    def _send_goals(self) -> None:
+        """Hand the goals of the mission file that are due to the owners of their timelines."""
+        self.trace.phase = "start"
+        for at, request in self.goals:
+            if at == self.tick and request.timeline in self.owners:
+                self.owners[request.timeline].accept(request)
+
+    def _advance(self) -> None:
+        """Go on to the next tick at which a reactor has something to do or a goal is due."""
+        times = [reactor.due for reactor in self.reactors]
+        times += [at for at, _ in self.goals if at > self.tick]
+        self.tick = min(max(self.tick + 1, min(times, default=self.tick + 1)), self.configuration.final_tick)
+
+    def _synchronise(self) -> Abort | None:
+        """Let reactors settle the present, owners first, each seeing the values of this very tick."""
+        self.awake = []
+        is_last = self.tick == self.configuration.final_tick
+        for reactor in list(self.reactors):
+            if reactor.due > self.tick and not is_last:
+                continue
+            self.awake.append(reactor)
+            self.trace.phase = "start"
+            reactor.start_tick(self.tick)
+            self.trace.phase = "synchronise"
+            failure = reactor.synchronise(self.tick)
+            if failure is not None:
+                if self.configuration.on_failure == "abort_agent":
+                    return self._abort(reactor, failure)
+                self._kill(reactor, failure)
+                continue
+            self.trace.phase = "observe"
+            self._publish(reactor.observations(self.tick))
+        return None
+
+    def _deliberate(self) -> Abort | None:
+        """Let reactors plan, round robin, one decision at a time, until nobody has anything to decide."""
+        self.trace.phase = "deliberate"
+        busy = list(self.awake)
+        while busy:
+            busy = [reactor for reactor in busy if reactor.step(self.tick)]
+        for reactor in list(self.awake):
+            failure = reactor.failure()
+            if failure is not None:
+                if self.configuration.on_failure == "abort_agent":
+                    return self._abort(reactor, failure)
+                self._kill(reactor, failure)
+        return None
+
+    def _dispatch(self) -> None:
+        """Deliver recalls and requests; owners consider them at the next tick (T-REX 1.3)."""
+        self.trace.phase = "dispatch"
+        asked: list[Request] = []
+        for reactor in self.awake:
+            for number in reactor.recalls():
+                for owner in self.reactors:
+                    owner.recall(number)
+            asked += reactor.requests(self.tick)
+        for reactor in self.awake:
+            reactor.due = reactor.next_tick(self.tick)
+        for request in asked:
+            if request.timeline in self.owners:
+                self.owners[request.timeline].accept(request)
+
+    def _publish(self, observations: list[Observation]) -> None:
+        for observation in observations:
+            for reactor in self.reactors:
+                if observation.timeline in reactor.external:
+                    reactor.notify(observation)
+
+    def _abort(self, reactor: Reactor, failure: Failure) -> Abort:
+        """Record that the agent ends early, with its reason."""
+        event = self.trace.record(
+            "abort", reactor.name, ", ".join(failure.timelines), f"{failure.code}: {failure.summary}", failure.causes
+        )
+        return Abort(
+            failure.code,
+            self.tick,
+            reactor.name,
+            failure.timelines,
+            failure.summary,
+            failure.conflict,
+            failure.relaxes,
+            event,
+            failure.repairs,
+        )
+
+    def _kill(self, reactor: Reactor, failure: Failure) -> None:
+        """Take a failed reactor out and tell the users of its timelines (T-REX 1.6, second generation)."""
+        event = self.trace.record(
+            "kill", reactor.name, ", ".join(failure.timelines), f"{failure.code}: {failure.summary}", failure.causes
+        )
+        self.reactors.remove(reactor)
+        self.awake.remove(reactor)
+        for timeline in reactor.internal:
+            del self.owners[timeline]
+            text = self.trace.record("observation", reactor.name, timeline, "Failed", (event,))
+            self._publish([Observation(self.tick, timeline, "Failed", (), text, -1)])

@@ -1,0 +1,159 @@
+"""Run one mission of a configuration: programs and a seed go in, an outcome comes out."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+from compiler.program import DomainConstant, Program
+from runtime.executive.agent import Agent
+from runtime.executive.chance import sample
+from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ParameterConfiguration, Value
+from runtime.executive.messages import Arguments, Request, token_text
+from runtime.executive.outcome import Draw, Outcome
+from runtime.executive.plan_reactor import PlanReactor
+from runtime.executive.planning import Planner
+from runtime.executive.trace import Trace
+from runtime.executive.workbench import Workbench
+from runtime.plan.database import PlanDatabase
+from runtime.solver.configuration import Configuration
+
+INFINITY = 4503599627370495
+
+
+class UnusableModelError(ValueError):
+    """A model that cannot be executed: its script is stopped by a fault, or contradicts itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class MissionPrograms:
+    """The compiled model and the flaw handling of each reactor, in the order of the configuration."""
+
+    programs: tuple[Program, ...]
+    solvers: tuple[Configuration, ...]
+
+
+class World:
+    """What a mission draws from chance; a pure function of seed, parameter and tick, recorded when first used."""
+
+    def __init__(
+        self, configuration: AgentConfiguration, seed: int, overrides: Mapping[str, float], trace: Trace
+    ) -> None:
+        self.parameters = {parameter.name: parameter for parameter in configuration.parameters}
+        self.seed = seed
+        self.overrides = overrides
+        self.trace = trace
+
+    def of(self, reactor: str, program: Program) -> Callable[[str], float | None]:
+        """What the plan database of one reactor asks: the value of a parameter that is in force now, by name."""
+        for site in program.sampled:
+            if site.name not in self.parameters and site.default is not None and site.default.interval is not None:
+                lower, upper = site.default.interval
+                self.parameters[site.name] = ParameterConfiguration(
+                    site.name, float(lower), float(upper), is_whole=site.kind == "int"
+                )
+
+        def draw(name: str) -> float | None:
+            parameter = self.parameters.get(name)
+            if parameter is None:
+                return None
+            if name in self.overrides:
+                value = self.overrides[name]
+                drawn = Draw(name, 0, value, value)
+            else:
+                drawn = sample(parameter, self.seed, self.trace.tick)
+            self.trace.record_draw(reactor, drawn)
+            return drawn.value
+
+        return draw
+
+
+def run_mission(
+    configuration: AgentConfiguration,
+    programs: MissionPrograms,
+    seed: int,
+    overrides: Mapping[str, float] | None = None,
+) -> Outcome:
+    """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
+
+    Raises `UnusableModelError` for a model that does not load, and `ValueError` (of `workbench` and `agent`) for
+    timelines that do not exist or have no single owner.
+    """
+    trace = Trace()
+    world = World(configuration, seed, overrides or {}, trace)
+    reactors: list[PlanReactor] = []
+    for each, program, solver in zip(configuration.reactors, programs.programs, programs.solvers, strict=True):
+        database = PlanDatabase(program, world.of(each.name, program))
+        fault = database.run_script()
+        if fault is not None:
+            raise UnusableModelError(f"{fault.span.source.name}:{fault.span.line}: {fault.message}")
+        bench = Workbench(database, each.name)
+        holds = bench.set_global("TICK_DURATION", configuration.tick)
+        holds = holds and bench.set_global("MISSION_START", 0)
+        holds = holds and bench.set_global("MISSION_END", configuration.final_tick)
+        if not holds or not bench.is_consistent():
+            raise UnusableModelError(f"the model of `{each.name}` contradicts itself before the mission begins")
+        bench.commit()
+        planner = Planner(bench, solver, each.max_depth)
+        reactors.append(PlanReactor(each, bench, planner, configuration.final_tick, trace))
+    owners = {line: (r.latency, r.lookahead) for r in reactors for line in r.internal}
+    for reactor in reactors:
+        reactor.owner_windows = owners
+    goals = []
+    for number, goal in enumerate(configuration.goals):
+        kinds = goal_kinds(configuration, programs, goal)
+        goals.append((goal.at, request_of(goal, -1 - number, trace, kinds)))
+    agent = Agent(configuration, reactors, goals, seed, trace)
+    return agent.run()
+
+
+def goal_kinds(
+    configuration: AgentConfiguration, programs: MissionPrograms, goal: GoalConfiguration
+) -> dict[str, tuple[str, str]]:
+    """Kind and type name of each parameter of a goal's predicate, in the model of the timeline's owner."""
+    for reactor, program in zip(configuration.reactors, programs.programs, strict=True):
+        if goal.timeline not in reactor.internal:
+            continue
+        classes = {name: code.type_name for name, code in program.globals}
+        wanted = f"{classes.get(goal.timeline, '')}.{goal.predicate}"
+        for predicate in program.predicates:
+            if predicate.name == wanted:
+                return {p.name: (p.type.kind, p.type.type_name) for p in predicate.parameters}
+    return {}
+
+
+def request_of(goal: GoalConfiguration, number: int, trace: Trace, kinds: Mapping[str, tuple[str, str]]) -> Request:
+    """A goal of the mission file as a request; `kinds` gives kind and type name of each parameter."""
+    arguments: Arguments = tuple(
+        (name, _domain(value, *kinds.get(name, ("float", "float")))) for name, value in goal.parameters
+    )
+    event = trace.record("request", "", goal.timeline, token_text(goal.predicate, arguments))
+    return Request(
+        number,
+        goal.timeline,
+        goal.predicate,
+        arguments,
+        _bounds(goal.start),
+        _bounds(goal.end),
+        _bounds(goal.duration),
+        "",
+        event,
+        goal.mandatory,
+    )
+
+
+def _bounds(given: tuple[float, float] | None) -> tuple[int, int]:
+    if given is None:
+        return (-INFINITY, INFINITY)
+    return (_whole(given[0]), _whole(given[1]))
+
+
+def _whole(bound: float) -> int:
+    return int(max(-INFINITY, min(bound, INFINITY)))
+
+
+def _domain(value: Value | tuple[float, float], kind: str, type_name: str) -> DomainConstant:
+    if isinstance(value, tuple):
+        return DomainConstant(kind, type_name, value, None)
+    if isinstance(value, (bool, str)):
+        return DomainConstant(kind, type_name, None, (value,))
+    number = float(value) if kind == "float" else value
+    return DomainConstant(kind, type_name, (number, number), None)

@@ -1,0 +1,341 @@
+"""A reactor that plans with a plan database: it synchronises, deliberates, asks owners for what it needs, repairs."""
+
+from runtime.executive.agent import Failure
+from runtime.executive.configuration import ReactorConfiguration
+from runtime.executive.messages import Observation, Request, token_text
+from runtime.executive.outcome import Conflict
+from runtime.executive.planning import Planner
+from runtime.executive.repair import relax
+from runtime.executive.settle import Unsettled, settle
+from runtime.executive.story import conflict_of
+from runtime.executive.timelines import NOTHING, Goal, TimelineState
+from runtime.executive.trace import Trace
+from runtime.executive.workbench import SPAN_REQUEST, Workbench
+
+INFINITY = 4503599627370495
+
+
+class PlanReactor:
+    """Keeps the plan of its own timelines, and what it expects of others', in step with the world."""
+
+    def __init__(
+        self, configuration: ReactorConfiguration, bench: Workbench, planner: Planner, final_tick: int, trace: Trace
+    ) -> None:
+        self.name = configuration.name
+        self.internal = configuration.internal
+        self.external = configuration.external
+        self.latency = configuration.latency
+        self.lookahead = configuration.lookahead
+        self.bench = bench
+        self.planner = planner
+        self.final_tick = final_tick
+        self.trace = trace
+        self.max_steps = configuration.max_steps
+        self.timelines = [bench.timeline(name, True) for name in self.internal]
+        self.timelines += [bench.timeline(name, False) for name in self.external]
+        self.by_name = {line.name: line for line in self.timelines}
+        self.waiting: list[Request] = []
+        self.goals: list[Goal] = []
+        self.sent: dict[int, Request] = {}  # by the key of the token that was sent
+        self.sent_tokens: dict[int, int] = {}
+        self.taken_back: list[int] = []
+        self.tick = 0
+        self.due = 0
+        self.relaxes = 0
+        self.relaxed_at = NOTHING
+        self.steps_left = self.max_steps
+        self.broken: Failure | None = None
+        self.owner_windows: dict[str, tuple[int, int]] = {}
+        self.unmet: list[str] = []
+
+    @property
+    def is_early(self) -> bool:
+        """Whether planned tokens start as soon as they may: a simulator keeps what holds, a planner gets on."""
+        return self.lookahead > 1
+
+    # ---- the tick ----
+
+    def start_tick(self, tick: int) -> None:
+        """Set "now", and turn the requests whose time has come into goals."""
+        self.tick = tick
+        self.steps_left = self.max_steps
+        self.bench.set_clock(tick)
+        reach = tick + self.latency + max(self.lookahead, 1)
+        later = []
+        for request in self.waiting:
+            if request.start[0] <= reach:
+                self._post(request, tick)
+            else:
+                later.append(request)
+        self.waiting = later
+
+    def notify(self, observation: Observation) -> None:
+        """Take note of what an owner published this tick; the last word counts."""
+        self.by_name[observation.timeline].news = observation
+        self.due = observation.tick
+
+    def next_tick(self, tick: int) -> int:
+        """The next tick at which something can happen here without news from outside.
+
+        In the temporal network "later than now" fails for a time exactly when its latest value is reached, so between
+        such ticks, earliest starts and the moments at which tokens come into the planning window nothing changes.
+        """
+        bench = self.bench
+        if self.steps_left <= 0 or bench.reads_clock():
+            return tick + 1
+        reach = self.latency + max(self.lookahead, 1)
+        times = [float(request.start[0] - reach) for request in self.waiting]
+        for line in self.timelines:
+            if line.current != NOTHING:
+                times.append(bench.upper(bench.end(line.current)))
+            for token in bench.planned_after(line.object_id, line.current):
+                start = bench.start(token)
+                times.append(bench.upper(start))
+                if not bench.is_blocked(token, line.current, tick) and (line.is_internal or self._is_unasked(token)):
+                    times.append(bench.lower(start))
+        for token in bench.undecided():
+            times.append(bench.upper(bench.start(token)))
+            if bench.lower(bench.start(token)) > tick + reach:
+                times.append(bench.lower(bench.start(token)) - reach)
+        return int(max(tick + 1, min([self.final_tick, *times])))
+
+    def _is_unasked(self, token: int) -> bool:
+        return self.bench.key(token) not in self.sent
+
+    def synchronise(self, tick: int) -> Failure | None:
+        """Settle the present; if that fails, repair: first keep the past, then forget it (T-REX 1.4, 1.9)."""
+        causes = tuple(line.news.event for line in self.timelines if line.news is not None)
+        events = tuple(line.event for line in self.timelines if line.event != NOTHING and not line.is_internal)
+        failures: list[Unsettled] = []
+        for attempt in range(3):
+            if attempt:
+                self.trace.phase = "repair"
+                stage = "keeping the past" if attempt == 1 else "forgetting the past"
+                self.trace.record("relax", self.name, "", f"{stage}: {failures[-1].summary}", causes)
+                self.relaxes += 1
+                if not relax(self.bench, self.timelines, self._live_goals(), tick, forget=attempt == 2):
+                    what = "the plan cannot be relaxed"
+                    failures.append(Unsettled(failures[0].code, (), what, conflict_of(self.bench)))
+                    break
+            mark = self.bench.mark()
+            failure = settle(self.bench, self.planner, self.timelines, tick, self.is_early)
+            if failure is None:
+                self.planner.keep()
+                self._close_goals(tick)
+                return None
+            failures.append(failure)
+            self.bench.rewind_to(mark)
+            self.bench.commit()
+        first = failures[0]
+        repairs = _distinct(first.conflict, failures[1:])
+        lines = first.timelines or tuple(line.name for line in self.timelines if line.is_internal)
+        return Failure(first.code, first.summary, lines, first.conflict, self.relaxes, repairs, causes or events[:1])
+
+    def observations(self, tick: int) -> list[Observation]:
+        """What its own timelines have begun to hold at `tick`; also clears the news that was folded in."""
+        published = []
+        for line in self.timelines:
+            if line.news is not None:
+                line.event = line.news.event
+                line.news = None
+            if line.is_internal and line.current != NOTHING and self.bench.started_at(line.current) == tick:
+                arguments = self.bench.arguments(line.current)
+                predicate = self.bench.short_name(line.current)
+                causes = self._causes_of(line)
+                line.event = self.trace.record(
+                    "observation", self.name, line.name, token_text(predicate, arguments), causes
+                )
+                published.append(Observation(tick, line.name, predicate, arguments, line.event, line.current))
+        return published
+
+    # ---- planning ----
+
+    def step(self, tick: int) -> bool:
+        """Make one decision inside the planning window; when nothing is left, keep the plan."""
+        if self.broken is not None or self.steps_left <= 0:
+            return False
+        self.steps_left -= 1
+        if self.steps_left == 0:
+            self.planner.keep()
+            return False
+        end = min(tick + self.latency + max(self.lookahead, 1), self.final_tick)
+        match self.planner.deliberate(tick, end):
+            case "decided":
+                return True
+            case "done":
+                self._report_rejected()
+                return False
+            case _:
+                return self._replan(tick)
+
+    def _replan(self, tick: int) -> bool:
+        """No plan inside the window: relax once and plan again; failing that, give up (T-REX 1.11, F4)."""
+        what, conflict = self.planner.reason()
+        if self.steps_left > 0 and self.relaxed_at != tick:
+            self.relaxed_at = tick
+            self.relaxes += 1
+            self.trace.record("relax", self.name, "", f"no plan: {what}")
+            if relax(self.bench, self.timelines, self._live_goals(), tick + 1, forget=False):
+                return True
+        self.broken = Failure("F4", what, self.internal, conflict, self.relaxes)
+        return False
+
+    def failure(self) -> Failure | None:
+        """Why planning has failed for good, if it has."""
+        return self.broken
+
+    # ---- goals ----
+
+    def accept(self, request: Request) -> None:
+        """Queue a request for one of its timelines."""
+        self.waiting.append(request)
+        self.due = min(self.due, max(self.tick + 1, request.start[0] - self.latency - max(self.lookahead, 1)))
+
+    def recall(self, number: int) -> None:
+        """Drop a request that has not started."""
+        self.waiting = [request for request in self.waiting if request.number != number]
+        for goal in self.goals:
+            if goal.request.number == number and not goal.is_closed and self.bench.is_alive(goal.token, goal.token_key):
+                if not self.bench.is_started(goal.token, self.tick):
+                    goal.is_closed = True
+                    self.bench.remove([goal.token])
+
+    def _post(self, request: Request, tick: int) -> None:
+        """Make a rejectable token of a request, or refuse it."""
+        line = self.by_name[request.timeline]
+        predicate = line.predicates.get(request.predicate, NOTHING)
+        text = token_text(request.predicate, request.arguments)
+        if predicate == NOTHING:
+            self._refuse(request, f"{text}: `{request.timeline}` has no predicate `{request.predicate}`")
+            return
+        mark = self.bench.mark()
+        token = self.bench.new_goal(predicate, line.object_id)
+        bench = self.bench
+        holds = (
+            bench.at_least(bench.start(token), max(request.start[0], tick), SPAN_REQUEST, token)
+            and bench.at_most(bench.start(token), request.start[1], SPAN_REQUEST, token)
+            and bench.within(bench.end(token), request.end, SPAN_REQUEST, token)
+            and bench.within(bench.duration(token), request.duration, SPAN_REQUEST, token)
+            and bench.restrict_parameters(token, request.arguments, SPAN_REQUEST)
+        )
+        if not holds:
+            bench.rewind_to(mark)
+            bench.commit()
+            self._refuse(request, f"{text}: its arguments do not fit")
+            return
+        bench.commit()
+        bench.remember_request(token)
+        self.goals.append(Goal(request, token, bench.key(token)))
+
+    def _refuse(self, request: Request, what: str) -> None:
+        self.trace.record("reject", self.name, request.timeline, what, (request.event,))
+        if request.is_mandatory:
+            self.unmet.append(what)
+
+    def _live_goals(self) -> list[Goal]:
+        return [goal for goal in self.goals if not goal.is_closed]
+
+    def _close_goals(self, tick: int) -> None:
+        """Goals that have run are done; goals that are too late are given up."""
+        for goal in self._live_goals():
+            if not self.bench.is_alive(goal.token, goal.token_key):
+                goal.is_closed = True
+                self._refuse(goal.request, f"{token_text(goal.request.predicate, goal.request.arguments)}: too late")
+            elif self.bench.is_over(goal.token, tick):
+                goal.is_closed = True
+        if len(self.goals) > 64:
+            self.goals = self._live_goals()
+
+    def _report_rejected(self) -> None:
+        for goal in self._live_goals():
+            if self.bench.is_rejected(goal.token):
+                goal.is_closed = True
+                text = token_text(goal.request.predicate, goal.request.arguments)
+                self._refuse(goal.request, f"{text}: the planner found no place for it")
+
+    def unmet_goals(self) -> list[str]:
+        """Mandatory goals that were refused, or that have not run to their end by now."""
+        left = [
+            token_text(goal.request.predicate, goal.request.arguments)
+            for goal in self._live_goals()
+            if goal.request.is_mandatory
+        ]
+        waiting = [token_text(r.predicate, r.arguments) for r in self.waiting if r.is_mandatory]
+        return self.unmet + left + waiting
+
+    # ---- dispatch ----
+
+    def requests(self, tick: int) -> list[Request]:
+        """Planned tokens on others' timelines that are due to be asked for (T-REX 1.8).
+
+        A reactive owner (look-ahead 1 or less) is asked when the token could start now; a planning owner as soon as
+        the token's earliest start lies inside its window.
+        """
+        asked = []
+        for line in self.timelines:
+            if line.is_internal or not self.bench.accepts_requests(line.object_id):
+                continue
+            latency, lookahead = self.owner_windows.get(line.name, (0, 1))
+            reach = tick if lookahead <= 1 else tick + latency + lookahead
+            for token in self.bench.planned_after(line.object_id, line.current):
+                start = self.bench.start(token)
+                # What has not started may do so from the next tick on, so "now" reads as one later.
+                if self.bench.lower(start) > reach + 1:
+                    break
+                key = self.bench.key(token)
+                if key in self.sent or self.bench.is_blocked(token, line.current, tick):
+                    continue
+                asked.append(self._ask(line, token, tick))
+                self.sent[key] = asked[-1]
+                self.sent_tokens[key] = token
+        return asked
+
+    def _ask(self, line: TimelineState, token: int, tick: int) -> Request:
+        bench = self.bench
+        predicate = bench.short_name(token)
+        arguments = bench.arguments(token)
+        causes = tuple(other.event for other in self.timelines if not other.is_internal and other.event != NOTHING)
+        event = self.trace.record("request", self.name, line.name, token_text(predicate, arguments), causes[:1])
+        return Request(
+            event,
+            line.name,
+            predicate,
+            arguments,
+            (tick + 1, int(bench.upper(bench.start(token)))),
+            (-INFINITY, int(bench.upper(bench.end(token)))),
+            (1, INFINITY),
+            self.name,
+            event,
+        )
+
+    def recalls(self) -> list[int]:
+        """Numbers of the requests whose token has lost its place in the plan."""
+        numbers = []
+        for key, request in list(self.sent.items()):
+            token = self.sent_tokens[key]
+            if not self.bench.is_alive(token, key):
+                self.trace.record(
+                    "recall", self.name, request.timeline, token_text(request.predicate, request.arguments)
+                )
+                numbers.append(request.number)
+            elif not self.bench.is_started(token, self.tick):
+                continue
+            del self.sent[key]
+            del self.sent_tokens[key]
+        return numbers
+
+    def _causes_of(self, line: TimelineState) -> tuple[int, ...]:
+        """The request that the current token answers, and what else was published before."""
+        for goal in self.goals:
+            if self.bench.is_alive(goal.token, goal.token_key) and self.bench.stands_for(goal.token) == line.current:
+                return (goal.request.event,)
+        return (line.event,) if line.event != NOTHING else ()
+
+
+def _distinct(first: Conflict | None, failures: list[Unsettled]) -> tuple[Conflict, ...]:
+    """The conflicts of later attempts that differ from the first."""
+    found: list[Conflict] = []
+    for failure in failures:
+        if failure.conflict is not None and failure.conflict != first and failure.conflict not in found:
+            found.append(failure.conflict)
+    return tuple(found)

@@ -1,0 +1,103 @@
+"""Let a reactor's solver plan ahead, or settle the flaws of the present, each within its window of time."""
+
+from dataclasses import replace
+
+from runtime.executive.outcome import Conflict
+from runtime.executive.story import conflict_of
+from runtime.executive.workbench import Workbench
+from runtime.plan.codes import FLAG_REJECTABLE, INACTIVE, ROLE_LOCAL, ROLE_TOKEN
+from runtime.solver.codes import EXHAUSTED, PLAN, TIMEOUT
+from runtime.solver.configuration import Configuration, FlawFilter
+from runtime.solver.filters import Scope
+from runtime.solver.search import Solver
+
+PRESENT_STEPS = 200
+
+
+class Window(Scope):
+    """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7), or, for the present, that hold at `tick`."""
+
+    def __init__(self, bench: Workbench) -> None:
+        self.bench = bench
+        self.tick = 0
+        self.end = 0
+        self.is_present = False
+
+    def admits_token(self, t: int) -> bool:
+        """Whether flaws of `t` are to be mended now."""
+        bench = self.bench
+        if self.is_present:
+            return bench.upper(bench.start(t)) <= self.tick < bench.upper(bench.end(t))
+        return bench.lower(bench.start(t)) <= self.end and bench.upper(bench.end(t)) >= self.tick
+
+    def admits_variable(self, v: int) -> bool:
+        """Whether `v` is to be decided now: globals always, others with their token."""
+        plan = self.bench.database.plan
+        if plan.variable_role[v] in (ROLE_TOKEN, ROLE_LOCAL):
+            return self.admits_token(plan.variable_owner[v])
+        return not self.is_present
+
+
+class Planner:
+    """The solver of one reactor; its decisions are made final at the end of each episode."""
+
+    def __init__(self, bench: Workbench, configuration: Configuration, max_depth: int) -> None:
+        self.bench = bench
+        self.window = Window(bench)
+        # The window replaces the horizon that a configuration may filter by.
+        filters = tuple(f for f in configuration.filters if f.component != "HorizonFilter")
+        managers = tuple(
+            replace(m, filters=tuple(f for f in m.filters if f.component != "HorizonFilter"))
+            for m in configuration.managers
+        )
+        clock = (FlawFilter(match=replace(FlawFilter().match, variable="AGENT_CLOCK")),)
+        self.solver = Solver(
+            bench.database, replace(configuration, filters=filters + clock, managers=managers), 0, 1, False
+        )
+        self.solver.set_scope(self.window)
+        self.max_depth = max_depth
+        self.is_fresh = True
+
+    def deliberate(self, tick: int, end: int) -> str:
+        """Make one decision inside [tick, end]: "decided", "done" when nothing is left, or "exhausted"."""
+        if self.is_fresh:
+            self.window.tick, self.window.end, self.window.is_present = tick, end, False
+            self.solver.refresh()
+            self.is_fresh = False
+        outcome = self.solver.step()
+        if outcome == PLAN:
+            self.keep()
+            return "done"
+        if outcome in (EXHAUSTED, TIMEOUT) or self.solver.depth > self.max_depth:
+            self.solver.take_back()
+            self.is_fresh = True
+            return "exhausted"
+        return "decided"
+
+    def keep(self) -> None:
+        """Make what has been decided final."""
+        self.solver.keep()
+        self.is_fresh = True
+
+    def settle_present(self, tick: int) -> bool:
+        """Mend all flaws of what holds at `tick`, or none; the decisions wait for `keep`."""
+        self.window.tick, self.window.end, self.window.is_present = tick, tick, True
+        self.solver.refresh()
+        self.is_fresh = True
+        if self.solver.solve(PRESENT_STEPS, PRESENT_STEPS) == PLAN:
+            return True
+        self.solver.take_back()
+        return False
+
+    def reason(self) -> tuple[str, Conflict | None]:
+        """Why the search cannot go on: the first token that must hold and cannot, and what stands against it."""
+        bench, rows = self.bench, self.bench.rows
+        for t in bench.all_tokens():
+            if rows.status[t] != INACTIVE or rows.flags[t] & FLAG_REJECTABLE or not self.window.admits_token(t):
+                continue
+            mark = bench.mark()
+            conflict = None if bench.activate(t) else conflict_of(bench)
+            bench.rewind_to(mark)
+            bench.release(mark)
+            return f"no place for {bench.token_name(t)}", conflict
+        return "no plan inside the window", None

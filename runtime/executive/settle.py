@@ -1,0 +1,243 @@
+"""Make a reactor's plan agree with the present: fold in what was observed, complete what it owns (T-REX 1.4).
+
+Each timeline is a decision with a few choices; decisions are taken in the order of the timelines and taken back
+chronologically. The whole is bounded by `LIMIT` tries, so that a present that cannot be explained is found out soon.
+"""
+
+from dataclasses import dataclass
+
+from runtime.executive.messages import Observation
+from runtime.executive.outcome import Conflict
+from runtime.executive.planning import Planner
+from runtime.executive.story import conflict_of
+from runtime.executive.timelines import NOTHING, TimelineState
+from runtime.executive.workbench import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_OBSERVATION, Workbench
+
+LIMIT = 200
+EXTEND, NEXT, NEW, FACT, MEET = "extend", "next", "new", "fact", "meet"
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """One way to settle a timeline: `token` is kept, started or met; `predicate` is that of a new token."""
+
+    kind: str
+    token: int
+    predicate: int
+
+
+@dataclass(frozen=True, slots=True)
+class Unsettled:
+    """The present cannot be explained: the failure code, in words where, and the conflict."""
+
+    code: str
+    timelines: tuple[str, ...]
+    summary: str
+    conflict: Conflict | None
+
+
+def settle(
+    bench: Workbench, planner: Planner, timelines: list[TimelineState], tick: int, is_early: bool
+) -> Unsettled | None:
+    """Settle all `timelines` at `tick`; on success each has its current token and the plan is consistent.
+
+    `is_early`: a planned token starts as soon as it may (T-REX 1.5, first generation); else the present one is kept
+    as long as it may. A requested token always starts as soon as it may. On failure the caller rewinds.
+    """
+    failed = persist(bench, timelines, tick)
+    if failed is not None:
+        return failed
+    return _Search(bench, planner, timelines, tick, is_early).run()
+
+
+def persist(bench: Workbench, timelines: list[TimelineState], tick: int) -> Unsettled | None:
+    """No news means no change: what is observed on other reactors' timelines goes on; a new value ends it."""
+    for line in timelines:
+        if line.is_internal or line.current == NOTHING:
+            continue
+        if line.news is None:
+            if bench.is_over(line.current, tick):
+                continue
+            if not (bench.at_least(bench.end(line.current), tick + 1, SPAN_OBSERVATION, line.current)):
+                what = f"{bench.token_name(line.current)} goes on at tick {tick}, later than the plan allows"
+                return Unsettled("F1", (line.name,), what, conflict_of(bench))
+        elif not bench.fix(bench.end(line.current), tick, SPAN_OBSERVATION, line.current):
+            what = f"{bench.token_name(line.current)} ended at tick {tick}, when the plan does not allow it"
+            return Unsettled("F2", (line.name,), what, conflict_of(bench))
+    return None
+
+
+class _Search:
+    """Depth-first search over one decision per timeline, then over the flaws of the present."""
+
+    def __init__(
+        self, bench: Workbench, planner: Planner, timelines: list[TimelineState], tick: int, is_early: bool
+    ) -> None:
+        self.bench = bench
+        self.planner = planner
+        self.tick = tick
+        self.is_early = is_early
+        self.timelines = timelines
+        self.lines = [line for line in timelines if not line.is_internal and line.news is not None]
+        self.lines += [line for line in timelines if line.is_internal]
+        self.made: list[int] = []
+        self.first: Unsettled | None = None
+
+    def run(self) -> Unsettled | None:
+        """Try choices until all timelines and the flaws of the present are settled."""
+        bench = self.bench
+        open_choices: list[list[Choice]] = []
+        marks: list[int] = []
+        self.made = []
+        tries = 0
+        while True:
+            depth = len(open_choices)
+            if depth == len(self.lines):
+                if self._finish():
+                    self._note()
+                    return None
+                if not self._back(open_choices, marks):
+                    return self.first
+            else:
+                open_choices.append(self.choices(self.lines[depth]))
+                marks.append(bench.mark())
+                self.made.append(NOTHING)
+            while True:
+                tries += 1
+                if tries > LIMIT:
+                    return self.first
+                depth = len(open_choices) - 1
+                if not open_choices[depth]:
+                    open_choices.pop()
+                    marks.pop()
+                    self.made.pop()
+                    if not self._back(open_choices, marks):
+                        return self.first
+                    continue
+                choice = open_choices[depth].pop(0)
+                if self.apply(self.lines[depth], choice):
+                    break
+                self._blame(self.lines[depth], choice)
+                bench.rewind_to(marks[depth])
+
+    def _back(self, open_choices: list[list[Choice]], marks: list[int]) -> bool:
+        """Undo the latest decision that stands; False if there is none."""
+        if not marks:
+            if self.first is None:
+                what = "what is asked of the present cannot be met"
+                self.first = Unsettled("F3", (), what, conflict_of(self.bench))
+            return False
+        self.bench.rewind_to(marks[-1])
+        return True
+
+    def choices(self, line: TimelineState) -> list[Choice]:
+        """What may hold on `line` now, best first (T-REX 1.4)."""
+        bench, tick, current = self.bench, self.tick, line.current
+        if not line.is_internal:
+            assert line.news is not None
+            predicate = line.predicates.get(line.news.predicate, line.predicates.get("undefined", NOTHING))
+            meets = [
+                Choice(MEET, token, predicate)
+                for token in bench.planned_after(line.object_id, current)
+                if bench.predicate_of(token) == predicate
+                and bench.lower(bench.start(token)) <= tick <= bench.upper(bench.start(token))
+            ]
+            return [*meets, Choice(FACT, NOTHING, predicate)]
+        extend: list[Choice] = []
+        if current != NOTHING:
+            if bench.lower(bench.end(current)) > tick:
+                return [Choice(EXTEND, current, NOTHING)]
+            if bench.upper(bench.end(current)) > tick:
+                extend = [Choice(EXTEND, current, NOTHING)]
+        starts = [
+            Choice(NEXT, token, NOTHING)
+            for token in bench.planned_after(line.object_id, current)[:1]
+            if bench.lower(bench.start(token)) <= tick <= bench.upper(bench.start(token))
+        ]
+        is_due = bool(starts) and (self.is_early or bench.is_requested(starts[0].token))
+        new = [Choice(NEW, NOTHING, p) for p in ([line.default, *line.others] if line.default >= 0 else line.others)]
+        return [*starts, *extend, *new] if is_due else [*extend, *starts, *new]
+
+    def apply(self, line: TimelineState, choice: Choice) -> bool:
+        """Carry out `choice`; False on conflict."""
+        bench, tick = self.bench, self.tick
+        token = choice.token
+        match choice.kind:
+            case "extend":
+                holds = bench.at_least(bench.end(token), tick + 1, SPAN_EXECUTIVE, token)
+            case "next":
+                holds = bench.fix(bench.start(token), tick, SPAN_EXECUTIVE, token) and bench.at_least(
+                    bench.end(token), tick + 1, SPAN_EXECUTIVE, token
+                )
+            case "new":
+                token = bench.new_token(choice.predicate, line.object_id, is_fact=False)
+                holds = (
+                    bench.fix(bench.start(token), tick, SPAN_EXECUTIVE, token)
+                    and bench.at_least(bench.end(token), tick + 1, SPAN_EXECUTIVE, token)
+                    and bench.activate(token)
+                    and bench.place_after(line.object_id, token, line.current)
+                )
+            case _:
+                assert line.news is not None
+                token = self._observe(line, line.news, choice)
+                holds = token != NOTHING
+        self.made[len(self.made) - 1] = token
+        return holds
+
+    def _observe(self, line: TimelineState, news: Observation, choice: Choice) -> int:
+        """Insert what was observed as a fact, or let it meet the planned token `choice.token`; NOTHING on conflict."""
+        bench, tick = self.bench, self.tick
+        fact = bench.new_token(choice.predicate, line.object_id, is_fact=True)
+        holds = bench.fix(bench.start(fact), tick, SPAN_OBSERVATION, fact)
+        holds = holds and bench.at_least(bench.end(fact), tick + 1, SPAN_OBSERVATION, fact)
+        holds = holds and bench.restrict_parameters(fact, news.arguments, SPAN_OBSERVATION)
+        if not holds:
+            return NOTHING
+        if choice.kind == MEET:
+            return choice.token if bench.merge(fact, choice.token) else NOTHING
+        if bench.activate(fact) and bench.place_after(line.object_id, fact, line.current):
+            return fact
+        return NOTHING
+
+    def _finish(self) -> bool:
+        """Let what has not started start later, and settle the flaws of the present."""
+        bench, tick = self.bench, self.tick
+        for token in self.waiting():
+            if not bench.at_least(bench.start(token), tick + 1, SPAN_CLOCK, token):
+                self._fail("F1", f"{bench.token_name(token)} was to start by tick {tick} and did not")
+                return False
+        if not self.planner.settle_present(tick):
+            what, conflict = self.planner.reason()
+            if self.first is None:
+                self.first = Unsettled("F3", (), what, conflict)
+            return False
+        return True
+
+    def waiting(self) -> list[int]:
+        """Tokens that have not begun: all behind the current one of a timeline, and others that still may wait."""
+        decided = dict(zip((line.name for line in self.lines), self.made, strict=True))
+        found: dict[int, None] = {}
+        for line in self.timelines:
+            found |= dict.fromkeys(self.bench.planned_after(line.object_id, decided.get(line.name, line.current)))
+        return list(found | dict.fromkeys(self.bench.unplaced(self.tick)))
+
+    def _note(self) -> None:
+        """Keep what was decided."""
+        for line, token in zip(self.lines, self.made, strict=True):
+            line.current = token
+
+    def _blame(self, line: TimelineState, choice: Choice) -> None:
+        code = "F3" if line.is_internal else "F2"
+        match choice.kind:
+            case "extend":
+                what = f"{self.bench.token_name(choice.token)} cannot go on at tick {self.tick}"
+            case "next" | "meet":
+                what = f"{self.bench.token_name(choice.token)} cannot start at tick {self.tick}"
+            case _:
+                what = f"no {self.bench.predicate_name(choice.predicate)} can start at tick {self.tick}"
+        if self.first is None:
+            self.first = Unsettled(code, (line.name,), what, conflict_of(self.bench))
+
+    def _fail(self, code: str, what: str) -> None:
+        if self.first is None:
+            self.first = Unsettled(code, (), what, conflict_of(self.bench))

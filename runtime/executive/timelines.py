@@ -1,0 +1,35 @@
+"""What a reactor knows of each of its timelines: who owns it, what holds on it now, what was asked for."""
+
+from runtime.executive.messages import Observation, Request
+
+NOTHING = -1
+
+
+class TimelineState:
+    """One timeline of one reactor; `current` is the token that holds now, NOTHING before the first."""
+
+    __slots__ = ("current", "default", "event", "is_internal", "name", "news", "object_id", "others", "predicates")
+
+    def __init__(self, name: str, object_id: int, is_internal: bool, default: int, predicates: dict[str, int]) -> None:
+        self.name = name
+        self.object_id = object_id
+        self.is_internal = is_internal
+        self.default = default
+        self.predicates = predicates
+        # What an internal timeline may hold when nothing else explains now (T-REX 1.4, choice OTHER).
+        self.others = [p for name, p in predicates.items() if p != default and name not in ("undefined", "Failed")]
+        self.current = NOTHING
+        self.event = NOTHING
+        self.news: Observation | None = None
+
+
+class Goal:
+    """A request that its owner has turned into a token."""
+
+    __slots__ = ("is_closed", "request", "token", "token_key")
+
+    def __init__(self, request: Request, token: int, token_key: int) -> None:
+        self.request = request
+        self.token = token
+        self.token_key = token_key
+        self.is_closed = False
