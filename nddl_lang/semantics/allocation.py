@@ -32,9 +32,11 @@ def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | No
         context.deferred.append(Deferred(new, tuple(types)))
         return None
     owner = find_defined_class(context, new.class_name)
-    if owner is None or not _choose_for(context, owner, new, types):
+    if owner is None:
+        context.world.put_faulty("new")
         return None
-    if scope.place is Place.SCRIPT:
+    is_sound = _choose_for(context, owner, new, types)
+    if is_sound and scope.place is Place.SCRIPT:
         closed = context.world.closed_at(owner.name)
         if closed is not None:
             notes = (Note("it is closed here", closed),)
@@ -42,7 +44,7 @@ def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | No
     if scope.place in (Place.SCRIPT, Place.RULE):
         for name in _made_with(context.world, owner.name):
             context.world.put_object(name)
-    return owner
+    return owner if is_sound else None
 
 
 def settle(context: Context, deferred: Deferred) -> None:

@@ -3,7 +3,7 @@
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.allocation import check_allocation
 from nddl_lang.semantics.classes import complain_taken
-from nddl_lang.semantics.schema import Domain, Enumeration, EnumValue, Kind, Type, Typedef, Variable
+from nddl_lang.semantics.schema import Domain, Enumeration, EnumValue, Type, Typedef, Values, Variable
 from nddl_lang.semantics.scope import Context, Place, Scope
 from nddl_lang.semantics.typenames import find_type
 from nddl_lang.semantics.types import TOKEN_STATES
@@ -91,7 +91,8 @@ def check_globals(context: Context, node: VariableDecl) -> None:
         context.tables.locals[declarator] = variable
         if isinstance(value, NewExpr):
             context.world.put("object", name, declarator.name.span)
-        elif is_sound and type_.kind is not Kind.OBJECT:
+            context.world.put_base_domain(name, Values((name,)))
+        elif is_sound:
             given = constant(context, value) if value is not None else None
             context.world.put_base_domain(name, _narrowed(type_, given))
 

@@ -59,11 +59,14 @@ def is_within(inner: Domain, outer: Domain, kind: Kind) -> bool:
 def text(domain: Domain) -> str:
     """A domain as a model would write it."""
     if isinstance(domain, Interval):
-        if domain.lower == domain.upper:
-            return _value_text(domain.lower)
+        return _value_text(domain.lower) if domain.lower == domain.upper else set_text(domain)
+    return _value_text(domain.items[0]) if len(domain.items) == 1 else set_text(domain)
+
+
+def set_text(domain: Domain) -> str:
+    """A domain as a model would write it, with brackets or braces in any case."""
+    if isinstance(domain, Interval):
         return f"[{_value_text(domain.lower)} {_value_text(domain.upper)}]"
-    if len(domain.items) == 1:
-        return _value_text(domain.items[0])
     return "{" + ", ".join(_value_text(item) for item in domain.items) + "}"
 
 

@@ -307,7 +307,7 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
     types = [type_of(context, scope, argument) for argument in call.arguments]
     signature, count = row.signature, len(types)
     # EUROPA overlooks further arguments; only the dialect nddlc refuses them.
-    is_overlooked = context.dialect is Dialect.NDDL3 and count > signature.minimum
+    is_overlooked = context.dialect is Dialect.NDDL3 and row.overlooks_rest and count > signature.minimum
     if is_overlooked or check_count(context, name, signature, count, call.span, row.meaning):
         check_types(context, name, signature, call.arguments, types)
     return _result_type(context, row, types)

@@ -27,6 +27,8 @@ class FunctionRow:
     constraint: str
     meaning: str
     origin: Origin = Origin.EUROPA
+    # Whether EUROPA passes over arguments beyond those that it needs.
+    overlooks_rest: bool = True
 
 
 def _row(name: str, places: str, result: ResultKind, constraint: str, meaning: str) -> FunctionRow:
@@ -40,7 +42,14 @@ def _trex(name: str, places: str, result: ResultKind, constraint: str, meaning: 
 _BOOL, _INT, _FLOAT, _WIDEST = ResultKind.BOOL, ResultKind.INT, ResultKind.FLOAT, ResultKind.WIDEST
 
 _ROWS = (
-    _row("isSingleton", "x:any", _BOOL, "testSingleton", "whether x has a single value"),
+    FunctionRow(
+        "isSingleton",
+        signature("x:any"),
+        _BOOL,
+        "testSingleton",
+        "whether x has a single value",
+        overlooks_rest=False,
+    ),
     _row("isSpecified", "x:any", _BOOL, "testSpecified", "whether the value of x was given"),
     _row("max", "a:number b:number", _WIDEST, "maxf", "the greater of a and b"),
     _row("min", "a:number b:number", _WIDEST, "minf", "the smaller of a and b"),

@@ -9,7 +9,6 @@ from nddl_lang.semantics.schema import (
     Domain,
     EnumValue,
     GlobalReference,
-    Kind,
     Label,
     Reference,
     TokenReference,
@@ -20,12 +19,13 @@ from nddl_lang.semantics.schema import (
 from nddl_lang.semantics.scope import Context, Place, Scope
 from nddl_lang.semantics.tokens import check_instance, check_relation
 from nddl_lang.semantics.types import reference_type
-from nddl_lang.semantics.values import check_value, constant, domain_key
+from nddl_lang.semantics.values import check_value, constant, domain_key, reference_key
 from nddl_lang.syntax.nodes import (
     Allocation,
     Assignment,
     Expr,
     GoalStatement,
+    Instance,
     NewExpr,
     PathExpr,
     Relation,
@@ -47,14 +47,15 @@ def check_goal(context: Context, node: GoalStatement) -> None:
     for instance in node.instances:
         label = check_instance(context, scope, instance)
         if label is not None:
-            _note_token(context, label, node.kind)
+            _note_token(context, label, node.kind, instance)
 
 
 def check_script_relation(context: Context, node: Relation) -> None:
     """Check a relation between tokens of the script."""
-    for label in check_relation(context, Scope(Place.SCRIPT), node):
+    labels = check_relation(context, Scope(Place.SCRIPT), node)
+    for label, instance in zip(labels, node.created, strict=True):
         if label is not None:
-            _note_token(context, label, "child")
+            _note_token(context, label, "child", instance)
 
 
 def check_new(context: Context, node: Allocation) -> None:
@@ -101,7 +102,7 @@ def target_type(context: Context, target: PathExpr, reference: Reference | None)
 def check_domain(context: Context, target: PathExpr, type_: Type, value: Expr) -> Domain | None:
     """Complain where no value is left to the variable; what its base domain lies within, None where unknown."""
     given = constant(context, value)
-    if given is None or type_.kind is Kind.OBJECT:
+    if given is None:
         return None
     known = known_domain(context, target, type_)
     if known is None:
@@ -109,7 +110,7 @@ def check_domain(context: Context, target: PathExpr, type_: Type, value: Expr) -
     left = domains.intersect(known, given, type_.kind)
     if left is None:
         name, text = target.span.text, value.span.text
-        context.complain(LEAVES_DOMAIN.at(value.span, text=text, name=name, domain=domains.text(known)))
+        context.complain(LEAVES_DOMAIN.at(value.span, text=text, name=name, domain=domains.set_text(known)))
     return left
 
 
@@ -131,10 +132,15 @@ def note_state(context: Context, label: Label, state: Domain | None) -> None:
     context.world.put_token_state(label.name, str(state.items[0]) if is_known and isinstance(state, Values) else None)
 
 
-def _note_token(context: Context, label: Label, kind: str) -> None:
+def _note_token(context: Context, label: Label, kind: str, instance: Instance) -> None:
     world = context.world
+    prefix = context.tables.targets[instance].object
+    key = reference_key(context, prefix) if not isinstance(prefix, str) else None
+    object_domain = world.base_domain(key) if key is not None else None
     is_active = any(owner.name in SELF_ACTIVATING for owner in world.ancestry(label.predicate.class_name))
     world.put_token(label.name, kind, "ACTIVE" if is_active else "INACTIVE")
+    if object_domain is not None:
+        world.put_base_domain(f"{label.name}.object", object_domain)
     world.put_base_domain(f"{label.name}.state", Values(_REJECTABLE_STATES if kind == "rejectable" else _GOAL_STATES))
 
 

@@ -9,6 +9,7 @@ from nddl_lang.semantics.schema import (
     Interval,
     Kind,
     MemberReference,
+    Reference,
     TokenVariable,
     Type,
     Values,
@@ -104,7 +105,13 @@ def _path_constant(context: Context, path: PathExpr) -> Domain | None:
 
 def domain_key(context: Context, path: PathExpr) -> str | None:
     """The name under which the world keeps the base domain of a variable of the script, None for any other."""
-    match context.tables.references.get(path):
+    reference = context.tables.references.get(path)
+    return reference_key(context, reference) if reference is not None else None
+
+
+def reference_key(context: Context, reference: Reference) -> str | None:
+    """The name under which the world keeps the base domain of what `reference` denotes, None where it keeps none."""
+    match reference:
         case GlobalReference(variable=variable):
             return variable.name
         case TokenVariable(label=label, name=name) if context.world.find_goal(label.name) is label:
