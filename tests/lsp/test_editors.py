@@ -1,0 +1,61 @@
+"""The files for editors agree with the language and with the server."""
+
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from nddl_lang.syntax.words import RESERVED
+
+VSCODE = Path(__file__).resolve().parents[2] / "editors" / "vscode"
+FILES = ["package.json", "language-configuration.json", "syntaxes/nddl.tmLanguage.json"]
+
+
+def read(name: str) -> Any:
+    return json.loads((VSCODE / name).read_text(encoding="utf-8"))
+
+
+def patterns(node: Any) -> Iterator[tuple[str, str]]:
+    """All regular expressions of a grammar with the kind of text that they find."""
+    if isinstance(node, dict):
+        for key in ("match", "begin", "end"):
+            if isinstance(node.get(key), str):
+                yield str(node.get("name", "")), node[key]
+        for value in node.values():
+            yield from patterns(value)
+    elif isinstance(node, list):
+        for value in node:
+            yield from patterns(value)
+
+
+def test_every_reserved_word_is_coloured() -> None:
+    grammar = read("syntaxes/nddl.tmLanguage.json")
+    words = [re.compile(pattern) for name, pattern in patterns(grammar["repository"]["words"])]
+    assert [word for word in sorted(RESERVED) if not any(each.fullmatch(word) for each in words)] == []
+
+
+def test_every_include_of_the_grammar_leads_somewhere() -> None:
+    grammar = read("syntaxes/nddl.tmLanguage.json")
+    names = {each["include"].removeprefix("#") for each in grammar["patterns"]}
+    assert names == set(grammar["repository"])
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_regular_expressions_can_be_read(name: str) -> None:
+    for _, pattern in patterns(read(name)):
+        re.compile(pattern)
+
+
+def test_the_extension_names_files_that_are_there() -> None:
+    package = read("package.json")
+    contributed = package["contributes"]
+    names = [package["main"], *(each["configuration"] for each in contributed["languages"])]
+    names += [each["path"] for each in contributed["grammars"]]
+    assert all((VSCODE / name).is_file() for name in names)
+    text = (VSCODE / "extension.js").read_text(encoding="utf-8")
+    for setting in contributed["configuration"]["properties"]:
+        name = setting.removeprefix("nddlc.")
+        assert name == "trace.server" or f'"{name}"' in text
