@@ -51,9 +51,10 @@ def completions(analysis: Analysis, parse: Parse, offset: int) -> list[Completio
         items = _predicates(place.schema, path[-2])
     else:
         items = _members(place, [part for part in path if part not in (".", "::")])
-    found = {item.label: item for item in reversed(list(items))}
-    order = reversed(found)
-    return [_sorted(found[label], number) for number, label in enumerate(order)]
+    found: dict[str, CompletionItem] = {}
+    for item in items:
+        found.setdefault(item.label, item)
+    return [_sorted(item, number) for number, item in enumerate(found.values())]
 
 
 def _sorted(item: CompletionItem, number: int) -> CompletionItem:

@@ -52,7 +52,7 @@ class Server(LanguageServer):
 
     def report_server_error(self, error: Exception, source: Any) -> None:
         """Write to the log what went wrong; a box in front of the text would only be in the way."""
-        _logger.error("%s", error)
+        _logger.error("%s %s", error, getattr(error, "data", None) or "")  # pygls keeps the traceback of ours there
         message = types.LogMessageParams(types.MessageType.Error, f"nddlc: {type(error).__name__}: {error}")
         self.window_log_message(message)
 
