@@ -28,7 +28,7 @@ from runtime.plan.codes import (
     ROLE_LOCAL,
 )
 from runtime.plan.guards import wait
-from runtime.plan.holding import between, constraint, copy_variable, post_two, restrict
+from runtime.plan.holding import between, constraint, copy_variable, equate, post_two, restrict
 from runtime.plan.operands import operand
 from runtime.plan.plan import Plan
 from runtime.plan.relating import relate
@@ -173,6 +173,10 @@ def sample(plan: Plan, scope: int, at: int, span: int) -> int:
     value = plan.services.draw(plan.code[at + 2], v)
     if value >= 0:
         post_two(plan, scope, OP_SAMPLE, v, value, span)
+        return 5
+    prototype = plan.services.sample_range(plan.code[at + 2])
+    if prototype >= 0:
+        equate(plan, scope, v, copy_variable(plan, scope, prototype, ROLE_INTERNAL, NONE), span)
     return 5
 
 

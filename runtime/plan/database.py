@@ -47,6 +47,11 @@ class PlanDatabase:
         self.plan.envelope = Flaws(self.plan)
         self.plan.resources.grounded_text = self.prototypes.texts.number(GROUNDED)
         self.environment = environment
+        self.ranges = {
+            self.names.number(site.name): self.prototypes.of_domain(site.default)
+            for site in program.sampled
+            if site.default is not None
+        }
         self.marks: list[tuple[int, int]] = []
 
     # ---- what rules ask for ----
@@ -59,6 +64,10 @@ class PlanDatabase:
         """A constant with the value that the environment draws for a parameter, of the kind of `v`; or NONE."""
         value = None if self.environment is None else self.environment(self.names.text(parameter))
         return NONE if value is None else self.engine.new_constant(self.engine.kind[v], value, value)
+
+    def sample_range(self, parameter: int) -> int:
+        """The prototype of the values that a parameter may have; or NONE."""
+        return self.ranges.get(parameter, NONE)
 
     def forget_objects(self, count: int) -> None:
         """Go back to where there were `count` objects."""

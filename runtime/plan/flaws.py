@@ -7,10 +7,10 @@ have given back before. Order is read off the network: paths of edges whose weig
 """
 
 from runtime.constraints.codes import FLOAT_TOLERANCE
+from runtime.plan.arrays import blank, blank_reals, grown
 from runtime.plan.codes import NONE
 from runtime.plan.levels import Levels
 from runtime.plan.plan import Plan
-from runtime.plan.rows import blank, blank_reals, grown
 
 ROOM = 64
 

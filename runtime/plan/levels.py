@@ -6,7 +6,7 @@ Bounds of times alone are looked at; `flaws` knows the order of uses as well.
 from math import inf
 
 from runtime.constraints.codes import FLOAT_TOLERANCE
-from runtime.plan.rows import blank, blank_reals, grown, grown_reals
+from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
 
 ROOM = 16
 TOO_LOW, TOO_HIGH, TOO_FAST, TOO_MUCH = range(1, 5)

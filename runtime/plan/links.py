@@ -4,6 +4,7 @@ Lists are doubly linked through the rows of tokens; a token that leaves a list k
 undoing in reverse order puts it back where it was (Knuth's dancing links).
 """
 
+from runtime.plan.arrays import grown
 from runtime.plan.codes import (
     FREED,
     NONE,
@@ -20,7 +21,7 @@ from runtime.plan.codes import (
     UNDO_STATUS,
     UNDO_UNLINK,
 )
-from runtime.plan.rows import LISTS, SHORT, Rows, grown
+from runtime.plan.rows import LISTS, SHORT, Rows
 
 
 def new_head(rows: Rows, head: int) -> None:

@@ -1,8 +1,8 @@
 """Go back in time, plan and engine together: marks nest, and are named by their depth."""
 
+from runtime.plan.arrays import grown
 from runtime.plan.links import undo
 from runtime.plan.plan import Plan
-from runtime.plan.rows import grown
 
 
 def mark(plan: Plan) -> int:

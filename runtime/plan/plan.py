@@ -4,9 +4,10 @@ from array import array
 from typing import Protocol
 
 from runtime.constraints.engine import Engine
+from runtime.plan.arrays import blank, grown
 from runtime.plan.codes import NONE
 from runtime.plan.resources import Envelope, Resources
-from runtime.plan.rows import Rows, blank, grown
+from runtime.plan.rows import Rows
 
 
 class Services(Protocol):
@@ -17,6 +18,9 @@ class Services(Protocol):
 
     def draw(self, parameter: int, v: int) -> int:
         """A constant with the value that the environment draws for a parameter, of the kind of `v`; or NONE."""
+
+    def sample_range(self, parameter: int) -> int:
+        """The prototype of the values that a parameter may have; or NONE."""
 
     def forget_objects(self, count: int) -> None:
         """Go back to where there were `count` objects."""

@@ -8,10 +8,10 @@ from math import inf
 from typing import Protocol
 
 from runtime.constraints.engine import Engine
+from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
 from runtime.plan.codes import NONE
 from runtime.plan.excess import Excess
 from runtime.plan.levels import Levels
-from runtime.plan.rows import blank, blank_reals, grown, grown_reals
 
 ROOM = 32
 

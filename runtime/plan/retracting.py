@@ -61,9 +61,8 @@ def retract_branch(plan: Plan, s: int) -> bool:
     rows = plan.rows
     t = rows.scope_token[s]
     doomed = {s}
-    below = [each for each in reversed(scopes_of(plan, t)) if rows.scope_parent[each] in doomed or each == s]
-    for each in below:
-        if each != s:
+    for each in reversed(scopes_of(plan, t)):
+        if rows.scope_parent[each] in doomed:
             doomed.add(each)
     doomed.discard(s)
     drop_scopes(plan, t, doomed, sweep)

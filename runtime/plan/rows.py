@@ -7,6 +7,7 @@ While a mark is open every change is logged; without marks rows go to free lists
 
 from array import array
 
+from runtime.plan.arrays import blank, grown
 from runtime.plan.codes import (
     FREED,
     INACTIVE,
@@ -24,30 +25,6 @@ from runtime.plan.codes import (
 
 LISTS = 4  # lists a token may be on: open, threat, predicate, order
 SHORT = 256  # frames up to this length are used again
-
-
-def grown(old: "array[int]", length: int) -> "array[int]":
-    """Copy `old` into an array of `length` cells, zeros behind."""
-    fresh = blank(length)
-    memoryview(fresh)[: len(old)] = memoryview(old)
-    return fresh
-
-
-def blank(length: int) -> "array[int]":
-    """An array of `length` zeros."""
-    return array("q", bytes(8 * length))
-
-
-def grown_reals(old: "array[float]", length: int) -> "array[float]":
-    """Copy `old` into an array of `length` reals, zeros behind."""
-    fresh = blank_reals(length)
-    memoryview(fresh)[: len(old)] = memoryview(old)
-    return fresh
-
-
-def blank_reals(length: int) -> "array[float]":
-    """An array of `length` zeros."""
-    return array("d", bytes(8 * length))
 
 
 class Rows:

@@ -1,0 +1,64 @@
+"""Statements of the script: what each leaves behind, and what stops it."""
+
+from tests.plan.models import OBJECTS, TIMELINES, domains, loaded, prepared, stopped, tokens
+
+SCENE = TIMELINES + OBJECTS
+
+
+def test_an_object_made_by_a_constructor_is_named_after_its_member() -> None:
+    database = loaded(
+        "class B { int k; B(int v) { k = v; } } class A { B b; A(int v) { b = new B(v); } } A a = new A(4);"
+    )
+    assert domains(database)["a.b"] == "{a.b} B"
+    assert domains(database)["a.b.k"] == "{4} int"
+
+
+def test_the_script_stops_at_the_first_fault_and_keeps_what_was_done() -> None:
+    database = prepared("int a = [1 3]; a = 7; int b = 2;")
+    fault = database.run_script()
+    assert fault is not None
+    assert (fault.code.kind, fault.span.text) == ("domain", "a = 7;")
+    assert domains(database) == {"a": "[1, 3] int"}
+
+
+def test_an_inconsistent_statement_does_not_stop_the_script() -> None:
+    database = loaded("int a = 5; int b = 6; eq(a, b); int c = 7;")
+    assert not database.is_consistent
+    assert "c" in domains(database)
+
+
+def test_a_goal_needs_an_object() -> None:
+    fault = stopped(TIMELINES + "goal(T.p g);")
+    assert fault.code.kind == "state"
+    assert "`T`" in fault.message
+
+
+def test_merging_needs_an_active_token_of_the_same_predicate() -> None:
+    assert "inactive" in stopped(SCENE + "goal(t.p g); goal(t.p h); h.merge(g);").message
+    assert "`T.q`" in stopped(SCENE + "goal(t.p g); goal(t.q h); g.activate(); h.merge(g);").message
+
+
+def test_only_rejectable_tokens_are_rejected() -> None:
+    assert stopped(SCENE + "goal(t.p g); g.reject();").code.kind == "state"
+    assert tokens(loaded(SCENE + "rejectable(t.p g); g.reject();"))["g"]["state"] == "REJECTED"
+
+
+def test_nothing_is_made_of_a_closed_class() -> None:
+    assert stopped("class A { } A.close(); A a = new A();").code.kind == "state"
+    text = "class A { } class T extends Timeline { predicate p { } } T::p { A a = new A(); } T t = new T(); close();"
+    assert stopped(text + "goal(t.p g); g.activate();").span.text == "new A()"
+
+
+def test_open_variables_grow_with_the_objects_of_their_class() -> None:
+    database = loaded("class A { } class B extends A { } A v; A a = new A(); B b = new B(); int x;")
+    assert domains(database)["v"] == "{a, b} A open"
+
+
+def test_a_decision_is_undone_by_reset() -> None:
+    database = loaded("int a = [1 9]; int b; addEq(a, 1, b); a.specify(5); a.reset();")
+    assert domains(database) == {"a": "[1, 9] int", "b": "[2, 10] int"}
+
+
+def test_a_thousand_objects_outgrow_the_first_tables() -> None:
+    text = "class A { int k; A(int v) { k = v; } }" + "".join(f"A a{i} = new A({i});" for i in range(300))
+    assert domains(loaded(text))["a299.k"] == "{299} int"
