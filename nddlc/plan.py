@@ -10,12 +10,15 @@ import click
 
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
+from nddlc.because import as_data, shortened, story
 from nddlc.gantt import chart
 from nddlc.inputs import Unusable, chosen_dialect, colours, readable
 from nddlc.load import table, token_row
 from nddlc.loading import Facts, Loaded, facts, load
 from nddlc.picture import page, svg
-from runtime.plan.readout import read
+from runtime.plan.codes import REJECTED
+from runtime.plan.readout import live_tokens, read, token_names
+from runtime.solver.account import Failure, Recorder
 from runtime.solver.codes import PLAN, RESULT_NAMES
 from runtime.solver.configuration import Configuration, default_configuration
 from runtime.solver.limits import Limits, model_limits
@@ -75,9 +78,14 @@ def command(
         return 1
     limits = _limits(loaded, horizon, max_steps, max_depth)
     solver = Solver(loaded.database, configuration, limits.start, limits.end, strategy == "europa")
+    recorder = Recorder(loaded.database, solver.queues, solver.stack) if explain else None
+    solver.account = recorder
     result = solver.solve(limits.steps, limits.depth, _clock(solver, max_seconds))
+    reasons = _reasons(recorder, told, result)
     told |= read(loaded.database) | {"consistent": told["consistent"]}
     told["solve"] = {"result": RESULT_NAMES[result], "steps": solver.steps, "depth": solver.depth}
+    if explain:
+        told["explanation"] = {name: as_data(failure) for name, failure in reasons.items()}
     if as_json:
         click.echo(json.dumps(told, ensure_ascii=False))
     elif style == "svg":
@@ -88,6 +96,8 @@ def command(
         for each in loaded.diagnostics:
             click.echo(render(each, colour=colours()))
         click.echo("\n".join(_lines(told, limits)))
+        for name, failure in reasons.items():
+            click.echo("\n".join(("", f"why {name}:", *shortened(story(failure, 1)))))
     return 0 if result == PLAN else 1
 
 
@@ -122,6 +132,25 @@ def _show_refusal(loaded: Loaded, told: Facts, as_json: bool) -> None:
     for each in loaded.diagnostics:
         click.echo(render(each, colour=colours()))
     click.echo("refused: the model is in error")
+
+
+def _reasons(recorder: Recorder | None, told: Facts, result: int) -> dict[str, Failure]:
+    """What an explanation was asked for: why there is no plan, or why tokens were rejected."""
+    if recorder is None:
+        return {}
+    if told["consistent"] is False:
+        return {"there is no plan": recorder.contradiction()}
+    if result == PLAN:
+        return {
+            f"`{name}` was rejected": failure for name, failure in recorder.reasons.items() if _is_out(recorder, name)
+        }
+    return {} if recorder.end is None else {"there is no plan": recorder.end}
+
+
+def _is_out(recorder: Recorder, name: str) -> bool:
+    """Whether the token of that name is rejected now."""
+    tokens = token_names(recorder.database, live_tokens(recorder.database))
+    return any(tokens[t] == name and recorder.plan.rows.status[t] == REJECTED for t in tokens)
 
 
 def _clock(solver: Solver, seconds: float | None) -> Callable[[], bool]:

@@ -2,9 +2,11 @@
 
 from collections.abc import Callable
 
+from runtime.plan.codes import REJECTED
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import settle
 from runtime.plan.marks import commit, mark, release, rewind
+from runtime.solver.account import Account
 from runtime.solver.blame import Blame
 from runtime.solver.choices import mend
 from runtime.solver.codes import (
@@ -13,6 +15,7 @@ from runtime.solver.codes import (
     FAILED,
     MOVED,
     NO_CHOICE,
+    OPEN_CONDITION,
     PLAN,
     RESOURCE_THREAT,
     TIMEOUT,
@@ -59,6 +62,7 @@ class Solver:
         self.has_active = False
         self.is_exhausted = False
         self.is_started = False
+        self.account: Account | None = None  # who is told of failures
 
     @property
     def depth(self) -> int:
@@ -140,11 +144,15 @@ class Solver:
                 return TIMEOUT
             self.steps += 1
             if outcome == APPLIED:
+                if self.account is not None and is_rejection(q, stack, d):
+                    self.account.rejected(d)
                 catch_up(q, d + 1)
                 stack.depth = d + 1
                 self.has_active = False
                 return MOVED
             self.failures += 1
+            if self.account is not None:
+                self.account.failed(d)
             if not self.europa:
                 note_levels(q, d + 1)
                 self.blame.learn(d)
@@ -181,6 +189,8 @@ class Solver:
     def give_up(self, d: int) -> int:
         """Drop a decision without choices, and go back to the one that may be at fault."""
         target = d - 1 if self.europa else self.blame.target(d)
+        if self.account is not None:
+            self.account.given_up(d, target)
         self.leave(d)
         while self.stack.depth > target + 1:
             self.leave(self.stack.depth - 1)
@@ -195,3 +205,8 @@ class Solver:
         stack.depth = target
         self.has_active = True
         return 0
+
+
+def is_rejection(q: Queues, stack: Decisions, d: int) -> bool:
+    """Whether the present choice of decision `d` rejects a token."""
+    return stack.kind[d] == OPEN_CONDITION and q.rows.status[stack.item[d]] == REJECTED
