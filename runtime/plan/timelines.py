@@ -84,7 +84,8 @@ def pair(plan: Plan, first: int, second: int, span: int) -> None:
     rows.pairs_in[second] = p
     if rows.level:
         rows.log(UNDO_NEW_PAIR, p, 0)
-    rows.pair_edge[p] = plan.engine.add_edge(rows.var0[second] + START, rows.var0[first] + END, 0, span, first)
+    plan.engine.add_edge(rows.var0[second] + START, rows.var0[first] + END, 0, span, first)
+    rows.pair_edge[p] = plan.engine.newest_edge
 
 
 def has_pair(rows: Rows, first: int, second: int) -> bool:
