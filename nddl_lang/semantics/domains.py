@@ -1,8 +1,11 @@
 """Reckon with the sets of values that a text fixes: intervals and sets, of one kind each."""
 
+from bisect import bisect_left
 from math import ceil, floor
 
 from nddl_lang.semantics.schema import INFINITY, Domain, Interval, Kind, Values
+
+_Item = float | int | bool | str
 
 TOLERANCE = 1e-5  # floats closer than this are equal, as in EUROPA
 
@@ -31,8 +34,24 @@ def intersect(one: Domain, other: Domain, kind: Kind) -> Domain | None:
     if isinstance(one, Interval):
         one, other = other, one
     assert isinstance(one, Values)
-    kept = tuple(item for item in one.items if contains(other, item, kind))
+    if isinstance(other, Values):
+        kept = _common_items(one.items, other.items, TOLERANCE if kind is Kind.FLOAT else 0)
+    else:
+        kept = tuple(item for item in one.items if contains(other, item, kind))
     return Values(kept) if kept else None
+
+
+def _common_items(some: tuple[_Item, ...], others: tuple[_Item, ...], slack: float) -> tuple[_Item, ...]:
+    known = set(others)
+    numbers = sorted(item for item in others if not isinstance(item, str)) if slack else []
+
+    def is_near(item: _Item) -> bool:
+        if not numbers or isinstance(item, str):
+            return False
+        place = bisect_left(numbers, item - slack)
+        return place < len(numbers) and numbers[place] <= item + slack
+
+    return tuple(item for item in some if item in known or is_near(item))
 
 
 def contains(domain: Domain, value: float | int | bool | str, kind: Kind) -> bool:

@@ -156,6 +156,7 @@ def _check_transaction(context: Context, node: MethodCall, row: MethodRow, label
             else:
                 _check_merge(context, node, label)
             world.put_token_state(label.name, "MERGED")
+            world.put("merged", "*", True)
         case "reject":
             kind = world.token_kind(label.name)
             if kind != "rejectable":
@@ -175,9 +176,13 @@ def _check_transaction(context: Context, node: MethodCall, row: MethodRow, label
 
 def _forget_merged(context: Context) -> None:
     """A cancelled token lets go of the tokens that were merged into it; which they are is not kept."""
-    for name in list(context.world.names("goal")):
-        if context.world.token_state(name) == "MERGED":
-            context.world.put_token_state(name, None)
+    world = context.world
+    if world.look("merged", "*") is None:
+        return
+    world.put("merged", "*", None)
+    for name in list(world.names("goal")):
+        if world.token_state(name) == "MERGED":
+            world.put_token_state(name, None)
 
 
 def _complain_state(context: Context, node: MethodCall, label: Label, done: str, state: str) -> None:

@@ -2,17 +2,25 @@
 
 from collections.abc import Iterable
 
+_MOST_SLIPS = 3
+_MOST_COMPARED = 150  # names that look alike; so that a thousand complaints stay quick
+
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
     """The candidate that differs least from `name`, the first of several; None where all differ too much."""
-    limit = max(1, len(name) // 3)
+    limit = min(max(1, len(name) // 3), _MOST_SLIPS)
     folded = name.casefold()
     best: str | None = None
     best_distance = limit + 1
+    letters, compared = set(folded), 0
     for candidate in candidates:
-        if candidate == name or abs(len(candidate) - len(name)) >= best_distance:
+        if candidate == name or abs(len(candidate) - len(name)) >= best_distance or compared >= _MOST_COMPARED:
             continue
         other = candidate.casefold()
+        # A slip changes at most two of the letters that occur.
+        if len(letters.symmetric_difference(other)) > 2 * limit:
+            continue
+        compared += 1
         distance = 0 if other == folded else _distance(folded, other, best_distance - 1)
         if distance < best_distance:
             best, best_distance = candidate, distance
@@ -21,18 +29,34 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
 
 def _distance(one: str, other: str, limit: int) -> int:
     """Insertions, deletions, replacements and swaps of neighbours from `one` to `other`, or more than `limit`."""
-    if one[:1] != other[:1] and one[1:2] != other[1:2] and one[-1:] != other[-1:]:
+    start = 0
+    shorter = min(len(one), len(other))
+    while start < shorter and one[start] == other[start]:
+        start += 1
+    end = 0
+    while end < shorter - start and one[-1 - end] == other[-1 - end]:
+        end += 1
+    if start == end == 0 and one[1:2] != other[1:2]:
         return limit + 1
+    one, other = one[start : len(one) - end], other[start : len(other) - end]
+    # Only cells within `limit` of the diagonal can lead to an answer.
+    far = limit + 1
     before: list[int] = []
-    previous = list(range(len(other) + 1))
+    previous = [min(column, far) for column in range(len(other) + 1)]
     for i, letter in enumerate(one, 1):
-        current = [i]
-        for j, match in enumerate(other, 1):
-            cost = min(previous[j] + 1, current[j - 1] + 1, previous[j - 1] + (letter != match))
-            if i > 1 and j > 1 and letter == other[j - 2] and one[i - 2] == match:
+        first, last = max(1, i - limit), min(len(other), i + limit)
+        current = [far] * (len(other) + 1)
+        current[first - 1] = i if first == 1 else far
+        least = current[first - 1]
+        for j in range(first, last + 1):
+            cost = min(previous[j], current[j - 1]) + 1
+            if previous[j - 1] + (letter != other[j - 1]) < cost:
+                cost = previous[j - 1] + (letter != other[j - 1])
+            if i > 1 and j > 1 and letter == other[j - 2] and one[i - 2] == other[j - 1]:
                 cost = min(cost, before[j - 2] + 1)
-            current.append(cost)
-        if min(current) > limit:
-            return limit + 1
+            current[j] = cost
+            least = min(least, cost)
+        if least > limit:
+            return far
         before, previous = previous, current
     return previous[-1]
