@@ -61,7 +61,9 @@ SUM_OF_TIMES = Code("NDDL310", Severity.ERROR, "type", "the sum of two times is 
 REVERSED_INTERVAL = Code(
     "NDDL311", Severity.ERROR, "domain", "the lower bound {lower} is above the upper bound {upper}"
 )
-NOT_A_BOUND = Code("NDDL312", Severity.ERROR, "type", "the bounds of an interval are numbers; `{text}` is not one")
+NOT_A_BOUND = Code(
+    "NDDL312", Severity.ERROR, "type", "the bounds of an interval are written out as numbers; `{text}` is not one"
+)
 
 _ORDERS = frozenset({"<", "<=", ">", ">="})
 _EQUALITIES = frozenset({"==", "!="})
@@ -232,9 +234,12 @@ def _interval_type(context: Context, scope: Scope, interval: IntervalExpr) -> Ty
     kinds: list[Kind] = []
     for bound in (interval.lower, interval.upper):
         type_ = type_of(context, scope, bound)
-        if type_ is not None and type_.kind not in NUMBERS:
-            context.complain(NOT_A_BOUND.at(bound.span, text=bound.span.text))
-        elif type_ is not None:
+        if type_ is None:
+            continue
+        if number(bound) is None:
+            help_ = "compare with it instead, as in `x <= limit`" if type_.kind in NUMBERS else None
+            context.complain(NOT_A_BOUND.at(bound.span, help=help_, text=bound.span.text))
+        else:
             kinds.append(type_.kind)
     lower, upper = number(interval.lower), number(interval.upper)
     if lower is not None and upper is not None and lower > upper:
@@ -249,11 +254,40 @@ def _interval_type(context: Context, scope: Scope, interval: IntervalExpr) -> Ty
 
 
 def number(expression: Expr) -> float | int | None:
-    """The number that a literal or its negative writes, None for anything else."""
+    """The number that is written out: a literal, or arithmetic over such; None for anything else."""
+    chain: list[BinaryExpr] = []
+    while isinstance(expression, BinaryExpr):
+        chain.append(expression)
+        expression = expression.left
+    result = _signed_number(expression)
+    for binary in reversed(chain):
+        operand = number(binary.right) if result is not None else None
+        result = _folded(binary.op, result, operand) if result is not None and operand is not None else None
+    return result
+
+
+def _signed_number(expression: Expr) -> float | int | None:
     sign = 1
     while isinstance(expression, UnaryExpr) and expression.op == "-":
         expression, sign = expression.operand, -sign
-    return expression.value * sign if isinstance(expression, IntLiteral | FloatLiteral) else None
+    if isinstance(expression, IntLiteral | FloatLiteral):
+        return expression.value * sign
+    inner = number(expression) if isinstance(expression, BinaryExpr) else None
+    return None if inner is None else inner * sign
+
+
+def _folded(op: str, left: float | int, right: float | int) -> float | int | None:
+    match op:
+        case "+":
+            return left + right
+        case "-":
+            return left - right
+        case "*":
+            return left * right
+        case "/" if right != 0:
+            return left / right
+        case _:
+            return None
 
 
 def is_infinite(expression: Expr) -> bool:

@@ -17,6 +17,7 @@ from nddl_lang.semantics.schema import (
 from nddl_lang.semantics.scope import Context, Scope
 from nddl_lang.semantics.types import fits, phrase
 from nddl_lang.syntax.nodes import (
+    BinaryExpr,
     BoolLiteral,
     Expr,
     FloatLiteral,
@@ -71,9 +72,9 @@ def constant(context: Context, expression: Expr) -> Domain | None:
             return Values((truth,))
         case StringLiteral(value=characters):
             return Values((characters,))
-        case UnaryExpr():
-            negative = number(expression)
-            return None if negative is None else Values((negative,))
+        case UnaryExpr() | BinaryExpr():
+            computed = number(expression)
+            return None if computed is None else Values((computed,))
         case IntervalExpr(lower=lower, upper=upper):
             bounds = number(lower), number(upper)
             return None if bounds[0] is None or bounds[1] is None else Interval(bounds[0], bounds[1])
