@@ -1,5 +1,6 @@
 """Fly real missions: load the models of an agent once, then run the executive from a seed."""
 
+import re
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -15,6 +16,7 @@ from runtime.executive.outcome import Cause, Conflict, Outcome
 from runtime.solver.configuration import Configuration, default_configuration
 from runtime.solver.read import read_configuration
 
+PREFIX = re.compile(r"\b\w+:(?=\w)")  # the reactor's name before a variable's
 Reactors = tuple[tuple[str, str | None], ...]  # model and solver of each
 
 
@@ -62,6 +64,7 @@ def _renamed(conflict: Conflict, root: Path) -> Conflict:
 
 
 def _placed(cause: Cause, root: Path) -> Cause:
+    because = PREFIX.sub("", cause.because)
     if cause.place is None:
-        return cause
-    return replace(cause, place=replace(cause.place, file=relative_name(cause.place.file, root)))
+        return replace(cause, because=because)
+    return replace(cause, because=because, place=replace(cause.place, file=relative_name(cause.place.file, root)))

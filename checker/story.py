@@ -11,6 +11,8 @@ from checker.sampling.wording import describe, number
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.outcome import Cause, Event, Outcome, Place
 
+ORIGINS = {"clock": " (by the clock)", "observation": " (as observed)", "order": " (by the order of tokens)"}
+
 
 @dataclass(frozen=True, slots=True)
 class Step:
@@ -47,7 +49,8 @@ def tell(result: MissionResult, agent: AgentConfiguration, influence: Influence,
     assert outcome is not None
     parameters = _suspects(outcome, fault)
     draws = _draws(outcome, agent, influence, parameters)
-    indices = {*events_to_abort(outcome, parameters), *_tokens_of(outcome, influence, parameters)}
+    shown = _tokens_of(outcome, influence, parameters)
+    indices = {*shown, *(index for index in events_to_abort(outcome, parameters) if index >= min(shown, default=0))}
     way = [outcome.events[index] for index in sorted(indices)]
     if draws:
         way = [event for event in way if event.kind != "sample"]
@@ -158,7 +161,9 @@ def _conflict(outcome: Outcome) -> list[Step]:
 
 
 def _because(cause: Cause) -> str:
-    return f"{cause.token}: {cause.because}" if cause.token else cause.because
+    """What a cause did, whose it is, and, where no line of the model says it, what does."""
+    whose = f"{cause.token}: " if cause.token and cause.token not in cause.because else ""
+    return f"{whose}{cause.because}{ORIGINS.get(cause.kind, '')}"
 
 
 def _end(outcome: Outcome, result: MissionResult) -> Step:

@@ -19,7 +19,7 @@ from runtime.executive.configuration import AgentConfiguration, ParameterConfigu
 
 Refly = Callable[[AgentConfiguration, int, int], MissionResult]  # agent, number, seed
 HALVINGS = 30
-NARROW = 1e-7  # of the parameter's range: flights stop there
+NARROW = 1e-5  # of the parameter's range: flights stop there, for floats of the engine are no sharper
 LUCK = 0.01  # a cut of samples alone is believed when chance would bring it less often
 
 
@@ -139,7 +139,7 @@ def _sharpen(
         flights = search.count
     name = parameter.name
     if flown is not None:
-        agrees = proved is not None and proved[0] == flown[0] and abs(float(proved[1].value) - flown[1]) < 1e-6
+        agrees = proved is not None and proved[0] == flown[0] and abs(float(proved[1].value) - flown[1]) < 1e-4
         method = "z3 and flights" if agrees else "flights"
         return Threshold(name, own, cut, is_causal, *flown, method, flights)
     if proved is not None and is_causal is None:
@@ -215,7 +215,8 @@ class _Flights:
                 passing = middle
         if self.parameter.is_whole:
             return passing
-        return shortest_decimal(min(failing, passing), max(failing, passing))
+        slack = NARROW * width
+        return shortest_decimal(min(failing, passing) - slack, max(failing, passing) + slack)
 
     def _fails(self, value: float) -> bool:
         self.count += 1
