@@ -1,13 +1,22 @@
 """Run one mission: the clock, and each tick every reactor in turn; a configuration goes in, an outcome comes out."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.messages import Observation, Request
-from runtime.executive.outcome import Abort, Conflict, Outcome
+from runtime.executive.outcome import Abort, Conflict, Outcome, Term
 from runtime.executive.trace import Trace
+
+
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """Cause `number` of a conflict says how long `variable`, the end of an observed token, has been put off."""
+
+    number: int
+    variable: str
+    source: Observation
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +30,7 @@ class Failure:
     relaxes: int
     repairs: tuple[Conflict, ...] = ()
     causes: tuple[int, ...] = ()
+    watched: tuple[Watched, ...] = ()
 
 
 class Reactor(Protocol):
@@ -68,6 +78,9 @@ class Reactor(Protocol):
 
     def unmet_goals(self) -> list[str]:
         """Mandatory goals that were not achieved."""
+
+    def why_it_lasts(self, token: int, key: int) -> tuple[str, Conflict] | None:
+        """The name of the end of one of its tokens, and what sets that end."""
 
 
 class OwnershipError(ValueError):
@@ -219,8 +232,21 @@ class Agent:
 
     def _abort(self, reactor: Reactor, failure: Failure) -> Abort:
         """Record that the agent ends early, with its reason."""
+        conflict = self._traced(failure)
+        drawn = (
+            {cause.because.partition(" = ")[2].partition(" ")[0] for cause in conflict.causes} if conflict else set()
+        )
+        samples = tuple(
+            index
+            for index, event in enumerate(self.trace.events)
+            if event.kind == "sample" and event.text.partition(" ")[0] in drawn
+        )
         event = self.trace.record(
-            "abort", reactor.name, ", ".join(failure.timelines), f"{failure.code}: {failure.summary}", failure.causes
+            "abort",
+            reactor.name,
+            ", ".join(failure.timelines),
+            f"{failure.code}: {failure.summary}",
+            failure.causes + samples,
         )
         return Abort(
             failure.code,
@@ -228,11 +254,30 @@ class Agent:
             reactor.name,
             failure.timelines,
             failure.summary,
-            failure.conflict,
+            conflict,
             failure.relaxes,
             event,
             failure.repairs,
         )
+
+    def _traced(self, failure: Failure) -> Conflict | None:
+        """The conflict of a failure, told on through the reactors that published what it hangs on."""
+        conflict = failure.conflict
+        if conflict is None:
+            return None
+        causes, variables = list(conflict.causes), list(conflict.variables)
+        for watched in failure.watched:
+            owner = next((r for r in self.reactors if r.name == watched.source.owner), None)
+            told = owner.why_it_lasts(watched.source.token, watched.source.token_key) if owner else None
+            if told is None:
+                continue
+            name, reasons = told
+            cause = causes[watched.number]
+            because = f"{watched.source.predicate} on `{watched.source.timeline}` is observed as long as it lasts"
+            causes[watched.number] = replace(cause, because=because, terms=(Term("eq", (watched.variable, name)),))
+            causes += reasons.causes
+            variables += reasons.variables
+        return Conflict(tuple(causes), tuple(dict.fromkeys(variables)))
 
     def _kill(self, reactor: Reactor, failure: Failure) -> None:
         """Take a failed reactor out and tell the users of its timelines (T-REX 1.6, second generation)."""
@@ -244,4 +289,4 @@ class Agent:
         for timeline in reactor.internal:
             del self.owners[timeline]
             text = self.trace.record("observation", reactor.name, timeline, "Failed", (event,))
-            self._publish([Observation(self.tick, timeline, "Failed", (), text, -1)])
+            self._publish([Observation(self.tick, timeline, "Failed", (), text)])

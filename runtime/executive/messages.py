@@ -11,7 +11,7 @@ Arguments = tuple[tuple[str, DomainConstant], ...]  # parameter name and what is
 class Observation:
     """The owner's word that from `tick` on `timeline` holds `predicate`; it holds until replaced (T-REX 1.6).
 
-    `event` is its index in the trace, `token` names the owner's token.
+    `event` is its index in the trace; `owner`, `token` and `token_key` name the owner's token.
     """
 
     tick: int
@@ -19,7 +19,9 @@ class Observation:
     predicate: str
     arguments: Arguments
     event: int
-    token: int
+    owner: str = ""
+    token: int = -1
+    token_key: int = -1
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,16 +1,17 @@
 """A reactor that plans with a plan database: it synchronises, deliberates, asks owners for what it needs, repairs."""
 
-from runtime.executive.agent import Failure
+from runtime.executive.agent import Failure, Watched
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.messages import Observation, Request, token_text
 from runtime.executive.outcome import Conflict
 from runtime.executive.planning import Planner
 from runtime.executive.repair import relax
 from runtime.executive.settle import Unsettled, settle
-from runtime.executive.story import conflict_of
+from runtime.executive.story import conflict_of, latest
 from runtime.executive.timelines import NOTHING, Goal, TimelineState
 from runtime.executive.trace import Trace
-from runtime.executive.workbench import SPAN_REQUEST, Workbench
+from runtime.executive.view import SPAN_REQUEST
+from runtime.executive.workbench import Workbench
 
 INFINITY = 4503599627370495
 
@@ -107,6 +108,7 @@ class PlanReactor:
         causes = tuple(line.news.event for line in self.timelines if line.news is not None)
         events = tuple(line.event for line in self.timelines if line.event != NOTHING and not line.is_internal)
         failures: list[Unsettled] = []
+        watched: tuple[Watched, ...] = ()
         for attempt in range(3):
             if attempt:
                 self.trace.phase = "repair"
@@ -124,12 +126,38 @@ class PlanReactor:
                 self._close_goals(tick)
                 return None
             failures.append(failure)
+            if attempt == 0:
+                watched = self._watched(failure.conflict)
             self.bench.rewind_to(mark)
             self.bench.commit()
         first = failures[0]
         repairs = _distinct(first.conflict, failures[1:])
         lines = first.timelines or tuple(line.name for line in self.timelines if line.is_internal)
-        return Failure(first.code, first.summary, lines, first.conflict, self.relaxes, repairs, causes or events[:1])
+        causes = causes or events[:1]
+        return Failure(first.code, first.summary, lines, first.conflict, self.relaxes, repairs, causes, watched)
+
+    def _watched(self, conflict: Conflict | None) -> tuple[Watched, ...]:
+        """The causes of a conflict that say how long what another reactor published has lasted."""
+        if conflict is None:
+            return ()
+        ends = {
+            self.bench.token_name(line.current): line.source
+            for line in self.timelines
+            if not line.is_internal and line.current != NOTHING and line.source is not None
+        }
+        found = []
+        for number, cause in enumerate(conflict.causes):
+            source = ends.get(cause.token)
+            name = f"{self.name}:{cause.token}.end"
+            if cause.kind == "observation" and source is not None and cause.terms[0].arguments[0] == name:
+                found.append(Watched(number, name, source))
+        return tuple(found)
+
+    def why_it_lasts(self, token: int, key: int) -> tuple[str, Conflict] | None:
+        """The end of one of its tokens, and what sets it: the token lasts as long as the model allows (T-REX 1.5)."""
+        if not self.bench.is_alive(token, key):
+            return None
+        return latest(self.bench, self.bench.end(token))
 
     def observations(self, tick: int) -> list[Observation]:
         """What its own timelines have begun to hold at `tick`; also clears the news that was folded in."""
@@ -137,6 +165,7 @@ class PlanReactor:
         for line in self.timelines:
             if line.news is not None:
                 line.event = line.news.event
+                line.source = line.news
                 line.news = None
             if line.is_internal and line.current != NOTHING and self.bench.started_at(line.current) == tick:
                 arguments = self.bench.arguments(line.current)
@@ -145,7 +174,10 @@ class PlanReactor:
                 line.event = self.trace.record(
                     "observation", self.name, line.name, token_text(predicate, arguments), causes
                 )
-                published.append(Observation(tick, line.name, predicate, arguments, line.event, line.current))
+                key = self.bench.key(line.current)
+                published.append(
+                    Observation(tick, line.name, predicate, arguments, line.event, self.name, line.current, key)
+                )
         return published
 
     # ---- planning ----
@@ -296,13 +328,16 @@ class PlanReactor:
         arguments = bench.arguments(token)
         causes = tuple(other.event for other in self.timelines if not other.is_internal and other.event != NOTHING)
         event = self.trace.record("request", self.name, line.name, token_text(predicate, arguments), causes[:1])
+        # To the world a request is a command: when to begin is the sender's business, how long it takes is not.
+        is_command = self.owner_windows.get(line.name, (0, 1))[1] <= 1
+        end = INFINITY if is_command else int(bench.upper(bench.end(token)))
         return Request(
             event,
             line.name,
             predicate,
             arguments,
             (tick + 1, int(bench.upper(bench.start(token)))),
-            (-INFINITY, int(bench.upper(bench.end(token)))),
+            (-INFINITY, end),
             (1, INFINITY),
             self.name,
             event,

@@ -15,7 +15,7 @@ PRESENT_STEPS = 200
 
 
 class Window(Scope):
-    """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7), or, for the present, that hold at `tick`."""
+    """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7); for the present, those that hold now."""
 
     def __init__(self, bench: Workbench) -> None:
         self.bench = bench

@@ -1,7 +1,8 @@
 """Repair a plan that no longer agrees with the world: undo what has not begun, and if need be forget the past."""
 
 from runtime.executive.timelines import NOTHING, Goal, TimelineState
-from runtime.executive.workbench import SPAN_CLOCK, Workbench
+from runtime.executive.view import SPAN_CLOCK
+from runtime.executive.workbench import Workbench
 
 
 def relax(bench: Workbench, timelines: list[TimelineState], goals: list[Goal], tick: int, *, forget: bool) -> bool:
@@ -10,22 +11,23 @@ def relax(bench: Workbench, timelines: list[TimelineState], goals: list[Goal], t
     With `forget`, what is over is dropped too, and the present values of the reactor's own timelines; what others
     published stays. Goals that are too late are removed. False if even that is inconsistent.
     """
+    seen = {line.name: bench.fact_of(line.current) for line in timelines if not line.is_internal}
+    if forget:
+        present = set(seen.values())
+        bench.remove([token for token in bench.all_tokens() if bench.is_over(token, tick) and token not in present])
     for token in bench.all_tokens():
-        if bench.is_freed(token):
-            continue
-        if bench.is_over(token, tick) and forget:
-            if not bench.is_observed(token):
-                bench.remove([token])
-        elif bench.is_waiting(token, tick):
+        if not bench.is_freed(token) and bench.is_waiting(token, tick):
             bench.cancel(token)
     if forget:
         for line in timelines:
-            if line.current != NOTHING and line.is_internal:
+            if line.is_internal and line.current != NOTHING:
                 bench.remove([line.current])
                 line.current = NOTHING
-            elif line.current != NOTHING and not bench.is_fact(line.current):
-                # A planned token that an observation had met: the observation stands by itself again.
-                line.current = bench.separate(line.current, line.object_id)
+        for line in timelines:
+            if not line.is_internal and line.current != NOTHING:
+                # Whatever was planned for it is gone: the observation stands by itself again.
+                line.current = seen[line.name]
+                bench.stand_alone(line.current, line.object_id)
     for goal in goals:
         if bench.is_alive(goal.token, goal.token_key) and bench.is_waiting(goal.token, tick):
             if not bench.at_least(bench.start(goal.token), tick, SPAN_CLOCK, goal.token):

@@ -11,7 +11,8 @@ from runtime.executive.outcome import Conflict
 from runtime.executive.planning import Planner
 from runtime.executive.story import conflict_of
 from runtime.executive.timelines import NOTHING, TimelineState
-from runtime.executive.workbench import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_OBSERVATION, Workbench
+from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_OBSERVATION
+from runtime.executive.workbench import Workbench
 
 LIMIT = 200
 EXTEND, NEXT, NEW, FACT, MEET = "extend", "next", "new", "fact", "meet"
@@ -56,9 +57,7 @@ def persist(bench: Workbench, timelines: list[TimelineState], tick: int) -> Unse
         if line.is_internal or line.current == NOTHING:
             continue
         if line.news is None:
-            if bench.is_over(line.current, tick):
-                continue
-            if not (bench.at_least(bench.end(line.current), tick + 1, SPAN_OBSERVATION, line.current)):
+            if not bench.at_least(bench.end(line.current), tick + 1, SPAN_OBSERVATION, line.current):
                 what = f"{bench.token_name(line.current)} goes on at tick {tick}, later than the plan allows"
                 return Unsettled("F1", (line.name,), what, conflict_of(bench))
         elif not bench.fix(bench.end(line.current), tick, SPAN_OBSERVATION, line.current):
@@ -162,6 +161,10 @@ class _Search:
         """Carry out `choice`; False on conflict."""
         bench, tick = self.bench, self.tick
         token = choice.token
+        if line.is_internal and line.current != NOTHING and choice.kind != EXTEND:
+            # Something holds at every tick: what held until now ends as the next thing begins.
+            if not bench.fix(bench.end(line.current), tick, SPAN_EXECUTIVE, line.current):
+                return False
         match choice.kind:
             case "extend":
                 holds = bench.at_least(bench.end(token), tick + 1, SPAN_EXECUTIVE, token)

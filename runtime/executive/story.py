@@ -12,22 +12,18 @@ from runtime.constraints.codes import (
     KIND_OBJECT,
     KIND_STRING,
     OP_PLUS,
+    OP_SAMPLE,
     OP_TEMPORAL_DISTANCE,
+    SIDE_UPPER,
 )
 from runtime.constraints.minimise import minimise
 from runtime.constraints.operations import OPERATIONS
 from runtime.executive.outcome import Cause, Conflict, Place, Term, VariableInfo
-from runtime.executive.workbench import (
-    SPAN_CLOCK,
-    SPAN_EXECUTIVE,
-    SPAN_MISSION,
-    SPAN_OBSERVATION,
-    SPAN_REQUEST,
-    Workbench,
-)
+from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST
+from runtime.executive.workbench import Workbench
 from runtime.plan.codes import DURATION, END, FIRST_PARAMETER, OBJECT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_TOKEN, START, STATE
 
-NAMES = {code: name for name, code in reversed(OPERATIONS.items())} | {OP_PLUS: "addEq"}
+NAMES = {code: name for name, code in reversed(OPERATIONS.items())} | {OP_PLUS: "addEq", OP_SAMPLE: "sampledParameter"}
 BUILT_IN = {STATE: "state", OBJECT: "object", DURATION: "duration", START: "start", END: "end"}
 KINDS = {KIND_INT: "int", KIND_FLOAT: "float", KIND_BOOL: "bool", KIND_OBJECT: "object", KIND_STRING: "string"}
 REASONS = {
@@ -51,6 +47,41 @@ def told(bench: Workbench, causes: list[EngineCause]) -> Conflict:
     """Causes of the engine as data that outlives it."""
     teller = Teller(bench)
     return Conflict(tuple(teller.cause(cause) for cause in causes), tuple(teller.variables.values()))
+
+
+def latest(bench: Workbench, v: int) -> tuple[str, Conflict]:
+    """What sets the latest value of `v`, and that nothing ends it earlier: each link of the chain is used up."""
+    teller = Teller(bench)
+    engine = bench.engine
+    causes: dict[Cause, None] = {}
+    tight: list[Term] = []
+    for link in engine.support_chain(v, SIDE_UPPER):
+        told_cause = teller.cause(link.cause)
+        if told_cause in causes:
+            continue
+        causes[told_cause] = None
+        if link.side == SIDE_UPPER:
+            tight += used_up(teller, told_cause)
+    name = str(teller.argument(v))
+    token = teller.token(bench.database.plan.variable_owner[v])
+    words = f"{token} lasts as long as the model lets it"
+    policy = Cause("clock", None, "", token, words, tuple(dict.fromkeys(tight)))
+    return name, Conflict((*causes, policy), tuple(teller.variables.values()))
+
+
+def used_up(teller: "Teller", cause: Cause) -> list[Term]:
+    """Terms that say that an upper limit is reached: a difference is all its weight, `a <= b` leaves no whole step."""
+    found = []
+    for term in cause.terms:
+        if term.name == "precedence":
+            source, target, weight = term.arguments
+            found.append(Term("precedence", (target, source, -int(weight))))
+        elif term.name == "leq":
+            a, b = term.arguments
+            more = f"{a}+1"
+            teller.variables[more] = VariableInfo(more, "int")
+            found += [Term("addEq", (a, 1, more)), Term("lt", (b, more))]
+    return found
 
 
 class Teller:

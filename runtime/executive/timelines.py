@@ -8,7 +8,18 @@ NOTHING = -1
 class TimelineState:
     """One timeline of one reactor; `current` is the token that holds now, NOTHING before the first."""
 
-    __slots__ = ("current", "default", "event", "is_internal", "name", "news", "object_id", "others", "predicates")
+    __slots__ = (
+        "current",
+        "default",
+        "event",
+        "is_internal",
+        "name",
+        "news",
+        "object_id",
+        "others",
+        "predicates",
+        "source",
+    )
 
     def __init__(self, name: str, object_id: int, is_internal: bool, default: int, predicates: dict[str, int]) -> None:
         self.name = name
@@ -21,6 +32,7 @@ class TimelineState:
         self.current = NOTHING
         self.event = NOTHING
         self.news: Observation | None = None
+        self.source: Observation | None = None  # what the current token of another reactor's timeline came from
 
 
 class Goal:

@@ -186,9 +186,13 @@ def finish(plan: Plan, sweep: Sweep) -> bool:
     """Take tokens apart, one after the other with all their children; then let the engine forget everything."""
     rows = plan.rows
     done = 0
+    freed: list[int] = []
     while done < len(sweep.tokens):
         t = sweep.tokens[done]
         done += 1
+        if rows.status[t] == FREED:
+            continue  # named both by itself and as a child of another
+        freed.append(t)
         deactivate(plan, t, sweep)
         drop_scopes(plan, t, set(scopes_of(plan, t)), sweep)
         unlink(rows, t, LIST_OPEN)
@@ -202,7 +206,7 @@ def finish(plan: Plan, sweep: Sweep) -> bool:
     plan.engine.retract(sweep.constraints, sweep.edges, restrictions, sweep.variables)
     for s in sweep.scopes:
         rows.release_scope(s)
-    for t in reversed(sweep.tokens):
+    for t in reversed(freed):
         rows.release_token(t)
     for t in sweep.reopened:
         if rows.status[t] == INACTIVE and rows.link_head[4 * t + LIST_OPEN] < 0:

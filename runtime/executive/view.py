@@ -1,0 +1,305 @@
+"""Read a plan database under execution in tokens, ticks and names."""
+
+from math import inf
+
+from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, DomainConstant
+from runtime.constraints.codes import (
+    KIND_BOOL,
+    KIND_FLOAT,
+    KIND_INT,
+    KIND_STRING,
+    SUPPORT_EDGE,
+    SUPPORT_RESTRICTION,
+)
+from runtime.executive.messages import Arguments
+from runtime.executive.timelines import TimelineState
+from runtime.plan.codes import (
+    ACTIVE,
+    FLAG_FACT,
+    FREED,
+    INACTIVE,
+    LIST_ORDER,
+    MERGED,
+    NONE,
+    REJECTED,
+    ROLE_TOKEN,
+)
+from runtime.plan.database import PlanDatabase
+from runtime.plan.rows import LISTS
+
+# Spans of what no line of the model says: the executive's own reasons.
+SPAN_OBSERVATION, SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_REQUEST, SPAN_MISSION = -2, -3, -4, -5, -6
+INFINITY = 4503599627370495
+
+
+def _whole(bound: float) -> int:
+    """A whole bound; infinities as NDDL has them."""
+    return int(max(-INFINITY, min(bound, INFINITY)))
+
+
+class MissingTimelineError(ValueError):
+    """A timeline of the configuration that the model does not have."""
+
+
+class PlanView:
+    """What can be asked of a plan database; `Workbench` changes it."""
+
+    def __init__(self, database: PlanDatabase, name: str) -> None:
+        self.database = database
+        self.engine = database.engine
+        self.rows = database.plan.rows
+        self.name = name
+        self.predicates = {predicate.name: number for number, predicate in enumerate(database.program.predicates)}
+        self.globals = {name: number for number, (name, _) in enumerate(database.program.globals)}
+        self.requested: dict[int, int] = {}  # token -> key
+        self.external_objects: set[int] = set()
+
+    # ---- names ----
+
+    def timeline(self, name: str, is_internal: bool) -> TimelineState:
+        """The timeline that global variable `name` holds; raises `MissingTimelineError` where there is none."""
+        objects = self.database.objects.names
+        if name not in objects:
+            known = ", ".join(f"`{other}`" for other in objects) or "none"
+            raise MissingTimelineError(f"the model of `{self.name}` has no object `{name}`; it has {known}")
+        o = objects.index(name)
+        code = self.database.program.classes[self.database.plan.object_class[o]]
+        predicates: dict[str, int] = {}
+        for number, predicate in enumerate(self.database.program.predicates):
+            if predicate.class_name == code.name:
+                predicates[predicate.name.rpartition(".")[2]] = number
+        if not is_internal:
+            self.external_objects.add(o)
+        default = predicates.get(self._default_name(o), NONE)
+        return TimelineState(name, o, is_internal, default, predicates)
+
+    def _default_name(self, o: int) -> str:
+        """The default predicate that a timeline names; the first of its own if it names none."""
+        domain = self._member(o, "defaultPredicate")
+        if domain is not None and domain.values is not None and len(domain.values) == 1:
+            return str(domain.values[0])
+        return "undefined"
+
+    def _member(self, o: int, name: str) -> DomainConstant | None:
+        members = self.database.program.classes[self.database.plan.object_class[o]].members
+        for k, member in enumerate(members):
+            if member.name == name:
+                return self.domain(self.database.plan.object_var0[o] + k, member.type.kind, member.type.type_name)
+        return None
+
+    def accepts_requests(self, o: int) -> bool:
+        """Whether its users may ask for tokens on a timeline: not if the model only observes it."""
+        mode = self._member(o, "mode")
+        return mode is None or mode.values != ("Observe",)
+
+    def token_name(self, t: int) -> str:
+        """A name for reports: the predicate and a number that is never used again."""
+        return f"{self.predicate_name(self.rows.predicate[t])}#{self.rows.key[t]}"
+
+    def predicate_name(self, predicate: int) -> str:
+        """`Class.predicate`."""
+        return str(self.database.program.predicates[predicate].name)
+
+    def short_name(self, t: int) -> str:
+        """The predicate of a token without its class."""
+        return self.predicate_name(self.rows.predicate[t]).rpartition(".")[2]
+
+    # ---- variables of tokens ----
+
+    def start(self, t: int) -> int:
+        """The variable that holds when `t` starts."""
+        return int(self.rows.var0[t]) + START
+
+    def end(self, t: int) -> int:
+        """The variable that holds when `t` ends."""
+        return int(self.rows.var0[t]) + END
+
+    def duration(self, t: int) -> int:
+        """The variable that holds how long `t` lasts."""
+        return int(self.rows.var0[t]) + DURATION
+
+    def lower(self, v: int) -> float:
+        """The earliest or least that is still possible."""
+        return self.engine.lower(v)
+
+    def upper(self, v: int) -> float:
+        """The latest or most that is still possible."""
+        return self.engine.upper(v)
+
+    def arguments(self, t: int) -> Arguments:
+        """What is known of the parameters of `t`."""
+        first = self.rows.var0[t] + FIRST_PARAMETER
+        parameters = self.database.program.predicates[self.rows.predicate[t]].parameters
+        return tuple(
+            (parameter.name, self.domain(first + k, parameter.type.kind, parameter.type.type_name))
+            for k, parameter in enumerate(parameters)
+        )
+
+    def domain(self, v: int, kind: str, type_name: str) -> DomainConstant:
+        """The present domain of a variable, by names, so that another model can read it."""
+        engine, prototypes = self.engine, self.database.prototypes
+        shape = engine.kind[v]
+        if shape in (KIND_INT, KIND_FLOAT, KIND_BOOL):
+            lower, upper = engine.lower(v), engine.upper(v)
+            if shape == KIND_BOOL:
+                return DomainConstant(kind, type_name, None, tuple(bool(x) for x in range(int(lower), int(upper) + 1)))
+            if shape == KIND_INT:
+                return DomainConstant(kind, type_name, (_whole(lower), _whole(upper)), None)
+            return DomainConstant(kind, type_name, (max(lower, -INFINITY), min(upper, INFINITY)), None)
+        if not engine.is_finite(v) and engine.lower(v) != engine.upper(v):
+            return DomainConstant(kind, type_name, (-INFINITY, INFINITY), None)
+        single = engine.lower(v) == engine.upper(v)
+        values = [int(engine.lower(v))] if single else [int(value) for value in engine.values_of(v)]
+        if shape == KIND_STRING:
+            return DomainConstant(kind, type_name, None, tuple(prototypes.texts.text(x) for x in values))
+        if kind == "object":
+            return DomainConstant(kind, type_name, None, tuple(self.database.objects.names[x] for x in values))
+        return DomainConstant(kind, type_name, None, tuple(prototypes.symbols.text(x) for x in values))
+
+    # ---- asking ----
+
+    def key(self, t: int) -> int:
+        """A number that names this token for ever, while `t` may name another one later."""
+        return int(self.rows.key[t])
+
+    def is_alive(self, t: int, key: int) -> bool:
+        """Whether `t` still is the token that had `key`."""
+        return bool(self.rows.status[t] != FREED and self.rows.key[t] == key)
+
+    def is_freed(self, t: int) -> bool:
+        """Whether the row is empty."""
+        return bool(self.rows.status[t] == FREED)
+
+    def is_fact(self, t: int) -> bool:
+        """Whether the token is an observation."""
+        return bool(self.rows.flags[t] & FLAG_FACT)
+
+    def is_rejected(self, t: int) -> bool:
+        """Whether the planner has given the token up."""
+        return bool(self.rows.status[t] == REJECTED)
+
+    def is_started(self, t: int, tick: int) -> bool:
+        """Whether the token began at `tick` or before."""
+        return not self._is_undecided(t) and self.engine.upper(self.start(t)) <= tick
+
+    def _is_undecided(self, t: int) -> bool:
+        return bool(self.rows.status[t] in (INACTIVE, REJECTED))
+
+    def started_at(self, t: int) -> float:
+        """When a token started, -inf if that is open."""
+        start = self.start(t)
+        return self.engine.lower(start) if self.engine.lower(start) == self.engine.upper(start) else -inf
+
+    def is_over(self, t: int, tick: int) -> bool:
+        """Whether the token has ended by `tick`."""
+        return not self._is_undecided(t) and self.engine.upper(self.end(t)) <= tick
+
+    def is_waiting(self, t: int, tick: int) -> bool:
+        """Whether the token has not begun before `tick`."""
+        return self._is_undecided(t) or self.engine.upper(self.start(t)) >= tick
+
+    def is_requested(self, t: int) -> bool:
+        """Whether the token is, or stands for, one that somebody asked for."""
+        if self.requested.get(t) == self.rows.key[t]:
+            return True
+        other = self.rows.merged[t]
+        while other >= 0:
+            if self.requested.get(other) == self.rows.key[other]:
+                return True
+            other = self.rows.merged_next[other]
+        return False
+
+    def remember_request(self, t: int) -> None:
+        """Note that somebody asked for `t`."""
+        self.requested[t] = int(self.rows.key[t])
+
+    def stands_for(self, t: int) -> int:
+        """The token of the plan that `t` is, or is merged into."""
+        return int(self.rows.merged_into[t] if self.rows.status[t] == MERGED else t)
+
+    def predicate_of(self, t: int) -> int:
+        """The predicate of a token."""
+        return int(self.rows.predicate[t])
+
+    def next_of(self, o: int, current: int) -> int:
+        """The token behind the current one in the sequence of a timeline; the first one if there is no current."""
+        if current < 0:
+            return int(self.rows.head_first[self.database.plan.object_head[o]])
+        return int(self.rows.link_after[LISTS * current + LIST_ORDER])
+
+    def planned_after(self, o: int, current: int) -> list[int]:
+        """The sequence of a timeline behind the current token."""
+        found = []
+        t = self.next_of(o, current)
+        while t >= 0:
+            found.append(t)
+            t = int(self.rows.link_after[LISTS * t + LIST_ORDER])
+        return found
+
+    def all_tokens(self) -> list[int]:
+        """All tokens, oldest first."""
+        rows = self.rows
+        live = [t for t in range(rows.token_count) if rows.status[t] != FREED]
+        return sorted(live, key=lambda t: int(rows.key[t]))
+
+    def unplaced(self, tick: int) -> list[int]:
+        """Tokens that are in no sequence yet and may start by `tick` as well as later."""
+        rows, engine = self.rows, self.engine
+        return [
+            t
+            for t in range(rows.token_count)
+            if rows.status[t] in (ACTIVE, INACTIVE)
+            and rows.link_head[LISTS * t + LIST_ORDER] < 0
+            and engine.lower(self.start(t)) <= tick < engine.upper(self.start(t))
+        ]
+
+    def is_blocked(self, t: int, current: int, tick: int) -> bool:
+        """Whether the earliest start of `t` hangs on a token that has not begun, or on an end still to be observed.
+
+        The bound is followed along edges. What is observed on the timeline of `t` itself does not block if it was not
+        planned (it ends when `t` begins), nor does what this reactor may end itself.
+        """
+        engine, plan = self.engine, self.database.plan
+        v = self.start(t)
+        for _ in range(engine.edges_used):
+            support = engine.lower_support[v]
+            if support < 0 or support & 3 != SUPPORT_EDGE:
+                break
+            v = engine.edge_target[support >> 2]
+            if self._is_awaited(v, t, current, tick):
+                return True
+        support = engine.lower_support[v]
+        if support < 0 or support & 3 != SUPPORT_RESTRICTION or plan.variable_role[v] != ROLE_TOKEN:
+            return False
+        is_own = self.stands_for(plan.variable_owner[v]) == self.stands_for(t)
+        return bool(engine.restriction_span[support >> 2] == SPAN_CLOCK) and not is_own and engine.upper(v) > tick
+
+    def _is_awaited(self, v: int, t: int, current: int, tick: int) -> bool:
+        """Whether `v` is the open end of a token on another reactor's timeline, other than what `t` replaces."""
+        plan = self.database.plan
+        if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != END or self.engine.upper(v) <= tick:
+            return False
+        other = self.stands_for(plan.variable_owner[v])
+        if other == self.stands_for(t) or (other == current and self.is_fact(other)):
+            return False
+        return self.object_of(other) in self.external_objects
+
+    def object_of(self, t: int) -> int:
+        """The object that a token is on; NONE while that is open."""
+        v = self.rows.var0[t] + OBJECT
+        return int(self.engine.lower(v)) if self.engine.is_singleton(v) else NONE
+
+    def reads_clock(self) -> bool:
+        """Whether anything in the plan depends on the tick that is now."""
+        number = self.globals.get("AGENT_CLOCK")
+        return number is not None and bool(self.engine.constraints_of(self.database.plan.globals[number]))
+
+    def undecided(self) -> list[int]:
+        """Tokens that are still to be decided."""
+        rows = self.rows
+        return [t for t in range(rows.token_count) if rows.status[t] == INACTIVE]
+
+    def sampled_name(self, span: int) -> str:
+        """The sampled parameter that the text at `span` names."""
+        text = self.database.code.spans[span].text if 0 <= span < len(self.database.code.spans) else ""
+        return text.partition("(")[2].partition(")")[0].strip() or "sampledParameter"
