@@ -15,6 +15,7 @@ from runtime.constraints.codes import (
     FAMILY_SETS,
     FLAG_DECISION,
     FLAG_VALUES,
+    KIND_FLOAT,
     OP_ELEMENT,
     OP_EXTERNAL,
     SUPPORT_RESTRICTION,
@@ -77,7 +78,7 @@ class Engine(Store):
         clear_row(self, v, kind)
         values = sorted(set(values))
         lo = values[0] if values else 1
-        hi = values[-1] if values else 0
+        hi = values[len(values) - 1] if values else 0
         r = add_restriction(self, v, lo, hi, FLAG_VALUES, span, owner)
         self.restriction_values[r] = values
         start_values(self, v, values, r)
@@ -151,7 +152,7 @@ class Engine(Store):
         """Intersect the base domain with a set; false if no value is left."""
         values = sorted(set(values))
         lo = values[0] if values else 1
-        hi = values[-1] if values else 0
+        hi = values[len(values) - 1] if values else 0
         r = add_restriction(self, v, lo, hi, FLAG_VALUES, span, owner)
         self.restriction_values[r] = values
         self.newest_restriction = r
@@ -169,6 +170,8 @@ class Engine(Store):
         r = add_restriction(self, v, value, value, FLAG_DECISION, span, owner)
         self.newest_restriction = r
         self.set_decided(v, 1)
+        if self.kind[v] == KIND_FLOAT and is_single(self, v) and self.contains(v, value):
+            return bool(self.consistent)  # what holds the value goes on being its reason
         return bool(self.consistent and keep_values(self, v, [value], r * 4 + SUPPORT_RESTRICTION))
 
     def mark_decided(self, v: int) -> None:
@@ -245,7 +248,7 @@ class Engine(Store):
     ) -> int:
         """Post: `result` equals the variable that stands beside the key which `index` takes."""
         rows = sorted(zip(keys, variables, strict=True))
-        c = post_constraint(self, OP_ELEMENT, [result, index, *(v for _, v in rows)], span, owner)
+        c = post_constraint(self, OP_ELEMENT, [result, index] + [v for _, v in rows], span, owner)
         for k, (key, _) in enumerate(rows):
             self.slot_key[self.first[c] + 2 + k] = key
         return c
