@@ -3,6 +3,7 @@
 import re
 from dataclasses import dataclass
 
+from nddl_lang.formatter.spacing import BLANKS
 from nddl_lang.formatter.writer import Writer
 from nddl_lang.syntax.codes import INTEGER_RANGE, UNKNOWN_ESCAPE
 from nddl_lang.syntax.dialect import Dialect
@@ -63,6 +64,6 @@ def _write_raw(writer: Writer, piece: Piece, text: str) -> None:
     start = trivia.end()
     comments = [(one + offset, other + offset) for one, other in piece.comments if one + offset < start]
     if start < end:
-        writer.write_raw(start, offset + len(piece.text.rstrip()), comments)
+        writer.write_raw(start, offset + len(piece.text.rstrip(BLANKS)), comments)
     else:
         writer.write_comments(comments)

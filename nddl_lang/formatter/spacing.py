@@ -1,5 +1,8 @@
 """Say between which lexemes of a line a blank stands."""
 
+# What separates lexemes; Python's own idea of white space is wider.
+BLANKS = " \t\r\n\f"
+
 _NO_BLANK_BEFORE = frozenset((")", "]", ",", ";", ".", "::"))
 _NO_BLANK_AFTER = frozenset(("(", "[", "SET", ".", "::", "!"))
 _OPERAND_ENDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]"))

@@ -1,6 +1,7 @@
 """Fit the words of one line into as many lines as they need."""
 
 from nddl_lang.formatter.layout import INDENT, WIDTH
+from nddl_lang.formatter.spacing import BLANKS
 
 # A line that goes on is indented by two more levels, so that it cannot be taken for a new statement.
 _CONTINUATION = 2 * INDENT
@@ -32,7 +33,7 @@ class Words:
 
     def add_comment(self, text: str, has_own_line: bool) -> None:
         """Add a comment in the middle of a statement."""
-        text = text.rstrip()
+        text = text.rstrip(BLANKS)
         if len(self._chunks) in self._forced or (has_own_line and not is_inline(text)):
             self._forced.add(len(self._chunks))
             self._chunks.append(text)

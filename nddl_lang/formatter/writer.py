@@ -1,6 +1,7 @@
 """Write the lines of a text: statements, comments and the blank lines between them."""
 
 from nddl_lang.formatter.layout import INDENT, WIDTH, Layout
+from nddl_lang.formatter.spacing import BLANKS
 from nddl_lang.formatter.words import Words, is_inline
 from nddl_lang.syntax.piece import Piece
 
@@ -37,6 +38,8 @@ class Writer:
         words: Words | None = None
         for index, start in enumerate(piece.starts):
             if index in layout.dropped:
+                if self._text.count("\n", self._at, start + offset) < 2:
+                    self._at = piece.ends[index] + offset
                 continue
             first = used
             while used < len(comments) and comments[used][0] < start + offset:
@@ -60,7 +63,7 @@ class Writer:
         """Write `comments`, and begin the words of the line for what stands at `start`."""
         inner = (level + is_closing) * INDENT
         for number, comment in enumerate(comments):
-            text = self._text[slice(*comment)].rstrip()
+            text = self._text[slice(*comment)].rstrip(BLANKS)
             is_last = number == len(comments) - 1
             if is_last and not is_closing and is_inline(text) and "\n" not in self._text[comment[1] : start]:
                 return Words(level * INDENT, f"{text} {first}", (self._at, comment[0]), is_closing)
@@ -94,7 +97,7 @@ class Writer:
     def write_comments(self, comments: list[Comment]) -> None:
         """Write comments that no statement follows."""
         for comment in comments:
-            self._write_comment(comment, self._text[slice(*comment)].rstrip(), 0)
+            self._write_comment(comment, self._text[slice(*comment)].rstrip(BLANKS), 0)
 
     def _write_comment(self, comment: Comment, text: str, indent: int) -> None:
         """Write a comment after what stands in its line, or in a line of its own."""
@@ -115,7 +118,7 @@ class Writer:
         line = self._text.rfind("\n", 0, start) + 1
         indent = self._text[line:start]
         self._begin_line(self._at, start, False)
-        self._line = (indent if line >= self._at and not indent.strip() else "") + self._text[start:end]
+        self._line = (indent if line >= self._at and not indent.strip(BLANKS) else "") + self._text[start:end]
         self._opens_block = False
         self._short_indent = -1
         self._at = end

@@ -36,12 +36,12 @@ def advise(kinds: list[str], texts: list[str], first: int, index: int) -> str | 
         return "an enum needs at least one value"
     if kind == "}" and before == "SET":
         return "a set needs at least one value"
-    if kind == "]" and "[" in kinds[first:index]:
+    if kind in ("]", ";") and "[" in kinds[max(first, index - 2) : index]:
         return "an interval has two bounds: `[0 10]`"
     if kind in ("INT", "FLOAT") and "SET" in kinds[first:index]:
         return "the values of a set are separated by commas"
     if kind == "else":
         return "an `else` follows the statement or block of an `if`"
     if kinds[first] in ("predicate", "action") and kind == ";":
-        return f"a {kinds[first]} has a body, if only an empty one: `{kinds[first]} {texts[index - 1]} {{ }}`"
+        return f"it has a body, if only an empty one: `{kinds[first]} {texts[index - 1]} {{ }}`"
     return None

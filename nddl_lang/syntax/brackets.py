@@ -2,9 +2,10 @@
 
 # How deep brackets may be nested: whoever walks the tree recursively must come back.
 DEPTH_LIMIT = 200
+STEPS = "state it in several steps, with variables between them"
 
-# After one of these a `{` opens a block of statements, not a set of values.
-_BEFORE_BLOCK = frozenset(("IDENT", ")", "else", ";", "{", "}", ":"))
+# After one of these a `{` opens a set of values; after anything else, a block of statements.
+_BEFORE_SET = frozenset(("=", "==", "!=", "<", "<=", ">", ">=", "in", ",", "(", "[", "SET", "BASETYPE", "RELATION"))
 _OPENERS = {")": "(", "]": "["}
 
 
@@ -30,10 +31,10 @@ class Brackets:
             stack.append(kind)
             return False
         if kind == "{":
-            is_block = previous is None or (previous in _BEFORE_BLOCK and not self.in_typedef)
-            stack.append("{" if is_block else "SET")
+            stack.append("SET" if previous in _BEFORE_SET or self.in_typedef else "{")
             return False
         if kind == ";":
+            self.in_typedef = False
             while stack and stack[-1] != "{":
                 stack.pop()
             return not stack

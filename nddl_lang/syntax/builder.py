@@ -3,7 +3,7 @@
 A maker takes the builder and the parts of one grammar alternative: the index of a lexeme, a node, or a list of them.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from nddl_lang.syntax.codes import (
@@ -93,6 +93,10 @@ class Builder:
         return Span(self.anchor, start, end)
 
 
+# Makes the value of one alternative of the grammar from those of its parts.
+Maker = Callable[[Builder, list[Any]], Any]
+
+
 def is_plain(value: Expr) -> bool:
     """Whether `value` is a value in nddl3: a literal, a domain or a path, without parentheses."""
     match value:
@@ -109,9 +113,13 @@ def plain_values(b: Builder, values: Iterable[Expr], code: Code, **words: str) -
     if b.is_strict:
         for value in values:
             if not is_plain(value) and type(value) is not NewExpr:
-                # The wider complaint covers that of the scanner.
-                b.piece.forget(GLUED_SIGN, value.span)
-                help_text = "declare a variable, state what it equals, and write the variable here"
+                # The wider complaint says it all.
+                for narrower in (GLUED_SIGN, UNARY_OPERATOR, DIVISION):
+                    b.piece.forget(narrower, value.span)
+                if isinstance(value, BinaryExpr | UnaryExpr | CallExpr):
+                    help_text = "declare a variable, state what it equals, and write the variable here"
+                else:
+                    help_text = "leave out the parentheses"
                 b.report(code, value.span, **words, help=help_text)
 
 
@@ -207,6 +215,7 @@ def interval(b: Builder, v: list[Any]) -> IntervalExpr:
         if isinstance(bound, BoolLiteral | StringLiteral | SetExpr | IntervalExpr):
             b.report(MISPLACED_VALUE, bound.span, what=describe(bound), where="as a bound", help="write a number")
         elif b.is_strict:
+            b.piece.forget(UNARY_OPERATOR, bound.span)
             b.report(VARIABLE_BOUND, bound.span, help="state the bounds as constraints: `a >= low; a <= high;`")
     return IntervalExpr(lower, upper, b.span(v[0], v[-1]))
 

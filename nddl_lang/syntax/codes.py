@@ -16,7 +16,7 @@ UNDECODABLE = Code("NDDL107", Severity.WARNING, "syntax", "these bytes are not U
 
 EXPECTED = Code("NDDL110", Severity.ERROR, "syntax", "expected {expected}, found {found}")
 MISSING = Code("NDDL111", Severity.ERROR, "syntax", "expected `{text}` {place}")
-SUPERFLUOUS = Code("NDDL112", Severity.ERROR, "syntax", "`{text}` is too much here")
+SUPERFLUOUS = Code("NDDL112", Severity.ERROR, "syntax", "`{text}` does not belong here")
 RESERVED_WORD = Code("NDDL113", Severity.ERROR, "syntax", "`{text}` is a reserved word and cannot be a name")
 UNCLOSED_BRACE = Code("NDDL114", Severity.ERROR, "syntax", "this `{text}` is never closed")
 STRAY_BRACE = Code("NDDL115", Severity.ERROR, "syntax", "this `{text}` closes nothing")
@@ -29,7 +29,7 @@ NO_ARGUMENT = Code("NDDL121", Severity.ERROR, "syntax", "the function `{name}` n
 TOO_MANY_BOUNDS = Code("NDDL122", Severity.ERROR, "syntax", "a relation takes at most two bounds, found {count}")
 EQUALITY_SIGN = Code("NDDL123", Severity.ERROR, "syntax", "`=` cannot stand in an expression")
 CALL_INITIALISER = Code("NDDL124", Severity.ERROR, "syntax", "`{name}(...)` does not give `{name}` its value")
-IN_ASSIGNMENT = Code("NDDL125", Severity.ERROR, "syntax", "`in` does not restrict a variable")
+IN_ASSIGNMENT = Code("NDDL125", Severity.ERROR, "syntax", "a variable is restricted with `=`, not with `in`")
 
 # ---- what only the dialect nddlc accepts ----
 
@@ -54,6 +54,25 @@ FORMER_NUMBER = Code("NDDL172", Severity.ERROR, "syntax", "numbers are written i
 FORMER_DIRECTIVE = Code("NDDL173", Severity.ERROR, "syntax", "`{text}` is no directive; there is only `#include`")
 FORMER_RELATION = Code("NDDL174", Severity.ERROR, "syntax", "the tokens of a relation stand in `( )`")
 FORMER_SIGNATURE = Code("NDDL175", Severity.ERROR, "syntax", "constraints are not declared in NDDL any more")
+
+# These are about one lexeme, whatever becomes of the statement around it.
+OF_LEXEMES = frozenset(
+    (
+        UNEXPECTED_CHARACTER,
+        UNCLOSED_STRING,
+        UNCLOSED_COMMENT,
+        UNKNOWN_ESCAPE,
+        MALFORMED_NUMBER,
+        INTEGER_RANGE,
+        UNDECODABLE,
+        COMMENT_AT_END,
+        BYTE_ORDER_MARK,
+        INCLUDE_BLANK,
+        FORMER_STRING,
+        FORMER_NUMBER,
+        FORMER_DIRECTIVE,
+    )
+)
 
 # ---- includes ----
 

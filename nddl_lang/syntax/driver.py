@@ -1,11 +1,10 @@
 """Run the tables of the grammar over the lexemes of one piece, making nodes on the way."""
 
-from collections.abc import Callable
 from typing import Any
 
 from nddl_lang.syntax import builder, statements
-from nddl_lang.syntax.brackets import DEPTH_LIMIT
-from nddl_lang.syntax.builder import Builder, pass_on, report_waiting
+from nddl_lang.syntax.brackets import DEPTH_LIMIT, STEPS
+from nddl_lang.syntax.builder import Builder, Maker, pass_on, report_waiting
 from nddl_lang.syntax.codes import TOO_DEEP
 from nddl_lang.syntax.former import replace_former
 from nddl_lang.syntax.piece import Piece
@@ -16,8 +15,6 @@ from nddl_lang.syntax.walk import is_deeper
 
 # Each of these makes a tree at most a few levels deeper; other lexemes only make it wider.
 _DEEPENING = ("||", "&&", "==", "!=", "<", "<=", ">", ">=", "+", "-", "*", "/", "!", "if", "else", "(", "{")
-
-Maker = Callable[[Builder, list[Any]], Any]
 
 
 def _maker(name: str | None) -> Maker:
@@ -57,7 +54,7 @@ def _give_up(b: Builder) -> None:
     piece = b.piece
     span = piece.span(piece.starts[0], piece.ends[-1])
     piece.statements = (break_statement(b, span),)
-    b.report(TOO_DEEP, head_of(span), limit=DEPTH_LIMIT)
+    b.report(TOO_DEEP, head_of(span), limit=DEPTH_LIMIT, help=STEPS)
 
 
 def _run(b: Builder) -> list[Any]:
@@ -73,7 +70,7 @@ def _run(b: Builder) -> list[Any]:
     while True:
         if action is None:
             if recovery is None:
-                recovery = Recovery(b)
+                recovery = Recovery(b, _MAKERS)
                 kinds = b.kinds
             index = recovery.recover(states, values, index)
             kind = kinds[index]

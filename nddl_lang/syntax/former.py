@@ -39,7 +39,7 @@ def _replace(b: Builder, index: int, following: list[str]) -> bool:
         span = b.span(index, last)
         blanks = b.starts[last + 1] - b.ends[last] if last + 1 < len(b.starts) else 0
         edit = Edit(Span(span.anchor, span.start, span.end + blanks), "")
-        help_text = "every member can be reached" if word in _ACCESS else "it never had a meaning in the engine"
+        help_text = "every member can be reached" if word in _ACCESS else "it has no effect"
         b.report(
             FORMER_WORD, span, text=word, help=f"remove it: {help_text}", fixes=(Fix(f"remove `{word}`", (edit,)),)
         )

@@ -35,12 +35,12 @@ _HELP = {
     "%": "the remainder of a division is the function `mod(a, b)`",
     "^": "a power is the function `pow(a, b)`",
     "?": "a choice between two values is an `if` in a rule",
-    "@": None,
 }
 _DIRECTIVE_HELP = {
     "#define": "declare a variable: `int NAME = 5;`",
     "#use_xml": "remove the line: it has no meaning any more",
     "#line": "remove the line: it has no meaning any more",
+    **dict.fromkeys(("#if", "#ifdef", "#ifndef", "#else", "#endif"), "remove the line: all text is read"),
 }
 
 
@@ -65,11 +65,16 @@ def read_number(piece: Piece, start: int, word: str, strict: bool) -> str:
     end = start + len(word)
     former = _HEXADECIMAL.fullmatch(word) or _OCTAL.fullmatch(word)
     if former is not None:
-        value = former[1] + str(integer(word))
+        value = str(integer(word))
         fix = Fix(f"write `{value}`", (Edit(piece.span(start, end), value),))
         piece.report(FORMER_NUMBER, start, end, help=f"write `{value}`", fixes=(fix,))
     else:
-        piece.report(MALFORMED_NUMBER, start, end, text=excerpt(word))
+        help_text = None
+        if ".." in word:
+            help_text = "an interval is written `[1 5]`"
+        elif word.strip("+-").isdecimal():
+            help_text = f"write `{excerpt(word.lstrip('+-').lstrip('0'))}`: numbers have no leading zeros"
+        piece.report(MALFORMED_NUMBER, start, end, text=excerpt(word), help=help_text)
     return "INT"
 
 
@@ -176,5 +181,8 @@ def read_other(piece: Piece, start: int, word: str) -> str | None:
         fix = Fix(f"write `{word * 2}`", (Edit(piece.span(start, end), word * 2),))
         piece.report(UNEXPECTED_CHARACTER, start, end, text=word, help=f"write `{word * 2}`", fixes=(fix,))
         return word * 2
-    piece.report(UNEXPECTED_CHARACTER, start, end, text=excerpt(word), help=_HELP.get(word))
+    help_text = _HELP.get(word)
+    if any(letter.isalpha() for letter in word):
+        help_text = "names are made of the letters a to z and A to Z, digits, `_` and `$`"
+    piece.report(UNEXPECTED_CHARACTER, start, end, text=excerpt(word), help=help_text)
     return None

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from nddl_lang.syntax.builder import Builder
-from nddl_lang.syntax.codes import EMPTY_IN_PREDICATE, MISPLACED
+from nddl_lang.syntax.codes import EMPTY_IN_PREDICATE, MISPLACED, OF_LEXEMES
 from nddl_lang.syntax.nodes import (
     Allocation,
     Assignment,
@@ -114,6 +114,7 @@ _HOMES: dict[type, str] = {
     Block: "only the body of a rule, `if`, `else` or `foreach` stands in braces",
     GoalStatement: "put it at the top level; in a rule, a relation asks for a token: `meets(object.p name);`",
     MethodCall: "put it at the top level",
+    Allocation: "give it a name: `Class name = new Class(...);`",
 }
 
 
@@ -156,6 +157,8 @@ def _misplaced(b: Builder, statement: Any, place: Place) -> BrokenStatement:
         help_text = "put it into a predicate or a rule; a constructor needs a body: `{ }`"
     elif isinstance(statement, CallConstraint | ExprConstraint) and place is CONSTRUCTOR:
         help_text = "a constructor gives members their values: write `member = value;`"
+    elif isinstance(statement, Assignment) and place is CLASS:
+        help_text = "put it into a constructor"
     elif isinstance(statement, Relation):
         help_text = "put it into a rule: `Class::predicate { ... }`"
     elif isinstance(statement, VariableDecl) and place is CONSTRUCTOR:
@@ -177,7 +180,7 @@ def break_statement(b: Builder, span: Span) -> BrokenStatement:
     piece.diagnostics = [
         diagnostic
         for diagnostic in piece.diagnostics
-        if not span.start <= diagnostic.span.start <= span.end or diagnostic.code.id < "NDDL110"
+        if not span.start <= diagnostic.span.start <= span.end or diagnostic.code in OF_LEXEMES
     ]
     piece.broken.append((span.start, span.end))
     return BrokenStatement(span)

@@ -9,7 +9,7 @@ from bisect import bisect_left
 from typing import Any
 
 from nddl_lang.syntax.advice import advise, describe_found
-from nddl_lang.syntax.builder import Builder
+from nddl_lang.syntax.builder import Builder, Maker
 from nddl_lang.syntax.codes import (
     EQUALITY_SIGN,
     EXPECTED,
@@ -28,14 +28,14 @@ from nddl_lang.syntax.former import put_in_parentheses
 from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.placement import break_statement
 from nddl_lang.syntax.skipping import end_of_statement, misaligned_brace
-from nddl_lang.syntax.tables import END, GOTOS
+from nddl_lang.syntax.tables import ACTIONS, END, GOTOS
 from nddl_lang.syntax.words import RESERVED
 from nddl_lang.text.diagnostic import Code, Edit, Fix, Note
 
 _STATEMENT_WORDS = frozenset(
     ("BASETYPE", "class", "enum", "typedef", "GOAL", "predicate", "action", "if", "foreach", "#include", "filter")
 )
-_PUNCTUATION = frozenset("=,:.)]+-*/<>!;") | {"==", "!=", "<=", ">=", "&&", "||", "::"}
+_PUNCTUATION = frozenset("=,:.)]+-*/<>!") | {"==", "!=", "<=", ">=", "&&", "||", "::"}
 _OPENERS = {")": "(", "]": "[", "}": "SET"}
 _OPEN = frozenset(("(", "[", "{", "SET"))
 # A lexeme that was already complained about explains whatever follows in its statement.
@@ -45,7 +45,8 @@ _LEXICAL = (UNEXPECTED_CHARACTER, UNCLOSED_STRING, MALFORMED_NUMBER, FORMER_DIRE
 class Recovery:
     """Mends the lexemes of one piece; works on copies, so that the piece keeps what was written."""
 
-    def __init__(self, b: Builder) -> None:
+    def __init__(self, b: Builder, makers: list[tuple[str, int, Maker]]) -> None:
+        self._makers = makers
         b.own()
         b.kinds.append(END)
         self._b = b
@@ -56,6 +57,7 @@ class Recovery:
 
     def recover(self, states: list[int], values: list[Any], index: int) -> int:
         """Mend at the lexeme `index`, which does not fit; returns where to go on."""
+        self._settle(states, values)
         depth = len(states) - 1
         while "statement" not in GOTOS[states[depth]]:
             depth -= 1
@@ -68,6 +70,19 @@ class Recovery:
             del values[depth:]
             return first
         return self._give_up(states, values, depth, first, index)
+
+    def _settle(self, states: list[int], values: list[Any]) -> None:
+        """Finish what is complete whatever follows: the tables wait for a lexeme that fits."""
+        while True:
+            row = ACTIONS[states[-1]]
+            reductions = {action for action in row.values() if action < 0}
+            if len(reductions) != 1 or any(action >= 0 for kind, action in row.items() if kind != "else"):
+                return
+            head, size, make = self._makers[-reductions.pop()]
+            parts = values[len(values) - size :]
+            del values[len(values) - size :], states[len(states) - size :]
+            values.append(make(self._b, parts))
+            states.append(GOTOS[states[-1]][head])
 
     # ---- small mends ----
 
@@ -142,7 +157,7 @@ class Recovery:
         """Turn the statement that begins at lexeme `first` into a broken one and go on behind it."""
         b, kinds = self._b, self._kinds
         is_inside = self._open_block(values[:depth]) is not None
-        end = end_of_statement(kinds, first, index)
+        end = end_of_statement(kinds, first, index, self._begins_next)
         is_stray = end == index == first and kinds[index] == "}" and not is_inside
         if is_stray:
             end += 1
@@ -213,6 +228,14 @@ class Recovery:
         b, kinds = self._b, self._kinds
         if kinds[index] in ("}", END) or kinds[index] in _STATEMENT_WORDS:
             return True
+        offset = b.anchor.offset
+        return "\n" in b.anchor.source.text[offset + b.ends[index - 1] : offset + b.starts[index]]
+
+    def _begins_next(self, index: int) -> bool:
+        """Whether the lexeme `index` is the first in its line, and a word that only begins statements."""
+        if self._kinds[index] not in _STATEMENT_WORDS or index == 0:
+            return False
+        b = self._b
         offset = b.anchor.offset
         return "\n" in b.anchor.source.text[offset + b.ends[index - 1] : offset + b.starts[index]]
 

@@ -5,7 +5,7 @@ Reading a piece depends on nothing before it, so the incremental parser can star
 
 import re
 
-from nddl_lang.syntax.brackets import DEPTH_LIMIT, Brackets
+from nddl_lang.syntax.brackets import DEPTH_LIMIT, STEPS, Brackets
 from nddl_lang.syntax.codes import (
     BYTE_ORDER_MARK,
     COMMENT_AT_END,
@@ -187,7 +187,7 @@ class Scanner:
                     self._end = -1
         elif self._brackets.is_too_deep and not piece.is_too_deep:
             piece.is_too_deep = True
-            piece.report(TOO_DEEP, start - self._base, finish - self._base, limit=DEPTH_LIMIT)
+            piece.report(TOO_DEEP, start - self._base, finish - self._base, limit=DEPTH_LIMIT, help=STEPS)
         return "SET" if kind == "{" and self._brackets.innermost == "SET" else kind
 
     def _read_include(self, start: int, finish: int) -> str:
@@ -255,6 +255,8 @@ class Scanner:
             kind = read_quoted(piece, start - base, word)
         elif group == _DIRECTIVE:
             read_directive(piece, start - base, word)
+            if not piece.kinds:
+                self._end = finish
         elif group == _OPEN_COMMENT:
             end = start + len("/*") - base
             piece.report(UNCLOSED_COMMENT, start - base, end, help="write `*/` where the comment ends")

@@ -1,5 +1,7 @@
 """Find where a statement that was not understood ends."""
 
+from collections.abc import Callable
+
 from nddl_lang.syntax.builder import Builder
 from nddl_lang.syntax.tables import END
 
@@ -7,15 +9,20 @@ _BRACKETS = frozenset(("(", "[", "{", "SET"))
 _OPENERS = {")": "(", "]": "["}
 
 
-def end_of_statement(kinds: list[str], first: int, index: int) -> int:
+def end_of_statement(
+    kinds: list[str], first: int, index: int, begins_next: Callable[[int], bool] = lambda _: False
+) -> int:
     """The lexeme after the statement that begins at `first` and went wrong at `index`.
 
-    It ends with its `;`, with the block that belongs to it, or before the `}` of the block around it.
+    It ends with its `;`, with the block that belongs to it, before the `}` of the block around it, or where
+    `begins_next` says that another one begins.
     """
     stack: list[str] = []
     at = first
     while kinds[at] != END:
         kind = kinds[at]
+        if at >= index and at > first and "{" not in stack and begins_next(at):
+            return at
         if kind in _BRACKETS:
             stack.append(kind)
         elif kind == ")" or kind == "]":
