@@ -14,7 +14,7 @@ from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import merge, settle
 from runtime.plan.rows import LISTS
 from runtime.plan.timelines import order
-from runtime.solver.codes import OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
+from runtime.solver.codes import CUSTOM, OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 from runtime.solver.decisions import Decisions
 from runtime.solver.queues import Queues
 from runtime.solver.wording import Line, Wording
@@ -117,6 +117,8 @@ class Recorder:
             return f"`{wording.token(item)}` has no place on its timeline yet"
         if kind == UNBOUND_VARIABLE:
             return f"`{wording.variable(item)}` has no value yet"
+        if kind == CUSTOM:
+            return f"flaw {item} is not mended yet"
         return f"`{self.database.objects.names[item]}` might be used too much at {self.stack.other[d]}"
 
     def choice(self, d: int, wording: Wording) -> str:
@@ -136,6 +138,8 @@ class Recorder:
             return "activate it"
         if kind == UNBOUND_VARIABLE:
             return f"give it the value {wording.value(item)}"
+        if kind == CUSTOM:
+            return f"choice {stack.tries[d]}"
         at = stack.pool_first[d] + max(stack.cursor[d], 0)
         before, after = stack.pool_before[at], stack.pool_after[at]
         if kind == THREAT:

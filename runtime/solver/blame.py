@@ -238,7 +238,7 @@ class Blame:
         q = self.queues
         stack = self.stack
         item = stack.item[d]
-        if q.treatments.handler_most[stack.handler[d]] != 0:
+        if stack.handler[d] < 0 or q.treatments.handler_most[stack.handler[d]] != 0:
             stack.reasons[d] = EVERYTHING
             return 0
         self.begin()

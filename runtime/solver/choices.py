@@ -6,6 +6,7 @@ from runtime.plan.lifecycle import settle
 from runtime.plan.timelines import order
 from runtime.solver.codes import (
     APPLIED,
+    CUSTOM,
     FAILED_CHOICE,
     HANDLER_HSTS_THREAT,
     HANDLER_LISTED,
@@ -37,7 +38,19 @@ def mend(q: Queues, stack: Decisions, d: int) -> int:
         return mend_open_condition(q, stack, d)
     if kind == THREAT:
         return mend_threat(q, stack, d)
+    if kind == CUSTOM:
+        return mend_custom(q, stack, d)
     return mend_instant(q, stack, d)
+
+
+def mend_custom(q: Queues, stack: Decisions, d: int) -> int:
+    """Have somebody else's manager carry out its next choice."""
+    if q.probing:
+        return APPLIED if q.custom.has_choice(stack.item[d], stack.tries[d]) else NO_CHOICE
+    outcome = q.custom.attempt(stack.item[d], stack.tries[d])
+    if outcome != NO_CHOICE:
+        stack.tries[d] += 1
+    return outcome
 
 
 def mend_variable(q: Queues, stack: Decisions, d: int) -> int:

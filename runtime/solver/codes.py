@@ -3,7 +3,7 @@
 NONE = -1
 
 # ---- kinds of flaws, one per manager ----
-THREAT, OPEN_CONDITION, UNBOUND_VARIABLE, RESOURCE_THREAT = range(4)
+THREAT, OPEN_CONDITION, UNBOUND_VARIABLE, RESOURCE_THREAT, CUSTOM = range(5)
 MANAGER_NAMES = ("ThreatManager", "OpenConditionManager", "UnboundVariableManager", "ResourceThreatManager")
 
 # ---- filters; all but the first are tested anew at every step ----

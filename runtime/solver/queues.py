@@ -16,6 +16,7 @@ from runtime.solver.codes import (
     NONE,
     UNBOUND_VARIABLE,
 )
+from runtime.solver.custom import CustomManager
 from runtime.solver.distances import Distances
 from runtime.solver.filters import Filters
 from runtime.solver.heap import Heap
@@ -39,6 +40,8 @@ class Queues:
         self.distances = Distances(plan.engine)
         self.uses = Uses(plan, self.distances, array("q", [0]))
         self.takers = Heap()
+        self.has_custom = False
+        self.custom = CustomManager()
         self.found_at = 0
         self.found_low = 0
         self.probing = False  # a choice is looked for, but not carried out

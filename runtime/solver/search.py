@@ -21,6 +21,7 @@ from runtime.solver.codes import (
     TIMEOUT,
 )
 from runtime.solver.configuration import Configuration
+from runtime.solver.custom import CustomManager
 from runtime.solver.decisions import Decisions
 from runtime.solver.filters import Filters, Scope
 from runtime.solver.matching import Matching
@@ -80,6 +81,12 @@ class Solver:
         if scope is not None:
             self.filters.scope = scope
 
+    def set_custom(self, manager: CustomManager | None) -> None:
+        """Mend the flaws of `manager` as well."""
+        self.queues.has_custom = manager is not None
+        if manager is not None:
+            self.queues.custom = manager
+
     def refresh(self) -> None:
         """Look at the whole plan anew, because it was changed from outside; no decision may be on the stack."""
         assert self.stack.depth == 0
@@ -134,7 +141,7 @@ class Solver:
                 self.steps - self.steps_floor >= self.max_steps or stack.depth - self.depth_floor > self.max_depth
             )
             outcome = NO_CHOICE
-            most = q.treatments.handler_most[stack.handler[d]]
+            most = q.treatments.handler_most[stack.handler[d]] if stack.handler[d] >= 0 else 0
             if most == 0 or stack.tries[d] < most:
                 outcome = mend(q, stack, d)
             if outcome == NO_CHOICE:

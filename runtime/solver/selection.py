@@ -4,6 +4,7 @@ from runtime.plan.codes import ACTIVE, INACTIVE, LIST_ORDER
 from runtime.plan.rows import LISTS
 from runtime.solver.codes import (
     BEST_PRIORITY,
+    CUSTOM,
     DROPPED_EFFECT,
     DROPPED_TOKEN,
     DROPPED_VARIABLE,
@@ -26,6 +27,8 @@ def select(q: Queues) -> bool:
     for manager in range(q.treatments.managers):
         if q.treatments.manager_kind[manager] == OPEN_CONDITION and select_effect(q, manager):
             return True
+    if q.has_custom:
+        select_custom(q)
     for manager in range(q.treatments.managers):
         if q.found_priority == BEST_PRIORITY:
             break
@@ -36,6 +39,18 @@ def select(q: Queues) -> bool:
         if q.loose_count:
             select_loose(q, manager)
     return q.found_item >= 0
+
+
+def select_custom(q: Queues) -> int:
+    """Ask the manager that somebody else has added."""
+    flaw = q.custom.select()
+    if flaw >= 0:
+        q.found_manager = NONE
+        q.found_kind = CUSTOM
+        q.found_item = flaw
+        q.found_handler = NONE
+        q.found_priority = q.custom.priority()
+    return 0
 
 
 def select_effect(q: Queues, manager: int) -> bool:
