@@ -1,7 +1,7 @@
 """Text in; the meaning of a model and all that is wrong with it out."""
 
 from bisect import bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
@@ -35,6 +35,7 @@ class Analysis:
     """The checked meaning of a text and all that it includes.
 
     `statements` are those that are executed, in order, from all files; `span.source` tells where each stands.
+    `by_statement` holds the tables of each: the same object as before where a statement was not checked again.
     `diagnostics` stand in that order too. Where one of them is an error, the rest is what could be understood.
     """
 
@@ -42,6 +43,7 @@ class Analysis:
     statements: tuple[Statement, ...]
     schema: Schema
     tables: SideTables
+    by_statement: Mapping[Statement, SideTables]
     diagnostics: tuple[Diagnostic, ...]
 
     @property
@@ -99,9 +101,11 @@ class Analyser:
         tables = SideTables()
         for unit in units.values():
             for name in _TABLES:
-                if found := getattr(unit.tables, name):
-                    getattr(tables, name).update(found)
-        return Analysis(loaded, statements, world.schema, tables, tuple(_in_order(loaded, complaints)))
+                if table := getattr(unit.tables, name):
+                    getattr(tables, name).update(table)
+        found = tuple(_in_order(loaded, complaints))
+        by_statement = {statement: unit.tables for statement, unit in units.items()}
+        return Analysis(loaded, statements, world.schema, tables, by_statement, found)
 
 
 def analyse(loaded: LoadedModules) -> Analysis:
