@@ -125,7 +125,11 @@ def change(database: PlanDatabase, chance: Random) -> bool:
         active = listed(database, LIST_PREDICATE, 2 + rows.predicate[t])
         if active and engine.contains(first + STATE, SYMBOL_MERGED) and chance.random() < 0.6:
             return database.merge(t, chance.choice(active))
-        if rows.flags[t] & FLAG_REJECTABLE and engine.contains(first + STATE, SYMBOL_REJECTED) and chance.random() < 0.3:
+        if (
+            rows.flags[t] & FLAG_REJECTABLE
+            and engine.contains(first + STATE, SYMBOL_REJECTED)
+            and chance.random() < 0.3
+        ):
             return database.reject(t)
         return not engine.contains(first + STATE, SYMBOL_ACTIVE) or database.activate(t)
     if rows.status[t] == ACTIVE and rows.link_head[LISTS * t + LIST_THREAT] >= 0 and chance.random() < 0.7:

@@ -1,0 +1,139 @@
+"""Levels of resources: what is refused at once, what is a flaw, and what mends it."""
+
+from itertools import product
+from random import Random
+
+import pytest
+
+from runtime.plan.database import PlanDatabase
+from runtime.plan.flaws import Flaws
+from tests.plan.models import loaded
+
+
+def consistent(text: str) -> bool:
+    """Whether a model is consistent after loading."""
+    return loaded(text).is_consistent
+
+
+def flaw(database: PlanDatabase) -> Flaws | None:
+    """The first flaw of the only resource."""
+    flaws = Flaws(database.plan)
+    return flaws if flaws.find(0) else None
+
+
+RESERVOIR = "Reservoir r = new Reservoir(5.0, 0.0, 10.0); close();"
+UNARY = "Unary r = new Unary(); close();"
+
+
+def test_what_is_consumed_must_be_there() -> None:
+    consume = "goal(r.consume c); c.time = 5; c.quantity = "
+    assert consistent(RESERVOIR + consume + "5.0;")
+    assert not consistent(RESERVOIR + consume + "6.0;")
+    assert consistent(RESERVOIR + "goal(r.produce p); p.quantity = 1.0; p.time = [0 5];" + consume + "6.0;")
+
+
+def test_a_conflict_ends_when_its_reason_goes() -> None:
+    text = """
+    class P extends Timeline { Reservoir r; P(Reservoir v) { r = v; } predicate a { } }
+    P::a { starts(object.r.consume c); c.quantity == 6.0; c.time == 3; }
+    Reservoir r = new Reservoir(5.0, 0.0, 10.0);
+    P p = new P(r);
+    close();
+    goal(p.a g);
+    g.activate();
+    """
+    assert not consistent(text)
+    assert consistent(text + "g.cancel();")
+
+
+def test_the_rate_of_consumption_is_limited() -> None:
+    text = "Reservoir r = new Reservoir(50.0, 0.0, 90.0, 9.0, 9.0, 4.0, 7.0); close();"
+    two = "goal(r.consume c); c.time = 5; c.quantity = {0}; goal(r.consume d); d.time = {1}; d.quantity = {0};"
+    assert consistent(text + two.format("2.0", "5"))
+    assert not consistent(text + two.format("3.0", "5"))
+    assert consistent(text + two.format("3.5", "6"))
+    assert not consistent(text + two.format("4.0", "6"))
+
+
+def test_two_uses_that_may_overlap_are_a_flaw_until_they_are_ordered() -> None:
+    text = UNARY + "".join(f"goal(r.use {n}); {n}.start = [0 20]; {n}.duration = 5;" for n in "ab")
+    database = loaded(text)
+    found = flaw(database)
+    assert found is not None
+    assert (found.at, found.is_low, found.excess, found.find_pairs()) == (0, 1, 1.0, 2)
+    assert flaw(loaded(text + "a before b;")) is None
+
+
+def test_three_uses_on_a_capacity_of_two() -> None:
+    text = "Reusable r = new Reusable(2.0, 0.0); close();"
+    text += "".join(f"goal(r.uses {n}); {n}.start = [0 20]; {n}.duration = 5; {n}.quantity = 1.0;" for n in "abc")
+    assert flaw(loaded(text)) is not None
+    assert flaw(loaded(text + "b before c;")) is None
+
+
+def test_a_full_reservoir_is_a_flaw_on_the_high_side() -> None:
+    text = "Reservoir r = new Reservoir(10.0, 0.0, 10.0); close();"
+    text += (
+        "goal(r.consume c); c.time = [0 20]; c.quantity = 8.0; goal(r.produce p); p.time = [0 20]; p.quantity = 8.0;"
+    )
+    found = flaw(loaded(text))
+    assert found is not None and not found.is_low
+    assert found.find_pairs() == 1
+    assert flaw(loaded(text + "c.time <= p.time;")) is None
+
+
+def test_the_order_of_uses_may_exceed_a_reservoir_for_certain() -> None:
+    text = """
+    Reservoir r = new Reservoir(0.0, 0.0, 10.0);
+    close();
+    goal(r.produce p); p.quantity = 6.0; p.time = [0 10];
+    goal(r.consume d); d.quantity = 6.0; d.time = 10;
+    """
+    assert consistent(text)
+    assert not consistent(text + "goal(r.consume c); c.quantity = 3.0; c.time = [0 10]; c.time <= p.time;")
+
+
+def test_a_grounded_profile_looks_at_the_earliest_schedule() -> None:
+    text = """
+    class M extends Reusable { string profileType; M() { super(1.0, 0.0); profileType = "GroundedProfile"; } }
+    M r = new M();
+    close();
+    goal(r.uses a); a.start = [0 50]; a.duration = 5; a.quantity = 1.0;
+    goal(r.uses b); b.start = [7 50]; b.duration = 5; b.quantity = 1.0;
+    """
+    assert flaw(loaded(text)) is None
+    assert flaw(loaded(text.replace("Grounded", ""))) is not None
+    assert flaw(loaded(text.replace("7", "4"))) is not None
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_the_envelope_is_what_trying_every_order_gives(seed: int) -> None:
+    """A flaw is found if and only if some schedule that keeps the known orders leaves the limits."""
+    chance = Random(seed)
+    count = chance.randrange(2, 5)
+    windows = [(low := chance.randrange(4), low + chance.randrange(4)) for _ in range(count)]
+    lengths = [chance.randrange(1, 4) for _ in range(count)]
+    amounts = [chance.randrange(1, 4) for _ in range(count)]
+    pairs = [(i, j) for i in range(count) for j in range(count) if i < j and chance.random() < 0.4]
+    capacity = chance.randrange(2, 7)
+    text = f"Reusable r = new Reusable({capacity}.0, 0.0); close();"
+    for i in range(count):
+        low, high = windows[i]
+        text += f"goal(r.uses u{i}); u{i}.start = [{low} {high}]; u{i}.duration = {lengths[i]};"
+        text += f"u{i}.quantity = {amounts[i]}.0;"
+    text = text.replace(f"[{0} {0}]", "0")
+    text += "".join(f"u{i} before u{j};" for i, j in pairs)
+    database = loaded(text)
+    schedules = [
+        starts
+        for starts in product(*(range(low, high + 1) for low, high in windows))
+        if all(starts[i] + lengths[i] <= starts[j] for i, j in pairs)
+    ]
+    loads = [
+        [sum(a for a, s, d in zip(amounts, starts, lengths, strict=True) if s <= t < s + d) for t in range(20)]
+        for starts in schedules
+    ]
+    fits = [max(load) <= capacity for load in loads]
+    assert database.is_consistent or not any(fits)
+    if schedules and database.is_consistent:
+        assert (flaw(database) is not None) == (not all(fits))
