@@ -17,7 +17,7 @@ from nddl_lang.syntax.codes import (
     UNARY_OPERATOR,
     VARIABLE_BOUND,
 )
-from nddl_lang.syntax.lexemes import integer, real
+from nddl_lang.syntax.lexemes import INFINITY, integer, real
 from nddl_lang.syntax.nodes import (
     BinaryExpr,
     BoolLiteral,
@@ -217,6 +217,10 @@ def interval(b: Builder, v: list[Any]) -> IntervalExpr:
         elif b.is_strict:
             b.piece.forget(UNARY_OPERATOR, bound.span)
             b.report(VARIABLE_BOUND, bound.span, help="state the bounds as constraints: `a >= low; a <= high;`")
+            if bound is lower:
+                lower = IntLiteral(-INFINITY, bound.span)
+            else:
+                upper = IntLiteral(INFINITY, bound.span)
     return IntervalExpr(lower, upper, b.span(v[0], v[-1]))
 
 
@@ -311,9 +315,11 @@ def _method_call(b: Builder, owner: list[int], name: int, arguments: list[Expr],
     return value
 
 
-def report_waiting(b: Builder) -> None:
-    """Report the values that never came to a place where they may stand."""
-    for value in b.waiting:
+def refuse_waiting(b: Builder, span: Span | None = None) -> bool:
+    """Report the values, inside `span` if given, that never came to a place where they may stand."""
+    found = [value for value in b.waiting if span is None or span.start <= value.span.start < span.end]
+    for value in found:
+        del b.waiting[value]
         start = value.span.start
         if any(first <= start < end for first, end in b.piece.broken):
             continue
@@ -325,3 +331,4 @@ def report_waiting(b: Builder) -> None:
             b.report(MISPLACED_METHOD, value.span, name=name, help="call it in a statement of its own")
         elif isinstance(value, CallExpr):
             b.report(NO_ARGUMENT, value.span, name=value.function.name)
+    return bool(found)

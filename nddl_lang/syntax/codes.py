@@ -26,7 +26,6 @@ MISPLACED_NEW = Code("NDDL118", Severity.ERROR, "syntax", "`new` cannot stand in
 MISPLACED_METHOD = Code("NDDL119", Severity.ERROR, "syntax", "the method `{name}` gives no value")
 MISPLACED_VALUE = Code("NDDL120", Severity.ERROR, "syntax", "{what} cannot stand {where}")
 NO_ARGUMENT = Code("NDDL121", Severity.ERROR, "syntax", "the function `{name}` needs an argument")
-TOO_MANY_BOUNDS = Code("NDDL122", Severity.ERROR, "syntax", "a relation takes at most two bounds, found {count}")
 EQUALITY_SIGN = Code("NDDL123", Severity.ERROR, "syntax", "`=` cannot stand in an expression")
 CALL_INITIALISER = Code("NDDL124", Severity.ERROR, "syntax", "`{name}(...)` does not give `{name}` its value")
 IN_ASSIGNMENT = Code("NDDL125", Severity.ERROR, "syntax", "a variable is restricted with `=`, not with `in`")

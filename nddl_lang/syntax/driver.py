@@ -4,7 +4,7 @@ from typing import Any
 
 from nddl_lang.syntax import builder, statements
 from nddl_lang.syntax.brackets import DEPTH_LIMIT, STEPS
-from nddl_lang.syntax.builder import Builder, Maker, pass_on, report_waiting
+from nddl_lang.syntax.builder import Builder, Maker, pass_on, refuse_waiting
 from nddl_lang.syntax.codes import TOO_DEEP
 from nddl_lang.syntax.former import replace_former
 from nddl_lang.syntax.piece import Piece
@@ -39,7 +39,7 @@ def parse_piece(piece: Piece, place: Place, is_strict: bool) -> None:
     if place is CLASS and is_strict:
         statements.report_member_initialisers(b, piece.statements)
     if b.waiting:
-        report_waiting(b)
+        refuse_waiting(b)
     if len(piece.kinds) > DEPTH_LIMIT and _may_be_deep(piece) and is_deeper(piece.statements, DEPTH_LIMIT):
         _give_up(b)
 

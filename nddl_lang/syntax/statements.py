@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from nddl_lang.syntax.builder import Builder, plain_values
+from nddl_lang.syntax.builder import Builder, plain_values, refuse_waiting
 from nddl_lang.syntax.codes import (
     CALL_INITIALISER,
     EXPRESSION_ARGUMENT,
@@ -10,7 +10,6 @@ from nddl_lang.syntax.codes import (
     IN_ASSIGNMENT,
     MEMBER_INITIALISER,
     RELATION_BOUNDS,
-    TOO_MANY_BOUNDS,
 )
 from nddl_lang.syntax.nodes import (
     Allocation,
@@ -38,6 +37,7 @@ from nddl_lang.syntax.nodes import (
     PredicateDecl,
     Relation,
     RuleDecl,
+    Statement,
     StringLiteral,
     SuperCall,
     TypedefDecl,
@@ -117,7 +117,9 @@ def bare_declarator(b: Builder, v: list[Any]) -> Declarator:
 
 def declarator(b: Builder, v: list[Any]) -> Declarator:
     value = _value(b, v[2], "an initialiser")
-    return Declarator(b.name(v[0]), value, False, b.span(v[0], value))
+    span = b.span(v[0], value)
+    is_refused = type(value) is CallExpr and value in b.waiting and refuse_waiting(b, span)
+    return Declarator(b.name(v[0]), None if is_refused else value, False, span)
 
 
 def call_declarator(b: Builder, v: list[Any]) -> Declarator:
@@ -208,7 +210,7 @@ def assignment(b: Builder, v: list[Any]) -> Assignment:
     return Assignment(target, op, value, b.span(target, v[3]))
 
 
-def constraint(b: Builder, v: list[Any]) -> Allocation | MethodCall | CallConstraint | ExprConstraint:
+def constraint(b: Builder, v: list[Any]) -> Statement:
     value: Expr = v[0]
     message = string(b, v[2]) if len(v) == 4 else None
     span = b.span(value, v[-1])
@@ -225,11 +227,19 @@ def constraint(b: Builder, v: list[Any]) -> Allocation | MethodCall | CallConstr
     if type(value) is NewExpr and message is None:
         b.waiting.pop(value, None)
         return Allocation(value, span)
-    return ExprConstraint(value, False, message, span)
+    return _expression(b, value, False, message, span)
 
 
-def enforced_constraint(b: Builder, v: list[Any]) -> ExprConstraint:
-    return ExprConstraint(v[1], True, string(b, v[3]) if len(v) == 5 else None, b.span(v[0], v[-1]))
+def enforced_constraint(b: Builder, v: list[Any]) -> Statement:
+    return _expression(b, v[1], True, string(b, v[3]) if len(v) == 5 else None, b.span(v[0], v[-1]))
+
+
+def _expression(
+    b: Builder, value: Expr, enforce: bool, message: StringLiteral | None, span: Span
+) -> ExprConstraint | BrokenStatement:
+    if b.waiting and refuse_waiting(b, span):
+        return BrokenStatement(span)
+    return ExprConstraint(value, enforce, message, span)
 
 
 def close_all(b: Builder, v: list[Any]) -> MethodCall:
@@ -283,8 +293,6 @@ def _relation(
     if bounds and b.is_strict:
         help_text = "name the token and bound the distance: `temporalDistance(end, gap, q.start);`"
         b.report(RELATION_BOUNDS, bounds[0].span.to(bounds[-1].span), help=help_text)
-    elif len(bounds) > 2:
-        b.report(TOO_MANY_BOUNDS, bounds[2].span.to(bounds[-1].span), count=len(bounds))
     if type(target) is PathExpr:
         return Relation(origin, b.name(name), tuple(bounds), (), target, span)
     return Relation(origin, b.name(name), tuple(bounds), tuple(target), None, span)

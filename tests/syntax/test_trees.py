@@ -110,8 +110,6 @@ EXTENSIONS = {
     "x == -(y + 1) * 2;": "(ExprConstraint (BinaryExpr == x (BinaryExpr * (UnaryExpr - (BinaryExpr + y 1)) 2)))",
     "!a && b;": "(ExprConstraint (BinaryExpr && (UnaryExpr ! a) b))",
     "x == a / b;": "(ExprConstraint (BinaryExpr == x (BinaryExpr / a b)))",
-    "int a = [low high];": "(VariableDecl int [(Declarator a (IntervalExpr low high))])",
-    "int a = [-n -1];": "(VariableDecl int [(Declarator a (IntervalExpr (UnaryExpr - n) -1))])",
     "class A { int x = 3; }": "(ClassDecl A [(VariableDecl int [(Declarator x 3)])])",
     "T::p { before [1 5] (object.q r); }": (
         "(RuleDecl T p [(Relation before [(IntervalExpr 1 5)] [(Instance object.q r)])])"
