@@ -10,6 +10,7 @@ from nddl_lang.semantics.schema import Schema, SideTables
 from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
 from nddl_lang.semantics.world import Fact, World
+from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import LoadedModules, load_module_graph
 from nddl_lang.syntax.nodes import (
@@ -27,6 +28,7 @@ from nddl_lang.syntax.nodes import (
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.source import Source
 
+_TEXT_IS_MISSING = (MISSING_FILE, UNREADABLE_FILE, TOO_DEEP)
 _TABLES = tuple(table.name for table in fields(SideTables))
 
 
@@ -156,7 +158,7 @@ def _foresee(world: World, loaded: LoadedModules) -> None:
                 world.doubt(word)
         for name in _declared_names(statement):
             world.suppose("below", name.name, name.span)
-    if any(each.code.kind == "include" and each.severity is Severity.ERROR for each in loaded.diagnostics):
+    if any(diagnostic.code in _TEXT_IS_MISSING for diagnostic in loaded.diagnostics):
         world.doubt()
 
 

@@ -119,10 +119,9 @@ def test_an_edit_in_a_rule_checks_that_rule_only() -> None:
     editor = Editor()
     before = editor.update(MODEL)
     after = editor.update(MODEL.replace("level <= 50", "level <= 5"))
-    changed = set(after.statements) - set(before.statements)
-    assert len(changed) == 1
-    kept = [node for node in after.tables.types if before.tables.types.get(node) is not None]
-    assert len(kept) >= len(before.tables.types) - 20
+    anew = {node for node, tables in after.by_statement.items() if tables is not before.by_statement.get(node)}
+    assert anew == set(after.statements) - set(before.statements)
+    assert len(anew) == 1
 
 
 def test_an_edit_in_a_class_reaches_the_rules_that_use_it() -> None:
