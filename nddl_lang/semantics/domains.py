@@ -82,11 +82,12 @@ def text(domain: Domain) -> str:
     return _value_text(domain.items[0]) if len(domain.items) == 1 else set_text(domain)
 
 
-def set_text(domain: Domain) -> str:
+def set_text(domain: Domain, kind: Kind | None = None) -> str:
     """A domain as a model would write it, with brackets or braces in any case."""
     if isinstance(domain, Interval):
         return f"[{_value_text(domain.lower)} {_value_text(domain.upper)}]"
-    return "{" + ", ".join(_value_text(item) for item in domain.items) + "}"
+    quote = '"' if kind is Kind.STRING else ""
+    return "{" + ", ".join(f"{quote}{_value_text(item)}{quote}" for item in domain.items) + "}"
 
 
 def _intersect_intervals(one: Interval, other: Interval, kind: Kind) -> Interval | None:

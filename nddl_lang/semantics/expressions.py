@@ -3,10 +3,10 @@
 from nddl_lang.semantics.arguments import check_count, check_types, complain_argument
 from nddl_lang.semantics.constraints import CONSTRAINTS, Origin
 from nddl_lang.semantics.functions import FUNCTIONS, FunctionRow, ResultKind
+from nddl_lang.semantics.literals import number
 from nddl_lang.semantics.names import resolve, resolve_value, suggest_name
 from nddl_lang.semantics.natives import TIME_NAMES
 from nddl_lang.semantics.schema import (
-    INFINITY,
     ClassReference,
     EnumValue,
     GlobalReference,
@@ -236,7 +236,9 @@ def _interval_type(context: Context, scope: Scope, interval: IntervalExpr) -> Ty
         type_ = type_of(context, scope, bound)
         if type_ is None:
             continue
-        if number(bound) is None:
+        if isinstance(bound, StringLiteral | BoolLiteral) or (number(bound) is None and _is_strict(context)):
+            pass  # The parser has complained.
+        elif number(bound) is None:
             help_ = "compare with it instead, as in `x <= limit`" if type_.kind in NUMBERS else None
             context.complain(NOT_A_BOUND.at(bound.span, help=help_, text=bound.span.text))
         else:
@@ -253,47 +255,8 @@ def _interval_type(context: Context, scope: Scope, interval: IntervalExpr) -> Ty
     return FLOAT if Kind.FLOAT in kinds else INT
 
 
-def number(expression: Expr) -> float | int | None:
-    """The number that is written out: a literal, or arithmetic over such; None for anything else."""
-    chain: list[BinaryExpr] = []
-    while isinstance(expression, BinaryExpr):
-        chain.append(expression)
-        expression = expression.left
-    result = _signed_number(expression)
-    for binary in reversed(chain):
-        operand = number(binary.right) if result is not None else None
-        result = _folded(binary.op, result, operand) if result is not None and operand is not None else None
-    return result
-
-
-def _signed_number(expression: Expr) -> float | int | None:
-    sign = 1
-    while isinstance(expression, UnaryExpr) and expression.op == "-":
-        expression, sign = expression.operand, -sign
-    if isinstance(expression, IntLiteral | FloatLiteral):
-        return expression.value * sign
-    inner = number(expression) if isinstance(expression, BinaryExpr) else None
-    return None if inner is None else inner * sign
-
-
-def _folded(op: str, left: float | int, right: float | int) -> float | int | None:
-    match op:
-        case "+":
-            return left + right
-        case "-":
-            return left - right
-        case "*":
-            return left * right
-        case "/" if right != 0:
-            return left / right
-        case _:
-            return None
-
-
-def is_infinite(expression: Expr) -> bool:
-    """Whether the expression writes an infinity, which fits ints and floats alike."""
-    value = number(expression)
-    return value is not None and abs(value) >= INFINITY
+def _is_strict(context: Context) -> bool:
+    return context.dialect is Dialect.NDDL3
 
 
 def _set_type(context: Context, scope: Scope, values: SetExpr) -> Type | None:

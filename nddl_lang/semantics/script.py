@@ -110,7 +110,7 @@ def check_domain(context: Context, target: PathExpr, type_: Type, value: Expr) -
     left = domains.intersect(known, given, type_.kind)
     if left is None:
         name, text = target.span.text, value.span.text
-        context.complain(LEAVES_DOMAIN.at(value.span, text=text, name=name, domain=domains.set_text(known)))
+        context.complain(LEAVES_DOMAIN.at(value.span, text=text, name=name, domain=domains.set_text(known, type_.kind)))
     return left
 
 

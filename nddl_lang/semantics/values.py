@@ -1,7 +1,8 @@
 """Check that a value fits the variable that it is given to, and read the values that a text fixes."""
 
 from nddl_lang.semantics import domains
-from nddl_lang.semantics.expressions import is_infinite, number, type_of
+from nddl_lang.semantics.expressions import type_of
+from nddl_lang.semantics.literals import is_infinite, number
 from nddl_lang.semantics.schema import (
     Domain,
     EnumValue,
