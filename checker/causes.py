@@ -56,6 +56,17 @@ def culprit(conflict: Conflict) -> int | None:
     return -min(candidates)[2] if candidates else None
 
 
+def in_telling_order(conflict: Conflict) -> list[int]:
+    """The numbers of the causes, from the draws outwards, the line to blame last; as given where nothing was drawn."""
+    graph = conflict_graph(conflict)
+    roots = [number for number, cause in enumerate(conflict.causes) if cause.kind == "sample"]
+    far: dict[int, float] = nx.multi_source_dijkstra_path_length(graph, roots) if roots else {}
+    last = culprit(conflict)
+    return sorted(
+        graph, key=lambda number: (number == last, far.get(number, len(conflict.causes) if roots else 0), number)
+    )
+
+
 def conflict_graph(conflict: Conflict) -> "nx.Graph[int]":
     """The causes by number, joined where they speak of the same variable."""
     names = {variable.name for variable in conflict.variables}

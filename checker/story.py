@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from checker.batch.result import MissionResult
-from checker.causes import blame, culprit, draws_behind, events_to_abort
+from checker.causes import blame, culprit, draws_behind, events_to_abort, in_telling_order
 from checker.findings import Fault
 from checker.influence import Influence
 from checker.oracle import CODE_NAMES
@@ -143,7 +143,7 @@ def _event(event: Event) -> Step:
 
 
 def _conflict(outcome: Outcome) -> list[Step]:
-    """The causes of the conflict in the order they came in, but the line to blame last."""
+    """The causes of the conflict, from the draw outwards, the line to blame last."""
     conflict = outcome.abort.conflict if outcome.abort else None
     if conflict is None:
         return []
@@ -151,7 +151,7 @@ def _conflict(outcome: Outcome) -> list[Step]:
     found = blame(conflict)
     steps = [
         Step("cause", None, _because(cause), cause.place)
-        for index, cause in enumerate(conflict.causes)
+        for index, cause in ((index, conflict.causes[index]) for index in in_telling_order(conflict))
         if index != guilty and cause.kind != "sample" and cause.place not in found.limits
     ]
     if guilty is not None:
