@@ -53,7 +53,8 @@ def load_module_graph(
     Each file is read once, known by its resolved path. It is looked for beside the including file, in
     `include_directories`, in the current directory, and in the library. Without `dialect` the first line of `root`
     decides, and where it is silent, nddlc. An editor passes `open_text` to show texts that are not saved yet, and
-    `parse_text` to reuse what it has parsed. Raises OSError if `root` itself cannot be read.
+    `parse_text` to reuse what it has parsed; the source of the parse that it returns counts. Raises OSError if
+    `root` itself cannot be read.
     """
     if isinstance(root, Source):
         source = root
@@ -67,7 +68,7 @@ def load_module_graph(
     loader = _Loader(directories, chosen, open_text, parse_text or _parse_text)
     statements = loader.load(source, Path(source.name), False)
     return LoadedModules(
-        source,
+        loader.parses[0].source,
         chosen,
         Module(tuple(statements)),
         tuple(loader.paths),
@@ -101,10 +102,13 @@ class _Loader:
     def load(self, source: Source, path: Path, is_in_class: bool, include: Include | None = None) -> list[Any]:
         """The statements of `source` and, in their places, those of what it includes."""
         resolved = path.resolve()
+        parsed = self._parse_text(path, source, self._dialect, is_in_class)
+        source = parsed.source
         self._read[resolved] = source
         self.paths[source] = path
+        if include is not None:
+            self.included[include] = source
         self._chain.append((resolved, include))
-        parsed = self._parse_text(path, source, self._dialect, is_in_class)
         self.parses.append(parsed)
         pending = iter(self._with_chain(parsed.diagnostics))
         upcoming = next(pending, None)
@@ -160,9 +164,7 @@ class _Loader:
         if len(self._chain) > DEPTH_LIMIT:
             self._report(TOO_DEEP.at(include.span, limit=DEPTH_LIMIT))
             return []
-        source = Source(str(path), text)
-        self.included[include] = source
-        return self.load(source, path, is_in_class, include)
+        return self.load(Source(str(path), text), path, is_in_class, include)
 
     def _find(self, name: str) -> tuple[Path, str] | None:
         """The first file called `name` on the way, with its text."""
