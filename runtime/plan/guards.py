@@ -47,10 +47,11 @@ def is_settled(plan: Plan, v: int) -> bool:
     """Whether `v` is decided; a proxy is once its object and the member it then stands for are.
 
     It also is while all objects agree: their members have the same single value. Recursion is as deep as the path.
+    The clock of an agent counts as decided: what has come to be true of "now or later" stays true.
     """
     x = plan.proxy_index[v]
     if x < 0:
-        return plan.engine.is_decided(v)
+        return v == plan.clock or plan.engine.is_decided(v)
     if is_settled(plan, x):
         return plan.engine.is_decided(member(plan, plan.engine.lb[x], plan.proxy_member[v]))
     return plan.proxy_index[x] < 0 and agree(plan, x, plan.proxy_member[v])

@@ -93,6 +93,7 @@ class Plan:
         self.name_prototype = blank(1)
         # Global variables, and what every engine variable is.
         self.globals = blank(1)
+        self.clock = NONE  # the global that reads "now or later" during execution: a guard does not wait for its value
         self.variable_capacity = 256
         self.variable_role = blank(256)
         self.variable_owner = blank(256)
