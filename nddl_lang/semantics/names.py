@@ -121,7 +121,7 @@ def _qualified_value(context: Context, enum: str, name: Identifier) -> EnumValue
     found = context.world.find_enum(enum)
     if found is not None and not context.world.is_doubtful(name.name):
         complaint = UNKNOWN_ENUM_VALUE.at(name.span, name=name.name, enum=enum)
-        context.complain(_suggest(complaint, name, found.values))
+        context.complain(suggest_name(complaint, name, found.values))
     return None
 
 
@@ -171,7 +171,7 @@ def find_token_variable(context: Context, label: Label, name: Identifier) -> Tok
             complaint = _with(complaint, "an event has one `time`, in place of `start` and `end`", (fix,))
         else:
             names = [parameter.name for parameter in predicate.parameters]
-            complaint = _suggest(complaint, name, [*names, *builtin_names(predicate.is_event)])
+            complaint = suggest_name(complaint, name, [*names, *builtin_names(predicate.is_event)])
         context.complain(complaint)
     return None
 
@@ -195,7 +195,7 @@ def complain_unknown_member(context: Context, class_name: str, name: Identifier)
     if owner is not None and not owner.is_defined:
         complaint = _with(complaint, f"`{class_name}` is only announced so far; define it above this place", ())
     members = [member for ancestor in world.ancestry(class_name) for member in ancestor.members]
-    context.complain(_suggest(complaint, name, members))
+    context.complain(suggest_name(complaint, name, members))
 
 
 def complain_unknown(context: Context, scope: Scope, name: Identifier) -> None:
@@ -219,7 +219,7 @@ def complain_unknown(context: Context, scope: Scope, name: Identifier) -> None:
     else:
         own = builtin_names(scope.own.predicate.is_event) if scope.own is not None else ()
         candidates = [*scope.visible(), *own, *world.names(*_VALUE_TABLES)]
-        context.complain(_suggest(UNKNOWN_NAME.at(name.span, name=word), name, candidates))
+        context.complain(suggest_name(UNKNOWN_NAME.at(name.span, name=word), name, candidates))
 
 
 def _is_own_member(context: Context, scope: Scope, name: str) -> bool:
@@ -230,10 +230,6 @@ def _is_own_member(context: Context, scope: Scope, name: str) -> bool:
 
 def suggest_name(complaint: Diagnostic, name: Identifier, candidates: Iterable[str]) -> Diagnostic:
     """The complaint with the nearest of the candidates as help, if one is near."""
-    return _suggest(complaint, name, candidates)
-
-
-def _suggest(complaint: Diagnostic, name: Identifier, candidates: Iterable[str]) -> Diagnostic:
     known = nearest(name.name, candidates)
     if known is None:
         return complaint

@@ -128,8 +128,8 @@ def known_domain(context: Context, target: PathExpr, type_: Type) -> Domain | No
 
 def note_state(context: Context, label: Label, state: Domain | None) -> None:
     """Note that the state of a token of the script was given."""
-    is_known = isinstance(state, Values) and len(state.items) == 1
-    context.world.put_token_state(label.name, str(state.items[0]) if is_known and isinstance(state, Values) else None)
+    known = str(state.items[0]) if isinstance(state, Values) and len(state.items) == 1 else None
+    context.world.put_token_state(label.name, known)
 
 
 def _note_token(context: Context, label: Label, kind: str, instance: Instance) -> None:

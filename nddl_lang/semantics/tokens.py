@@ -202,10 +202,7 @@ def _find_target(context: Context, scope: Scope, path: PathExpr) -> tuple[Predic
 def _find_own(context: Context, scope: Scope, name: Identifier) -> tuple[Predicate, Reference | str] | None:
     owner = context.world.find_class(scope.own_class) if scope.own_class is not None else None
     if owner is None:
-        if context.world.find_class(name.name) is None:
-            context.complain(MISSING_OBJECT.at(name.span, name=name.name))
-        else:
-            context.complain(MISSING_OBJECT.at(name.span, name="predicate"))
+        context.complain(MISSING_OBJECT.at(name.span, name=name.name))
         return None
     predicate = context.world.find_predicate(owner.name, name.name)
     if predicate is None and scope.find_label(name.name) is not None:
