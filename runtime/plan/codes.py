@@ -77,6 +77,7 @@ RESOURCE_HOLDS, RESOURCE_PRODUCES, RESOURCE_CONSUMES = range(1, 4)
 
 # ---- lists that tokens are on ----
 LIST_OPEN, LIST_THREAT, LIST_PREDICATE, LIST_ORDER = range(4)
+LISTS = 4
 
 HEAD_OPEN = 0
 HEAD_THREAT = 1
@@ -88,3 +89,10 @@ INFINITY = 4503599627370495
 # ---- relations: each distance is (target?, point, target?, point, lower, upper) ----
 RELATION_CELLS = 6
 DURATION_FREE, DURATION_EQUAL, DURATION_TARGET_SHORTER, DURATION_ORIGIN_SHORTER = range(4)
+
+# ---- limits of a resource, in the order of its row ----
+LIMITS = 7
+INITIAL, MINIMUM, MAXIMUM, RATE, TOTAL, PRODUCTION_RATE, PRODUCTION_TOTAL = range(LIMITS)
+
+# ---- frames up to this length are used again ----
+SHORT = 256

@@ -7,7 +7,9 @@ undoing in reverse order puts it back where it was (Knuth's dancing links).
 from runtime.plan.arrays import grown
 from runtime.plan.codes import (
     FREED,
+    LISTS,
     NONE,
+    SHORT,
     UNDO_BRANCH,
     UNDO_FLAGS,
     UNDO_INPUTS,
@@ -21,7 +23,7 @@ from runtime.plan.codes import (
     UNDO_STATUS,
     UNDO_UNLINK,
 )
-from runtime.plan.rows import LISTS, SHORT, Rows
+from runtime.plan.rows import Rows
 
 
 def new_head(rows: Rows, head: int) -> None:

@@ -7,7 +7,7 @@ from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 from runtime.constraints.codes import KIND_FLOAT, KIND_OBJECT
 from runtime.plan.bodies import run
-from runtime.plan.codes import NONE, ROLE_INTERNAL, ROLE_MEMBER, SCOPE_SCRIPT
+from runtime.plan.codes import INITIAL, MINIMUM, NONE, ROLE_INTERNAL, ROLE_MEMBER, SCOPE_SCRIPT
 from runtime.plan.domains import assign_domain, copy_current
 from runtime.plan.faults import CLOSED_CLASS
 from runtime.plan.flatten import Code
@@ -17,7 +17,6 @@ from runtime.plan.natives import DEFAULTS, FILLED, LIMITS_OF
 from runtime.plan.operands import operand
 from runtime.plan.plan import Plan
 from runtime.plan.prototypes import Prototypes
-from runtime.plan.resources import INITIAL, MINIMUM
 
 Place = tuple[int, int]  # an operand as flattened code has it
 

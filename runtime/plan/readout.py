@@ -12,6 +12,7 @@ from runtime.plan.codes import (
     FREED,
     HOLDS_VARIABLES,
     LIST_ORDER,
+    LISTS,
     MERGED,
     OBJECT,
     ROLE_LOCAL,
@@ -20,7 +21,6 @@ from runtime.plan.codes import (
     STATE_NAMES,
 )
 from runtime.plan.database import PlanDatabase
-from runtime.plan.rows import LISTS
 from runtime.plan.texts import domain_text
 
 Bound = int | str

@@ -9,15 +9,21 @@ from typing import Protocol
 
 from runtime.constraints.engine import Engine
 from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
-from runtime.plan.codes import NONE
+from runtime.plan.codes import (
+    INITIAL,
+    LIMITS,
+    MAXIMUM,
+    MINIMUM,
+    NONE,
+    PRODUCTION_RATE,
+    PRODUCTION_TOTAL,
+    RATE,
+    TOTAL,
+)
 from runtime.plan.excess import Excess
 from runtime.plan.levels import Levels
 
 ROOM = 32
-
-# Limits of a resource, in the order of its row.
-LIMITS = 7
-INITIAL, MINIMUM, MAXIMUM, RATE, TOTAL, PRODUCTION_RATE, PRODUCTION_TOTAL = range(LIMITS)
 
 
 class Envelope(Protocol):

@@ -16,6 +16,7 @@ from runtime.plan.codes import (
     LIST_ORDER,
     LIST_PREDICATE,
     LIST_THREAT,
+    LISTS,
     MERGED,
     NONE,
     SCOPE_BODY,
@@ -89,7 +90,7 @@ def free(plan: Plan, first: int, second: int, span: int) -> bool:
             drop_pair(rows, p)
         p = after
     for t in (first, second):
-        if not has_any_pair(rows, t) and rows.link_head[4 * t + LIST_ORDER] >= 0:
+        if not has_any_pair(rows, t) and rows.link_head[LISTS * t + LIST_ORDER] >= 0:
             unplace(plan, t, sweep.edges, span)
             drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_PLACE}, sweep)
             await_order(plan, t)
@@ -209,6 +210,6 @@ def finish(plan: Plan, sweep: Sweep) -> bool:
     for t in reversed(freed):
         rows.release_token(t)
     for t in sweep.reopened:
-        if rows.status[t] == INACTIVE and rows.link_head[4 * t + LIST_OPEN] < 0:
+        if rows.status[t] == INACTIVE and rows.link_head[LISTS * t + LIST_OPEN] < 0:
             link_by_key(rows, t, LIST_OPEN, HEAD_OPEN)
     return bool(plan.engine.consistent)

@@ -11,7 +11,9 @@ from runtime.plan.arrays import blank, grown
 from runtime.plan.codes import (
     FREED,
     INACTIVE,
+    LISTS,
     NONE,
+    SHORT,
     UNDO_BRANCH,
     UNDO_FLAGS,
     UNDO_INPUTS,
@@ -22,9 +24,6 @@ from runtime.plan.codes import (
     UNDO_NEW_TOKEN,
     UNDO_STATUS,
 )
-
-LISTS = 4  # lists a token may be on: open, threat, predicate, order
-SHORT = 256  # frames up to this length are used again
 
 
 class Rows:
@@ -155,8 +154,11 @@ class Rows:
         self.key[t] = self.next_key
         self.next_key += 1
         self.live += 1
-        for position in range(LISTS * t, LISTS * t + LISTS):
-            self.link_head[position] = NONE
+        at = LISTS * t
+        self.link_head[at] = NONE
+        self.link_head[at + 1] = NONE
+        self.link_head[at + 2] = NONE
+        self.link_head[at + 3] = NONE
         self.sibling[t] = NONE
         if master >= 0:
             self.sibling[t] = self.children[master]

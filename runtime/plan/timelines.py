@@ -8,6 +8,7 @@ from runtime.plan.codes import (
     HEAD_THREAT,
     LIST_ORDER,
     LIST_THREAT,
+    LISTS,
     NONE,
     OBJECT,
     SCOPE_PLACE,
@@ -17,7 +18,7 @@ from runtime.plan.codes import (
 from runtime.plan.holding import equate
 from runtime.plan.links import link, link_by_key, unlink
 from runtime.plan.plan import Plan
-from runtime.plan.rows import LISTS, Rows
+from runtime.plan.rows import Rows
 
 
 def order(plan: Plan, o: int, before: int, after: int, span: int) -> bool:

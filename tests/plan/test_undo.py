@@ -14,6 +14,7 @@ from runtime.plan.codes import (
     LIST_OPEN,
     LIST_PREDICATE,
     LIST_THREAT,
+    LISTS,
     OBJECT,
     STATE,
     SYMBOL_ACTIVE,
@@ -22,7 +23,6 @@ from runtime.plan.codes import (
 )
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout import live_tokens, read
-from runtime.plan.rows import LISTS
 from tests.plan.models import loaded
 
 MODEL = """
