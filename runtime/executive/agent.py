@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.messages import Observation, Request
+from runtime.executive.messages import Observation, Request, token_text
 from runtime.executive.outcome import Abort, Conflict, Outcome, Term
 from runtime.executive.trace import Trace
 
@@ -70,6 +70,9 @@ class Reactor(Protocol):
     def recalls(self) -> list[int]:
         """Numbers of the requests that are taken back."""
 
+    def open_requests(self) -> list[int]:
+        """Numbers of the requests that it has made and that have not started."""
+
     def accept(self, request: Request) -> None:
         """Queue a request for one of its timelines."""
 
@@ -128,8 +131,10 @@ class Agent:
     ) -> None:
         self.configuration = configuration
         self.goals = goals
+        self.unsent = [request for _, request in goals]
         self.reactors = in_order(reactors)
         self.awake: list[Reactor] = []
+        self.killed: list[Reactor] = []
         self.owners = {timeline: reactor for reactor in self.reactors for timeline in reactor.internal}
         self.seed = seed
         self.trace = trace
@@ -142,12 +147,16 @@ class Agent:
         while True:
             self.trace.tick = self.tick
             self._send_goals()
-            abort = self._synchronise() or self._deliberate()
+            abort = self._synchronise()
+            # At the final tick there is no future to plan for.
+            if abort is None and self.tick < final_tick:
+                abort = self._deliberate()
             if abort is not None or self.tick >= final_tick or not self.reactors:
                 break
             self._dispatch()
             self._advance()
-        unmet = [goal for reactor in self.reactors for goal in reactor.unmet_goals()]
+        unmet = [goal for reactor in [*self.killed, *self.reactors] for goal in reactor.unmet_goals()]
+        unmet += [token_text(r.predicate, r.arguments) for r in self.unsent if r.is_mandatory]
         self.trace.phase = "end"
         if abort is None:
             self.trace.record("end", "", "", f"mission over at tick {self.tick}")
@@ -162,11 +171,12 @@ class Agent:
         )
 
     def _send_goals(self) -> None:
-        """Hand the goals of the mission file that are due to the owners of their timelines."""
+        """Hand the goals of the mission file that are due to the owners of their timelines, if there are any left."""
         self.trace.phase = "start"
         for at, request in self.goals:
             if at == self.tick and request.timeline in self.owners:
                 self.owners[request.timeline].accept(request)
+                self.unsent.remove(request)
 
     def _advance(self) -> None:
         """Go on to the next tick at which a reactor has something to do or a goal is due."""
@@ -286,6 +296,10 @@ class Agent:
         )
         self.reactors.remove(reactor)
         self.awake.remove(reactor)
+        self.killed.append(reactor)
+        for number in reactor.open_requests():
+            for owner in self.reactors:
+                owner.recall(number)
         for timeline in reactor.internal:
             del self.owners[timeline]
             text = self.trace.record("observation", reactor.name, timeline, "Failed", (event,))

@@ -89,6 +89,7 @@ def run_mission(
         holds = bench.set_global("TICK_DURATION", configuration.tick)
         holds = holds and bench.set_global("MISSION_START", 0)
         holds = holds and bench.set_global("MISSION_END", configuration.final_tick)
+        holds = holds and bench.start_clock(configuration.final_tick)
         if not holds or not bench.is_consistent():
             raise UnusableModelError(f"the model of `{each.name}` contradicts itself before the mission begins")
         bench.commit()
@@ -96,7 +97,7 @@ def run_mission(
         reactors.append(PlanReactor(each, bench, planner, configuration.final_tick, trace))
     owners = {line: (r.latency, r.lookahead) for r in reactors for line in r.internal}
     for reactor in reactors:
-        reactor.owner_windows = owners
+        reactor.dispatch.owner_windows = owners
     goals = []
     for number, goal in enumerate(configuration.goals):
         kinds = goal_kinds(configuration, programs, goal)

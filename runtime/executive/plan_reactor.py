@@ -2,6 +2,7 @@
 
 from runtime.executive.agent import Failure, Watched
 from runtime.executive.configuration import ReactorConfiguration
+from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Observation, Request, token_text
 from runtime.executive.outcome import Conflict
 from runtime.executive.planning import Planner
@@ -12,8 +13,6 @@ from runtime.executive.timelines import NOTHING, Goal, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.view import SPAN_REQUEST
 from runtime.executive.workbench import Workbench
-
-INFINITY = 4503599627370495
 
 
 class PlanReactor:
@@ -37,17 +36,15 @@ class PlanReactor:
         self.by_name = {line.name: line for line in self.timelines}
         self.waiting: list[Request] = []
         self.goals: list[Goal] = []
-        self.sent: dict[int, Request] = {}  # by the key of the token that was sent
-        self.sent_tokens: dict[int, int] = {}
-        self.taken_back: list[int] = []
         self.tick = 0
         self.due = 0
         self.relaxes = 0
         self.relaxed_at = NOTHING
         self.steps_left = self.max_steps
         self.broken: Failure | None = None
-        self.owner_windows: dict[str, tuple[int, int]] = {}
+        self.dispatch = Dispatch(self.name, bench, self.timelines, trace)
         self.unmet: list[str] = []
+        self.is_stirred = False  # something came from outside after the present was settled
 
     @property
     def is_early(self) -> bool:
@@ -60,7 +57,7 @@ class PlanReactor:
         """Set "now", and turn the requests whose time has come into goals."""
         self.tick = tick
         self.steps_left = self.max_steps
-        self.bench.set_clock(tick)
+        self.is_stirred = False
         reach = tick + self.latency + max(self.lookahead, 1)
         later = []
         for request in self.waiting:
@@ -73,6 +70,7 @@ class PlanReactor:
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published this tick; the last word counts."""
         self.by_name[observation.timeline].news = observation
+        self.is_stirred = True
         self.due = observation.tick
 
     def next_tick(self, tick: int) -> int:
@@ -82,7 +80,7 @@ class PlanReactor:
         such ticks, earliest starts and the moments at which tokens come into the planning window nothing changes.
         """
         bench = self.bench
-        if self.steps_left <= 0 or bench.reads_clock():
+        if self.is_stirred or self.steps_left <= 0 or bench.reads_clock():
             return tick + 1
         reach = self.latency + max(self.lookahead, 1)
         times = [float(request.start[0] - reach) for request in self.waiting]
@@ -92,16 +90,16 @@ class PlanReactor:
             for token in bench.planned_after(line.object_id, line.current):
                 start = bench.start(token)
                 times.append(bench.upper(start))
-                if not bench.is_blocked(token, line.current, tick) and (line.is_internal or self._is_unasked(token)):
-                    times.append(bench.lower(start))
+                if line.is_internal:
+                    if not bench.is_blocked(token, line.current, tick):
+                        times.append(bench.lower(start))
+                elif not self.dispatch.is_asked(token) and not bench.is_blocked(token, line.current, tick):
+                    times.append(bench.lower(start) - 1 - self.dispatch.notice(line))
         for token in bench.undecided():
             times.append(bench.upper(bench.start(token)))
             if bench.lower(bench.start(token)) > tick + reach:
                 times.append(bench.lower(bench.start(token)) - reach)
         return int(max(tick + 1, min([self.final_tick, *times])))
-
-    def _is_unasked(self, token: int) -> bool:
-        return self.bench.key(token) not in self.sent
 
     def synchronise(self, tick: int) -> Failure | None:
         """Settle the present; if that fails, repair: first keep the past, then forget it (T-REX 1.4, 1.9)."""
@@ -197,6 +195,10 @@ class PlanReactor:
             case "done":
                 self._report_rejected()
                 return False
+            case "deep":
+                what = f"more than {self.planner.max_depth} decisions are needed at once"
+                self.broken = Failure("F5", what, self.internal, None, self.relaxes)
+                return False
             case _:
                 return self._replan(tick)
 
@@ -219,7 +221,11 @@ class PlanReactor:
     # ---- goals ----
 
     def accept(self, request: Request) -> None:
-        """Queue a request for one of its timelines."""
+        """Queue a request for one of its timelines; who does not look ahead takes none (T-REX 1.8)."""
+        if self.lookahead == 0:
+            text = token_text(request.predicate, request.arguments)
+            self._refuse(request, f"{text}: `{self.name}` does not look ahead and takes no goals")
+            return
         self.waiting.append(request)
         self.due = min(self.due, max(self.tick + 1, request.start[0] - self.latency - max(self.lookahead, 1)))
 
@@ -231,6 +237,8 @@ class PlanReactor:
                 if not self.bench.is_started(goal.token, self.tick):
                     goal.is_closed = True
                     self.bench.remove([goal.token])
+                    self.is_stirred = True
+                    self.due = self.tick + 1
 
     def _post(self, request: Request, tick: int) -> None:
         """Make a rejectable token of a request, or refuse it."""
@@ -239,6 +247,9 @@ class PlanReactor:
         text = token_text(request.predicate, request.arguments)
         if predicate == NOTHING:
             self._refuse(request, f"{text}: `{request.timeline}` has no predicate `{request.predicate}`")
+            return
+        if request.start[1] < tick:
+            self._refuse(request, f"{text}: too late")
             return
         mark = self.bench.mark()
         token = self.bench.new_goal(predicate, line.object_id)
@@ -298,66 +309,16 @@ class PlanReactor:
     # ---- dispatch ----
 
     def requests(self, tick: int) -> list[Request]:
-        """Planned tokens on others' timelines that are due to be asked for (T-REX 1.8).
+        """What is to be asked of owners now."""
+        return self.dispatch.requests(tick)
 
-        A reactive owner (look-ahead 1 or less) is asked when the token could start now; a planning owner as soon as
-        the token's earliest start lies inside its window.
-        """
-        asked = []
-        for line in self.timelines:
-            if line.is_internal or not self.bench.accepts_requests(line.object_id):
-                continue
-            latency, lookahead = self.owner_windows.get(line.name, (0, 1))
-            reach = tick if lookahead <= 1 else tick + latency + lookahead
-            for token in self.bench.planned_after(line.object_id, line.current):
-                start = self.bench.start(token)
-                # What has not started may do so from the next tick on, so "now" reads as one later.
-                if self.bench.lower(start) > reach + 1:
-                    break
-                key = self.bench.key(token)
-                if key in self.sent or self.bench.is_blocked(token, line.current, tick):
-                    continue
-                asked.append(self._ask(line, token, tick))
-                self.sent[key] = asked[-1]
-                self.sent_tokens[key] = token
-        return asked
-
-    def _ask(self, line: TimelineState, token: int, tick: int) -> Request:
-        bench = self.bench
-        predicate = bench.short_name(token)
-        arguments = bench.arguments(token)
-        causes = tuple(other.event for other in self.timelines if not other.is_internal and other.event != NOTHING)
-        event = self.trace.record("request", self.name, line.name, token_text(predicate, arguments), causes[:1])
-        # To the world a request is a command: when to begin is the sender's business, how long it takes is not.
-        is_command = self.owner_windows.get(line.name, (0, 1))[1] <= 1
-        end = INFINITY if is_command else int(bench.upper(bench.end(token)))
-        return Request(
-            event,
-            line.name,
-            predicate,
-            arguments,
-            (tick + 1, int(bench.upper(bench.start(token)))),
-            (-INFINITY, end),
-            (1, INFINITY),
-            self.name,
-            event,
-        )
+    def open_requests(self) -> list[int]:
+        """Numbers of the requests that it has made and that have not started."""
+        return self.dispatch.open_requests()
 
     def recalls(self) -> list[int]:
         """Numbers of the requests whose token has lost its place in the plan."""
-        numbers = []
-        for key, request in list(self.sent.items()):
-            token = self.sent_tokens[key]
-            if not self.bench.is_alive(token, key):
-                self.trace.record(
-                    "recall", self.name, request.timeline, token_text(request.predicate, request.arguments)
-                )
-                numbers.append(request.number)
-            elif not self.bench.is_started(token, self.tick):
-                continue
-            del self.sent[key]
-            del self.sent_tokens[key]
-        return numbers
+        return self.dispatch.recalls(self.tick)
 
     def _causes_of(self, line: TimelineState) -> tuple[int, ...]:
         """The request that the current token answers, and what else was published before."""

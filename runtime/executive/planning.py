@@ -59,7 +59,7 @@ class Planner:
         self.is_fresh = True
 
     def deliberate(self, tick: int, end: int) -> str:
-        """Make one decision inside [tick, end]: "decided", "done" when nothing is left, or "exhausted"."""
+        """Make one decision inside [tick, end]: "decided", "done" when nothing is left, "exhausted", or "deep"."""
         if self.is_fresh:
             self.window.tick, self.window.end, self.window.is_present = tick, end, False
             self.solver.refresh()
@@ -71,7 +71,7 @@ class Planner:
         if outcome in (EXHAUSTED, TIMEOUT) or self.solver.depth > self.max_depth:
             self.solver.take_back()
             self.is_fresh = True
-            return "exhausted"
+            return "exhausted" if outcome == EXHAUSTED else "deep"
         return "decided"
 
     def keep(self) -> None:

@@ -16,6 +16,7 @@ from runtime.executive.workbench import Workbench
 
 LIMIT = 200
 EXTEND, NEXT, NEW, FACT, MEET = "extend", "next", "new", "fact", "meet"
+UNDEFINED = "undefined"
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,10 +46,17 @@ def settle(
     `is_early`: a planned token starts as soon as it may (T-REX 1.5, first generation); else the present one is kept
     as long as it may. A requested token always starts as soon as it may. On failure the caller rewinds.
     """
+    if not bench.set_clock(tick):
+        return Unsettled("F3", (), f"the plan does not allow it to be tick {tick}", conflict_of(bench))
     failed = persist(bench, timelines, tick)
     if failed is not None:
         return failed
-    return _Search(bench, planner, timelines, tick, is_early).run()
+    mark = bench.mark()
+    if _Search(bench, planner, timelines, tick, is_early, False).run() is None:
+        return None
+    # Choices fail all the time; only when all have failed is it worth while to find out why.
+    bench.rewind_to(mark)
+    return _Search(bench, planner, timelines, tick, is_early, True).run()
 
 
 def persist(bench: Workbench, timelines: list[TimelineState], tick: int) -> Unsettled | None:
@@ -70,8 +78,15 @@ class _Search:
     """Depth-first search over one decision per timeline, then over the flaws of the present."""
 
     def __init__(
-        self, bench: Workbench, planner: Planner, timelines: list[TimelineState], tick: int, is_early: bool
+        self,
+        bench: Workbench,
+        planner: Planner,
+        timelines: list[TimelineState],
+        tick: int,
+        is_early: bool,
+        explains: bool,
     ) -> None:
+        self.explains = explains
         self.bench = bench
         self.planner = planner
         self.tick = tick
@@ -81,6 +96,7 @@ class _Search:
         self.lines += [line for line in timelines if line.is_internal]
         self.made: list[int] = []
         self.first: Unsettled | None = None
+        self.first_depth = NOTHING
 
     def run(self) -> Unsettled | None:
         """Try choices until all timelines and the flaws of the present are settled."""
@@ -95,7 +111,7 @@ class _Search:
                 if self._finish():
                     self._note()
                     return None
-                if not self._back(open_choices, marks):
+                if not self._back(marks):
                     return self.first
             else:
                 open_choices.append(self.choices(self.lines[depth]))
@@ -103,28 +119,30 @@ class _Search:
                 self.made.append(NOTHING)
             while True:
                 tries += 1
-                if tries > LIMIT:
-                    return self.first
+                if tries > LIMIT + len(self.lines):
+                    first = self.first
+                    what = f"no consistent present was found in {tries - 1} tries"
+                    return Unsettled("F5", first.timelines if first else (), what, first.conflict if first else None)
                 depth = len(open_choices) - 1
                 if not open_choices[depth]:
                     open_choices.pop()
                     marks.pop()
                     self.made.pop()
-                    if not self._back(open_choices, marks):
+                    if not self._back(marks):
                         return self.first
                     continue
                 choice = open_choices[depth].pop(0)
                 if self.apply(self.lines[depth], choice):
+                    if self.first_depth == depth:
+                        self.first = None  # another choice did for this timeline: it is not where things go wrong
                     break
                 self._blame(self.lines[depth], choice)
                 bench.rewind_to(marks[depth])
 
-    def _back(self, open_choices: list[list[Choice]], marks: list[int]) -> bool:
+    def _back(self, marks: list[int]) -> bool:
         """Undo the latest decision that stands; False if there is none."""
         if not marks:
-            if self.first is None:
-                what = "what is asked of the present cannot be met"
-                self.first = Unsettled("F3", (), what, conflict_of(self.bench))
+            self._fail("F3", (), "what is asked of the present cannot be met")
             return False
         self.bench.rewind_to(marks[-1])
         return True
@@ -134,7 +152,9 @@ class _Search:
         bench, tick, current = self.bench, self.tick, line.current
         if not line.is_internal:
             assert line.news is not None
-            predicate = line.predicates.get(line.news.predicate, line.predicates.get("undefined", NOTHING))
+            predicate = self.fitting(line, line.news)
+            if predicate == NOTHING:
+                return []
             meets = [
                 Choice(MEET, token, predicate)
                 for token in bench.planned_after(line.object_id, current)
@@ -156,6 +176,22 @@ class _Search:
         is_due = bool(starts) and (self.is_early or bench.is_requested(starts[0].token))
         new = [Choice(NEW, NOTHING, p) for p in ([line.default, *line.others] if line.default >= 0 else line.others)]
         return [*starts, *extend, *new] if is_due else [*extend, *starts, *new]
+
+    def fitting(self, line: TimelineState, news: Observation) -> int:
+        """The predicate of what was observed; `undefined` if the model has none like it (T-REX 1.6)."""
+        bench = self.bench
+        predicate = line.predicates.get(news.predicate, NOTHING)
+        if predicate != NOTHING and news.arguments:
+            mark = bench.mark()
+            token = bench.new_token(predicate, line.object_id, is_fact=True)
+            fits = bench.restrict_parameters(token, news.arguments, SPAN_OBSERVATION)
+            bench.rewind_to(mark)
+            bench.release(mark)
+            if fits:
+                return predicate
+        elif predicate != NOTHING:
+            return predicate
+        return line.predicates.get(UNDEFINED, NOTHING)
 
     def apply(self, line: TimelineState, choice: Choice) -> bool:
         """Carry out `choice`; False on conflict."""
@@ -193,7 +229,8 @@ class _Search:
         fact = bench.new_token(choice.predicate, line.object_id, is_fact=True)
         holds = bench.fix(bench.start(fact), tick, SPAN_OBSERVATION, fact)
         holds = holds and bench.at_least(bench.end(fact), tick + 1, SPAN_OBSERVATION, fact)
-        holds = holds and bench.restrict_parameters(fact, news.arguments, SPAN_OBSERVATION)
+        if choice.predicate == line.predicates.get(news.predicate):
+            holds = holds and bench.restrict_parameters(fact, news.arguments, SPAN_OBSERVATION)
         if not holds:
             return NOTHING
         if choice.kind == MEET:
@@ -207,11 +244,11 @@ class _Search:
         bench, tick = self.bench, self.tick
         for token in self.waiting():
             if not bench.at_least(bench.start(token), tick + 1, SPAN_CLOCK, token):
-                self._fail("F1", f"{bench.token_name(token)} was to start by tick {tick} and did not")
+                self._fail("F1", (), f"{bench.token_name(token)} was to start by tick {tick} and did not")
                 return False
         if not self.planner.settle_present(tick):
-            what, conflict = self.planner.reason()
             if self.first is None:
+                what, conflict = self.planner.reason() if self.explains else ("", None)
                 self.first = Unsettled("F3", (), what, conflict)
             return False
         return True
@@ -230,7 +267,7 @@ class _Search:
             line.current = token
 
     def _blame(self, line: TimelineState, choice: Choice) -> None:
-        code = "F3" if line.is_internal else "F2"
+        code = "F3" if line.is_internal else "F8" if line.news and line.news.predicate == "Failed" else "F2"
         match choice.kind:
             case "extend":
                 what = f"{self.bench.token_name(choice.token)} cannot go on at tick {self.tick}"
@@ -238,9 +275,10 @@ class _Search:
                 what = f"{self.bench.token_name(choice.token)} cannot start at tick {self.tick}"
             case _:
                 what = f"no {self.bench.predicate_name(choice.predicate)} can start at tick {self.tick}"
-        if self.first is None:
-            self.first = Unsettled(code, (line.name,), what, conflict_of(self.bench))
+        self._fail(code, (line.name,), what, self.lines.index(line))
 
-    def _fail(self, code: str, what: str) -> None:
+    def _fail(self, code: str, timelines: tuple[str, ...], what: str, depth: int = NOTHING) -> None:
+        """Remember what went wrong, unless something did before."""
         if self.first is None:
-            self.first = Unsettled(code, (), what, conflict_of(self.bench))
+            self.first = Unsettled(code, timelines, what, conflict_of(self.bench) if self.explains else None)
+            self.first_depth = depth

@@ -16,16 +16,21 @@ from runtime.executive.timelines import TimelineState
 from runtime.plan.codes import (
     ACTIVE,
     FLAG_FACT,
+    FLAG_GOAL,
     FREED,
+    HEAD_OPEN,
+    HEAD_THREAT,
     INACTIVE,
+    LIST_OPEN,
     LIST_ORDER,
+    LIST_THREAT,
+    LISTS,
     MERGED,
     NONE,
     REJECTED,
     ROLE_TOKEN,
 )
 from runtime.plan.database import PlanDatabase
-from runtime.plan.rows import LISTS
 
 # Spans of what no line of the model says: the executive's own reasons.
 SPAN_OBSERVATION, SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_REQUEST, SPAN_MISSION = -2, -3, -4, -5, -6
@@ -74,7 +79,7 @@ class PlanView:
         return TimelineState(name, o, is_internal, default, predicates)
 
     def _default_name(self, o: int) -> str:
-        """The default predicate that a timeline names; the first of its own if it names none."""
+        """The default predicate that a timeline names; `undefined` if it names none."""
         domain = self._member(o, "defaultPredicate")
         if domain is not None and domain.values is not None and len(domain.values) == 1:
             return str(domain.values[0])
@@ -88,9 +93,13 @@ class PlanView:
         return None
 
     def accepts_requests(self, o: int) -> bool:
-        """Whether its users may ask for tokens on a timeline: not if the model only observes it."""
+        """Whether its users may ask for tokens on a timeline: not if the model only observes or ignores it."""
+        return self.mode(o) not in ("Observe", "Ignore")
+
+    def mode(self, o: int) -> str:
+        """The part that a reactor plays for a timeline, as its model says; empty if it does not say."""
         mode = self._member(o, "mode")
-        return mode is None or mode.values != ("Observe",)
+        return str(mode.values[0]) if mode is not None and mode.values is not None and len(mode.values) == 1 else ""
 
     def token_name(self, t: int) -> str:
         """A name for reports: the predicate and a number that is never used again."""
@@ -174,6 +183,10 @@ class PlanView:
         """Whether the token is an observation."""
         return bool(self.rows.flags[t] & FLAG_FACT)
 
+    def is_active(self, t: int) -> bool:
+        """Whether the token is in the plan by itself."""
+        return bool(self.rows.status[t] == ACTIVE)
+
     def is_rejected(self, t: int) -> bool:
         """Whether the planner has given the token up."""
         return bool(self.rows.status[t] == REJECTED)
@@ -243,15 +256,22 @@ class PlanView:
         return sorted(live, key=lambda t: int(rows.key[t]))
 
     def unplaced(self, tick: int) -> list[int]:
-        """Tokens that are in no sequence yet and may start by `tick` as well as later."""
+        """Tokens that are in no sequence yet and may start by `tick` as well as later.
+
+        A token that is still to be decided may turn out to be one that holds already; a goal may not.
+        """
         rows, engine = self.rows, self.engine
-        return [
-            t
-            for t in range(rows.token_count)
-            if rows.status[t] in (ACTIVE, INACTIVE)
-            and rows.link_head[LISTS * t + LIST_ORDER] < 0
-            and engine.lower(self.start(t)) <= tick < engine.upper(self.start(t))
-        ]
+        found = [t for t in self.undecided() if rows.flags[t] & FLAG_GOAL] + self._listed(HEAD_THREAT, LIST_THREAT)
+        return [t for t in found if engine.lower(self.start(t)) <= tick < engine.upper(self.start(t))]
+
+    def _listed(self, head: int, kind: int) -> list[int]:
+        """The tokens of one list."""
+        found = []
+        t = int(self.rows.head_first[head])
+        while t >= 0:
+            found.append(t)
+            t = int(self.rows.link_after[LISTS * t + kind])
+        return found
 
     def is_blocked(self, t: int, current: int, tick: int) -> bool:
         """Whether the earliest start of `t` hangs on a token that has not begun, or on an end still to be observed.
@@ -296,8 +316,7 @@ class PlanView:
 
     def undecided(self) -> list[int]:
         """Tokens that are still to be decided."""
-        rows = self.rows
-        return [t for t in range(rows.token_count) if rows.status[t] == INACTIVE]
+        return self._listed(HEAD_OPEN, LIST_OPEN)
 
     def sampled_name(self, span: int) -> str:
         """The sampled parameter that the text at `span` names."""

@@ -11,11 +11,11 @@ from runtime.plan.codes import (
     FLAG_REJECTABLE,
     INACTIVE,
     LIST_ORDER,
+    LISTS,
     MERGED,
     NONE,
 )
 from runtime.plan.prototypes import restrict_constant
-from runtime.plan.rows import LISTS
 
 
 class Workbench(PlanView):
@@ -84,11 +84,18 @@ class Workbench(PlanView):
             return self.engine.restrict_base_values(v, [float(o) for o in known], span, t)
         return restrict_constant(self.database.prototypes, v, domain, span, t)
 
-    def set_clock(self, tick: int) -> None:
+    def start_clock(self, final_tick: int) -> bool:
+        """Let guards on the model's clock fire as soon as what they say has come true; the mission ends in time."""
+        number = self.globals.get("AGENT_CLOCK")
+        if number is None:
+            return True
+        self.database.plan.clock = self.database.plan.globals[number]
+        return self.within(self.database.plan.clock, (0, final_tick), SPAN_MISSION, NONE)
+
+    def set_clock(self, tick: int) -> bool:
         """Let the model's clock read `tick` or later."""
         number = self.globals.get("AGENT_CLOCK")
-        if number is not None:
-            self.at_least(self.database.plan.globals[number], tick, SPAN_CLOCK, NONE)
+        return number is None or self.at_least(self.database.plan.globals[number], tick, SPAN_CLOCK, NONE)
 
     def set_global(self, name: str, value: float) -> bool:
         """Give a global variable of the T-REX library its value, if the model has it."""

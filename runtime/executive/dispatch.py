@@ -1,0 +1,94 @@
+"""Decide which planned tokens are asked of the owners of their timelines, and when requests are taken back."""
+
+from runtime.executive.messages import Request, token_text
+from runtime.executive.timelines import NOTHING, TimelineState
+from runtime.executive.trace import Trace
+from runtime.executive.workbench import Workbench
+
+INFINITY = 4503599627370495
+
+
+class Dispatch:
+    """What one reactor has asked of others; `owner_windows` gives latency and look-ahead of each timeline's owner."""
+
+    def __init__(self, name: str, bench: Workbench, timelines: list[TimelineState], trace: Trace) -> None:
+        self.name = name
+        self.bench = bench
+        self.timelines = timelines
+        self.trace = trace
+        self.owner_windows: dict[str, tuple[int, int]] = {}
+        self.sent: dict[int, Request] = {}  # by the key of the token that was sent
+        self.sent_tokens: dict[int, int] = {}
+
+    def is_asked(self, token: int) -> bool:
+        """Whether the owner has been asked for a token, and has not started it."""
+        return self.bench.key(token) in self.sent
+
+    def notice(self, line: TimelineState) -> int:
+        """How many ticks ahead the owner of a timeline is asked; a reactive one is asked when it is to begin."""
+        latency, lookahead = self.owner_windows.get(line.name, (0, 1))
+        return 0 if lookahead <= 1 else latency + lookahead
+
+    def takes_requests(self, line: TimelineState) -> bool:
+        """Whether the owner of a timeline may be asked: the model must allow it, and who looks ahead by 0 never is."""
+        return self.bench.accepts_requests(line.object_id) and self.owner_windows.get(line.name, (0, 1))[1] > 0
+
+    def requests(self, tick: int) -> list[Request]:
+        """Planned tokens on others' timelines that are due to be asked for (T-REX 1.8).
+
+        A reactive owner (look-ahead 1 or less) is asked when the token could start now; a planning owner as soon as
+        the token's earliest start lies inside its window.
+        """
+        asked = []
+        for line in self.timelines:
+            if line.is_internal or not self.takes_requests(line):
+                continue
+            reach = tick + self.notice(line)
+            for token in self.bench.planned_after(line.object_id, line.current):
+                start = self.bench.start(token)
+                # What has not started may do so from the next tick on, so "now" reads as one later.
+                if self.bench.lower(start) > reach + 1:
+                    break
+                key = self.bench.key(token)
+                if key in self.sent or self.bench.is_blocked(token, line.current, tick):
+                    continue
+                asked.append(self._ask(line, token, tick))
+                self.sent[key] = asked[-1]
+                self.sent_tokens[key] = token
+        return asked
+
+    def _ask(self, line: TimelineState, token: int, tick: int) -> Request:
+        bench = self.bench
+        predicate = bench.short_name(token)
+        arguments = bench.arguments(token)
+        causes = tuple(other.event for other in self.timelines if not other.is_internal and other.event != NOTHING)
+        event = self.trace.record("request", self.name, line.name, token_text(predicate, arguments), causes[:1])
+        # To the world a request is a command: when to begin is the sender's business, how long it takes is not.
+        is_command = self.owner_windows.get(line.name, (0, 1))[1] <= 1
+        end = INFINITY if is_command else _whole(bench.upper(bench.end(token)))
+        start = (tick + 1, _whole(bench.upper(bench.start(token))))
+        return Request(event, line.name, predicate, arguments, start, (-INFINITY, end), (1, INFINITY), self.name, event)
+
+    def open_requests(self) -> list[int]:
+        """Numbers of the requests that have been made and have not started."""
+        return [request.number for request in self.sent.values()]
+
+    def recalls(self, tick: int) -> list[int]:
+        """Numbers of the requests whose token has lost its place in the plan; what has started is forgotten."""
+        numbers = []
+        for key, request in list(self.sent.items()):
+            token = self.sent_tokens[key]
+            if not self.bench.is_alive(token, key) or not self.bench.is_active(token):
+                text = token_text(request.predicate, request.arguments)
+                self.trace.record("recall", self.name, request.timeline, text)
+                numbers.append(request.number)
+            elif not self.bench.is_started(token, tick):
+                continue
+            del self.sent[key]
+            del self.sent_tokens[key]
+        return numbers
+
+
+def _whole(bound: float) -> int:
+    """A whole bound; infinities as NDDL has them."""
+    return int(max(-INFINITY, min(bound, INFINITY)))

@@ -1,0 +1,97 @@
+"""Fly small missions whose models are given as text: reactors in, readable traces out."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+from compiler.lower import compile_model
+from compiler.program import Program
+from nddl_lang.analysis import analyse_text
+from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.text.diagnostic import Severity
+from runtime.executive.configuration import (
+    AgentConfiguration,
+    GoalConfiguration,
+    OnFailure,
+    ParameterConfiguration,
+    ReactorConfiguration,
+)
+from runtime.executive.mission import MissionPrograms, run_mission
+from runtime.executive.outcome import Outcome
+from runtime.solver.configuration import default_configuration
+
+
+@dataclass(frozen=True, slots=True)
+class Flyer:
+    """One reactor: its place among the others, and its model as text; `TREX.nddl` is included by itself."""
+
+    configuration: ReactorConfiguration
+    text: str
+
+
+def simulator(name: str, text: str, internal: str, external: str = "", latency: int = 0) -> Flyer:
+    """A reactor that looks one tick ahead; timelines are named in one string."""
+    return planner(name, text, internal, external, latency, lookahead=1)
+
+
+def planner(
+    name: str,
+    text: str,
+    internal: str = "",
+    external: str = "",
+    latency: int = 0,
+    lookahead: int = 100,
+    max_steps: int = 400,
+) -> Flyer:
+    """A reactor that plans ahead."""
+    place = ReactorConfiguration(
+        name, f"{name}.nddl", latency, lookahead, tuple(internal.split()), tuple(external.split()), None, max_steps
+    )
+    return Flyer(place, text)
+
+
+@lru_cache(maxsize=64)
+def program(name: str, text: str) -> Program:
+    """A model given as text."""
+    analysis = analyse_text(name, f'#include "TREX.nddl"\n{text}', Dialect.NDDLC)
+    errors = [each.message for each in analysis.diagnostics if each.severity is Severity.ERROR]
+    assert not errors, errors
+    return compile_model(analysis)
+
+
+def fly(
+    *flyers: Flyer,
+    until: int = 10,
+    goals: tuple[GoalConfiguration, ...] = (),
+    parameters: tuple[ParameterConfiguration, ...] = (),
+    on_failure: OnFailure = "abort_agent",
+    seed: int = 1,
+    overrides: Mapping[str, float] | None = None,
+) -> Outcome:
+    """Fly one mission."""
+    agent = AgentConfiguration(
+        "toy",
+        ".",
+        until,
+        tuple(replace(flyer.configuration) for flyer in flyers),
+        goals,
+        parameters,
+        on_failure=on_failure,
+    )
+    programs = tuple(program(flyer.configuration.model, flyer.text) for flyer in flyers)
+    solvers = tuple(default_configuration() for _ in flyers)
+    return run_mission(agent, MissionPrograms(programs, solvers), seed, overrides)
+
+
+def lines(outcome: Outcome, *kinds: str) -> list[str]:
+    """The events of a mission as texts: tick, kind, reactor, timeline, what; `kinds` are those that are told."""
+    return [
+        " ".join(filter(None, (str(e.tick), e.kind, e.reactor, e.timeline, e.text)))
+        for e in outcome.events
+        if not kinds or e.kind in kinds
+    ]
+
+
+def history(outcome: Outcome, timeline: str) -> list[str]:
+    """What was published on a timeline: tick and value."""
+    return [f"{e.tick} {e.text}" for e in outcome.events if e.kind == "observation" and e.timeline == timeline]
