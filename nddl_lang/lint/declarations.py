@@ -1,0 +1,114 @@
+"""Find what a whole model declares and never uses.
+
+Only what the linted text declares itself is judged, and only if the model is whole: a text that others include may
+declare for them.
+"""
+
+from collections.abc import Iterator
+
+from nddl_lang.lint.part import Part
+from nddl_lang.lint.removal import removal, undeclare
+from nddl_lang.lint.whole import Whole
+from nddl_lang.semantics.schema import Kind, Predicate, Variable
+from nddl_lang.syntax.nodes import (
+    ClassDecl,
+    EnumDecl,
+    NewExpr,
+    PredicateDecl,
+    TypedefDecl,
+    VariableDecl,
+)
+from nddl_lang.text.diagnostic import Code, Diagnostic, Fix, Severity
+
+UNUSED_GLOBAL = Code("NDDL504", Severity.WARNING, "lint", "the global variable `{name}` is never used")
+UNUSED_MEMBER = Code("NDDL505", Severity.INFO, "lint", "the member `{name}` of class `{owner}` is never {done}")
+UNUSED_VALUE = Code("NDDL506", Severity.HINT, "lint", "the value `{name}` of enum `{enum}` is never used")
+UNUSED_TYPE = Code("NDDL507", Severity.INFO, "lint", "the {what} `{name}` is never used")
+FREE_PARAMETER = Code("NDDL508", Severity.WARNING, "lint", "nothing ever says what `{name}` of `{predicate}` is")
+UNUSED_PARAMETER = Code("NDDL509", Severity.INFO, "lint", "the parameter `{name}` of `{predicate}` is never used")
+
+AGENT_TIMELINE = "AgentTimeline"
+
+
+def lint_declarations(whole: Whole) -> Iterator[Diagnostic]:
+    """Names that nothing in the model refers to."""
+    if not whole.is_whole:
+        return
+    for part in whole.parts:
+        if not whole.is_own(part.node.span):
+            continue
+        match part.node:
+            case VariableDecl():
+                yield from _globals(whole, part, part.node)
+            case ClassDecl():
+                yield from _members(whole, part, part.node)
+                yield from _parameters(whole, part, part.node)
+            case EnumDecl():
+                yield from _values(whole, part.node)
+            case TypedefDecl(name=name) if name.name not in whole.words:
+                fix = Fix(f"remove `{name.name}`", (removal(part.node.span),))
+                yield UNUSED_TYPE.at(name.span, fixes=(fix,), what="typedef", name=name.name)
+
+
+def _globals(whole: Whole, part: Part, node: VariableDecl) -> Iterator[Diagnostic]:
+    for index, declarator in enumerate(node.declarators):
+        variable = part.tables.declared.get(declarator.name)
+        if not isinstance(variable, Variable) or variable.type.kind is Kind.OBJECT or variable in whole.variables:
+            continue
+        if variable.name in whole.words or isinstance(declarator.initialiser, NewExpr):
+            continue
+        fix = undeclare(node, index, safe=True)
+        yield UNUSED_GLOBAL.at(declarator.name.span, fixes=(fix,), name=variable.name)
+
+
+def _members(whole: Whole, part: Part, node: ClassDecl) -> Iterator[Diagnostic]:
+    written = {member for gist in whole.gists for member in gist.written}
+    for declaration in node.members or ():
+        if not isinstance(declaration, VariableDecl):
+            continue
+        for declarator in declaration.declarators:
+            member = part.tables.declared.get(declarator.name)
+            if isinstance(member, Variable) and member not in whole.variables:
+                done = "read" if member in written else "used"
+                if member.type.kind is Kind.OBJECT and done == "read":
+                    continue  # the object that it holds may be what counts
+                yield UNUSED_MEMBER.at(declarator.name.span, name=member.name, owner=node.name.name, done=done)
+
+
+def _values(whole: Whole, node: EnumDecl) -> Iterator[Diagnostic]:
+    name = node.name.name
+    if name not in whole.words and not any(value.name in whole.words for value in node.values):
+        fix = Fix(f"remove `{name}`", (removal(node.span),))
+        yield UNUSED_TYPE.at(node.name.span, fixes=(fix,), what="enum", name=name)
+        return
+    # Where no value is ever written, all of them are for a search to choose from.
+    if sum(value.name in whole.words for value in node.values) < 2:
+        return
+    for value in node.values:
+        if value.name not in whole.words:
+            yield UNUSED_VALUE.at(value.span, name=value.name, enum=name)
+
+
+def _parameters(whole: Whole, part: Part, node: ClassDecl) -> Iterator[Diagnostic]:
+    owner = whole.analysis.schema.classes.get(node.name.name)
+    if owner is None or AGENT_TIMELINE in whole.analysis.schema.ancestry(owner.name):
+        return  # tokens of shared timelines come from other reactors, with their parameters
+    for declaration in node.members or ():
+        if isinstance(declaration, PredicateDecl):
+            predicate = owner.predicates.get(declaration.name.name)
+            if predicate is not None:
+                yield from _free(whole, part, declaration, predicate)
+
+
+def _free(whole: Whole, part: Part, node: PredicateDecl, predicate: Predicate) -> Iterator[Diagnostic]:
+    for declaration in node.body:
+        if not isinstance(declaration, VariableDecl):
+            continue
+        for declarator in declaration.declarators:
+            variable = part.tables.declared.get(declarator.name)
+            if not isinstance(variable, Variable) or variable in whole.variables or declarator.initialiser is not None:
+                continue
+            is_open = variable.type.kind in (Kind.INT, Kind.FLOAT, Kind.STRING) and variable.type.restriction is None
+            code = FREE_PARAMETER if is_open else UNUSED_PARAMETER
+            help_ = "no search decides it: its values are without end" if is_open else None
+            yield code.at(declarator.name.span, help=help_, name=variable.name, predicate=predicate.full_name)

@@ -1,0 +1,142 @@
+"""Find guards that can never hold, always hold, or are never decided."""
+
+from collections.abc import Iterator
+
+from nddl_lang.lint.logic import Known, assume, truth
+from nddl_lang.lint.part import Facts, Finding, Part
+from nddl_lang.lint.reading import declared, is_finite
+from nddl_lang.semantics.schema import Kind, LocalReference, MemberReference, TokenVariable, Variable
+from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.syntax.nodes import (
+    BinaryExpr,
+    CallExpr,
+    Expr,
+    ExprConstraint,
+    Foreach,
+    IfStatement,
+    IntervalExpr,
+    PathExpr,
+    RuleDecl,
+    RuleStatement,
+    SetExpr,
+)
+from nddl_lang.syntax.walk import descendants
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
+
+NEVER_TRUE = Code("NDDL520", Severity.WARNING, "lint", "this condition can never hold")
+ALWAYS_TRUE = Code("NDDL521", Severity.WARNING, "lint", "this condition always holds")
+SEVERAL_VALUES = Code("NDDL522", Severity.WARNING, "lint", "a comparison with several values is never decided")
+NEVER_DECIDED = Code("NDDL523", Severity.WARNING, "lint", "`{name}` is only ever narrowed, so this is not decided")
+VARYING_FIELD = Code("NDDL524", Severity.WARNING, "lint", "EUROPA does not decide this while `{name}` may be several")
+
+_ASKING = frozenset({"isSingleton", "isSpecified"})
+
+
+def lint_guards(part: Part) -> Iterator[Finding]:
+    """Conditions of a rule, each with what the rule says beside it."""
+    if not isinstance(part.node, RuleDecl) or not part.all(IfStatement):
+        return
+    sampled = set(part.tables.sampled)
+    pending: list[tuple[tuple[RuleStatement, ...], Known]] = [(part.node.body, Known())]
+    while pending:
+        body, known = pending.pop()
+        for statement in body:
+            if isinstance(statement, ExprConstraint):
+                known = assume(part, statement.expression, True, known)
+        for statement in body:
+            if isinstance(statement, Foreach):
+                pending.append((statement.body, known))
+            elif isinstance(statement, IfStatement):
+                yield from _judged(part, statement, known)
+                yield from _undecided(part, statement.condition, sampled)
+                pending.append((statement.then, assume(part, statement.condition, True, known)))
+                if statement.otherwise:
+                    pending.append((statement.otherwise, assume(part, statement.condition, False, known)))
+
+
+def _judged(part: Part, statement: IfStatement, known: Known) -> Iterator[Finding]:
+    condition = statement.condition
+    if not any(isinstance(node, PathExpr) for node in descendants(condition)):
+        return
+    notes = _notes(part, condition)
+    if truth(part, condition, known) is False:
+        yield NEVER_TRUE.at(condition.span, notes=notes)
+    elif truth(part, condition, known.without_exclusions()) is True:
+        yield ALWAYS_TRUE.at(condition.span, notes=notes)
+
+
+def _notes(part: Part, condition: Expr) -> tuple[Note, ...]:
+    """Where the variables of a condition are declared."""
+    notes: dict[object, Note] = {}
+    for node in descendants(condition):
+        reference = part.reference(node) if isinstance(node, PathExpr) else None
+        variable: Variable | None = None
+        if isinstance(reference, LocalReference):
+            variable = reference.variable
+        elif isinstance(reference, TokenVariable):
+            names = (p for p in reference.label.predicate.parameters if p.name == reference.name)
+            variable = next(names, None)
+        if variable is not None and variable.span is not None:
+            notes[variable] = Note(f"`{variable.name}` is declared here", variable.span)
+    return tuple(notes.values())
+
+
+def _undecided(part: Part, condition: Expr, sampled: set[object]) -> Iterator[Finding]:
+    for node in descendants(condition):
+        if isinstance(node, BinaryExpr) and node.op in ("==", "!="):
+            for side in (node.left, node.right):
+                if isinstance(side, IntervalExpr) or (isinstance(side, SetExpr) and len(side.items) > 1):
+                    help_ = "compare with the bounds, or with each value: `x >= 3 && x <= 4`, `x == 3 || x == 4`"
+                    yield SEVERAL_VALUES.at(side.span, help=help_)
+    asked = {
+        argument
+        for node in descendants(condition)
+        if isinstance(node, CallExpr) and node.function.name in _ASKING
+        for argument in node.arguments
+    }
+    for node in descendants(condition):
+        if isinstance(node, PathExpr) and node not in asked:
+            yield from _undecided_path(part, node, sampled)
+
+
+def _undecided_path(part: Part, path: PathExpr, sampled: set[object]) -> Iterator[Finding]:
+    reference = part.reference(path)
+    if isinstance(reference, LocalReference) and reference.variable.type.kind in (Kind.INT, Kind.FLOAT):
+        variable = reference.variable
+        if not is_finite(variable.type, declared(variable)) and not _is_sampled(part, variable, sampled):
+            help_ = "a condition waits until its variables are decided, and a search decides only those with few values"
+            yield NEVER_DECIDED.at(path.span, help=help_, name=variable.name)
+    elif isinstance(reference, MemberReference) and part.dialect is Dialect.NDDL3:
+        base = reference.base
+        type_ = base.type if isinstance(base, TokenVariable) else getattr(getattr(base, "variable", None), "type", None)
+        if type_ is not None and isinstance(base, TokenVariable | LocalReference):
+            yield _varying(path, type_.base)
+
+
+def _is_sampled(part: Part, variable: Variable, sampled: set[object]) -> bool:
+    """Whether a draw gives the variable its value."""
+    for node in part.all(ExprConstraint):
+        sides = [getattr(node.expression, "left", None), getattr(node.expression, "right", None)]
+        if any(side in sampled for side in sides):
+            references = [part.reference(side) for side in sides if isinstance(side, PathExpr)]
+            if any(isinstance(each, LocalReference) and each.variable is variable for each in references):
+                return True
+    return any(
+        isinstance(reference := part.reference(argument), LocalReference) and reference.variable is variable
+        for call in sampled
+        for argument in getattr(call, "arguments", ())[:1]
+        if isinstance(argument, PathExpr)
+    )
+
+
+def _varying(path: PathExpr, class_name: str) -> Finding:
+    prefix = path.parts[0].name
+
+    def finding(facts: Facts) -> Diagnostic | None:
+        made = {tuple(argument.span.text for argument in new.arguments) for new in facts.objects.get(class_name, ())}
+        if len(made) < 2:
+            return None
+        help_ = f"EUROPA decides it only if `{path.span.text}` is the same for all objects when the rule starts"
+        return VARYING_FIELD.at(path.span, help=help_, name=prefix)
+
+    return finding

@@ -1,0 +1,175 @@
+"""Find names inside one rule or constructor that nothing uses, and names that hide others."""
+
+from collections.abc import Iterator
+
+from nddl_lang.lint.part import Facts, Finding, Part, mentioned_labels
+from nddl_lang.lint.removal import undeclare
+from nddl_lang.semantics.schema import (
+    GlobalReference,
+    Kind,
+    LocalReference,
+    MemberReference,
+    TokenVariable,
+    Variable,
+)
+from nddl_lang.syntax.nodes import (
+    ConstructorDecl,
+    Declarator,
+    Foreach,
+    FormalParameter,
+    Identifier,
+    IfStatement,
+    Instance,
+    NewExpr,
+    PredicateDecl,
+    RuleDecl,
+    VariableDecl,
+)
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
+
+UNUSED_LOCAL = Code("NDDL501", Severity.WARNING, "lint", "the local variable `{name}` is never used")
+UNUSED_LABEL = Code("NDDL502", Severity.HINT, "lint", "the token `{name}` is never referred to")
+UNUSED_FORMAL = Code("NDDL503", Severity.WARNING, "lint", "the constructor does not use its parameter `{name}`")
+HIDDEN_PARAMETER = Code("NDDL510", Severity.WARNING, "lint", "this `{name}` hides the parameter `{name}` of the token")
+HIDDEN_LOCAL = Code("NDDL511", Severity.WARNING, "lint", "this `{name}` hides the one declared before it")
+HIDDEN_TOKEN = Code("NDDL514", Severity.INFO, "lint", "another token is called `{name}` already; this one counts now")
+HIDDEN_BY_VALUE = Code(
+    "NDDL512", Severity.WARNING, "lint", "`{name}` is a value of enum `{enum}`, and means that value"
+)
+HIDDEN_GLOBAL = Code("NDDL513", Severity.INFO, "lint", "this `{name}` hides the global variable `{name}`")
+
+
+def used_variables(part: Part) -> set[Variable]:
+    """The variables that a statement refers to, apart from declaring them."""
+    used: set[Variable] = set()
+    for reference in part.tables.references.values():
+        base = reference.base if isinstance(reference, MemberReference) else reference
+        if isinstance(base, LocalReference | GlobalReference):
+            used.add(base.variable)
+        elif isinstance(base, TokenVariable):
+            used.update(p for p in base.label.predicate.parameters if p.name == base.name)
+        if isinstance(reference, MemberReference):
+            used.update(reference.members)
+    return used
+
+
+def lint_unused_locals(part: Part) -> Iterator[Finding]:
+    """A rule's local variable, or a constructor's parameter, that nothing refers to."""
+    if isinstance(part.node, RuleDecl):
+        used = used_variables(part)
+        for node in part.all(VariableDecl):
+            for index, declarator in enumerate(node.declarators):
+                variable = part.tables.locals.get(declarator)
+                if variable is not None and variable not in used and not isinstance(declarator.initialiser, NewExpr):
+                    yield _unused_local(node, index, declarator, variable)
+    elif constructors := part.all(ConstructorDecl):
+        used = used_variables(part)
+        for constructor in constructors:
+            for formal in constructor.parameters:
+                declared = part.tables.declared.get(formal.name)
+                if isinstance(declared, Variable) and declared not in used:
+                    yield UNUSED_FORMAL.at(formal.name.span, name=formal.name.name)
+
+
+def _unused_local(node: VariableDecl, index: int, declarator: Declarator, variable: Variable) -> Finding:
+    help_ = None
+    if variable.type.kind is Kind.OBJECT:
+        help_ = "a search has to choose an object for it all the same"
+    is_free = variable.type.kind in (Kind.INT, Kind.FLOAT, Kind.STRING) and declarator.initialiser is None
+    fix = undeclare(node, index, safe=is_free)
+    return UNUSED_LOCAL.at(declarator.name.span, help=help_, fixes=(fix,), name=variable.name)
+
+
+def lint_unused_labels(part: Part) -> Iterator[Finding]:
+    """A child token whose name nothing refers to."""
+    if not isinstance(part.node, RuleDecl):
+        return
+    mentioned = set(mentioned_labels(part))
+    for instance in part.all(Instance):
+        label = part.label_of(instance)
+        if label is not None and instance.name is not None and label not in mentioned:
+            yield UNUSED_LABEL.at(instance.name.span, name=label.name)
+
+
+def lint_hidden_names(part: Part) -> Iterator[Finding]:
+    """A local or a label that takes the name of something else which is visible."""
+    if not isinstance(part.node, RuleDecl):
+        return
+    predicate = part.tables.predicates.get(part.node)
+    parameters = {p.name: p for p in predicate.parameters} if predicate is not None else {}
+    # Blocks with the names visible in them: names of one branch do not reach the other.
+    pending: list[tuple[tuple[object, ...], dict[str, Identifier]]] = [(part.node.body, {})]
+    while pending:
+        body, outer = pending.pop()
+        visible = dict(outer)
+        for statement in body:
+            match statement:
+                case VariableDecl(declarators=declarators):
+                    for declarator in declarators:
+                        name = declarator.name
+                        if name.name in parameters:
+                            notes = _note(parameters[name.name])
+                            help_ = f"the parameter stays free; `{name.name}` means the local from here on"
+                            yield HIDDEN_PARAMETER.at(name.span, help=help_, notes=notes, name=name.name)
+                        else:
+                            yield from _hidden(visible, name)
+                            yield from _hidden_by_others(part, name)
+                        visible[name.name] = name
+                case IfStatement(then=then, otherwise=otherwise):
+                    pending += [(block, visible) for block in (then, otherwise) if block]
+                case Foreach(variable=name, body=inner):
+                    yield from _hidden(visible, name)
+                    pending.append((inner, {**visible, name.name: name}))
+                case _:
+                    for instance in getattr(statement, "created", ()):
+                        if instance.name is not None:
+                            yield from _hidden(visible, instance.name, HIDDEN_TOKEN)
+                            visible[instance.name.name] = instance.name
+
+
+def _note(variable: Variable) -> tuple[Note, ...]:
+    return (Note("the parameter is declared here", variable.span),) if variable.span is not None else ()
+
+
+def _hidden(visible: dict[str, Identifier], name: Identifier, code: Code = HIDDEN_LOCAL) -> Iterator[Finding]:
+    first = visible.get(name.name)
+    if first is not None:
+        note = Note("the one that is hidden is declared here", first.span)
+        yield code.at(name.span, notes=(note,), name=name.name)
+
+
+def _hidden_by_others(part: Part, name: Identifier) -> Iterator[Finding]:
+    def finding(facts: Facts) -> Diagnostic | None:
+        hidden = facts.schema.globals.get(name.name)
+        if hidden is None or hidden.span is None:
+            return None
+        note = Note("the global variable is declared here", hidden.span)
+        return HIDDEN_GLOBAL.at(name.span, notes=(note,), name=name.name)
+
+    if part.tables.declared.get(name) is not None:
+        yield finding
+
+
+def lint_names_of_values(part: Part) -> Iterator[Finding]:
+    """A parameter, local or global variable whose name is an enum value: it can never be read by that name."""
+    names: list[Identifier] = []
+    if isinstance(part.node, RuleDecl | VariableDecl):
+        names = [each.name for node in part.all(VariableDecl) for each in node.declarators]
+    else:
+        for predicate in part.all(PredicateDecl):
+            for statement in predicate.body:
+                if isinstance(statement, VariableDecl):
+                    names += [each.name for each in statement.declarators]
+        names += [formal.name for formal in part.all(FormalParameter)]
+    for name in names:
+        yield _named_like_value(name)
+
+
+def _named_like_value(name: Identifier) -> Finding:
+    def finding(facts: Facts) -> Diagnostic | None:
+        value = facts.schema.enum_values.get(name.name)
+        if value is None:
+            return None
+        return HIDDEN_BY_VALUE.at(name.span, help="give it another name", name=name.name, enum=value.enum)
+
+    return finding

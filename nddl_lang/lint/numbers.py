@@ -1,0 +1,171 @@
+"""Find arithmetic that does not do what it seems to: floats compared for equality, ints among floats, a < b < c."""
+
+from collections.abc import Iterator
+
+from nddl_lang.lint.part import Finding, Part
+from nddl_lang.semantics.literals import number
+from nddl_lang.semantics.schema import Kind, LocalReference
+from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.syntax.nodes import (
+    Assignment,
+    BinaryExpr,
+    CallConstraint,
+    CallExpr,
+    ClassDecl,
+    Declarator,
+    Expr,
+    ExprConstraint,
+    FloatLiteral,
+    IfStatement,
+    IntervalExpr,
+    IntLiteral,
+    PathExpr,
+    SetExpr,
+    VariableDecl,
+)
+from nddl_lang.syntax.walk import descendants
+from nddl_lang.text.diagnostic import Code, Edit, Fix, Note, Severity
+
+FLOAT_EQUALITY = Code("NDDL550", Severity.WARNING, "lint", "`{op}` compares a computed float")
+INT_AMONG_FLOATS = Code(
+    "NDDL551", Severity.WARNING, "lint", "`{name}` is an int, and `{constraint}` rounds it against floats"
+)
+INT_RESULT = Code("NDDL552", Severity.WARNING, "lint", "`{name}` is an int: this holds only where the float is whole")
+WHOLE_FLOAT = Code("NDDL553", Severity.WARNING, "lint", "EUROPA lets `{name}` take whole numbers only")
+CHAINED = Code("NDDL554", Severity.WARNING, "lint", "`{op}` compares the truth of `{text}`")
+
+_COMPARISONS = frozenset({"==", "!=", "<", "<=", ">", ">="})
+_ARITHMETIC = frozenset({"+", "-", "*", "/"})
+_PRODUCTS = frozenset({"mulEq", "multEq", "divEq", "eqProduct"})
+
+
+def _kind(part: Part, expression: Expr) -> Kind | None:
+    type_ = part.tables.types.get(expression)
+    return type_.kind if type_ is not None else None
+
+
+def _is_computed(part: Part, expression: Expr) -> bool:
+    """Whether an expression is the result of arithmetic over something that is not written out."""
+    if isinstance(expression, BinaryExpr) and expression.op in _ARITHMETIC:
+        return number(expression) is None
+    return isinstance(expression, CallExpr) and expression not in part.tables.sampled
+
+
+def lint_float_equality(part: Part) -> Iterator[Finding]:
+    """A float that was computed, tested for equality where the answer matters."""
+    computed = _computed_locals(part)
+    for comparison in _tests(part):
+        sides = (comparison.left, comparison.right)
+        if comparison.op not in ("==", "!=") or Kind.FLOAT not in (_kind(part, side) for side in sides):
+            continue
+        for side in sides:
+            reference = part.reference(side) if isinstance(side, PathExpr) else None
+            is_local = isinstance(reference, LocalReference) and reference.variable in computed
+            if (is_local or _is_computed(part, side)) and _kind(part, side) is Kind.FLOAT:
+                help_ = "floats are rounded; compare with bounds, as in `x >= 0.99 && x <= 1.01`"
+                yield FLOAT_EQUALITY.at(comparison.span, help=help_, op=comparison.op)
+                break
+
+
+def _tests(part: Part) -> Iterator[BinaryExpr]:
+    """The comparisons whose truth is asked for: in conditions, under `&&` and `||`, and inside comparisons."""
+    roots: list[Expr] = [statement.condition for statement in part.all(IfStatement)]
+    for constraint in part.all(ExprConstraint):
+        expression = constraint.expression
+        if isinstance(expression, BinaryExpr):
+            roots += (expression.left, expression.right)
+    for root in roots:
+        for node in descendants(root):
+            if isinstance(node, BinaryExpr) and node.op in _COMPARISONS:
+                yield node
+
+
+def _computed_locals(part: Part) -> set[object]:
+    found: set[object] = set()
+    for constraint in part.all(ExprConstraint):
+        expression = constraint.expression
+        if isinstance(expression, BinaryExpr) and expression.op == "==":
+            for path, other in ((expression.left, expression.right), (expression.right, expression.left)):
+                reference = part.reference(path) if isinstance(path, PathExpr) else None
+                if isinstance(reference, LocalReference) and _is_computed(part, other):
+                    found.add(reference.variable)
+    return found
+
+
+def lint_int_among_floats(part: Part) -> Iterator[Finding]:
+    """An int variable in a product of floats: what is drawn back from the product is rounded to a whole number."""
+    for call in part.all(CallConstraint):
+        if call.name.name not in _PRODUCTS:
+            continue
+        kinds = [_kind(part, argument) for argument in call.arguments]
+        if Kind.FLOAT not in kinds or not any(
+            isinstance(argument, PathExpr) and kind is Kind.FLOAT
+            for argument, kind in zip(call.arguments, kinds, strict=True)
+        ):
+            continue
+        for argument, kind in zip(call.arguments, kinds, strict=True):
+            if kind is Kind.INT and isinstance(argument, PathExpr):
+                text = argument.span.text
+                name = text.rpartition(".")[2]
+                help_ = f"copy it into a float first: `float {name}Exact; eq({name}Exact, {text});`"
+                yield INT_AMONG_FLOATS.at(argument.span, help=help_, name=text, constraint=call.name.name)
+
+
+def lint_int_results(part: Part) -> Iterator[Finding]:
+    """An int that is to equal a computed float."""
+    for constraint in part.all(ExprConstraint):
+        expression = constraint.expression
+        if not isinstance(expression, BinaryExpr) or expression.op != "==":
+            continue
+        for path, other in ((expression.left, expression.right), (expression.right, expression.left)):
+            is_int = isinstance(path, PathExpr) and _kind(part, path) is Kind.INT
+            if is_int and _kind(part, other) is Kind.FLOAT and _is_computed(part, other):
+                text = other.span.text
+                fix = Fix("round up", (Edit(other.span, f"ceil({text})"),), safe=False)
+                fixes = (fix,) if part.dialect is Dialect.NDDLC else ()
+                help_ = "say how to round: `ceil(...)` or `floor(...)`"
+                yield INT_RESULT.at(expression.span, help=help_, fixes=fixes, name=path.span.text)
+
+
+def lint_whole_floats(part: Part) -> Iterator[Finding]:
+    """A float variable with a domain of ints, which EUROPA turns into an int."""
+    if part.dialect is not Dialect.NDDL3:
+        return
+    declared: list[tuple[str, Expr]] = []
+    if isinstance(part.node, VariableDecl):
+        for declarator in part.all(Declarator):
+            variable = part.tables.declared.get(declarator.name)
+            if (
+                declarator.initialiser is not None
+                and getattr(getattr(variable, "type", None), "kind", None) is Kind.FLOAT
+            ):
+                declared.append((declarator.name.name, declarator.initialiser))
+    elif isinstance(part.node, ClassDecl):
+        for assignment in part.all(Assignment):
+            reference = part.reference(assignment.target)
+            members = getattr(reference, "members", ())
+            if members and members[-1].type.kind is Kind.FLOAT:
+                declared.append((assignment.target.span.text, assignment.value))
+    for name, value in declared:
+        literals = [node for node in descendants(value) if isinstance(node, IntLiteral | FloatLiteral)]
+        if not isinstance(value, IntervalExpr | SetExpr | IntLiteral) or not literals:
+            continue
+        if all(isinstance(literal, IntLiteral) and "inf" not in literal.span.text for literal in literals):
+            edits = tuple(Edit(literal.span, f"{literal.span.text.rstrip('lL')}.0") for literal in literals)
+            fix = Fix("write floats", edits)
+            yield WHOLE_FLOAT.at(value.span, fixes=(fix,), name=name)
+
+
+def lint_chained_comparisons(part: Part) -> Iterator[Finding]:
+    """`a < b < c`, which compares the truth of `a < b` with `c`."""
+    for outer in part.all(BinaryExpr):
+        inner = outer.left
+        if outer.op not in _COMPARISONS or not isinstance(inner, BinaryExpr) or inner.op not in _COMPARISONS:
+            continue
+        if inner.left.span.begin > inner.span.begin:  # in parentheses: it is meant so
+            continue
+        middle, right = inner.right.span.text, outer.right.span.text
+        text = f"{inner.span.text} && {middle} {outer.op} {right}"
+        fix = Fix(f"write `{text}`", (Edit(outer.span, text),), safe=False)
+        notes = (Note(f"read as `({inner.span.text}) {outer.op} {right}`"),)
+        yield CHAINED.at(outer.op_span, notes=notes, fixes=(fix,), op=outer.op, text=inner.span.text)

@@ -1,0 +1,122 @@
+"""Find sampled parameters that are drawn for nothing, that never vary, or whose draws do not all fit."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from nddl_lang.lint.local_names import used_variables
+from nddl_lang.lint.part import Facts, Finding, Key, Part
+from nddl_lang.lint.reading import declared, domain_of, key_of
+from nddl_lang.semantics import domains
+from nddl_lang.semantics.schema import Domain, GlobalReference, LocalReference, Reference, Variable
+from nddl_lang.syntax.nodes import BinaryExpr, CallConstraint, CallExpr, Expr, ExprConstraint, PathExpr, RuleDecl
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
+from nddl_lang.text.source import Span
+
+DRAWN_IN_VAIN = Code("NDDL562", Severity.WARNING, "lint", "what is drawn for `{name}` is never used")
+DRAWS_OUTSIDE = Code(
+    "NDDL563", Severity.WARNING, "lint", "`{name}` is drawn from {range}, but {receiver} takes {domain}"
+)
+NEVER_VARIED = Code("NDDL564", Severity.WARNING, "lint", "the sampled parameter `{name}` has one value only, {value}")
+OTHER_RANGE = Code(
+    "NDDL565", Severity.WARNING, "lint", "`{name}` is drawn into {domain} here, and into {other} elsewhere"
+)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Draw:
+    """One place where a sampled parameter is drawn; `receiver` is what takes the value, where it is a variable."""
+
+    parameter: Reference
+    name: str
+    span: Span
+    receiver: Key | None
+    receiver_text: str
+    domain: Domain | None
+
+
+def draws(part: Part) -> Iterator[Draw]:
+    """The draws of a statement."""
+    tables = part.tables
+    if not tables.sampled:
+        return
+    for constraint in part.all(ExprConstraint):
+        expression = constraint.expression
+        if isinstance(expression, BinaryExpr) and expression.op == "==":
+            for path, call in ((expression.left, expression.right), (expression.right, expression.left)):
+                if isinstance(call, CallExpr) and call in tables.sampled:
+                    yield _draw(part, tables.sampled[call], call.arguments[0], path)
+    for statement in part.all(CallConstraint):
+        if statement in tables.sampled:
+            yield _draw(part, tables.sampled[statement], statement.arguments[-1], statement.arguments[0])
+
+
+def _draw(part: Part, parameter: Reference, argument: Expr, receiver: Expr) -> Draw:
+    key = key_of(part.reference(receiver)) if isinstance(receiver, PathExpr) else None
+    domain = domain_of(part, receiver) if key is not None else None
+    return Draw(parameter, argument.span.text, argument.span, key, receiver.span.text, domain)
+
+
+def lint_draws(part: Part) -> Iterator[Finding]:
+    """Draws that nothing reads, or that need not fit what receives them."""
+    if not part.tables.sampled:
+        return
+    mentions: dict[Variable, int] = {}
+    for path in part.all(PathExpr):
+        reference = part.reference(path)
+        if isinstance(reference, LocalReference):
+            mentions[reference.variable] = mentions.get(reference.variable, 0) + 1
+    for draw in draws(part):
+        if draw.receiver is not None and isinstance(part.node, RuleDecl):
+            receiver = draw.receiver[0]
+            if isinstance(receiver, Variable) and receiver in used_variables(part) and mentions.get(receiver) == 1:
+                notes = (Note(f"nothing else refers to `{receiver.name}`", receiver.span),)
+                yield DRAWN_IN_VAIN.at(draw.span, notes=notes, name=draw.name)
+        yield _fitting(draw)
+
+
+def _fitting(draw: Draw) -> Finding:
+    def finding(facts: Facts) -> Diagnostic | None:
+        parameter = draw.parameter
+        if not isinstance(parameter, GlobalReference):
+            return None
+        variable = parameter.variable
+        range_ = facts.assigned.get((variable, "")) or declared(variable)
+        if range_ is None:
+            return None
+        notes = (Note(f"`{variable.name}` is declared here", variable.span),)
+        kind = variable.type.kind
+        if domains.is_single(range_):
+            help_ = "give it a range, or use the value without `sampledParameter`"
+            return NEVER_VARIED.at(draw.span, notes=notes, help=help_, name=draw.name, value=domains.text(range_))
+        if draw.domain is not None and not domains.is_within(range_, draw.domain, kind):
+            help_ = "a mission that draws a value outside of it fails"
+            return DRAWS_OUTSIDE.at(
+                draw.span,
+                notes=notes,
+                help=help_,
+                name=draw.name,
+                range=domains.set_text(range_),
+                receiver=f"`{draw.receiver_text}`",
+                domain=domains.set_text(draw.domain),
+            )
+        return None
+
+    return finding
+
+
+def compare_draws(parts: list[Part]) -> Iterator[Diagnostic]:
+    """A parameter without a range of its own that is drawn into variables with different ranges."""
+    first: dict[object, Draw] = {}
+    for part in parts:
+        for draw in draws(part):
+            if isinstance(draw.parameter, GlobalReference) and declared(draw.parameter.variable) is not None:
+                continue
+            if draw.domain is None:
+                continue
+            parameter = draw.parameter
+            key = parameter.variable if isinstance(parameter, GlobalReference) else parameter
+            before = first.setdefault(key, draw)
+            if before.domain is not None and before.domain != draw.domain:
+                notes = (Note("the other place is here", before.span),)
+                here, there = domains.set_text(draw.domain), domains.set_text(before.domain)
+                yield OTHER_RANGE.at(draw.span, notes=notes, name=draw.name, domain=here, other=there)

@@ -1,0 +1,280 @@
+"""Find predicates and rules that no goal leads to, chains of subgoals without an end, and actions without effect."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from nddl_lang.lint.declarations import AGENT_TIMELINE
+from nddl_lang.lint.part import Part
+from nddl_lang.lint.whole import Whole
+from nddl_lang.semantics.literals import number
+from nddl_lang.semantics.schema import Predicate, TokenVariable
+from nddl_lang.syntax.nodes import (
+    BinaryExpr,
+    ClassDecl,
+    ExprConstraint,
+    Foreach,
+    GoalStatement,
+    IfStatement,
+    Instance,
+    PathExpr,
+    PredicateDecl,
+    Relation,
+    RuleDecl,
+)
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
+
+UNREACHABLE = Code("NDDL540", Severity.WARNING, "lint", "no goal leads to {what}")
+NEVER_FIRES = Code("NDDL541", Severity.WARNING, "lint", "no token of `{name}` is ever made, so this rule never runs")
+ENDLESS = Code("NDDL542", Severity.WARNING, "lint", "each `{name}` asks for another one, without an end")
+CHAIN = Code("NDDL547", Severity.HINT, "lint", "each `{name}` asks for a later one: the chain ends at the horizon")
+NO_EFFECT = Code("NDDL545", Severity.WARNING, "lint", "the action `{name}` has no effect, so no goal is achieved by it")
+
+_FORWARD = frozenset({"meets", "before"})
+_BACKWARD = frozenset({"met_by", "after"})
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Request:
+    """A rule asks for a token; not `is_certain` where that depends on a condition."""
+
+    wanted: Predicate
+    relation: Relation
+    is_certain: bool
+    is_effect: bool
+    is_other: bool  # whether it certainly differs from the one that asks, so that they cannot be merged
+
+
+Followers = dict[str, list[tuple[str, Request]]]
+
+
+class Graph:
+    """Which tokens ask for which: rules by the full name of their predicate, in the order of the text."""
+
+    def __init__(self, whole: Whole) -> None:
+        self.whole = whole
+        self.schema = whole.analysis.schema
+        self.rules: dict[str, list[Part]] = {}
+        self.requests: dict[Part, list[Request]] = {}
+        for part in whole.parts:
+            if isinstance(part.node, RuleDecl) and part.node in part.tables.predicates:
+                self.rules.setdefault(part.tables.predicates[part.node].full_name, []).append(part)
+                self.requests[part] = list(_requests(part, part.node))
+
+    def rules_for(self, class_name: str, predicate: str) -> Iterator[Part]:
+        """The rules that run for a token: those of its class and of the ancestors."""
+        for owner in self.schema.ancestry(class_name):
+            yield from self.rules.get(f"{owner}.{predicate}", ())
+
+    def reached(self, roots: list[Predicate]) -> set[str]:
+        """The full names of the predicates that the roots lead to."""
+        producers: dict[str, list[Predicate]] = {}
+        for part, requests in self.requests.items():
+            assert isinstance(part.node, RuleDecl)
+            own = part.tables.predicates[part.node]
+            for request in requests:
+                if request.is_effect and own.is_action:
+                    producers.setdefault(request.wanted.name, []).append(own)
+        found: set[str] = set()
+        pending = list(roots)
+        while pending:
+            predicate = pending.pop()
+            if predicate.full_name in found:
+                continue
+            found.add(predicate.full_name)
+            pending += producers.get(predicate.name, ())
+            for part in self.rules_for(predicate.class_name, predicate.name):
+                pending += (request.wanted for request in self.requests[part])
+        return found
+
+
+def _requests(part: Part, rule: RuleDecl) -> Iterator[Request]:
+    changed = _changed(part)
+    pending = [(rule.body, True)]
+    while pending:
+        body, is_certain = pending.pop()
+        for statement in body:
+            match statement:
+                case Relation():
+                    for instance in statement.created:
+                        if (predicate := part.predicate_of(instance)) is not None:
+                            is_other = part.label_of(instance) in changed
+                            yield Request(predicate, statement, is_certain, instance.role == "effect", is_other)
+                case IfStatement(then=then, otherwise=otherwise):
+                    pending += [(block, False) for block in (then, otherwise) if block]
+                case Foreach(body=inner):
+                    pending.append((inner, False))
+
+
+def _changed(part: Part) -> set[object]:
+    """The tokens of which a rule computes a parameter from one of its own, as in `q.n == n + 1`."""
+    found: set[object] = set()
+    for constraint in part.all(ExprConstraint):
+        expression = constraint.expression
+        if not isinstance(expression, BinaryExpr) or expression.op != "==":
+            continue
+        for path, other in ((expression.left, expression.right), (expression.right, expression.left)):
+            one = part.reference(path) if isinstance(path, PathExpr) else None
+            if not isinstance(one, TokenVariable) or not isinstance(other, BinaryExpr) or other.op not in ("+", "-"):
+                continue
+            source = part.reference(other.left) if isinstance(other.left, PathExpr) else None
+            if isinstance(source, TokenVariable) and source.label.name == "this" and source.name == one.name:
+                if number(other.right) not in (None, 0):
+                    found.add(one.label)
+    return found
+
+
+def lint_structure(whole: Whole) -> Iterator[Diagnostic]:
+    """What the graph of the subgoals shows."""
+    if not whole.is_whole:
+        return
+    graph = Graph(whole)
+    roots = [
+        predicate
+        for part in whole.parts
+        if isinstance(part.node, GoalStatement | Relation)
+        for instance in part.all(Instance)
+        if (predicate := part.predicate_of(instance)) is not None
+    ]
+    if roots:
+        yield from _unreachable(graph, roots)
+    yield from _endless(graph)
+    yield from _without_effect(graph)
+
+
+def _unreachable(graph: Graph, roots: list[Predicate]) -> Iterator[Diagnostic]:
+    whole, schema = graph.whole, graph.schema
+    for owner in schema.classes.values():
+        if AGENT_TIMELINE in schema.ancestry(owner.name) or owner.is_native:
+            roots += (*owner.predicates.values(), *owner.inherited.values())
+    reached = graph.reached(roots)
+    names: dict[str, set[str]] = {}
+    for full_name in reached:
+        owner_name, _, name = full_name.partition(".")
+        names.setdefault(name, set()).add(owner_name)
+    for part in whole.parts:
+        if not whole.is_own(part.node.span):
+            continue
+        dead = [
+            (node, predicate)
+            for node in part.all(PredicateDecl)
+            if (predicate := _declared(graph, part, node)) is not None and not _is_reached(graph, predicate, names)
+        ]
+        if isinstance(part.node, ClassDecl) and len(dead) > 1 and len(dead) == len(part.all(PredicateDecl)):
+            yield UNREACHABLE.at(part.node.name.span, what=f"any token of class `{part.node.name.name}`")
+        else:
+            for node, predicate in dead:
+                yield UNREACHABLE.at(node.name.span, what=f"a token of `{predicate.full_name}`")
+        if isinstance(part.node, RuleDecl) and (predicate := part.tables.predicates.get(part.node)) is not None:
+            # Of a predicate that nothing leads to, its declaration is complained about.
+            is_told = predicate.class_name in predicate.declared_in and whole.is_own(predicate.span)
+            if not is_told and not _is_reached(graph, predicate, names):
+                help_ = None
+                if made := sorted(set(schema.ancestry(predicate.class_name)) & names.get(predicate.name, set())):
+                    help_ = f"tokens are made as `{made[0]}.{predicate.name}`; a rule goes by that, not by the object"
+                yield NEVER_FIRES.at(part.node.predicate.span, help=help_, name=predicate.full_name)
+
+
+def _declared(graph: Graph, part: Part, node: PredicateDecl) -> Predicate | None:
+    name = getattr(getattr(part.node, "name", None), "name", None)
+    owner = graph.schema.classes.get(name) if name is not None else None
+    return owner.predicates.get(node.name.name) if owner is not None else None
+
+
+def _is_reached(graph: Graph, predicate: Predicate, names: dict[str, set[str]]) -> bool:
+    owners = names.get(predicate.name, set())
+    return any(graph.schema.is_subclass(owner, predicate.class_name) for owner in owners)
+
+
+def _endless(graph: Graph) -> Iterator[Diagnostic]:
+    """Predicates that in any case ask for another token of the same predicate, at first or second hand."""
+    later: Followers = {}
+    same: Followers = {}
+    for part, requests in graph.requests.items():
+        assert isinstance(part.node, RuleDecl)
+        own = part.tables.predicates[part.node]
+        for request in requests:
+            if not request.is_certain or request.relation.origin is not None:
+                continue
+            word = request.relation.relation.name
+            if word in _FORWARD:
+                later.setdefault(own.full_name, []).append((request.wanted.full_name, request))
+            elif word not in _BACKWARD:
+                same.setdefault(own.full_name, []).append((request.wanted.full_name, request))
+    yield from _circles(graph, same, ENDLESS)
+    yield from _circles(graph, later, CHAIN)
+
+
+def _circles(graph: Graph, followers: Followers, code: Code) -> Iterator[Diagnostic]:
+    _prune(followers)
+    told: set[str] = set()
+    for name in followers:
+        owner, _, word = name.partition(".")
+        if name in told:
+            continue
+        circle = _circle(name, followers)
+        told.update(each for each, _ in circle)
+        if not circle or not graph.whole.is_own(circle[0][1].relation.span):
+            continue
+        # Tokens that may be equal are merged; and what an agent plans ends with how far it looks ahead.
+        if code is ENDLESS and not any(request.is_other for _, request in circle):
+            continue
+        if code is CHAIN and AGENT_TIMELINE in graph.schema.ancestry(owner):
+            continue
+        notes = tuple(Note(f"which asks for `{each}` here", request.relation.span) for each, request in circle[1:])
+        yield code.at(circle[0][1].relation.span, notes=notes, name=word)
+
+
+def _prune(followers: Followers) -> None:
+    """Leave out what leads to no circle."""
+    before: dict[str, list[str]] = {}
+    count = {name: len(requests) for name, requests in followers.items()}
+    for name, requests in followers.items():
+        for wanted, _ in requests:
+            before.setdefault(wanted, []).append(name)
+    pending = [wanted for wanted in before if wanted not in followers]
+    while pending:
+        for name in before.get(pending.pop(), ()):
+            count[name] -= 1
+            if count[name] == 0:
+                del followers[name]
+                pending.append(name)
+
+
+def _circle(name: str, followers: Followers) -> list[tuple[str, Request]]:
+    """The shortest way from a predicate back to itself."""
+    ways: Followers = {}
+    frontier: list[str] = [name]
+    while frontier:
+        following: list[str] = []
+        for at in frontier:
+            for wanted, request in followers.get(at, ()):
+                way = [*ways.get(at, ()), (wanted, request)]
+                if wanted == name:
+                    return way
+                if wanted not in ways:
+                    ways[wanted] = way
+                    following.append(wanted)
+        frontier = following
+    return []
+
+
+def _without_effect(graph: Graph) -> Iterator[Diagnostic]:
+    whole = graph.whole
+    for part in whole.parts:
+        for node in part.all(PredicateDecl):
+            if not node.is_action or not whole.is_own(node.span):
+                continue
+            predicate = _declared(graph, part, node)
+            if predicate is None:
+                continue
+            rules = list(graph.rules_for(predicate.class_name, predicate.name))
+            below = [
+                rule
+                for name in graph.rules
+                if name.endswith(f".{predicate.name}")
+                and graph.schema.is_subclass(name.partition(".")[0], predicate.class_name)
+                for rule in graph.rules[name]
+            ]
+            if not any(request.is_effect for rule in rules + below for request in graph.requests[rule]):
+                help_ = "mark what it brings about, as in `meets(effect object.p q);`"
+                yield NO_EFFECT.at(node.name.span, help=help_, name=predicate.full_name)

@@ -1,0 +1,233 @@
+"""Rule statements in, distances between the times of its tokens out."""
+
+from collections.abc import Iterator
+
+from nddl_lang.lint.network import Edge, Node
+from nddl_lang.lint.part import Part
+from nddl_lang.lint.reading import token_domain
+from nddl_lang.semantics import domains
+from nddl_lang.semantics.literals import number
+from nddl_lang.semantics.natives import LEAST_DURATION
+from nddl_lang.semantics.relations import RELATIONS, Point
+from nddl_lang.semantics.schema import INFINITY, Label, Predicate, TokenVariable
+from nddl_lang.semantics.types import INT
+from nddl_lang.syntax.nodes import (
+    BinaryExpr,
+    CallConstraint,
+    Expr,
+    ExprConstraint,
+    IntervalExpr,
+    PathExpr,
+    Relation,
+    RuleDecl,
+    RuleStatement,
+)
+from nddl_lang.text.source import Span
+
+_ZERO: Node = ("", "")  # the beginning of time: numbers are distances from it
+_CONTAINING = frozenset({"contains", "contained_by", "equals", "contains_start", "contains_end"})
+_CALLS = {"eq": "==", "concurrent": "==", "leq": "<=", "precedes": "<=", "lt": "<", "strictlyPrecedes": "<"}
+
+
+class RuleTimes:
+    """The times of the tokens of one rule."""
+
+    def __init__(self, part: Part) -> None:
+        self._part = part
+        self._known: set[object] = set()
+
+    def own_edges(self) -> list[Edge]:
+        """What the declaration of the predicate says of the rule's own token."""
+        node = self._part.node
+        predicate = self._part.tables.predicates.get(node) if isinstance(node, RuleDecl) else None
+        return list(self._lasting(None, predicate, "this")) if predicate is not None else []
+
+    def edges(self, statement: RuleStatement) -> Iterator[Edge]:
+        """What a statement demands of times."""
+        match statement:
+            case Relation():
+                yield from self._relation(statement)
+            case ExprConstraint(expression=BinaryExpr(op="<" | "<=" | ">" | ">=" | "==" as op) as comparison):
+                yield from self._comparison(comparison.left, op, comparison.right, statement.span)
+            case CallConstraint(name=name, arguments=(left, right)) if name.name in _CALLS:
+                yield from self._comparison(left, _CALLS[name.name], right, statement.span)
+            case CallConstraint(name=name, arguments=(first, distance, second)) if name.name == "temporalDistance":
+                yield from self._distance(first, distance, second, statement.span)
+
+    # ---- tokens ----
+
+    def _token(self, label: Label) -> object:
+        """What stands for a token: None for the rule's own."""
+        return None if label.name == "this" else label
+
+    def _time(self, token: object, point: str, predicate: Predicate) -> Node:
+        return token, "time" if predicate.is_event else point
+
+    def _lasting(self, token: object, predicate: Predicate, name: str) -> Iterator[Edge]:
+        """How long a token lasts by its declaration."""
+        if predicate.is_event:
+            return
+        start, end = (token, "start"), (token, "end")
+        yield Edge(end, start, -1, f"`{name}` lasts at least 1", None, is_duration=True)
+        hull = domains.hull(token_domain(predicate, "duration", INT) or LEAST_DURATION)
+        if hull is None:
+            return
+        if hull.lower > 1:
+            words = f"`{name}` lasts at least {_number(hull.lower)} by its declaration"
+            yield Edge(end, start, -hull.lower, words, predicate.span, is_duration=True)
+        if hull.upper < INFINITY:
+            words = f"`{name}` lasts at most {_number(hull.upper)} by its declaration"
+            yield Edge(start, end, hull.upper, words, predicate.span, is_duration=True)
+
+    # ---- relations ----
+
+    def _relation(self, relation: Relation) -> Iterator[Edge]:
+        tables = self._part.tables
+        row, origin = RELATIONS.get(relation.relation.name), tables.origins.get(relation)
+        if row is None or origin is None:
+            return
+        targets: list[tuple[object, Predicate, str]] = []
+        for instance in relation.created:
+            predicate = self._part.predicate_of(instance)
+            if predicate is not None:
+                label = self._part.label_of(instance)
+                name = label.name if label is not None else instance.path.span.text
+                targets.append((label or instance, predicate, name))
+                yield from self._lasting(label or instance, predicate, name)
+        if (existing := tables.existing.get(relation)) is not None:
+            targets.append((self._token(existing), existing.predicate, existing.name))
+        for token, predicate, name in targets:
+            ends = {
+                Point.ORIGIN_START: self._time(self._token(origin), "start", origin.predicate),
+                Point.ORIGIN_END: self._time(self._token(origin), "end", origin.predicate),
+                Point.TARGET_START: self._time(token, "start", predicate),
+                Point.TARGET_END: self._time(token, "end", predicate),
+            }
+            names = {self._token(origin): origin.name, token: name}
+            span = relation.span if not relation.created else relation.relation.span
+            for index, distance in enumerate(row.distances):
+                lower, upper = _bounds(relation, index, distance.lower, distance.upper)
+                is_containment = row.name in _CONTAINING
+                earlier, later = ends[distance.earlier], ends[distance.later]
+                yield from _edges(earlier, later, lower, upper, names, span, row.name, is_containment=is_containment)
+
+    # ---- constraints ----
+
+    def _comparison(self, left: Expr, op: str, right: Expr, span: Span) -> Iterator[Edge]:
+        if op in (">", ">="):
+            left, right, op = right, left, op.replace(">", "<")
+        for one, other, way in ((left, right, 1), (right, left, -1)):
+            token = self._duration(one)
+            value = number(other)
+            if token is not None and value is not None:
+                yield from _durations(token, value, op, way, span)
+                return
+        first, second = self._term(left), self._term(right)
+        if first is None or second is None or first[0] == second[0]:
+            return
+        (one_node, plus), (other_node, more) = first, second
+        gap = plus - more + (1 if op == "<" else 0)
+        names = {one_node[0]: _token_name(left), other_node[0]: _token_name(right)}
+        upper = gap if op == "==" else INFINITY
+        yield from _edges(one_node, other_node, gap, upper, names, span, None)
+
+    def _distance(self, first: Expr, distance: Expr, second: Expr, span: Span) -> Iterator[Edge]:
+        one, other = self._term(first), self._term(second)
+        bounds: tuple[float | None, float | None] = (number(distance),) * 2
+        if isinstance(distance, IntervalExpr):
+            bounds = number(distance.lower), number(distance.upper)
+        if one is None or other is None or bounds[0] is None or bounds[1] is None or one[0] == other[0]:
+            return
+        shift = one[1] - other[1]
+        names = {one[0][0]: _token_name(first), other[0][0]: _token_name(second)}
+        yield from _edges(one[0], other[0], bounds[0] + shift, bounds[1] + shift, names, span, None)
+
+    def _duration(self, expression: Expr) -> tuple[object, str] | None:
+        """The token whose duration an expression is, and its name."""
+        reference = self._part.reference(expression) if isinstance(expression, PathExpr) else None
+        if not isinstance(reference, TokenVariable) or reference.name != "duration":
+            return None
+        return self._token(reference.label), reference.label.name
+
+    def _term(self, expression: Expr) -> tuple[Node, float] | None:
+        """An expression as a time and a distance from it."""
+        if (value := number(expression)) is not None:
+            return (_ZERO, value) if abs(value) < INFINITY else None
+        if isinstance(expression, BinaryExpr) and expression.op in ("+", "-"):
+            offset = number(expression.right)
+            inner = (
+                self._term(expression.left) if offset is not None and isinstance(expression.left, PathExpr) else None
+            )
+            if inner is None or offset is None:
+                return None
+            return inner[0], inner[1] + (offset if expression.op == "+" else -offset)
+        reference = self._part.reference(expression) if isinstance(expression, PathExpr) else None
+        if isinstance(reference, TokenVariable) and reference.name in ("start", "end", "time"):
+            return self._time(self._token(reference.label), reference.name, reference.label.predicate), 0
+        return None
+
+
+def _bounds(relation: Relation, index: int, lower: float, upper: float) -> tuple[float, float]:
+    if index >= len(relation.bounds):
+        return lower, upper
+    bound = relation.bounds[index]
+    least, most = number(bound.lower), number(bound.upper)
+    return (lower if least is None else least), (upper if most is None else most)
+
+
+def _token_name(expression: Expr) -> str:
+    while isinstance(expression, BinaryExpr):
+        expression = expression.left
+    return expression.parts[0].name if isinstance(expression, PathExpr) and len(expression.parts) > 1 else "this"
+
+
+def _durations(token: tuple[object, str], value: float, op: str, way: int, span: Span) -> Iterator[Edge]:
+    start, end = (token[0], "start"), (token[0], "end")
+    strict = 1 if op == "<" else 0
+    if op == "==" or way == 1:
+        words = f"`{token[1]}` lasts at most {_number(value - strict)}"
+        yield Edge(start, end, value - strict, words, span, is_duration=True)
+    if op == "==" or way == -1:
+        words = f"`{token[1]}` lasts at least {_number(value + strict)}"
+        yield Edge(end, start, -value - strict, words, span, is_duration=True)
+
+
+def _edges(
+    earlier: Node,
+    later: Node,
+    lower: float,
+    upper: float,
+    names: dict[object, str],
+    span: Span,
+    relation: str | None,
+    *,
+    is_containment: bool = False,
+) -> Iterator[Edge]:
+    """`lower` <= later - earlier <= `upper` as edges."""
+    one, other = _time_name(earlier, names), _time_name(later, names)
+    word = f"`{relation}`: " if relation is not None else ""
+    if abs(lower) < INFINITY:
+        words = f"{word}`{_shifted(one, lower)} <= {other}`"
+        yield Edge(later, earlier, -lower, words, span, is_containment=is_containment)
+    if abs(upper) < INFINITY:
+        words = f"{word}`{other} <= {_shifted(one, upper)}`"
+        yield Edge(earlier, later, upper, words, span, is_containment=is_containment)
+
+
+def _time_name(node: Node, names: dict[object, str]) -> str:
+    if node == _ZERO:
+        return ""
+    name = names[node[0]]
+    return node[1] if name == "this" else f"{name}.{node[1]}"
+
+
+def _shifted(name: str, distance: float) -> str:
+    if not name:
+        return _number(distance)
+    if distance == 0:
+        return name
+    return f"{name} {'+' if distance > 0 else '-'} {_number(abs(distance))}"
+
+
+def _number(value: float) -> str:
+    return str(int(value)) if value == int(value) else str(value)

@@ -1,0 +1,216 @@
+"""All statements of a model in; what only they together tell out."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from nddl_lang.analysis import Analysis
+from nddl_lang.lint.local_names import used_variables
+from nddl_lang.lint.part import Facts, Key, Part, mentioned_labels
+from nddl_lang.lint.reading import bounded, domain_of, key_of
+from nddl_lang.semantics import domains
+from nddl_lang.semantics.literals import number
+from nddl_lang.semantics.schema import (
+    ClassReference,
+    Domain,
+    EnumValue,
+    Interval,
+    Kind,
+    Label,
+    MemberReference,
+    Variable,
+)
+from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.syntax.includes import LIBRARY
+from nddl_lang.syntax.nodes import (
+    Allocation,
+    Assignment,
+    BinaryExpr,
+    ClassDecl,
+    Expr,
+    ExprConstraint,
+    GoalStatement,
+    MethodCall,
+    NewExpr,
+    PathExpr,
+    RuleDecl,
+    StringLiteral,
+    VariableDecl,
+)
+from nddl_lang.text.source import Source, Span
+
+Given = tuple[Key, Domain, Span]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Gist:
+    """What one statement contributes to the picture of the whole."""
+
+    variables: frozenset[Variable] = frozenset()  # read or written, apart from their declaration
+    written: frozenset[Variable] = frozenset()  # members that only get a value, in a constructor
+    words: frozenset[str] = frozenset()  # names of types and enum values, and the texts of strings
+    labels: frozenset[Label] = frozenset()
+    objects: tuple[NewExpr, ...] = ()
+    given: tuple[Given, ...] = ()
+
+
+def gist(part: Part) -> Gist:
+    """Work out what a statement contributes."""
+    words = {type_.name for type_ in part.tables.type_names.values()}
+    words |= {type_.base for type_ in part.tables.type_names.values()}
+    for reference in part.tables.references.values():
+        if isinstance(reference, EnumValue):
+            words |= {reference.value, reference.enum}
+        elif isinstance(reference, ClassReference):
+            words.add(reference.name)
+    words |= {literal.value for literal in part.all(StringLiteral)}
+    words |= {new.class_name.name for new in part.all(NewExpr)}
+    for sampled in part.tables.sampled.values():
+        if isinstance(sampled, EnumValue):
+            words |= {sampled.value, sampled.enum}
+    variables = used_variables(part)
+    written: set[Variable] = set()
+    if isinstance(part.node, ClassDecl):
+        variables, written = _class_uses(part, variables)
+    return Gist(
+        frozenset(variables),
+        frozenset(written),
+        frozenset(words),
+        frozenset(mentioned_labels(part)) if not isinstance(part.node, ClassDecl | RuleDecl) else frozenset(),
+        tuple(part.all(NewExpr)),
+        tuple(_given(part)),
+    )
+
+
+def _class_uses(part: Part, variables: set[Variable]) -> tuple[set[Variable], set[Variable]]:
+    """What a class reads, and the members that its constructors only give values to."""
+    targets = {each.target for each in part.all(Assignment)}
+    read: set[Variable] = set()
+    written: set[Variable] = set()
+    for node in part.all(PathExpr):
+        reference = part.reference(node)
+        if isinstance(reference, MemberReference) and reference.members:
+            if node in targets and len(reference.members) == 1:
+                written.add(reference.members[0])
+            else:
+                read.update(reference.members)
+    members = {member for reference in part.tables.references.values() for member in getattr(reference, "members", ())}
+    return (variables - members) | read, written - read
+
+
+def _given(part: Part) -> Iterator[Given]:
+    """What a statement of the script says about the values of variables."""
+    match part.node:
+        case VariableDecl(declarators=declarators):
+            for declarator in declarators:
+                variable = part.tables.declared.get(declarator.name)
+                if isinstance(variable, Variable) and declarator.initialiser is not None:
+                    if (domain := domain_of(part, declarator.initialiser)) is not None:
+                        yield (variable, ""), domain, declarator.span
+        case Assignment(target=target, value=value, span=span):
+            yield from _restricted(part, target, "==", value, span)
+        case ExprConstraint(expression=BinaryExpr(op=op, left=left, right=right), span=span):
+            yield from _restricted(part, left, op, right, span)
+        case MethodCall(target=target, method=method, arguments=(value,), span=span) if method.name == "specify":
+            yield from _restricted(part, target, "==", value, span)
+
+
+def _restricted(part: Part, target: Expr, op: str, value: Expr, span: Span) -> Iterator[Given]:
+    key = key_of(part.reference(target)) if isinstance(target, PathExpr) else None
+    limit = number(value)
+    domain = domain_of(part, value) if op == "==" else bounded(op, limit) if limit is not None else None
+    if key is not None and domain is not None:
+        yield key, domain, span
+
+
+@dataclass(eq=False, slots=True)
+class Whole:
+    """A model: its statements and what they contribute.
+
+    `is_whole` tells whether it is meant to run as it is: it makes objects, states goals or closes something.
+    """
+
+    analysis: Analysis
+    parts: list[Part]
+    gists: list[Gist]
+    library: frozenset[Source]
+    is_whole: bool = False
+    variables: set[Variable] = field(default_factory=set)
+    words: set[str] = field(default_factory=set)
+    labels: set[Label] = field(default_factory=set)
+    objects: dict[str, list[NewExpr]] = field(default_factory=dict)
+    given: dict[Key, list[tuple[Domain, Span]]] = field(default_factory=dict)
+    assigned: dict[Key, Domain] = field(default_factory=dict)
+
+    @property
+    def dialect(self) -> Dialect:
+        """The dialect of the model."""
+        return self.analysis.dialect
+
+    def facts(self) -> Facts:
+        """What findings in single statements may ask."""
+        return Facts(self.analysis.schema, self.objects, self.assigned)
+
+    def inner_given(self, part: Part) -> dict[Key, list[tuple[Domain, Span]]]:
+        """What the comparisons inside a rule say about the values of its variables."""
+        found: dict[Key, list[tuple[Domain, Span]]] = {}
+        if isinstance(part.node, RuleDecl):
+            for constraint in part.all(ExprConstraint):
+                expression = constraint.expression
+                if isinstance(expression, BinaryExpr):
+                    given = _restricted(part, expression.left, expression.op, expression.right, constraint.span)
+                    for key, domain, span in given:
+                        found.setdefault(key, []).append((domain, span))
+        return found
+
+    def is_own(self, span: Span | None) -> bool:
+        """Whether a place stands in the text that is looked at itself, not in one that it includes."""
+        return span is not None and span.source is self.analysis.loaded.root
+
+    def all(self, kind: type[GoalStatement]) -> Iterator[tuple[Part, GoalStatement]]:
+        """The goals, facts and rejectables of the script."""
+        return ((part, part.node) for part in self.parts if isinstance(part.node, kind))
+
+
+def assemble(analysis: Analysis, parts: list[Part], gists: list[Gist]) -> Whole:
+    """Put together what the statements contribute."""
+    paths = analysis.loaded.paths
+    library = frozenset(source for source, path in paths.items() if Path(path).parent == LIBRARY)
+    whole = Whole(analysis, parts, gists, library)
+    ancestry: dict[str, list[str]] = {}
+    for part, each in zip(parts, gists, strict=True):
+        whole.variables |= each.variables
+        whole.words |= each.words
+        whole.labels |= each.labels
+        if part.node.span.source not in library and _is_script(part):
+            whole.is_whole = True
+        for new in each.objects:
+            name = new.class_name.name
+            for owner in ancestry.setdefault(name, analysis.schema.ancestry(name)):
+                whole.objects.setdefault(owner, []).append(new)
+        for key, domain, span in each.given:
+            whole.given.setdefault(key, []).append((domain, span))
+            kind = _kind(key)
+            before = whole.assigned.get(key)
+            whole.assigned[key] = domain if before is None else domains.intersect(before, domain, kind) or domain
+    return whole
+
+
+def _kind(key: Key) -> Kind:
+    return key[0].type.kind if isinstance(key[0], Variable) else Kind.FLOAT
+
+
+def _is_script(part: Part) -> bool:
+    node = part.node
+    if isinstance(node, GoalStatement | Allocation):
+        return True
+    if isinstance(node, MethodCall):
+        return node.method.name == "close"
+    if isinstance(node, VariableDecl | Assignment):
+        return bool(part.all(NewExpr))
+    return False
+
+
+def hull_of(domain: Domain | None) -> Interval | None:
+    """The interval around what is known, None where nothing is."""
+    return domains.hull(domain) if domain is not None else None
