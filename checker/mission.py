@@ -12,10 +12,10 @@ from typing import cast
 
 from checker.mission_codes import CIRCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE
 from checker.mission_table import MissionText, Table, nearest
-from checker.toml_places import find_places
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source, Span
+from nddl_lang.text.toml_places import find_places
 from runtime.executive.configuration import (
     AgentConfiguration,
     Bounds,

@@ -12,9 +12,9 @@ from checker.mission_codes import (
     UNKNOWN_KEY,
     WRONG_TYPE,
 )
-from checker.toml_places import Path, Stretch
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
 from nddl_lang.text.source import Anchor, Source, Span
+from nddl_lang.text.toml_places import Path, Stretch
 from runtime.executive.configuration import Bounds
 
 TomlTable = dict[str, object]

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from checker.mission import Mission, parse_mission, read_mission
-from checker.toml_places import find_places
 from nddl_lang.text.source import Source
+from nddl_lang.text.toml_places import find_places
 from runtime.executive.configuration import ParameterConfiguration
 
 GPS = Path("models/gps")
