@@ -242,7 +242,8 @@ class Scanner:
             kind = read_number(piece, start - base, word, self._is_strict)
         elif group == _STRING or word == '"':
             kind = "STRING"
-            end = string_end(text, start, finish if group == _STRING else len(text))
+            is_path = piece.kinds[-1:] == ["#include"]
+            end = string_end(text, start, finish if group == _STRING else len(text), is_path)
             if end != finish or word == '"':
                 piece.reach = _BEYOND
             word, finish = text[start:end], end
