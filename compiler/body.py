@@ -24,6 +24,7 @@ from compiler.program import (
     TypeCode,
 )
 from nddl_lang.semantics import schema
+from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
 from nddl_lang.semantics.schema import Label, Predicate, Reference, Schema, SideTables, Type, Variable
 from nddl_lang.semantics.types import reference_type
 from nddl_lang.syntax.nodes import Expr
@@ -43,6 +44,7 @@ class Model:
     sources: dict[Operand, tuple[Operand, ...]] = field(default_factory=dict)  # a global and what defines it
     # A parameter that an expression defines, by predicate and number, and what defines it, for a token in slot 0.
     parameters: dict[tuple[str, int], tuple[Operand, ...]] = field(default_factory=dict)
+    callables: Callables = NATIVE_CALLABLES
 
     def constant(self, expr: Expr) -> DomainConstant | None:
         """The domain that `expr` denotes if it is constant."""

@@ -6,8 +6,7 @@ from compiler import constants, temporal
 from compiler.body import Body
 from compiler.program import Constant, Operand, Post, Sample, TypeCode, UnionOf
 from compiler.sampling import note_use
-from nddl_lang.semantics.constraints import CONSTRAINTS
-from nddl_lang.semantics.functions import FUNCTIONS, ResultKind
+from nddl_lang.semantics.functions import ResultKind
 from nddl_lang.semantics.schema import Kind, Type
 from nddl_lang.syntax.nodes import (
     BinaryExpr,
@@ -74,7 +73,7 @@ def _compare(op: str, left: Expr, right: Expr, message: str | None, span: Span, 
         left, right = right, left
     if op == "==" and is_compound(right, body):
         target = value(left, body)
-        if not is_truth(right) or _is_truth_holder(left, body):
+        if not is_truth(right, body) or _is_truth_holder(left, body):
             define(right, target, message, body)
             return
         body.emit(Post("eq", (target, value(right, body)), message, span))
@@ -118,7 +117,7 @@ def is_compound(expr: Expr, body: Body) -> bool:
             return False
 
 
-def is_truth(expr: Expr) -> bool:
+def is_truth(expr: Expr, body: Body) -> bool:
     """Whether a constraint computes a truth value for `expr`."""
     match expr:
         case BinaryExpr(op=op):
@@ -126,13 +125,13 @@ def is_truth(expr: Expr) -> bool:
         case UnaryExpr(op=op):
             return op == "!"
         case CallExpr(function=function):
-            return FUNCTIONS[function.name].result is ResultKind.BOOL
+            return body.model.callables.functions[function.name].result is ResultKind.BOOL
         case _:
             return False
 
 
 def _is_truth_holder(expr: Expr, body: Body) -> bool:
-    return is_truth(expr) or body.model.type_of(expr).kind is Kind.BOOL
+    return is_truth(expr, body) or body.model.type_of(expr).kind is Kind.BOOL
 
 
 def value(expr: Expr, body: Body) -> Operand:
@@ -165,7 +164,7 @@ def union(items: tuple[Expr, ...], body: Body) -> UnionOf:
 
 def result_type(expr: BinaryExpr | UnaryExpr | CallExpr, body: Body) -> TypeCode:
     """The type of an intermediate result; a typedef among the operands does not restrict it."""
-    if is_truth(expr):
+    if is_truth(expr, body):
         return BOOL
     found: Type = body.model.type_of(expr)
     return TypeCode(found.kind.value, found.base, None)
@@ -185,7 +184,8 @@ def define(expr: Expr, target: Operand, message: str | None, body: Body) -> None
         case UnaryExpr(op=op, operand=operand):
             body.emit(Post("neg" if op == "-" else "neq", (target, value(operand, body)), message, span))
         case CallExpr(function=function, arguments=arguments):
-            row = CONSTRAINTS[FUNCTIONS[function.name].constraint]
+            callables = body.model.callables
+            row = callables.constraints[callables.functions[function.name].constraint]
             operands = (target, *(value(argument, body) for argument in arguments))
             body.emit(Post(row.name, operands[: row.signature.maximum], message, span))
         case _:

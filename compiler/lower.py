@@ -12,7 +12,7 @@ from nddl_lang.syntax.nodes import RuleDecl
 def compile_model(analysis: Analysis) -> Program:
     """Lower a model that has no errors."""
     schema = analysis.schema
-    model = Model(schema, analysis.tables)
+    model = Model(schema, analysis.tables, callables=analysis.callables)
     script = Body(model, Frame(tokens=0))
     declared: list[int] = []
     for statement in analysis.statements:

@@ -20,7 +20,6 @@ from compiler.program import (
     Relate,
     TypeCode,
 )
-from nddl_lang.semantics.constraints import CONSTRAINTS
 from nddl_lang.semantics.schema import TokenVariable as TokenVariableReference
 from nddl_lang.semantics.schema import Variable
 from nddl_lang.syntax import nodes
@@ -75,7 +74,7 @@ def constraint(node: CallConstraint | ExprConstraint, body: Body) -> None:
             sample(value(node.arguments[0], body), node, body)
         case CallConstraint(name=name, arguments=arguments, span=span):
             operands = tuple(value(argument, body) for argument in arguments)
-            row = CONSTRAINTS[name.name]
+            row = body.model.callables.constraints[name.name]
             body.emit(Post(row.alias_of or row.name, operands, message, span))
         case ExprConstraint(expression=expression):
             enforce(expression, message, body)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
 from nddl_lang.semantics.allocation import settle
+from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
 from nddl_lang.semantics.schema import Schema, SideTables
 from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
@@ -47,6 +48,7 @@ class Analysis:
     tables: SideTables
     by_statement: Mapping[Statement, SideTables]
     diagnostics: tuple[Diagnostic, ...]
+    callables: Callables = NATIVE_CALLABLES
 
     @property
     def dialect(self) -> Dialect:
@@ -77,7 +79,8 @@ class Analyser:
     did; a text of n statements costs n look-ups beside that.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, callables: Callables = NATIVE_CALLABLES) -> None:
+        self._callables = callables
         self._units: dict[Statement, _Unit] = {}
         self._dialect: Dialect | None = None
 
@@ -94,11 +97,12 @@ class Analyser:
             if unit is not None and world.answers(unit.reads):
                 world.replay(unit.writes)
             else:
-                unit = _check(world, statement, loaded.dialect)
+                unit = _check(world, statement, loaded.dialect, self._callables)
             units[statement] = unit
         self._units = units
         complaints = [
-            (statement, (*unit.complaints, *_settle(world, unit, loaded))) for statement, unit in units.items()
+            (statement, (*unit.complaints, *_settle(world, unit, loaded, self._callables)))
+            for statement, unit in units.items()
         ]
         tables = SideTables()
         for unit in units.values():
@@ -107,44 +111,51 @@ class Analyser:
                     getattr(tables, name).update(table)
         found = tuple(_in_order(loaded, complaints))
         by_statement = {statement: unit.tables for statement, unit in units.items()}
-        return Analysis(loaded, statements, world.schema, tables, by_statement, found)
+        return Analysis(loaded, statements, world.schema, tables, by_statement, found, self._callables)
 
 
-def analyse(loaded: LoadedModules) -> Analysis:
+def analyse(loaded: LoadedModules, callables: Callables = NATIVE_CALLABLES) -> Analysis:
     """The meaning of what has been read, and what is wrong with it."""
-    return Analyser().analyse(loaded)
+    return Analyser(callables).analyse(loaded)
 
 
 def analyse_file(
-    path: Path | str, dialect: Dialect | None = None, include_directories: Sequence[Path | str] = ()
+    path: Path | str,
+    dialect: Dialect | None = None,
+    include_directories: Sequence[Path | str] = (),
+    callables: Callables = NATIVE_CALLABLES,
 ) -> Analysis:
     """Read and analyse the file at `path` with all that it includes; raises OSError if it cannot be read.
 
     Without `dialect` the first line of the file decides, and where it is silent, nddlc.
     """
-    return analyse(load_module_graph(path, include_directories, dialect))
+    return analyse(load_module_graph(path, include_directories, dialect), callables)
 
 
 def analyse_text(
-    name: str, text: str, dialect: Dialect | None = None, include_directories: Sequence[Path | str] = ()
+    name: str,
+    text: str,
+    dialect: Dialect | None = None,
+    include_directories: Sequence[Path | str] = (),
+    callables: Callables = NATIVE_CALLABLES,
 ) -> Analysis:
     """Analyse a text that need not be in a file; `name` is what it is called, and where its includes start from."""
-    return analyse(load_module_graph(Source(name, text), include_directories, dialect))
+    return analyse(load_module_graph(Source(name, text), include_directories, dialect), callables)
 
 
-def _check(world: World, statement: Statement, dialect: Dialect) -> _Unit:
+def _check(world: World, statement: Statement, dialect: Dialect, callables: Callables) -> _Unit:
     world.begin()
-    context = Context(world, dialect)
+    context = Context(world, dialect, callables=callables)
     check_statement(context, statement)
     return _Unit(world.reads, world.writes, context.tables, tuple(context.complaints), tuple(context.deferred))
 
 
-def _settle(world: World, unit: _Unit, loaded: LoadedModules) -> tuple[Diagnostic, ...]:
+def _settle(world: World, unit: _Unit, loaded: LoadedModules, callables: Callables) -> tuple[Diagnostic, ...]:
     """What had to wait until the whole script was read."""
     if not unit.deferred:
         return ()
     world.begin()
-    context = Context(world, loaded.dialect, unit.tables)
+    context = Context(world, loaded.dialect, unit.tables, callables=callables)
     for deferred in unit.deferred:
         settle(context, deferred)
     return tuple(context.complaints)

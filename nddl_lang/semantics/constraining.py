@@ -1,7 +1,7 @@
 """Check constraint statements: named ones against the table, expressions for having a truth value."""
 
 from nddl_lang.semantics.arguments import check_count, check_types
-from nddl_lang.semantics.constraints import CONSTRAINTS, FORMER_CONSTRAINTS, ConstraintRow, Origin
+from nddl_lang.semantics.constraints import FORMER_CONSTRAINTS, ConstraintRow, Origin
 from nddl_lang.semantics.expressions import NOT_IN_NDDL3, check_condition, sampled_parameter, type_of
 from nddl_lang.semantics.functions import FUNCTIONS
 from nddl_lang.semantics.names import suggest_name
@@ -23,7 +23,7 @@ def check_expression_constraint(context: Context, scope: Scope, node: ExprConstr
 def check_call_constraint(context: Context, scope: Scope, node: CallConstraint) -> None:
     """Check `eq(a, b);`."""
     name = node.name.name
-    row = CONSTRAINTS.get(name)
+    row = context.callables.constraints.get(name)
     if row is None:
         for argument in node.arguments:
             type_of(context, scope, argument)
@@ -58,4 +58,4 @@ def _complain_unknown(context: Context, node: CallConstraint) -> None:
         complaint = UNKNOWN_CONSTRAINT.at(
             node.name.span, help="write it as an expression, such as `a + b <= c`", name=name
         )
-    context.complain(suggest_name(complaint, node.name, CONSTRAINTS))
+    context.complain(suggest_name(complaint, node.name, context.callables.constraints))

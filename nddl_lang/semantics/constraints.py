@@ -12,6 +12,7 @@ class Origin(Enum):
     EUROPA = "EUROPA"
     TREX = "T-REX"
     NDDLC = "nddlc"
+    USER = "a Python module of this project"
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,8 +1,8 @@
 """Give every expression its type; tell the user where operands do not go together."""
 
 from nddl_lang.semantics.arguments import check_count, check_types, complain_argument
-from nddl_lang.semantics.constraints import CONSTRAINTS, Origin
-from nddl_lang.semantics.functions import FUNCTIONS, FunctionRow, ResultKind
+from nddl_lang.semantics.constraints import Origin
+from nddl_lang.semantics.functions import FunctionRow, ResultKind
 from nddl_lang.semantics.literals import number
 from nddl_lang.semantics.names import resolve, resolve_value, suggest_name
 from nddl_lang.semantics.natives import TIME_NAMES
@@ -288,15 +288,15 @@ def _set_type(context: Context, scope: Scope, values: SetExpr) -> Type | None:
 
 def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
     name = call.function.name
-    row = FUNCTIONS.get(name)
+    row = context.callables.functions.get(name)
     if row is None:
         for argument in call.arguments:
             type_of(context, scope, argument)
         complaint = UNKNOWN_FUNCTION.at(call.function.span, name=name)
-        if name in CONSTRAINTS:
+        if name in context.callables.constraints:
             help_ = f"`{name}` is a constraint: write it as a statement, `{name}(...);`"
             complaint = UNKNOWN_FUNCTION.at(call.function.span, help=help_, name=name)
-        context.complain(suggest_name(complaint, call.function, FUNCTIONS))
+        context.complain(suggest_name(complaint, call.function, context.callables.functions))
         return None
     check_dialect(context, call, row)
     if row.result is ResultKind.SAMPLED:

@@ -4,6 +4,7 @@ import re
 from dataclasses import dataclass, field
 from enum import Enum
 
+from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
 from nddl_lang.semantics.natives import builtin_type
 from nddl_lang.semantics.schema import (
     Label,
@@ -33,6 +34,7 @@ class Context:
     complaints: list[Diagnostic] = field(default_factory=list)
     reported: set[str] = field(default_factory=set)  # unknown names, each complained about once per statement
     deferred: list["Deferred"] = field(default_factory=list)
+    callables: Callables = NATIVE_CALLABLES
 
     def complain(self, diagnostic: Diagnostic) -> None:
         """Add a complaint."""
