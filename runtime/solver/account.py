@@ -9,10 +9,9 @@ from typing import Protocol
 
 from runtime.constraints.cause import Cause
 from runtime.constraints.minimise import minimise
-from runtime.plan.codes import HEAD_PREDICATE, LIST_PREDICATE, MERGED, NONE, OBJECT, REJECTED
+from runtime.plan.codes import HEAD_PREDICATE, LIST_PREDICATE, LISTS, MERGED, NONE, OBJECT, REJECTED
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import merge, settle
-from runtime.plan.rows import LISTS
 from runtime.plan.timelines import order
 from runtime.solver.codes import CUSTOM, OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 from runtime.solver.decisions import Decisions

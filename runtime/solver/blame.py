@@ -23,12 +23,12 @@ from runtime.plan.codes import (
     HEAD_PREDICATE,
     LIST_ORDER,
     LIST_PREDICATE,
+    LISTS,
     OBJECT,
     ROLE_TOKEN,
     START,
     STATE,
 )
-from runtime.plan.rows import LISTS
 from runtime.solver.codes import (
     EVERYTHING,
     NONE,

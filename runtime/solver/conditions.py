@@ -8,6 +8,7 @@ from runtime.plan.codes import (
     FLAG_FACT,
     HEAD_PREDICATE,
     LIST_PREDICATE,
+    LISTS,
     NONE,
     OBJECT,
     START,
@@ -17,7 +18,6 @@ from runtime.plan.codes import (
     SYMBOL_REJECTED,
 )
 from runtime.plan.lifecycle import activate, merge, reject
-from runtime.plan.rows import LISTS
 from runtime.plan.tokens import make_token
 from runtime.solver.codes import (
     ACTIVATE_FIRST,

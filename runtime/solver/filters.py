@@ -2,18 +2,8 @@
 
 from runtime.constraints.bits import count_values
 from runtime.constraints.codes import FLOAT_TOLERANCE, HALF_INF, INF, KIND_FLOAT, KIND_INT
-from runtime.plan.codes import (
-    ACTIVE,
-    END,
-    LIST_ORDER,
-    NONE,
-    OBJECT,
-    ROLE_LOCAL,
-    ROLE_TOKEN,
-    START,
-)
+from runtime.plan.codes import ACTIVE, END, LIST_ORDER, LISTS, NONE, OBJECT, ROLE_LOCAL, ROLE_TOKEN, START
 from runtime.plan.plan import Plan
-from runtime.plan.rows import LISTS
 from runtime.solver.codes import (
     FILTER_GUARD,
     FILTER_HORIZON,

@@ -18,7 +18,6 @@ from runtime.solver.codes import (
     PREFER_UPPER,
 )
 from runtime.solver.decisions import Decisions
-from runtime.solver.guarding import handler_now
 from runtime.solver.pairs import sorted_pairs
 from runtime.solver.queues import Queues
 
@@ -40,7 +39,7 @@ def select_instant(q: Queues, manager: int) -> int:
         row = q.treatments.instant_row(manager, q.plan.object_class[o])
         if row < 0:
             continue
-        handler = handler_now(q, row, NONE)
+        handler = q.handler_now(row, NONE)
         priority = q.treatments.handler_priority[handler]
         if priority > q.found_priority or (priority == q.found_priority and not is_mine):
             continue

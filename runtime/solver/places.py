@@ -2,8 +2,7 @@
 
 from runtime.constraints.bits import next_value
 from runtime.constraints.codes import HALF_INF, NEVER
-from runtime.plan.codes import DURATION, END, LIST_ORDER, OBJECT, START
-from runtime.plan.rows import LISTS
+from runtime.plan.codes import DURATION, END, LIST_ORDER, LISTS, OBJECT, START
 from runtime.solver.decisions import Decisions
 from runtime.solver.queues import Queues
 

@@ -6,9 +6,8 @@ key that a slot has now is in `token_key` or `variable_key`, NO_KEY if it is in 
 
 from array import array
 
-from runtime.plan.codes import FREED, LIST_ORDER, OBJECT, ROLE_TOKEN
+from runtime.plan.codes import FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN
 from runtime.plan.plan import Plan
-from runtime.plan.rows import LISTS
 from runtime.solver.codes import (
     DROPPED_TOKEN,
     DROPPED_VARIABLE,
@@ -19,6 +18,7 @@ from runtime.solver.codes import (
 from runtime.solver.custom import CustomManager
 from runtime.solver.distances import Distances
 from runtime.solver.filters import Filters
+from runtime.solver.guarding import guards_hold
 from runtime.solver.heap import Heap
 from runtime.solver.supports import Supports
 from runtime.solver.treatments import Treatments
@@ -143,6 +143,17 @@ class Queues:
         if self.rows.master[t] < 0 or v - self.rows.var0[t] != OBJECT:
             return True
         return self.engine.is_decided(self.plan.class_prototype[self.plan.predicate_class[self.rows.predicate[t]]])
+
+    def handler_now(self, row: int, t: int) -> int:
+        """The handler of a row that applies now, the most specific one whose guards hold.
+
+        `t` is the token that the flaw belongs to (NONE: to nobody).
+        """
+        at = self.treatments.first_handler[row]
+        last = at + self.treatments.handler_count[row] - 1
+        while at < last and not guards_hold(self.filters, self.treatments.handler_of[at], t):
+            at += 1
+        return self.treatments.handler_of[at]
 
     def take_sequence(self, o: int) -> int:
         """Put the tokens of a timeline into `sequence`; how many there are."""

@@ -31,7 +31,7 @@ from runtime.solver.supports import Supports
 from runtime.solver.treatments import Treatments
 from runtime.solver.uses import Uses
 from runtime.solver.vocabulary import Texts, grounded
-from runtime.solver.watching import catch_up, note_levels, refresh
+from runtime.solver.watching import catch_up, fill, note_levels
 
 NO_LIMIT = 2**62
 
@@ -93,14 +93,14 @@ class Solver:
         self.is_started = True
         self.has_active = False
         self.is_exhausted = not settle(self.plan)
-        refresh(self.queues)
+        fill(self.queues)
 
     def keep(self) -> None:
         """Make all decisions final: the stack is empty, and nothing of it can be taken back."""
         self.stack.clear()
         self.has_active = False
         commit(self.plan)
-        refresh(self.queues)
+        fill(self.queues)
 
     def take_back(self) -> None:
         """Undo all decisions."""

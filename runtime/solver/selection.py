@@ -1,7 +1,6 @@
 """Choose the flaw to mend next, in EUROPA's order: effects of actions, then by priority, manager and key."""
 
-from runtime.plan.codes import ACTIVE, INACTIVE, LIST_ORDER
-from runtime.plan.rows import LISTS
+from runtime.plan.codes import ACTIVE, INACTIVE, LIST_ORDER, LISTS
 from runtime.solver.codes import (
     BEST_PRIORITY,
     CUSTOM,
@@ -15,7 +14,6 @@ from runtime.solver.codes import (
     THREAT,
     UNBOUND_VARIABLE,
 )
-from runtime.solver.guarding import handler_now
 from runtime.solver.instants import select_instant
 from runtime.solver.queues import Queues
 
@@ -60,7 +58,7 @@ def select_effect(q: Queues, manager: int) -> bool:
         slot = heap.top_item()
         t = slot // q.managers
         if q.rows.key[t] == heap.top_key() and q.rows.status[t] == INACTIVE:
-            take(q, manager, t, handler_now(q, q.token_row[slot], t), BEST_PRIORITY)
+            take(q, manager, t, q.handler_now(q.token_row[slot], t), BEST_PRIORITY)
             return True
         is_stale = q.rows.key[t] != heap.top_key()
         heap.pop()
@@ -171,12 +169,12 @@ def select_loose(q: Queues, manager: int) -> int:
             row = q.variable_row[slot]
             if not is_variable_flaw(q, item) or q.filters.keeps_variable(row, item):
                 continue
-            handler = handler_now(q, row, q.filters.token_of(item))
+            handler = q.handler_now(row, q.filters.token_of(item))
         else:
             row = q.token_row[slot]
             if not is_token_flaw(q, item, kind) or q.filters.keeps_token(row, item):
                 continue
-            handler = handler_now(q, row, item)
+            handler = q.handler_now(row, item)
         priority = q.treatments.handler_priority[handler]
         own = tie(q, item, kind, priority)
         if priority < q.found_priority or (is_mine and priority == q.found_priority and own < best_tie):

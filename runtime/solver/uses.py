@@ -8,10 +8,10 @@ from array import array
 from math import inf
 
 from runtime.constraints.codes import FLOAT_TOLERANCE
+from runtime.plan.codes import INITIAL, LIMITS, MAXIMUM, MINIMUM
 from runtime.plan.flaws import Flaws
 from runtime.plan.lifecycle import settle
 from runtime.plan.plan import Plan
-from runtime.plan.resources import INITIAL, LIMITS, MAXIMUM, MINIMUM
 from runtime.solver.codes import NONE
 from runtime.solver.distances import Distances
 from runtime.solver.heap import Heap

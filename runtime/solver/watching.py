@@ -14,6 +14,7 @@ from runtime.plan.codes import (
     FLAG_EFFECT,
     INACTIVE,
     LIST_ORDER,
+    LISTS,
     ROLE_GLOBAL,
     ROLE_INTERNAL,
     ROLE_LOCAL,
@@ -24,12 +25,11 @@ from runtime.plan.codes import (
     UNDO_NEW_TOKEN,
     UNDO_STATUS,
 )
-from runtime.plan.rows import LISTS
 from runtime.solver.codes import NO_KEY, NONE, OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 from runtime.solver.queues import Queues
 
 
-def refresh(q: Queues) -> int:
+def fill(q: Queues) -> int:
     """Forget all queues and look at every token and variable once; levels count from here."""
     q.clear()
     q.level = 0
