@@ -14,6 +14,7 @@ from lsprotocol.types import Diagnostic as Shown
 
 from lsp.links import page_of
 from lsp.positions import Encoding, Lines
+from nddl_lang.lint.unused import UNUSED
 from nddl_lang.semantics.classes import NATIVE_CLASS
 from nddl_lang.semantics.constraining import FORMER_CONSTRAINT
 from nddl_lang.syntax.codes import FORMER_RELATION, FORMER_SIGNATURE, FORMER_WORD, INCLUDE_AGAIN
@@ -27,7 +28,7 @@ _SEVERITIES = {
     Severity.HINT: DiagnosticSeverity.Hint,
 }
 _TAGS = {
-    **{code.id: [DiagnosticTag.Unnecessary] for code in (NATIVE_CLASS, INCLUDE_AGAIN)},
+    **{code.id: [DiagnosticTag.Unnecessary] for code in (NATIVE_CLASS, INCLUDE_AGAIN, *UNUSED)},
     **{
         code.id: [DiagnosticTag.Deprecated]
         for code in (FORMER_WORD, FORMER_RELATION, FORMER_SIGNATURE, FORMER_CONSTRAINT)

@@ -209,7 +209,7 @@ class Documents:
         return Conversion(self.encoding, self.uri, {one.uri: one.lines for one in self._open.values()})
 
     def _complaints(self, snapshot: Snapshot) -> dict[str, tuple[Shown, ...]]:
-        return self.conversion().by_file(snapshot.analysis.diagnostics)
+        return self.conversion().by_file(snapshot.diagnostics)
 
     def _news(self, edited: str | None) -> Iterator[Publication]:
         """What differs from what the editor was told; of the text that was edited always, for its version."""

@@ -19,7 +19,7 @@ def mends(view: View, place: Range, conversion: Conversion) -> list[CodeAction]:
     begin, finish = lines.offset(place.start), lines.offset(place.end)
     return [
         _action(diagnostic, fix, conversion)
-        for diagnostic in view.snapshot.analysis.diagnostics
+        for diagnostic in view.snapshot.diagnostics
         if diagnostic.fixes and _touches(view, diagnostic, begin, finish)
         for fix in diagnostic.fixes
     ]

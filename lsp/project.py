@@ -6,11 +6,15 @@ from pathlib import Path
 
 from lsp.places import key_of
 from nddl_lang.analysis import Analyser, Analysis
+from nddl_lang.lint.configuration import find_configuration, read_configuration
+from nddl_lang.lint.linter import Linter
+from nddl_lang.lint.settings import Settings as Configuration
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import load_module_graph
 from nddl_lang.syntax.incremental import Incremental
 from nddl_lang.syntax.parser import Parse
 from nddl_lang.syntax.placement import CLASS, TOP
+from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source
 
 OpenText = Callable[[Path], str | None]
@@ -27,9 +31,13 @@ class Settings:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Snapshot:
-    """The analysis of a model as it stands, and the parse of each of its texts, by the key of its file."""
+    """The analysis of a model as it stands, and the parse of each of its texts, by the key of its file.
+
+    `diagnostics` are all complaints, those of the linter included, as the project's configuration wants them.
+    """
 
     analysis: Analysis
+    diagnostics: tuple[Diagnostic, ...]
     parses: dict[str, Parse]
 
 
@@ -40,6 +48,8 @@ class Project:
         self.key = key
         self._settings = settings
         self._analyser = Analyser()
+        self._linter = Linter()
+        self._configuration = _configuration(Path(key))
         self._kept: dict[_Place, tuple[Incremental, Parse]] = {}
         self._used: dict[_Place, tuple[Incremental, Parse]] = {}
         self._snapshot: Snapshot | None = None
@@ -59,19 +69,22 @@ class Project:
         """Take a new snapshot: the model is `text`, called `name`, and what `open_text` gives for its includes."""
         # Should this fail half-way, nothing half-done is kept.
         analyser, self._analyser = self._analyser, Analyser()
+        linter, self._linter = self._linter, Linter()
         self._used = {}
         loaded = load_module_graph(
             Source(name, text),
-            self._settings.directories,
-            self._settings.dialect,
+            (*self._settings.directories, *self._configuration.directories),
+            self._settings.dialect or self._configuration.dialect,
             open_text=open_text,
             parse_text=self._parse,
         )
         self._kept, self._used = self._used, {}
         parses = {key_of(loaded.paths[parse.source]): parse for parse in loaded.parses}
         parses.pop(self.key, None)
-        self._snapshot = Snapshot(analyser.analyse(loaded), {self.key: loaded.parses[0], **parses})
-        self._analyser = analyser
+        analysis = analyser.analyse(loaded)
+        found = tuple(self._configuration.choose(linter.lint(analysis)))
+        self._snapshot = Snapshot(analysis, found, {self.key: loaded.parses[0], **parses})
+        self._analyser, self._linter = analyser, linter
 
     def _parse(self, path: Path, source: Source, dialect: Dialect, is_in_class: bool) -> Parse:
         place = (str(path), dialect, is_in_class)
@@ -89,3 +102,9 @@ class Project:
         parse = replace(parse, source=source)
         self._used[place] = (incremental, parse)
         return parse
+
+
+def _configuration(root: Path) -> Configuration:
+    """What the project of a file asks for; a configuration with mistakes counts as far as it is understood."""
+    path = find_configuration(root.parent) if root.is_absolute() else None
+    return Configuration() if path is None else read_configuration(path)[0]

@@ -3,12 +3,17 @@
 import os
 import sys
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 
+from nddl_lang.lint.configuration import find_configuration, read_configuration
+from nddl_lang.lint.settings import Settings
 from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.syntax.roots import roots_among
+from nddl_lang.text.render import render
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -38,6 +43,59 @@ def model_files(command: Function) -> Function:
         "--dialect", type=click.Choice(["nddl3", "nddlc"]), help="The same option as before the command."
     )(command)
     return click.argument("files", nargs=-1, required=True, metavar="FILE...")(command)
+
+
+def model_paths(command: Function) -> Function:
+    """Like `model_files`, for a command that takes directories as well."""
+    return model_files(command)
+
+
+def models_in(names: tuple[str, ...], directories: tuple[str, ...]) -> list[Path]:
+    """The files that are named, and those below the directories that are, without files that others there include."""
+    found: dict[Path, None] = {}
+    for name in names:
+        if Path(name).is_dir():
+            below = [path for path in sorted(Path(name).rglob("*.nddl")) if not _is_hidden(path.relative_to(name))]
+            if not below:
+                raise Unusable(f"there is no model (.nddl) in `{name}`")
+            found.update(dict.fromkeys(roots_among(below, [Path(directory) for directory in directories])))
+        else:
+            found.update(dict.fromkeys(readable((name,), directories)))
+    return list(found)
+
+
+def _is_hidden(path: Path) -> bool:
+    return any(part.startswith(".") for part in path.parts)
+
+
+@cache
+def _configuration(directory: Path) -> Settings:
+    path = find_configuration(directory)
+    if path is None:
+        return Settings()
+    settings, complaints = read_configuration(path)
+    if complaints:
+        click.echo("\n".join(render(each, colour=False) for each in complaints), err=True)
+        raise Unusable(f"`{path}` cannot be used")
+    return settings
+
+
+def configured(path: Path) -> Settings:
+    """The settings of the project that a file belongs to."""
+    return _configuration(path.resolve().parent)
+
+
+def write_text(path: Path, text: str) -> None:
+    """Write a file beside itself and put it into its place, so that it is never half there."""
+    content = text.encode()
+    try:
+        mode = path.stat().st_mode
+        beside = path.resolve().with_name(f".{path.name}.nddlc")
+        beside.write_bytes(content)
+        beside.chmod(mode)
+        beside.replace(path.resolve())
+    except OSError as problem:
+        raise Unusable(f"cannot write `{path}`: {problem.strerror or problem}") from None
 
 
 def chosen_dialect(ctx: click.Context, given: str | None) -> Dialect | None:

@@ -1,47 +1,150 @@
-"""`nddlc lint`: everything that is wrong with models."""
+"""`nddlc lint`: everything that is wrong with models, and the mending of what can be mended."""
 
+import difflib
 import json
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
 
 import click
 
-from nddl_lang.analysis import analyse_file
+from nddl_lang.lint.check import Checker
+from nddl_lang.lint.configuration import is_code
+from nddl_lang.lint.settings import Settings, at_least
 from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.github import github_line
+from nddl_lang.text.junit import junit_of
 from nddl_lang.text.render import as_dict, render
-from nddlc.inputs import chosen_dialect, colours, model_files, readable
+from nddl_lang.text.sarif import sarif_of
+from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, write_text
 
-FINDINGS = (Severity.ERROR, Severity.WARNING)
 WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
+LEVELS = [severity.value for severity in Severity]
+STYLES = ["text", "json", "sarif", "github", "junit"]
 
 
 @click.command()
-@model_files
-@click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print findings.")
+@model_paths
+@click.option("--select", multiple=True, metavar="CODES", help="Report only these: codes, or how they begin.")
+@click.option("--ignore", multiple=True, metavar="CODES", help="Do not report these: codes, or how they begin.")
+@click.option("--fix", is_flag=True, help="Mend what can be mended without a change of meaning.")
+@click.option("--unsafe-fixes", is_flag=True, help="Mend also where the meaning must be looked at.")
+@click.option("--diff", "only_show", is_flag=True, help="Show what --fix would change; change nothing.")
+@click.option("--level", type=click.Choice(LEVELS), default="info", help="The least that is reported (info).")
+@click.option("--fail-on", type=click.Choice([*LEVELS, "never"]), help="The least that makes it end with 1 (warning).")
+@click.option("--statistics", is_flag=True, help="Tell how often each code was found.")
+@click.option("--format", "style", type=click.Choice(STYLES), default="text", help="How to print findings.")
 @click.pass_context
 def command(
-    ctx: click.Context, files: tuple[str, ...], directories: tuple[str, ...], dialect: str | None, style: str
+    ctx: click.Context,
+    files: tuple[str, ...],
+    directories: tuple[str, ...],
+    dialect: str | None,
+    select: tuple[str, ...],
+    ignore: tuple[str, ...],
+    fix: bool,
+    unsafe_fixes: bool,
+    only_show: bool,
+    level: str,
+    fail_on: str | None,
+    statistics: bool,
+    style: str,
 ) -> int:
     """Report everything that is wrong with models.
 
-    Ends with 0 if nothing is wrong, with 1 if there are errors or warnings.
+    FILE is a model, or a directory with models; of those, files that others include are looked at as parts of them.
+    Errors stop a model, warnings are very likely mistakes, remarks are worth a look. Settings stand in nddlc.toml or
+    in [tool.nddlc] of pyproject.toml, upwards from each file. Ends with 0 if nothing weighs as much as --fail-on,
+    with 1 otherwise.
     """
-    chosen = chosen_dialect(ctx, dialect)
+    paths = models_in(files, directories)
+    codes = {name: tuple(_codes(given, name)) for name, given in (("select", select), ("ignore", ignore))}
+    checker = Checker(tuple(Path(directory) for directory in directories), chosen_dialect(ctx, dialect))
     found: list[Diagnostic] = []
     seen = set()  # a file that several models include is complained about once
-    for path in readable(files, directories):
-        for each in analyse_file(path, chosen, directories).diagnostics:
-            if (key := (each.span.source.name, each.span.begin, each.code.id, each.message)) not in seen:
-                seen.add(key)
-                found.append(each)
-    if style == "json":
-        click.echo(json.dumps({"files": list(files), "diagnostics": [as_dict(each) for each in found]}, indent=1))
-    else:
-        colour = colours()
-        for each in found:
-            click.echo(render(each, colour=colour))
-        click.echo(summary(found, len(files)))
-    return int(any(each.severity in FINDINGS for each in found))
+    has_failed = False
+    mended = 0
+    for path in paths:
+        settings = _settings(path, codes, fail_on)
+        if fix or unsafe_fixes or only_show:
+            mended += _mend(checker, path, settings, only_show=only_show, unsafe=unsafe_fixes, is_text=style == "text")
+            if only_show:
+                continue
+        for each in checker.check(path, settings):
+            key = (each.span.source.name, each.span.begin, each.code.id, each.message)
+            if key in seen or not at_least(each.severity, Severity(level)):
+                continue
+            seen.add(key)
+            found.append(each)
+            has_failed |= settings.fail_on is not None and at_least(each.severity, settings.fail_on)
+    if only_show:
+        return int(mended > 0)
+    _tell(found, [str(path) for path in paths], style, mended, statistics)
+    return int(has_failed)
+
+
+def _codes(given: tuple[str, ...], option: str) -> Iterator[str]:
+    for code in ",".join(given).replace(" ", ",").split(","):
+        if code and not is_code(code.upper()):
+            raise Unusable(f"`{code}` in --{option} is no code", "a code is `NDDL` and up to three digits, as NDDL501")
+        if code:
+            yield code.upper()
+
+
+def _settings(path: Path, codes: dict[str, tuple[str, ...]], fail_on: str | None) -> Settings:
+    """The settings of the project that a file belongs to, with what the command line adds."""
+    settings = configured(path)
+    if codes["select"]:
+        settings = replace(settings, select=codes["select"])
+    if codes["ignore"]:
+        settings = replace(settings, ignore=(*settings.ignore, *codes["ignore"]))
+    if fail_on is not None:
+        settings = replace(settings, fail_on=None if fail_on == "never" else Severity(fail_on))
+    return settings
+
+
+def _mend(checker: Checker, path: Path, settings: Settings, *, only_show: bool, unsafe: bool, is_text: bool) -> int:
+    """Mend one file, or show how; how many fixes that took."""
+    outcome = checker.mend(path, settings, unsafe=unsafe)
+    if outcome is None:
+        click.echo(f"nddlc: `{path}` is not UTF-8 text and is left as it is", err=True)
+        return 0
+    before, mended = outcome
+    if mended.text == before:
+        return 0
+    if not only_show:
+        write_text(path, mended.text)
+    elif is_text:
+        old, new = before.splitlines(keepends=True), mended.text.splitlines(keepends=True)
+        for line in difflib.unified_diff(old, new, str(path), str(path)):
+            click.echo(line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n", nl=False)
+    return mended.count
+
+
+def _tell(found: list[Diagnostic], files: list[str], style: str, mended: int, statistics: bool) -> None:
+    match style:
+        case "json":
+            click.echo(json.dumps({"files": files, "diagnostics": [as_dict(each) for each in found]}, indent=1))
+        case "sarif":
+            click.echo(sarif_of(found), nl=False)
+        case "junit":
+            click.echo(junit_of(files, found, Severity.WARNING), nl=False)
+        case "github":
+            for each in found:
+                click.echo(github_line(each))
+        case _:
+            colour = colours()
+            for each in found:
+                click.echo(render(each, colour=colour))
+            if statistics:
+                for (code, message), count in Counter(
+                    (each.code.id, each.code.template) for each in found
+                ).most_common():
+                    click.echo(f"{count:6}  {code}  {message}")
+            if mended:
+                click.echo(f"{_counted(mended, 'fix', 'fixes')} carried out")
+            click.echo(summary(found, len(files)))
 
 
 def summary(found: Sequence[Diagnostic], files: int) -> str:
@@ -51,5 +154,5 @@ def summary(found: Sequence[Diagnostic], files: int) -> str:
     return f"{', '.join(words) or 'nothing wrong'} in {_counted(files, 'file')}"
 
 
-def _counted(number: int, word: str) -> str:
-    return f"{number} {word}" if number == 1 else f"{number} {word}s"
+def _counted(number: int, word: str, words: str | None = None) -> str:
+    return f"{number} {word}" if number == 1 else f"{number} {words or word + 's'}"

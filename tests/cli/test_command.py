@@ -113,7 +113,7 @@ def test_the_dialect_may_stand_before_the_command_or_after_it(tmp_path: Path, ca
 
 UNUSABLE = [
     (["lint", "no_such.nddl"], "no file `no_such.nddl`"),
-    (["lint", "."], "`.` is a directory"),
+    (["load", "."], "`.` is a directory"),
     (["load", "--include", "nowhere", "x.nddl"], "no directory `nowhere`"),
     (["lint"], "Missing argument 'FILE...'"),
     (["lint", "--fromat", "json", "x.nddl"], "--format"),

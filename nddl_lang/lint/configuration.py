@@ -1,0 +1,158 @@
+"""Find and read the configuration of a project: `nddlc.toml`, or `[tool.nddlc]` in `pyproject.toml`."""
+
+import tomllib
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from nddl_lang.lint.settings import Settings
+from nddl_lang.semantics.nearest import nearest
+from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Severity
+from nddl_lang.text.read import read_text
+from nddl_lang.text.source import Anchor, Source, Span
+from nddl_lang.text.toml_places import Path as Key
+from nddl_lang.text.toml_places import find_places
+
+NOT_TOML = Code("NDDL595", Severity.ERROR, "syntax", "this is not TOML: {reason}")
+UNKNOWN_KEY = Code("NDDL596", Severity.ERROR, "name", "there is no setting `{key}`")
+WRONG_VALUE = Code("NDDL597", Severity.ERROR, "type", "`{key}` must be {wanted}")
+
+NAME = "nddlc.toml"
+PROJECT = "pyproject.toml"
+_SEVERITIES: dict[str, Severity | None] = {**{each.value: each for each in Severity}, "off": None}
+_FAIL_ON: dict[str, Severity | None] = {**{each.value: each for each in Severity}, "never": None}
+_DIALECTS = {each.value: each for each in Dialect}
+
+
+def find_configuration(directory: Path) -> Path | None:
+    """The file that configures what stands in `directory`: the nearest one upwards, None where there is none."""
+    directory = directory.resolve()
+    for place in (directory, *directory.parents):
+        for name in (NAME, PROJECT):
+            path = place / name
+            if path.is_file() and (name == NAME or _has_section(path)):
+                return path
+    return None
+
+
+def _has_section(path: Path) -> bool:
+    text = read_text(path) or ""
+    if "nddlc" not in text:
+        return False
+    try:
+        return "nddlc" in tomllib.loads(text).get("tool", {})
+    except tomllib.TOMLDecodeError:
+        return False  # for the tools of Python to complain about
+
+
+def read_configuration(path: Path) -> tuple[Settings, list[Diagnostic]]:
+    """The settings in a file, and what is wrong with it."""
+    source = Source(str(path), read_text(path) or "")
+    try:
+        table = tomllib.loads(source.text)
+    except tomllib.TOMLDecodeError as problem:
+        reason = str(problem)
+        return Settings(), [NOT_TOML.at(Span(Anchor(source), 0, 0), reason=reason[:1].lower() + reason[1:])]
+    prefix: Key = ()
+    if path.name == PROJECT:
+        table, prefix = table["tool"]["nddlc"], ("tool", "nddlc")
+    reader = _Reader(source, path.parent)
+    settings = reader.read(table, prefix)
+    return settings, reader.complaints
+
+
+class _Reader:
+    """Reads one table of settings and collects what is wrong with it."""
+
+    def __init__(self, source: Source, directory: Path) -> None:
+        self._source = source
+        self._directory = directory
+        self._places = find_places(source.text)
+        self.complaints: list[Diagnostic] = []
+
+    def read(self, table: dict[str, Any], prefix: Key) -> Settings:
+        """The settings that the table holds."""
+        readers: dict[str, Callable[[Key, Any], dict[str, Any]]] = {
+            "select": lambda key, value: {"select": tuple(self._codes(key, value))},
+            "ignore": lambda key, value: {"ignore": tuple(self._codes(key, value))},
+            "include": lambda key, value: {"directories": tuple(self._directories(key, value))},
+            "dialect": lambda key, value: {"dialect": self._one_of(key, value, _DIALECTS)},
+            "fail-on": lambda key, value: {"fail_on": self._one_of(key, value, _FAIL_ON, Severity.WARNING)},
+            "severity": lambda key, value: {"severities": tuple(self._weights(key, value))},
+        }
+        settings = Settings()
+        for name, value in table.items():
+            key = (*prefix, name)
+            reader = readers.get(name)
+            if reader is None:
+                self._unknown(key, name, readers)
+            else:
+                settings = replace(settings, **reader(key, value))
+        return settings
+
+    def _codes(self, key: Key, value: Any) -> Iterator[str]:
+        for index, item in enumerate(self._texts(key, value)):
+            if is_code(item):
+                yield item
+            else:
+                self._wrong((*key, index), item, "a code such as `NDDL501`, or the beginning of one")
+
+    def _directories(self, key: Key, value: Any) -> Iterator[Path]:
+        for index, item in enumerate(self._texts(key, value)):
+            directory = self._directory / item
+            if directory.is_dir():
+                yield directory
+            else:
+                self._wrong((*key, index), item, "a directory, seen from this file")
+
+    def _weights(self, key: Key, value: Any) -> Iterator[tuple[str, Severity | None]]:
+        if not isinstance(value, dict):
+            self._wrong(key, key[-1], 'a table of codes, as in `NDDL501 = "off"`')
+            return
+        for code, word in value.items():
+            place = (*key, code)
+            if not is_code(code):
+                self.complaints.append(UNKNOWN_KEY.at(self._span(place, of_key=True), key=code))
+            elif not isinstance(word, str) or word not in _SEVERITIES:
+                self._wrong(place, code, _choices(_SEVERITIES))
+            else:
+                yield code, _SEVERITIES[word]
+
+    def _one_of(self, key: Key, value: Any, choices: dict[str, Any], otherwise: Any = None) -> Any:
+        if isinstance(value, str) and value in choices:
+            return choices[value]
+        self._wrong(key, key[-1], _choices(choices))
+        return otherwise
+
+    def _texts(self, key: Key, value: Any) -> list[str]:
+        if isinstance(value, list) and all(isinstance(item, str) for item in value):
+            return value
+        self._wrong(key, key[-1], "a list of texts")
+        return []
+
+    def _wrong(self, key: Key, name: str | int, wanted: str) -> None:
+        self.complaints.append(WRONG_VALUE.at(self._span(key), key=name, wanted=wanted))
+
+    def _unknown(self, key: Key, name: str, known: dict[str, Any]) -> None:
+        span = self._span(key, of_key=True)
+        meant = nearest(name, known)
+        fixes = (Fix(f"write `{meant}`", (Edit(span, meant),)),) if meant is not None else ()
+        help_ = None if meant else f"there are {', '.join(f'`{each}`' for each in known)}"
+        self.complaints.append(UNKNOWN_KEY.at(span, help=help_, fixes=fixes, key=name))
+
+    def _span(self, key: Key, *, of_key: bool = False) -> Span:
+        stretch = self._places.get(key)
+        begin, finish = (0, 0) if stretch is None else stretch.key if of_key else stretch.value
+        return Span(Anchor(self._source), begin, finish)
+
+
+def _choices(choices: dict[str, Any]) -> str:
+    *most, last = (f"`{choice}`" for choice in choices)
+    return f"{', '.join(most)} or {last}"
+
+
+def is_code(text: str) -> bool:
+    """Whether a text is a code or the beginning of one."""
+    return text.startswith("NDDL") and len(text) <= 7 and (text[4:].isdigit() or text == "NDDL")
