@@ -39,7 +39,7 @@ def base_set(s: Store, v: int) -> list[float] | None:
             listed = s.restriction_values[r]
             values = set(listed) if values is None else values.intersection(listed)
         r = s.restriction_next[r]
-    return None if values is None else sorted(x for x in values if lo <= x <= hi)
+    return None if values is None else sorted([x for x in values if lo <= x <= hi])
 
 
 def is_base_single(s: Store, v: int) -> bool:

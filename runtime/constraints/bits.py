@@ -3,20 +3,17 @@
 from array import array
 
 from runtime.constraints.codes import (
+    ALL_BITS,
     EVENT_HOLES,
     FLOAT_TOLERANCE,
     KIND_FLOAT,
     NEVER,
+    ONE_BIT,
     TRAIL_HOLES,
     TRAIL_WORDS,
 )
 from runtime.constraints.grow import grown
 from runtime.constraints.store import Store
-
-WORD = 64
-ALL = 2**64 - 1
-ONE = 1
-MOST_VALUES = 1024  # an interval of more values gets no holes
 
 
 def lowest_bit(x: int) -> int:
@@ -78,7 +75,7 @@ def allocate_words(s: Store, count: int) -> int:
     """Take `count` consecutive words; small blocks come back through free lists."""
     if count < len(s.word_free) and s.word_free[count] >= 0:
         first = s.word_free[count]
-        s.word_free[count] = int(s.bits[first]) - 1
+        s.word_free[count] = s.bits[first] - 1
         return first
     if s.bits_used + count > len(s.bits):
         grow_bits(s, count)
@@ -99,9 +96,9 @@ def attach_words(s: Store, v: int, base: int, values: int) -> None:
     count = (values + 63) >> 6
     first = allocate_words(s, count)
     for k in range(count):
-        s.bits[first + k] = ALL
+        s.bits[first + k] = ALL_BITS
     if values & 63:
-        s.bits[first + count - 1] = (ONE << (values & 63)) - 1
+        s.bits[first + count - 1] = (ONE_BIT << (values & 63)) - 1
     s.word[v] = first
     s.words_of[v] = count
     s.bit_base[v] = base
@@ -155,7 +152,7 @@ def next_place(s: Store, v: int, place: int) -> int:
     k = place >> 6
     if k >= s.words_of[v]:
         return -1
-    x = s.bits[s.word[v] + k] & (ALL << (place & 63) & ALL)
+    x = s.bits[s.word[v] + k] & (ALL_BITS << (place & 63) & ALL_BITS)
     while x == 0:
         k += 1
         if k >= s.words_of[v]:
@@ -172,7 +169,7 @@ def previous_place(s: Store, v: int, place: int) -> int:
     if k >= s.words_of[v]:
         k = s.words_of[v] - 1
         place = (k << 6) + 63
-    x = s.bits[s.word[v] + k] & (ALL >> (63 - (place & 63)))
+    x = s.bits[s.word[v] + k] & (ALL_BITS >> (63 - (place & 63)))
     while x == 0:
         k -= 1
         if k < 0:
@@ -222,7 +219,7 @@ def clear_bits(s: Store, v: int, k: int, mask: int, support: int) -> None:
         if entry == len(s.hole_mask):
             grow_log(s)
         s.holes_used += 1
-    s.bits[s.word[v] + k] &= ALL ^ mask
+    s.bits[s.word[v] + k] &= ALL_BITS ^ mask
     s.hole_variable[entry] = v
     s.hole_word[entry] = k
     s.hole_mask[entry] = mask

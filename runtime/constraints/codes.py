@@ -17,6 +17,12 @@ FLOAT_TOLERANCE = 1e-5  # two floats closer than this are equal; a float domain 
 STRICT_STEP = 1e-5  # `<` between floats moves the bound by this much
 ULP = 2.220446049250313e-16  # one unit in the last place of 1.0: outward rounding widens by this fraction
 
+# Words of bit sets.
+ALL_BITS = 2**64 - 1
+ONE_BIT = 1
+MOST_VALUES = 1024  # an interval of more values gets no holes
+WIDEST_SET = 4096  # values farther apart are kept in a table
+
 # A support is `id * 4 + type`; -1 means that nothing supports the bound.
 SUPPORT_EDGE = 0
 SUPPORT_CONSTRAINT = 1

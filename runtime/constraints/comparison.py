@@ -3,9 +3,6 @@
 import math
 
 from runtime.constraints.bits import (
-    ALL,
-    MOST_VALUES,
-    ONE,
     attach_words,
     clear_bits,
     has_value,
@@ -13,12 +10,15 @@ from runtime.constraints.bits import (
     value_at,
 )
 from runtime.constraints.codes import (
+    ALL_BITS,
     FLOAT_TOLERANCE,
     HALF_INF,
     KIND_FLOAT,
     KIND_INT,
     MODE_EDGES,
+    MOST_VALUES,
     NEVER,
+    ONE_BIT,
     OP_ALL_DIFF,
     OP_EQ,
     OP_LEQ,
@@ -131,11 +131,11 @@ def chunk(s: Store, v: int, start: int) -> int:
     if place <= -64 or place >= 64 * s.words_of[v]:
         return 0
     if place < 0:
-        return (s.bits[s.word[v]] << -place) & ALL
+        return (s.bits[s.word[v]] << -place) & ALL_BITS
     k = place >> 6
     x = s.bits[s.word[v] + k] >> (place & 63)
     if place & 63 and k + 1 < s.words_of[v]:
-        x |= (s.bits[s.word[v] + k + 1] << (64 - (place & 63))) & ALL
+        x |= (s.bits[s.word[v] + k + 1] << (64 - (place & 63))) & ALL_BITS
     return x
 
 
@@ -151,14 +151,14 @@ def exclude_missing(s: Store, a: int, b: int, support: int) -> bool:
         attach_words(s, b, s.lb[b], s.ub[b] - s.lb[b] + 1)
     if s.table[a] < 0 and s.table[b] < 0:
         for k in range(s.words_of[b]):
-            mask = s.bits[s.word[b] + k] & (ALL ^ chunk(s, a, s.bit_base[b] + 64 * k))
+            mask = s.bits[s.word[b] + k] & (ALL_BITS ^ chunk(s, a, s.bit_base[b] + 64 * k))
             if mask:
                 clear_bits(s, b, k, mask, support)
     else:
         place = next_place(s, b, 0)
         while place >= 0:
             if not has_value(s, a, value_at(s, b, place)):
-                clear_bits(s, b, place >> 6, ONE << (place & 63), support)
+                clear_bits(s, b, place >> 6, ONE_BIT << (place & 63), support)
             place = next_place(s, b, place + 1)
     return round_bounds(s, b, support)
 

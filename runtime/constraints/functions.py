@@ -142,7 +142,10 @@ def bind(s: Store, v: int, x: float, support: int) -> bool:
 
 def are_known(s: Store, first: int, last: int) -> bool:
     """Tell whether the arguments from slot `first` to before `last` are known."""
-    return all(is_single(s, s.slot_variable[k]) for k in range(first, last))
+    for k in range(first, last):  # noqa: SIM110 (a generator cannot be compiled here)
+        if not is_single(s, s.slot_variable[k]):
+            return False
+    return True
 
 
 def travel(s: Store, first: int, support: int) -> bool:

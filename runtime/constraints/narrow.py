@@ -1,10 +1,9 @@
 """Narrow one variable by one bound or value, with its support; the trail, the holes and the watches follow."""
 
-from math import ceil, floor, inf
+import math
+from math import inf
 
 from runtime.constraints.bits import (
-    MOST_VALUES,
-    ONE,
     attach_words,
     clear_bits,
     has_value,
@@ -23,6 +22,8 @@ from runtime.constraints.codes import (
     INF,
     KIND_FLOAT,
     KIND_INT,
+    MOST_VALUES,
+    ONE_BIT,
     SIDE_HOLES,
     SIDE_LOWER,
     SIDE_UPPER,
@@ -80,7 +81,7 @@ def remove_value(s: Store, v: int, x: int, support: int) -> bool:
     elif not has_value(s, v, x):
         return True
     place = place_above(s, v, x)
-    clear_bits(s, v, place >> 6, ONE << (place & 63), support)
+    clear_bits(s, v, place >> 6, ONE_BIT << (place & 63), support)
     return round_bounds(s, v, support)
 
 
@@ -163,7 +164,7 @@ def raise_to(s: Store, v: int, x: float, support: int) -> bool:
         return True
     if x >= HALF_INF:
         return set_lower(s, v, INF, support)
-    return set_lower(s, v, int(ceil(x - FLOAT_TOLERANCE)), support)
+    return set_lower(s, v, int(math.ceil(x - FLOAT_TOLERANCE)), support)
 
 
 def reduce_to(s: Store, v: int, x: float, support: int) -> bool:
@@ -174,7 +175,7 @@ def reduce_to(s: Store, v: int, x: float, support: int) -> bool:
         return True
     if x <= -HALF_INF:
         return set_upper(s, v, -INF, support)
-    return set_upper(s, v, int(floor(x + FLOAT_TOLERANCE)), support)
+    return set_upper(s, v, int(math.floor(x + FLOAT_TOLERANCE)), support)
 
 
 def is_single(s: Store, v: int) -> bool:
@@ -182,3 +183,11 @@ def is_single(s: Store, v: int) -> bool:
     if s.kind[v] == KIND_FLOAT:
         return s.fhi[v] - s.flo[v] <= FLOAT_TOLERANCE
     return s.lb[v] == s.ub[v]
+
+
+def is_near(x: float, values: list[float]) -> bool:
+    """Tell whether one of some values equals x within the tolerance."""
+    for y in values:  # noqa: SIM110 (a generator cannot be compiled here)
+        if abs(x - y) <= FLOAT_TOLERANCE:
+            return True
+    return False

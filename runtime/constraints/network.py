@@ -8,6 +8,8 @@ from runtime.constraints.codes import (
     SIDE_UPPER,
     SUPPORT_EDGE,
     TRAIL_EDGE,
+    TRAIL_LOWER,
+    TRAIL_UPPER,
     TRAIL_WEIGHT,
 )
 from runtime.constraints.grow import grown
@@ -134,13 +136,19 @@ def follow_edge(s: Store, e: int) -> bool:
         if x < s.lb[v]:
             return s.fail(v, SIDE_UPPER, e * 4 + SUPPORT_EDGE)
         s.write_upper(v, x, e * 4 + SUPPORT_EDGE)
-        changed_upper(s, v)
+        s.queue_edges(v, 1)
+        if s.word[v] >= 0:
+            s.queue_hull(v)
+        s.wake(v, EVENT_UPPER)
     x = s.lb[v] - w
     if x > s.lb[u]:
         if x > s.ub[u]:
             return s.fail(u, SIDE_LOWER, e * 4 + SUPPORT_EDGE)
         s.write_lower(u, x, e * 4 + SUPPORT_EDGE)
-        changed_lower(s, u)
+        s.queue_edges(u, 0)
+        if s.word[u] >= 0:
+            s.queue_hull(u)
+        s.wake(u, EVENT_LOWER)
     if s.edge_first == s.edge_last:
         return True
     return propagate_edges(s, u, v, e)
@@ -156,24 +164,6 @@ def fail_cycle(s: Store, v: int, side: int, e: int, new: int) -> None:
     s.conflict_edge = new
 
 
-def changed_upper(s: Store, v: int) -> None:
-    """Pass on that an edge has reduced an upper bound."""
-    s.queue_edges(v, 1)
-    if s.word[v] >= 0:
-        s.queue_hull(v)
-    if s.watch_head[v] >= 0:
-        s.wake(v, EVENT_UPPER)
-
-
-def changed_lower(s: Store, v: int) -> None:
-    """Pass on that an edge has raised a lower bound."""
-    s.queue_edges(v, 0)
-    if s.word[v] >= 0:
-        s.queue_hull(v)
-    if s.watch_head[v] >= 0:
-        s.wake(v, EVENT_LOWER)
-
-
 def propagate_edges(s: Store, source: int, target: int, new: int) -> bool:
     """Run the edge queue to its fixpoint; false on a conflict.
 
@@ -187,36 +177,90 @@ def propagate_edges(s: Store, source: int, target: int, new: int) -> bool:
         v = key >> 1
         if key & 1:
             s.queued[v] &= 5
-            bound = s.ub[v]
-            e = s.out_head[v]
-            while e >= 0:
-                s.visits += 1
-                u = s.edge_target[e]
-                x = bound + s.edge_weight[e]
-                if x < s.ub[u]:
-                    if u == source:
-                        fail_cycle(s, u, SIDE_UPPER, e, new)
-                        return False
-                    if x < s.lb[u]:
-                        return s.fail(u, SIDE_UPPER, e * 4 + SUPPORT_EDGE)
-                    s.write_upper(u, x, e * 4 + SUPPORT_EDGE)
-                    changed_upper(s, u)
-                e = s.out_next[e]
+            if not push_upper(s, v, source, new):
+                return False
         else:
             s.queued[v] &= 6
-            bound = s.lb[v]
-            e = s.in_head[v]
-            while e >= 0:
-                s.visits += 1
-                u = s.edge_source[e]
-                x = bound - s.edge_weight[e]
-                if x > s.lb[u]:
-                    if u == target:
-                        fail_cycle(s, u, SIDE_LOWER, e, new)
-                        return False
-                    if x > s.ub[u]:
-                        return s.fail(u, SIDE_LOWER, e * 4 + SUPPORT_EDGE)
-                    s.write_lower(u, x, e * 4 + SUPPORT_EDGE)
-                    changed_lower(s, u)
-                e = s.in_next[e]
+            if not push_lower(s, v, target, new):
+                return False
+    return True
+
+
+def push_upper(s: Store, v: int, source: int, new: int) -> bool:
+    """Pass the upper bound of `v` on along its edges: to targets. Written out, for nothing runs more often."""
+    bound = s.ub[v]
+    e = s.out_head[v]
+    count = 0
+    while e >= 0:
+        count += 1
+        u = s.edge_target[e]
+        x = bound + s.edge_weight[e]
+        if x < s.ub[u]:
+            if u == source:
+                fail_cycle(s, u, SIDE_UPPER, e, new)
+                return False
+            if x < s.lb[u]:
+                return s.fail(u, SIDE_UPPER, e * 4 + SUPPORT_EDGE)
+            i = s.trail_size
+            if i == s.trail_room:
+                s.grow_trail()
+            s.trail_key[i] = u * 16 + TRAIL_UPPER
+            s.trail_value[i] = s.ub[u]
+            s.trail_support[i] = s.upper_support[u]
+            s.trail_when[i] = s.upper_when[u]
+            s.trail_size = i + 1
+            s.ub[u] = x
+            s.upper_support[u] = e * 4 + SUPPORT_EDGE
+            s.upper_when[u] = s.trail_base + i
+            s.updates += 1
+            if s.out_head[u] >= 0 and not s.queued[u] & 2:
+                s.queued[u] |= 2
+                s.edge_queue[s.edge_last] = 2 * u + 1
+                s.edge_last = (s.edge_last + 1) & s.edge_mask
+            if s.word[u] >= 0:
+                s.queue_hull(u)
+            if s.watch_head[u] >= 0:
+                s.wake(u, EVENT_UPPER)
+        e = s.out_next[e]
+    s.visits += count
+    return True
+
+
+def push_lower(s: Store, v: int, target: int, new: int) -> bool:
+    """Pass the lower bound of `v` on along its edges: back to sources."""
+    bound = s.lb[v]
+    e = s.in_head[v]
+    count = 0
+    while e >= 0:
+        count += 1
+        u = s.edge_source[e]
+        x = bound - s.edge_weight[e]
+        if x > s.lb[u]:
+            if u == target:
+                fail_cycle(s, u, SIDE_LOWER, e, new)
+                return False
+            if x > s.ub[u]:
+                return s.fail(u, SIDE_LOWER, e * 4 + SUPPORT_EDGE)
+            i = s.trail_size
+            if i == s.trail_room:
+                s.grow_trail()
+            s.trail_key[i] = u * 16 + TRAIL_LOWER
+            s.trail_value[i] = s.lb[u]
+            s.trail_support[i] = s.lower_support[u]
+            s.trail_when[i] = s.lower_when[u]
+            s.trail_size = i + 1
+            s.lb[u] = x
+            s.lower_support[u] = e * 4 + SUPPORT_EDGE
+            s.lower_when[u] = s.trail_base + i
+            s.updates += 1
+            if s.in_head[u] >= 0 and not s.queued[u] & 1:
+                s.queued[u] |= 1
+                s.edge_queue[s.edge_last] = 2 * u
+                s.edge_last = (s.edge_last + 1) & s.edge_mask
+            if s.word[u] >= 0:
+                s.queue_hull(u)
+            if s.watch_head[u] >= 0:
+                s.wake(u, EVENT_LOWER)
+        e = s.in_next[e]
+    s.visits += count
     return True

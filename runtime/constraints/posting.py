@@ -159,8 +159,7 @@ def tie_edges(s: Store, c: int, source: int, target: int, forth: int, back: int)
     """Carry a constraint out by two edges between the same points; false on a conflict."""
     s.save(c, TRAIL_LINK, 0, 0)
     s.link_a[c] = insert_edge(s, source, target, forth, s.span[c], s.owner[c], c)
-    if s.consistent:
-        s.link_b[c] = insert_edge(s, target, source, back, s.span[c], s.owner[c], c)
+    s.link_b[c] = insert_edge(s, target, source, back, s.span[c], s.owner[c], c)
     return bool(s.consistent)
 
 
@@ -175,7 +174,7 @@ def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: i
     """Make a constraint, choose how it is carried out, put it on the lists of its variables, schedule it."""
     if op == OP_ALL_MAX or op == OP_ALL_MIN:
         op = OP_EQ_MAXIMUM if op == OP_ALL_MAX else OP_EQ_MINIMUM
-        arguments = [arguments[-1], *arguments[:-1]]
+        arguments = [arguments[len(arguments) - 1], *arguments[: len(arguments) - 1]]
     elif op == OP_ADD_EQ and s.constant[arguments[0]] and not s.constant[arguments[1]]:
         arguments = [arguments[1], arguments[0], arguments[2]]
     c = new_constraint(s, op, len(arguments), span, owner)

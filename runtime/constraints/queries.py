@@ -3,7 +3,7 @@
 from runtime.constraints.bases import base_set
 from runtime.constraints.bits import count_values, has_value, next_place, place_above, place_below, value_at
 from runtime.constraints.codes import FLOAT_TOLERANCE, HALF_INF, KIND_FLOAT
-from runtime.constraints.narrow import is_single
+from runtime.constraints.narrow import is_near, is_single
 from runtime.constraints.store import Store
 
 
@@ -12,7 +12,7 @@ def may_be(s: Store, v: int, x: float) -> bool:
     if s.kind[v] != KIND_FLOAT:
         return -HALF_INF < x < HALF_INF and x == int(x) and has_value(s, v, int(x))
     if s.word[v] >= 0:
-        return any(abs(x - y) <= FLOAT_TOLERANCE for y in listed_reals(s, v))
+        return is_near(x, listed_reals(s, v))
     return s.flo[v] - FLOAT_TOLERANCE <= x <= s.fhi[v] + FLOAT_TOLERANCE
 
 

@@ -2,11 +2,16 @@
 
 from math import inf
 
-from runtime.constraints.bits import MOST_VALUES, count_values, has_value, next_value
+from runtime.constraints.bits import (
+    count_values,
+    has_value,
+    next_value,
+)
 from runtime.constraints.codes import (
     FLOAT_TOLERANCE,
     HALF_INF,
     KIND_FLOAT,
+    MOST_VALUES,
     OP_COMMON_ANCESTOR,
     OP_ELEMENT,
     OP_EQ_UNION,

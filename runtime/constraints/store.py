@@ -346,36 +346,31 @@ class Store:
 
     def schedule(self, constraint: int) -> None:
         """Put a constraint into its queue, unless it is there or is the one that runs."""
-        if self.scheduled[constraint] or constraint == self.running:
-            return
-        self.scheduled[constraint] = 1
-        if self.priority[constraint] == PRIORITY_CHEAP:
-            self.cheap_queue[self.cheap_last] = constraint
-            self.cheap_last = (self.cheap_last + 1) & self.cheap_mask
-        elif self.priority[constraint] == PRIORITY_WATCH:
-            self.woken[self.woken_count] = constraint
-            self.woken_count += 1
-        else:
-            self.dear_queue[self.dear_last] = constraint
-            self.dear_last = (self.dear_last + 1) & self.dear_mask
+        if not self.scheduled[constraint] and constraint != self.running:
+            self.scheduled[constraint] = 1
+            if self.priority[constraint] == PRIORITY_CHEAP:
+                self.cheap_queue[self.cheap_last] = constraint
+                self.cheap_last = (self.cheap_last + 1) & self.cheap_mask
+            elif self.priority[constraint] == PRIORITY_WATCH:
+                self.woken[self.woken_count] = constraint
+                self.woken_count += 1
+            else:
+                self.dear_queue[self.dear_last] = constraint
+                self.dear_last = (self.dear_last + 1) & self.dear_mask
 
     def queue_edges(self, v: int, side: int) -> None:
         """Have the edges of `v` visited that pass on this bound (0 lower, 1 upper)."""
-        if self.queued[v] & (1 << side):
-            return
-        if (self.in_head[v] if side == 0 else self.out_head[v]) < 0:
-            return
-        self.queued[v] |= 1 << side
-        self.edge_queue[self.edge_last] = 2 * v + side
-        self.edge_last = (self.edge_last + 1) & self.edge_mask
+        if (self.in_head[v] if side == 0 else self.out_head[v]) >= 0 and not self.queued[v] & (1 << side):
+            self.queued[v] |= 1 << side
+            self.edge_queue[self.edge_last] = 2 * v + side
+            self.edge_last = (self.edge_last + 1) & self.edge_mask
 
     def queue_hull(self, v: int) -> None:
         """Have the bounds of `v` rounded to values that are in its bit set."""
-        if self.queued[v] & 4:
-            return
-        self.queued[v] |= 4
-        self.hull_queue[self.hull_last] = v
-        self.hull_last = (self.hull_last + 1) & self.hull_mask
+        if not self.queued[v] & 4:
+            self.queued[v] |= 4
+            self.hull_queue[self.hull_last] = v
+            self.hull_last = (self.hull_last + 1) & self.hull_mask
 
     def set_decided(self, v: int, flag: int) -> None:
         """Mark `v` as specified, or no longer; watches see it."""

@@ -3,7 +3,6 @@
 from math import inf
 
 from runtime.constraints.bits import (
-    ONE,
     attach_table,
     attach_words,
     clear_bits,
@@ -18,21 +17,22 @@ from runtime.constraints.codes import (
     HALF_INF,
     INF,
     KIND_FLOAT,
+    ONE_BIT,
     SIDE_HOLES,
     SUPPORT_RESTRICTION,
     TRAIL_OPEN,
     TRAIL_RESTRICTION,
     TRAIL_VARIABLE,
+    WIDEST_SET,
 )
 from runtime.constraints.grow import grown
 from runtime.constraints.narrow import (
+    is_near,
     raise_to,
     reduce_to,
     round_bounds,
 )
 from runtime.constraints.store import Store
-
-WIDEST_SET = 4096  # values farther apart are kept in a table
 
 
 def take_row(s: Store) -> int:
@@ -204,7 +204,7 @@ def start_values(s: Store, v: int, values: list[float], r: int) -> None:
         s.bits[s.word[v] + k] = 0
     for value in values:
         place = int(value) - s.lb[v]
-        s.bits[s.word[v] + (place >> 6)] |= ONE << (place & 63)
+        s.bits[s.word[v] + (place >> 6)] |= ONE_BIT << (place & 63)
 
 
 def keep_values(s: Store, v: int, values: list[float], support: int) -> bool:
@@ -230,7 +230,7 @@ def keep_values(s: Store, v: int, values: list[float], support: int) -> bool:
     place = next_place(s, v, 0)
     while place >= 0:
         if value_at(s, v, place) not in wanted:
-            clear_bits(s, v, place >> 6, ONE << (place & 63), support)
+            clear_bits(s, v, place >> 6, ONE_BIT << (place & 63), support)
         place = next_place(s, v, place + 1)
     return round_bounds(s, v, support)
 
@@ -243,12 +243,12 @@ def keep_reals(s: Store, v: int, values: list[float], support: int) -> bool:
             return s.fail(v, SIDE_HOLES, support)
         if len(inside) > 1:
             attach_table(s, v, inside)
-        return raise_to(s, v, inside[0], support) and reduce_to(s, v, inside[-1], support)
+        return raise_to(s, v, inside[0], support) and reduce_to(s, v, inside[len(inside) - 1], support)
     place = next_place(s, v, 0)
     while place >= 0:
         x = s.table_values[s.table[v] + place]
-        if not any(abs(x - y) <= FLOAT_TOLERANCE for y in values):
-            clear_bits(s, v, place >> 6, ONE << (place & 63), support)
+        if not is_near(x, values):
+            clear_bits(s, v, place >> 6, ONE_BIT << (place & 63), support)
         place = next_place(s, v, place + 1)
     place = next_place(s, v, 0)
     if place < 0:
@@ -265,7 +265,7 @@ def close_values(s: Store, v: int) -> bool:
     s.is_open[v] = 0
     values = s.restriction_values[r]
     s.restriction_lo[r] = values[0] if values else 1.0
-    s.restriction_hi[r] = values[-1] if values else 0.0
+    s.restriction_hi[r] = values[len(values) - 1] if values else 0.0
     if not values and s.lb[v] <= -HALF_INF and s.ub[v] >= HALF_INF:
         # An empty closed domain is no conflict before a constraint needs a value.
         s.write_lower(v, 1, r * 4 + SUPPORT_RESTRICTION)

@@ -1,0 +1,20 @@
+# The C types of `bases.py`.
+
+cimport cython
+from runtime.constraints.store cimport Store
+
+cdef long long FLAG_DECISION, FLAG_VALUES, KIND_FLOAT
+cdef double FLOAT_TOLERANCE, inf
+
+
+@cython.locals(r="long long", x=double)
+cpdef double base_low(Store s, long long v) except? -1.0
+
+@cython.locals(r="long long", x=double)
+cpdef double base_high(Store s, long long v) except? -1.0
+
+@cython.locals(hi=double, lo=double, r="long long")
+cpdef list base_set(Store s, long long v)
+
+@cython.locals(hi=double, lo=double, r="long long", values=list)
+cpdef bint is_base_single(Store s, long long v) except -1

@@ -1,0 +1,148 @@
+# The C types of `engine.py`.
+
+cimport cython
+from runtime.constraints.arithmetic cimport run_arithmetic
+from runtime.constraints.bases cimport base_high, base_low, base_set, is_base_single
+from runtime.constraints.comparison cimport run_comparison
+from runtime.constraints.explain cimport explain_bound, explain_conflict
+from runtime.constraints.functions cimport run_function
+from runtime.constraints.geometry cimport run_geometry
+from runtime.constraints.logic cimport meet, run_logic
+from runtime.constraints.narrow cimport high, is_single, low, raise_to, reduce_to, round_bounds
+from runtime.constraints.network cimport insert_edge, propagate_edges
+from runtime.constraints.posting cimport post_constraint
+from runtime.constraints.queries cimport has_finitely_many, listed, may_be, number_of_values
+from runtime.constraints.retract cimport decisions_of, edges_of, follow_again, retract
+from runtime.constraints.sets cimport run_sets
+from runtime.constraints.store cimport Store
+from runtime.constraints.trail cimport commit_trail, undo_to
+from runtime.constraints.variables cimport (
+    add_restriction, clear_row, close_values, keep_values, reserve_block, start_interval, start_values, take_row,
+)
+
+cdef long long FAMILY_ARITHMETIC, FAMILY_COMPARISON, FAMILY_FUNCTION, FAMILY_GEOMETRY, FAMILY_LOGIC, FAMILY_SETS
+cdef long long FLAG_DECISION, FLAG_VALUES, KIND_FLOAT, MOST_RUNS, OP_ELEMENT, OP_EXTERNAL, SUPPORT_RESTRICTION
+cdef double inf
+
+
+cdef class Engine(Store):
+    cdef public dict constants
+    cdef public long long newest_edge, newest_restriction
+
+    cpdef long long reserve(self, long long count) except? -1
+
+    @cython.locals(v="long long")
+    cpdef long long new_interval(
+        self, long long kind, double lo, double hi, long long span, long long owner
+    ) except? -1
+
+    @cython.locals(r="long long", v="long long")
+    cpdef long long new_values(self, long long kind, list values, long long span, long long owner) except? -1
+
+    @cython.locals(r="long long", v="long long")
+    cpdef long long new_open(self, long long kind, list values, long long span, long long owner) except? -1
+
+    @cython.locals(r="long long")
+    cpdef int add_value(self, long long v, double value) except -1
+
+    cpdef bint close(self, long long v) except -1
+
+    @cython.locals(reserved="long long")
+    cpdef long long new_constant(self, long long kind, double lo, double hi) except? -1
+
+    @cython.locals(reserved="long long", size="long long")
+    cpdef long long new_constant_values(self, long long kind, list values) except? -1
+
+    cpdef int make_constant(self, long long v, long long entries) except -1
+
+    @cython.locals(r="long long", support="long long")
+    cpdef bint restrict_base(self, long long v, double lo, double hi, long long span, long long owner) except -1
+
+    @cython.locals(r="long long")
+    cpdef bint restrict_base_values(self, long long v, list values, long long span, long long owner) except -1
+
+    @cython.locals(values=list)
+    cpdef bint restrict_base_to(self, long long v, long long other, long long span, long long owner) except -1
+
+    @cython.locals(r="long long")
+    cpdef bint decide(self, long long v, double value, long long span, long long owner) except -1
+
+    cpdef int mark_decided(self, long long v) except -1
+
+    cpdef double lower(self, long long v) except? -1.0
+
+    cpdef double upper(self, long long v) except? -1.0
+
+    cpdef bint is_singleton(self, long long v) except -1
+
+    cpdef bint is_decided(self, long long v) except -1
+
+    cpdef bint contains(self, long long v, double value) except -1
+
+    cpdef bint is_finite(self, long long v) except -1
+
+    cpdef long long size(self, long long v) except? -1
+
+    cpdef list values_of(self, long long v)
+
+    cpdef bint intersects(self, long long v, long long w) except -1
+
+    cpdef double base_lower(self, long long v) except? -1.0
+
+    cpdef double base_upper(self, long long v) except? -1.0
+
+    cpdef list base_values(self, long long v)
+
+    cpdef bint is_base_singleton(self, long long v) except -1
+
+    cpdef bint add_edge(
+        self, long long source, long long target, long long weight, long long span, long long owner
+    ) except -1
+
+    cpdef long long post(self, long long op, list arguments, long long span, long long owner) except? -1
+
+    @cython.locals(c="long long")
+    cpdef long long post_element(
+        self, long long result, long long index, list keys, list variables, long long span, long long owner
+    ) except? -1
+
+    @cython.locals(c="long long")
+    cpdef long long post_external(self, external, list arguments, long long span, long long owner) except? -1
+
+    cpdef int set_parent(self, long long value, long long parent) except -1
+
+    cpdef list arguments(self, long long c)
+
+    cpdef list keys(self, long long c)
+
+    @cython.locals(found=dict, head="long long", slot="long long")
+    cpdef list constraints_of(self, long long v)
+
+    cpdef list edges_of(self, long long v)
+
+    @cython.locals(found=list, r="long long")
+    cpdef list restrictions_of(self, long long v)
+
+    @cython.locals(c="long long", v="long long")
+    cpdef bint propagate(self) except -1
+
+    @cython.locals(family="long long")
+    cpdef bint run(self, long long c) except -1
+
+    @cython.locals(i="long long")
+    cpdef int clear_woken(self) except -1
+
+    cpdef long long mark(self) except? -1
+
+    cpdef int rewind(self, long long mark) except -1
+
+    cpdef int commit(self) except -1
+
+    @cython.locals(again=list)
+    cpdef bint retract(self, constraints=*, edges=*, restrictions=*, variables=*) except -1
+
+    cpdef bint undecide(self, long long v) except -1
+
+    cpdef list explain(self)
+
+    cpdef list support_chain(self, long long v, long long side)

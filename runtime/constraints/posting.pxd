@@ -1,0 +1,47 @@
+# The C types of `posting.py`.
+
+cimport cython
+from runtime.constraints.network cimport insert_edge
+from runtime.constraints.store cimport Store
+
+cdef long long EVENT_ANY, EVENT_DECIDED, EVENT_DOMAIN, EVENT_HOLES, KIND_BOOL, KIND_FLOAT, KIND_INT, MODE_EDGES
+cdef long long MODE_REAL, MODE_WHOLE, OP_ADD_EQ, OP_ALL_MAX, OP_ALL_MIN, OP_EQ, OP_EQ_MAXIMUM, OP_EQ_MINIMUM
+cdef long long OP_EXTERNAL, OP_LEQ, OP_LT, OP_PLUS, OP_RAND, OP_TEST_SPECIFIED, OP_WATCH, PRIORITY_CHEAP
+cdef long long PRIORITY_DEAR, PRIORITY_WATCH, TRAIL_CONSTRAINT, TRAIL_LINK
+cdef unsigned long long MASK
+
+
+@cython.locals(room="long long")
+cpdef int grow_constraints(Store s) except -1
+
+@cython.locals(room="long long")
+cpdef int grow_slots(Store s, long long need) except -1
+
+@cython.locals(first="long long")
+cpdef long long allocate_slots(Store s, long long count) except? -1
+
+@cython.locals(c="long long")
+cpdef long long new_constraint(Store s, long long op, long long arity, long long span, long long owner) except? -1
+
+@cython.locals(other="long long", slot="long long")
+cpdef void watch(Store s, long long c, long long position, long long v, long long mask) except *
+
+@cython.locals(after="long long", before="long long", count="long long", first="long long", slot="long long")
+cpdef int release_constraint(Store s, long long c) except -1
+
+cpdef bint tie_edges(
+    Store s, long long c, long long source, long long target, long long forth, long long back
+) except -1
+
+cpdef bint tie_edge(Store s, long long c, long long source, long long target, long long weight) except -1
+
+@cython.locals(c="long long", mask="long long", position="long long")
+cpdef long long post_constraint(Store s, long long op, list arguments, long long span, long long owner) except? -1
+
+@cython.locals(edges=bint, op="long long", v="long long")
+cpdef int choose_mode(Store s, long long c, list arguments) except -1
+
+cpdef bint is_offset(Store s, long long a, long long k, long long b) except -1
+
+@cython.locals(x="unsigned long long")
+cpdef long long random_whole(long long seed, long long span, long long owner) except? -1

@@ -1,0 +1,81 @@
+# The C types of `retract.py`.
+
+cimport cython
+from libc cimport math
+from runtime.constraints.bits cimport drop_log, release_words
+from runtime.constraints.circles cimport holds_itself
+from runtime.constraints.narrow cimport raise_to, reduce_to
+from runtime.constraints.network cimport attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
+from runtime.constraints.posting cimport release_constraint
+from runtime.constraints.reasons cimport is_carried
+from runtime.constraints.store cimport Store
+from runtime.constraints.trail cimport clear_queues, commit_trail
+from runtime.constraints.variables cimport drop_restriction, drop_variable, keep_values
+
+cdef long long FLAG_DECISION, FLAG_VALUES, HALF_INF, INF, KIND_FLOAT, NEVER, OP_TEMPORAL_DISTANCE, OP_WATCH
+cdef long long SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_CONSTRAINT, SUPPORT_EDGE, SUPPORT_RESTRICTION
+cdef double FLOAT_TOLERANCE, inf
+
+
+@cython.locals(doomed=list, r="long long", suspects=list, v="long long", was_consistent=bint)
+cpdef list retract(Store s, list constraints, list edges, list restrictions, list variables)
+
+@cython.locals(head="long long", slot="long long", v="long long")
+cpdef list gather(Store s, list constraints, list variables)
+
+@cython.locals(e="long long", found=list)
+cpdef list edges_of(Store s, long long v)
+
+@cython.locals(bit="long long", new="long long")
+cpdef void loosen(Store s, long long v, long long side) except *
+
+@cython.locals(entry="long long", holder="long long", side="long long")
+cpdef void loosen_by(Store s, long long v, long long support) except *
+
+@cython.locals(support="long long", v="long long")
+cpdef int loosen_by_edge(Store s, long long e) except -1
+
+@cython.locals(slot="long long", support="long long")
+cpdef int loosen_by_constraint(Store s, long long c) except -1
+
+@cython.locals(c="long long", e="long long", i="long long", slot="long long", u="long long", v="long long")
+cpdef int follow_cone(Store s) except -1
+
+@cython.locals(d="long long")
+cpdef int loosen_by_distance(Store s, long long c, long long v, long long side) except -1
+
+@cython.locals(c="long long", i="long long", side="long long", slot="long long", v="long long")
+cpdef int reset_cone(Store s) except -1
+
+@cython.locals(best=double, r="long long", support="long long", x=double)
+cpdef int reset_bound(Store s, long long v, long long side) except -1
+
+cpdef int set_base_lower(Store s, long long v, double x, long long support) except -1
+
+cpdef int set_base_upper(Store s, long long v, double x, long long support) except -1
+
+cpdef int reset_set(Store s, long long v) except -1
+
+@cython.locals(r="long long")
+cpdef void uncross(Store s, long long v, long long side) except *
+
+@cython.locals(c="long long", head="long long", i="long long", side="long long", slot="long long", v="long long")
+cpdef int renew_cone(Store s) except -1
+
+@cython.locals(listed=list)
+cpdef int restrict_to_sets(Store s, long long v) except -1
+
+@cython.locals(e="long long", x="long long")
+cpdef int pull_lower(Store s, long long v) except -1
+
+@cython.locals(e="long long", x="long long")
+cpdef int pull_upper(Store s, long long v) except -1
+
+@cython.locals(c="long long", r="long long", support="long long", v="long long")
+cpdef int schedule_all(Store s) except -1
+
+@cython.locals(e="long long")
+cpdef bint follow_again(Store s, list edges) except -1
+
+@cython.locals(found=list, r="long long")
+cpdef list decisions_of(Store s, long long v)

@@ -1,0 +1,52 @@
+# The C types of `sets.py`.
+
+cimport cython
+from runtime.constraints.bits cimport count_values, has_value, next_value
+from runtime.constraints.comparison cimport equate, exclude_missing
+from runtime.constraints.logic cimport meet
+from runtime.constraints.narrow cimport high, is_single, low, raise_to, reduce_to, remove_value, set_lower, set_upper
+from runtime.constraints.store cimport Store
+
+cdef long long HALF_INF, KIND_FLOAT, MOST_VALUES, OP_COMMON_ANCESTOR, OP_ELEMENT, OP_EQ_UNION, OP_HAS_ANCESTOR
+cdef long long OP_LOCK, OP_MEMBER_IMPLY, OP_SUBSET_OF, SIDE_HOLES, SUPPORT_CONSTRAINT
+cdef double FLOAT_TOLERANCE, inf
+
+
+@cython.locals(a="long long", b="long long", first="long long", op="long long", support="long long")
+cpdef bint run_sets(Store s, long long c) except -1
+
+@cython.locals(x="long long")
+cpdef bint is_subset(Store s, long long a, long long b) except -1
+
+cpdef bint keep_inside(Store s, long long a, long long b, long long support) except -1
+
+@cython.locals(a="long long", hi=double, k="long long", lo=double)
+cpdef bint keep_in_hull(Store s, long long first, long long count, long long support) except -1
+
+@cython.locals(
+    able="long long", hi=double, index="long long", k="long long", key="long long", last_key="long long",
+    lo=double, result="long long", v="long long"
+)
+cpdef bint look_up(Store s, long long first, long long count, long long support) except -1
+
+@cython.locals(x="long long")
+cpdef bint remove_between(Store s, long long index, long long below, long long above, long long support) except -1
+
+@cython.locals(found=bint, index="long long", k="long long", result="long long", x="long long")
+cpdef bint remove_unsupported(Store s, long long first, long long count, long long support) except -1
+
+cpdef bint serves(Store s, long long v, long long x) except -1
+
+cpdef bint is_listed(Store s, long long v) except -1
+
+cpdef bint has_ancestor_in(Store s, long long value, long long p) except -1
+
+cpdef bint is_inside(Store s, long long value, long long ancestor) except -1
+
+@cython.locals(ancestor="long long", value="long long")
+cpdef bint lie_inside(Store s, long long x, long long p, long long support) except -1
+
+cpdef long long next_object(Store s, long long v, long long value) except? -1
+
+@cython.locals(_="long long", ancestor="long long", value="long long")
+cpdef bint share_ancestor(Store s, long long a, long long b, long long p, long long support) except -1
