@@ -86,6 +86,9 @@ HEAD_PREDICATE = 2  # + predicate; the sequences of the objects follow
 # ---- infinity of NDDL's integers, and of weights: no edge is posted for it ----
 INFINITY = 4503599627370495
 
+# ---- operations from here on are constraints that the modeler wrote ----
+FIRST_WRITTEN = 1024
+
 # ---- relations: each distance is (target?, point, target?, point, lower, upper) ----
 RELATION_CELLS = 6
 DURATION_FREE, DURATION_EQUAL, DURATION_TARGET_SHORTER, DURATION_ORIGIN_SHORTER = range(4)

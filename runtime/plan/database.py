@@ -1,6 +1,6 @@
 """The plan database: a program in; tokens, timelines and rules at work, and everything that changes them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from compiler.program import Program
 from nddl_lang.semantics.relations import RELATIONS
@@ -17,6 +17,8 @@ from runtime.plan.plan import Plan
 from runtime.plan.prototypes import Prototypes
 from runtime.plan.script import Script
 from runtime.plan.tokens import make_token
+from runtime.plan.written import WrittenConstraints
+from runtime.user.constraint import Constraint
 
 GROUNDED = "GroundedProfile"
 Environment = Callable[[str], float | None]
@@ -25,7 +27,9 @@ Environment = Callable[[str], float | None]
 class PlanDatabase:
     """A loaded program and its plan; tokens, objects, variables and spans are named by integers."""
 
-    def __init__(self, program: Program, environment: Environment | None = None) -> None:
+    def __init__(
+        self, program: Program, environment: Environment | None = None, constraints: Sequence[Constraint] = ()
+    ) -> None:
         self.program = program
         self.engine = Engine()
         self.plan = Plan(self.engine)
@@ -35,12 +39,15 @@ class PlanDatabase:
         self.relation_names = list(RELATIONS)
         relations = {name: number for number, name in enumerate(self.relation_names)}
         load_members(self.plan, program, self.prototypes, self.names)
-        self.code = Code(self.prototypes, self.names, predicates, relations)
+        self.written = WrittenConstraints(self.engine, self.prototypes, constraints)
+        written = {constraint.name: number for number, constraint in enumerate(constraints)}
+        self.code = Code(self.prototypes, self.names, predicates, relations, written)
         load_prototypes(self.plan, program, self.prototypes)
         load_relations(self.plan)
         load_predicates(self.plan, program, self.prototypes, self.code)
         self.plan.set_globals(len(program.globals))
         self.objects = Objects(self.plan, program, self.prototypes, self.code)
+        self.written.objects = self.objects.names
         self.script = Script(self.plan, program, self.prototypes, self.code, predicates, self.objects)
         load_code(self.plan, self.code)
         self.plan.services = self
@@ -68,6 +75,10 @@ class PlanDatabase:
     def sample_range(self, parameter: int) -> int:
         """The prototype of the values that a parameter may have; or NONE."""
         return self.ranges.get(parameter, NONE)
+
+    def post_written(self, number: int, arguments: list[int], span: int, owner: int) -> int:
+        """Post constraint `number` of those that the modeler wrote; its id in the engine."""
+        return self.written.post(number, arguments, span, owner)
 
     def forget_objects(self, count: int) -> None:
         """Go back to where there were `count` objects."""

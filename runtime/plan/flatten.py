@@ -44,6 +44,7 @@ from runtime.plan.codes import (
     DO_SAMPLE,
     DO_USE,
     DO_VARIABLE,
+    FIRST_WRITTEN,
     IN_CONSTANT,
     IN_FIELD,
     IN_GLOBAL,
@@ -71,11 +72,19 @@ DISTANCES = {"precedes": (0, INFINITY), "strictlyPrecedes": (1, INFINITY), "conc
 class Code:
     """All bodies of a program as integers, with the tables that the integers point into."""
 
-    def __init__(self, prototypes: Prototypes, names: Names, predicates: dict[str, int], relations: dict[str, int]):
+    def __init__(
+        self,
+        prototypes: Prototypes,
+        names: Names,
+        predicates: dict[str, int],
+        relations: dict[str, int],
+        written: dict[str, int],
+    ) -> None:
         self.prototypes = prototypes
         self.names = names
         self.predicates = predicates
         self.relations = relations
+        self.operations = {**OPERATIONS, **{name: FIRST_WRITTEN + number for name, number in written.items()}}
         self.cells: list[int] = []
         self.block_start: list[int] = []
         self.block_end: list[int] = []
@@ -171,11 +180,11 @@ class Code:
             del pairs[1]
         flat = [number for pair in pairs for number in pair]
         if distance is not None:
-            self.write(DO_BETWEEN, span, *flat, *distance, OPERATIONS[name])
+            self.write(DO_BETWEEN, span, *flat, *distance, self.operations[name])
         elif name == "uses":
             self.write(DO_USE, span, *flat)
         else:
-            self.write(DO_POST, span, OPERATIONS[name], len(pairs), *flat)
+            self.write(DO_POST, span, self.operations[name], len(pairs), *flat)
 
     def child(self, child: Child, span: int) -> None:
         """Write the making of a child."""

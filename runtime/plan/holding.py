@@ -2,7 +2,14 @@
 
 from runtime.constraints.codes import OP_EQ
 from runtime.constraints.engine import Engine
-from runtime.plan.codes import HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES, INFINITY
+from runtime.plan.codes import (
+    FIRST_WRITTEN,
+    HOLDS_CONSTRAINT,
+    HOLDS_EDGE,
+    HOLDS_RESTRICTION,
+    HOLDS_VARIABLES,
+    INFINITY,
+)
 from runtime.plan.plan import Plan
 
 
@@ -32,7 +39,10 @@ def constraint(plan: Plan, scope: int, operation: int, first: int, span: int) ->
     owner = rows.scope_token[scope]
     arguments = [int(v) for v in plan.operands[first : plan.operands_used]]
     plan.operands_used = first
-    c = plan.engine.post(operation, arguments, span, owner)
+    if operation < FIRST_WRITTEN:
+        c = plan.engine.post(operation, arguments, span, owner)
+    else:
+        c = plan.services.post_written(operation - FIRST_WRITTEN, arguments, span, owner)
     if owner >= 0:
         rows.hold(scope, HOLDS_CONSTRAINT, c, 1)
     return c

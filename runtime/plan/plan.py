@@ -22,6 +22,9 @@ class Services(Protocol):
     def sample_range(self, parameter: int) -> int:
         """The prototype of the values that a parameter may have; or NONE."""
 
+    def post_written(self, number: int, arguments: list[int], span: int, owner: int) -> int:
+        """Post constraint `number` of those that the modeler wrote; its id."""
+
     def forget_objects(self, count: int) -> None:
         """Go back to where there were `count` objects."""
 
