@@ -128,8 +128,10 @@ class Agent:
         goals: Sequence[tuple[int, Request]],
         seed: int,
         trace: Trace,
+        every_tick: bool = False,
     ) -> None:
         self.configuration = configuration
+        self.every_tick = every_tick
         self.goals = goals
         self.unsent = [request for _, request in goals]
         self.reactors = in_order(reactors)
@@ -180,6 +182,9 @@ class Agent:
 
     def _advance(self) -> None:
         """Go on to the next tick at which a reactor has something to do or a goal is due."""
+        if self.every_tick:
+            self.tick += 1
+            return
         times = [reactor.due for reactor in self.reactors]
         times += [at for at, _ in self.goals if at > self.tick]
         self.tick = min(max(self.tick + 1, min(times, default=self.tick + 1)), self.configuration.final_tick)
@@ -189,7 +194,7 @@ class Agent:
         self.awake = []
         is_last = self.tick == self.configuration.final_tick
         for reactor in list(self.reactors):
-            if reactor.due > self.tick and not is_last:
+            if reactor.due > self.tick and not is_last and not self.every_tick:
                 continue
             self.awake.append(reactor)
             self.trace.phase = "start"

@@ -66,7 +66,8 @@ class Dispatch:
         # To the world a request is a command: when to begin is the sender's business, how long it takes is not.
         is_command = self.owner_windows.get(line.name, (0, 1))[1] <= 1
         end = INFINITY if is_command else _whole(bench.upper(bench.end(token)))
-        start = (tick + 1, _whole(bench.upper(bench.start(token))))
+        earliest = max(tick + 1, _whole(bench.lower(bench.start(token))))
+        start = (earliest, _whole(bench.upper(bench.start(token))))
         return Request(event, line.name, predicate, arguments, start, (-INFINITY, end), (1, INFINITY), self.name, event)
 
     def open_requests(self) -> list[int]:

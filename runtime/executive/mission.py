@@ -71,9 +71,11 @@ def run_mission(
     programs: MissionPrograms,
     seed: int,
     overrides: Mapping[str, float] | None = None,
+    every_tick: bool = False,
 ) -> Outcome:
     """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
 
+    With `every_tick` reactors are woken at each tick, whether or not anything can happen; the outcome is the same.
     Raises `UnusableModelError` for a model that does not load, and `ValueError` (of `workbench` and `agent`) for
     timelines that do not exist or have no single owner.
     """
@@ -102,7 +104,7 @@ def run_mission(
     for number, goal in enumerate(configuration.goals):
         kinds = goal_kinds(configuration, programs, goal)
         goals.append((goal.at, request_of(goal, -1 - number, trace, kinds)))
-    agent = Agent(configuration, reactors, goals, seed, trace)
+    agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
     return agent.run()
 
 

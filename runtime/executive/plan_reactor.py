@@ -283,7 +283,8 @@ class PlanReactor:
         for goal in self._live_goals():
             if not self.bench.is_alive(goal.token, goal.token_key):
                 goal.is_closed = True
-                self._refuse(goal.request, f"{token_text(goal.request.predicate, goal.request.arguments)}: dropped in the repair")
+                text = token_text(goal.request.predicate, goal.request.arguments)
+                self._refuse(goal.request, f"{text}: dropped in the repair")
             elif self.bench.is_over(goal.token, tick):
                 goal.is_closed = True
         if len(self.goals) > 64:

@@ -1,0 +1,84 @@
+"""Sampled parameters in flight: one value per mission, or a new one at each update, whatever the planner tries."""
+
+from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
+from runtime.executive.outcome import Outcome
+from tests.executive.flying import fly, history, lines, simulator
+
+SEA = """
+float SWELL = [0.0 1.0];
+class Sea extends AgentTimeline { predicate Wave { float height; } Sea(Mode m) { super(m, "Wave"); } }
+Sea::Wave { height == sampledParameter(SWELL); duration == 3; }
+"""
+OWN = "Sea sea = new Sea(Internal); close();"
+
+
+def sailed(mode: str, extra: str = "", seed: int = 5) -> Outcome:
+    """Thirty ticks at sea."""
+    swell = ParameterConfiguration("SWELL", 0.0, 1.0, mode="intra" if mode == "intra" else "inter", update=7)
+    return fly(simulator("sea", f"{SEA}{extra}{OWN}", "sea"), until=30, parameters=(swell,), seed=seed)
+
+
+def heights(outcome: Outcome) -> list[tuple[int, str]]:
+    """Each wave: when it began, how high it was."""
+    return [(int(line.partition(" ")[0]), line.partition("=")[2]) for line in history(outcome, "sea")]
+
+
+def test_a_parameter_of_the_mission_is_drawn_once() -> None:
+    outcome = sailed("inter")
+    assert len(outcome.draws) == 1 and outcome.draws[0].tick == 0
+    assert len({height for _, height in heights(outcome)}) == 1
+
+
+def test_a_parameter_that_varies_changes_at_its_updates_only() -> None:
+    outcome = sailed("intra")
+    by_update: dict[int, set[str]] = {}
+    for tick, height in heights(outcome):
+        by_update.setdefault(tick // 7, set()).add(height)
+    assert [len(values) for values in by_update.values()] == [1, 1, 1, 1, 1]
+    assert len(set.union(*by_update.values())) == 5
+    assert [draw.tick for draw in outcome.draws] == [0, 7, 14, 21, 28]
+
+
+def test_choices_that_were_tried_in_vain_do_not_change_a_value() -> None:
+    # A second kind of wave is tried first at every third tick, draws, and is found not to fit.
+    stormy = SEA.replace(
+        "predicate Wave { float height; }", "predicate Storm { float height; } predicate Wave { float height; }"
+    )
+    stormy = stormy.replace('"Wave"', '"Storm"')
+    stormy += "Sea::Storm { height == sampledParameter(SWELL); height > 2.0; }"
+    swell = ParameterConfiguration("SWELL", 0.0, 1.0, mode="intra", update=7)
+    troubled = fly(simulator("sea", f"{stormy}{OWN}", "sea"), until=30, parameters=(swell,), seed=5)
+    calm = sailed("intra")
+    assert heights(troubled) == heights(calm)
+    assert troubled.draws == calm.draws
+    assert lines(troubled, "relax") == []
+
+
+def test_another_parameter_does_not_change_a_value() -> None:
+    more = "float WIND = [0.0 1.0];" + " Sea::Wave { float wind; wind == sampledParameter(WIND); }"
+    assert heights(sailed("intra", more)) == heights(sailed("intra"))
+    assert {draw.parameter for draw in sailed("intra", more).draws} == {"SWELL", "WIND"}
+
+
+def test_other_seeds_give_other_values() -> None:
+    assert len({sailed("inter", seed=seed).draws[0].value for seed in range(20)}) == 20
+
+
+def test_a_given_value_replaces_the_draw() -> None:
+    swell = ParameterConfiguration("SWELL", 0.0, 1.0, mode="intra", update=7)
+    flyer = simulator("sea", f"{SEA}{OWN}", "sea")
+    outcome = fly(flyer, until=30, parameters=(swell,), overrides={"SWELL": 0.25})
+    assert {height for _, height in heights(outcome)} == {"0.25)"}
+
+
+def test_a_draw_is_told_before_what_it_leads_to() -> None:
+    outcome = sailed("inter")
+    kinds = [event.kind for event in outcome.events]
+    assert kinds.index("sample") < kinds.index("observation")
+
+
+def test_a_goal_with_a_range_leaves_the_draw_its_say() -> None:
+    goals = (GoalConfiguration("sea", "Wave", parameters=(("height", (0.0, 1.0)),)),)
+    swell = ParameterConfiguration("SWELL", 0.0, 1.0)
+    outcome = fly(simulator("sea", f"{SEA}{OWN}", "sea"), until=9, goals=goals, parameters=(swell,))
+    assert len({height for _, height in heights(outcome)}) == 1

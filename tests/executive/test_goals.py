@@ -1,0 +1,161 @@
+"""Goals and requests: taken, refused, rejected, recalled, asked for in time."""
+
+from runtime.executive.configuration import GoalConfiguration
+from tests.executive.flying import Flyer, fly, history, lines, planner, simulator
+
+LAMP = """
+class Lamp extends AgentTimeline { predicate Off { } predicate On { int n; } Lamp(Mode m) { super(m, "Off"); } }
+"""
+USER = """
+class User extends AgentTimeline { predicate Idle { } predicate Busy { int k; } User(Mode m) { super(m, "Idle"); } }
+"""
+OBJECTS = "User user = new User(Internal); Lamp lamp = new Lamp(External); close();"
+
+
+def lamp(rules: str, lookahead: int = 1, latency: int = 0) -> Flyer:
+    """The owner of the lamp."""
+    text = f"{LAMP}{rules} Lamp lamp = new Lamp(Internal); close();"
+    return planner("sim", text, "lamp", latency=latency, lookahead=lookahead)
+
+
+def user(rules: str, objects: str = OBJECTS) -> Flyer:
+    """A planner that uses the lamp."""
+    return planner("user", f"{LAMP}{USER}{rules}{objects}", "user", "lamp")
+
+
+def busy(**given: object) -> tuple[GoalConfiguration, ...]:
+    """One goal for the user."""
+    return (GoalConfiguration("user", "Busy", mandatory=True, **given),)  # type: ignore[arg-type]
+
+
+def test_a_goal_carries_its_parameters_to_the_owner_of_what_it_needs() -> None:
+    rules = "User::Busy { contains(Lamp.On on); on.n == k; meets(Idle rest); on.end == end; }"
+    outcome = fly(user(rules), lamp("Lamp::On { duration == n; }"), goals=busy(parameters=(("k", 3),)), until=12)
+    assert outcome.unmet_goals == ()
+    assert lines(outcome, "request") == ["0 request user Busy(k=3)", "1 request user lamp On(n=3)"]
+    assert history(outcome, "lamp") == ["0 Off", "3 On(n=3)", "6 Off"]
+
+
+def test_a_goal_of_an_unknown_predicate_is_refused() -> None:
+    goals = (GoalConfiguration("lamp", "Shine", mandatory=True),)
+    outcome = fly(lamp(""), goals=goals)
+    assert outcome.unmet_goals == ("Shine: `lamp` has no predicate `Shine`",)
+
+
+def test_a_goal_whose_arguments_do_not_fit_is_refused() -> None:
+    limited = LAMP.replace("int n;", "int n; n <= 5;")
+    goals = (GoalConfiguration("lamp", "On", mandatory=True, parameters=(("n", 7),)),)
+    outcome = fly(simulator("sim", f"{limited} Lamp lamp = new Lamp(Internal); close();", "lamp"), goals=goals)
+    assert lines(outcome, "reject") == ["0 reject sim lamp On(n=7): its arguments do not fit"]
+    assert outcome.abort is None and len(outcome.unmet_goals) == 1
+
+
+def test_a_goal_that_comes_too_late_is_refused() -> None:
+    outcome = fly(user(""), lamp(""), goals=busy(at=5, start=(1, 4)))
+    assert outcome.unmet_goals == ("Busy: too late",)
+
+
+def test_who_does_not_look_ahead_takes_no_goals() -> None:
+    goals = (GoalConfiguration("lamp", "On", mandatory=True),)
+    outcome = fly(lamp("", lookahead=0), goals=goals)
+    assert outcome.unmet_goals == ("On: `sim` does not look ahead and takes no goals",)
+    asked = fly(user("User::Busy { contains(Lamp.On on); }"), lamp("", lookahead=0), goals=busy())
+    assert lines(asked, "request") == ["0 request user Busy"]
+
+
+def test_a_goal_without_a_place_is_rejected_and_the_rest_is_done() -> None:
+    goals = tuple(
+        GoalConfiguration("user", "Busy", mandatory=True, start=(3, 4), parameters=(("k", k),)) for k in (1, 2)
+    )
+    outcome = fly(user("User::Busy { duration == 4; }"), lamp(""), goals=goals, until=12)
+    assert outcome.abort is None
+    assert outcome.unmet_goals == ("Busy(k=2): the planner found no place for it",)
+    assert history(outcome, "user") == ["0 Idle", "3 Busy(k=1)", "7 Idle"]
+
+
+def test_a_mandatory_goal_that_has_not_ended_is_unmet() -> None:
+    outcome = fly(user("User::Busy { duration == 8; }"), lamp(""), goals=busy(start=(5, 5)), until=10)
+    assert outcome.unmet_goals == ("Busy",)
+    assert fly(user("User::Busy { duration == 5; }"), lamp(""), goals=busy(start=(5, 5)), until=10).unmet_goals == ()
+
+
+def test_a_goal_that_is_due_after_the_end_is_unmet() -> None:
+    assert fly(user(""), lamp(""), goals=busy(at=50), until=10).unmet_goals == ("Busy",)
+    assert fly(user(""), lamp(""), goals=busy(start=(500, 600)), until=10).unmet_goals == ("Busy",)
+
+
+def test_a_goal_may_be_unbounded() -> None:
+    rules = "User::Busy { contains(Lamp.On on); }"
+    outcome = fly(user(rules), lamp("Lamp::On { duration == 2; }"), goals=busy())
+    assert history(outcome, "lamp") == ["0 Off", "3 On(n=[-inf +inf])", "5 Off"]
+
+
+def test_a_reactive_owner_is_asked_when_it_is_to_begin() -> None:
+    outcome = fly(user("User::Busy { contains(Lamp.On on); }"), lamp(""), goals=busy(start=(6, 8)), until=12)
+    assert lines(outcome, "request")[1:] == ["5 request user lamp On(n=[-inf +inf])"]
+
+
+def test_a_planning_owner_is_asked_as_early_as_its_window_allows() -> None:
+    outcome = fly(
+        user("User::Busy { contains(Lamp.On on); }"),
+        lamp("Lamp::On { duration == 3; }", lookahead=4, latency=2),
+        goals=busy(start=(10, 12)),
+        until=20,
+    )
+    assert lines(outcome, "request")[1:] == ["3 request user lamp On(n=[-inf +inf])"]
+    assert history(outcome, "lamp") == ["0 Off", "10 On(n=[-inf +inf])", "13 Off"]
+
+
+def test_what_is_only_observed_is_not_asked_for() -> None:
+    objects = OBJECTS.replace("External", "Observe")
+    rules = "User::Busy { contains(Lamp.On on); }"
+    by_itself = lamp("Lamp::Off { duration == 4; meets(On on); } Lamp::On { duration == 2; }")
+    outcome = fly(user(rules, objects), by_itself, goals=busy(start=(2, 2)), until=12)
+    assert outcome.abort is None
+    assert lines(outcome, "request") == ["0 request user Busy"]
+
+
+def test_a_request_is_taken_back_when_its_token_loses_its_place() -> None:
+    # Busy needs the lamp on within two ticks; the owner keeps it off for longer, so the goal is given up.
+    rules = "User::Busy { starts_before(Lamp.On on); on.start <= start + 2; }"
+    stuck = lamp("Lamp::Off { duration >= 20; }", lookahead=5)
+    outcome = fly(user(rules), stuck, goals=busy(start=(4, 4)), until=30)
+    assert outcome.abort is None
+    assert lines(outcome, "recall") == ["6 recall user lamp On(n=[-inf +inf])"]
+    assert history(outcome, "lamp") == ["0 Off"]
+
+
+def test_a_sub_goal_without_a_place_ends_the_mission() -> None:
+    rules = "User::Idle { contains(Lamp.On on); on.n == 1; on.duration >= 5; } Lamp::On { duration <= 3; }"
+    outcome = fly(user(rules), lamp(""), until=20)
+    assert outcome.abort is not None
+    assert (outcome.abort.code, outcome.abort.tick, outcome.abort.relaxes) == ("F4", 0, 1)
+    assert outcome.abort.summary.startswith("no place for Lamp.On#")
+    assert outcome.abort.conflict is not None and len(outcome.abort.conflict.causes) >= 2
+
+
+def test_a_sub_goal_of_a_rejectable_goal_only_costs_the_goal() -> None:
+    rules = "User::Busy { contains(Lamp.On on); on.duration >= 5; } Lamp::On { duration <= 3; }"
+    outcome = fly(user(rules), lamp(""), goals=busy(), until=20)
+    assert outcome.abort is None
+    assert outcome.unmet_goals == ("Busy: the planner found no place for it",)
+
+
+def test_two_users_of_one_timeline_are_served_one_after_the_other() -> None:
+    rules = "User::Busy { contains(Lamp.On on); on.n == k; on.end == end; meets(Idle rest); }"
+    other = USER.replace("User", "Other")
+    second = f"{LAMP}{other}{rules.replace('User', 'Other')}"
+    second += "Other other = new Other(Internal); Lamp lamp = new Lamp(External); close();"
+    goals = (
+        GoalConfiguration("user", "Busy", mandatory=True, start=(2, 30), parameters=(("k", 1),)),
+        GoalConfiguration("other", "Busy", mandatory=True, start=(12, 30), parameters=(("k", 2),)),
+    )
+    outcome = fly(
+        user(rules),
+        planner("second", second, "other", "lamp"),
+        lamp("Lamp::On { duration == 4; }"),
+        goals=goals,
+        until=40,
+    )
+    assert outcome.abort is None and outcome.unmet_goals == ()
+    assert history(outcome, "lamp") == ["0 Off", "3 On(n=1)", "7 Off", "13 On(n=2)", "17 Off"]
