@@ -44,7 +44,11 @@ def format_parse(parsed: Parse) -> Formatted:
             offset = piece.anchor.offset
             writer.write_comments([(start + offset, end + offset) for start, end in piece.comments])
     line_end = "\r\n" if "\r\n" in text else "\n"
-    return Formatted(mark + writer.text(line_end), parsed.diagnostics)
+    written = writer.text(line_end)
+    if not mark and written.startswith("\ufeff"):
+        # It was an unknown character inside the text; at the beginning it would be a byte order mark.
+        mark = line_end
+    return Formatted(mark + written, parsed.diagnostics)
 
 
 def _leaves_doubt(diagnostic: Diagnostic) -> bool:

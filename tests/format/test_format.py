@@ -37,6 +37,7 @@ def tree_after(text: str) -> str:
         ("\n\n", ""),
         ("// alone", "// alone\n"),
         ("\ufeffint  a;", "\ufeffint a;\n"),
+        ("\n\ufeff", "\n\ufeff\n"),
         ("int  a;\r\nint  b;\r\n", "int a;\r\nint b;\r\n"),
         ("int a;\n\n\n\nint b;\n", "int a;\n\nint b;\n"),
         ("class A {\n\n  int a;\n\n\n  int b;\n\n}\n", "class A {\n    int a;\n\n    int b;\n}\n"),
