@@ -1,0 +1,35 @@
+# The C types of `guards.py`.
+
+cimport cython
+from runtime.constraints.engine cimport Engine
+from runtime.plan.holding cimport constraint
+from runtime.plan.operands cimport member
+from runtime.plan.plan cimport Plan
+from runtime.plan.rows cimport Rows
+
+cdef long long BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, NONE, OP_WATCH, SCOPE_GUARD
+
+
+@cython.locals(
+    count="long long", i="long long", inputs="long long", owner="long long", position="long long", rows=Rows,
+    s="long long", watch="long long"
+)
+cpdef int wait(
+    Plan plan, long long scope, long long at, long long condition, long long first, long long span
+) except -1
+
+
+@cython.locals(x="long long")
+cpdef int listen(Plan plan, long long v) except -1
+
+
+@cython.locals(x="long long")
+cpdef bint is_settled(Plan plan, long long v) except -1
+
+
+@cython.locals(engine=Engine, first="long long", v="long long")
+cpdef bint agree(Plan plan, long long x, long long name) except -1
+
+
+@cython.locals(condition="long long", engine=Engine, i="long long", inputs="long long", rows=Rows)
+cpdef long long choice(Plan plan, long long s) except? -1

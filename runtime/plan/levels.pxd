@@ -1,0 +1,51 @@
+# The C types of `levels.py`.
+
+cimport cython
+
+cdef long long ROOM, TOO_FAST, TOO_HIGH, TOO_LOW, TOO_MUCH
+cdef double FLOAT_TOLERANCE, inf
+
+
+cdef class Levels:
+    cdef public long long room, count, wrong, at
+    cdef public long long[::1] use, sign, lasting, start_low
+    cdef public long long[::1] start_high, end_low, end_high
+    cdef public double[::1] least, most
+    cdef public double excess, initial_low, initial_high, minimum
+    cdef public double maximum, rate, total, production_rate
+    cdef public double production_total
+
+    cpdef int set_limits(self, double initial_low, double initial_high, double minimum, double maximum) except -1
+
+    cpdef int set_flows(self, double rate, double total, double production_rate, double production_total) except -1
+
+    @cython.locals(i="long long")
+    cpdef long long add(self, long long use, long long sign, long long lasting) except? -1
+
+    @cython.locals(i="long long", sign="long long")
+    cpdef int add_step(self, long long start, double least, double most) except -1
+
+    cpdef int grow(self) except -1
+
+    @cython.locals(i="long long", level=double)
+    cpdef double best_for_consumers(self, long long t) except? -1.0
+
+    @cython.locals(i="long long", level=double)
+    cpdef double worst_for_consumers(self, long long t) except? -1.0
+
+    @cython.locals(i="long long", level=double)
+    cpdef double grounded(self, long long t) except? -1.0
+
+    @cython.locals(i="long long", signs="long long")
+    cpdef bint flows_both_ways(self) except -1
+
+    cpdef long long violation(self) except? -1
+
+    @cython.locals(i="long long", least_consumed=double, least_produced=double)
+    cpdef long long level_violation(self) except? -1
+
+    @cython.locals(consumed=double, flow=double, i="long long", produced=double)
+    cpdef long long flow_violation(self) except? -1
+
+    @cython.locals(flow=double, j="long long", same=bint)
+    cpdef double together(self, long long i) except? -1.0

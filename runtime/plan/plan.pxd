@@ -1,0 +1,64 @@
+# The C types of `plan.py`.
+
+cimport cython
+from runtime.constraints.engine cimport Engine
+from runtime.plan.resources cimport Resources
+from runtime.plan.rows cimport Rows
+
+cdef long long NONE
+
+
+cdef class Plan:
+    cdef public Engine engine
+    cdef public Rows rows
+    cdef public long long[::1] code, block_start, block_end, field_kind
+    cdef public long long[::1] field_value, field_start, field_length, field_names
+    cdef public long long[::1] predicate_class, predicate_flags, predicate_timeline, predicate_resource
+    cdef public long long[::1] parameter_start, parameter_count, parameter_prototype, parameter_copy_kind
+    cdef public long long[::1] parameter_copy_value, parameter_name, body_block, body_slots
+    cdef public long long[::1] body_tokens, first_rule, rule_number, rule_block
+    cdef public long long[::1] rule_slots, rule_tokens, rule_declared, rule_span
+    cdef public long long[::1] relation_start, relation_distance, relation_duration, class_prototype
+    cdef public long long[::1] class_closed, object_class, object_var0, object_constant
+    cdef public long long[::1] object_head, object_timeline, member_at, name_prototype
+    cdef public long long[::1] globals, variable_role, variable_owner, variable_name
+    cdef public long long[::1] variable_guards, proxy_index, proxy_member, awaited
+    cdef public long long[::1] guard_of, stack_at, stack_end, stack_scope
+    cdef public long long[::1] stack_slot, stack_value, queue, operands
+    cdef public long long[::1] mark_engine, mark_rows, mark_uses, mark_awaited
+    cdef public long long[::1] mark_objects
+    cdef public long long state_prototype, rejectable_prototype, native_prototype, duration_prototype
+    cdef public long long instant_prototype, time_prototype, object_capacity, object_count
+    cdef public long long first_object_head, member_names, clock, variable_capacity
+    cdef public long long awaited_capacity, awaited_count, watch_capacity, stack_capacity
+    cdef public long long stack_length, queue_capacity, queue_length, operand_capacity
+    cdef public long long operands_used, mark_capacity, statement, self_object
+    cdef public list unions
+    cdef public object services, envelope
+    cdef public Resources resources
+
+    cpdef int set_globals(self, long long count) except -1
+
+    @cython.locals(o="long long")
+    cpdef long long new_object(self, long long number, bint is_timeline) except? -1
+
+    @cython.locals(top="long long")
+    cpdef int push(self, long long start, long long end, long long scope, long long slot, long long value) except -1
+
+    cpdef int enqueue(self, long long guard) except -1
+
+    @cython.locals(engine=Engine, i="long long")
+    cpdef int gather_woken(self) except -1
+
+    @cython.locals(i="long long", left="long long")
+    cpdef int keep_queued(self, long long done) except -1
+
+    cpdef int add_operand(self, long long v) except -1
+
+    cpdef int note_watch(self, long long constraint, long long guard) except -1
+
+    cpdef int await_variable(self, long long v) except -1
+
+    cpdef int forget_awaited(self, long long count) except -1
+
+    cpdef int note_variable(self, long long v, long long role, long long owner, long long name) except -1

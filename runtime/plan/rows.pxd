@@ -1,0 +1,84 @@
+# The C types of `rows.py`.
+
+cimport cython
+
+cdef long long FREED, INACTIVE, NONE, SHORT, UNDO_BRANCH, UNDO_FLAGS, UNDO_INPUTS, UNDO_MERGED, UNDO_NEW_CELLS
+cdef long long UNDO_NEW_HOLD, UNDO_NEW_SCOPE, UNDO_NEW_TOKEN, UNDO_STATUS
+
+
+cdef class Rows:
+    cdef public long long hold_capacity, hold_count, free_hold, pair_capacity
+    cdef public long long pair_count, free_pair, cell_capacity, cell_count
+    cdef public long long head_capacity, level, trail_capacity, trail_length
+    cdef public long long token_capacity, token_count, free_token, next_key
+    cdef public long long live, scope_capacity, scope_count, free_scope
+    cdef public long long[::1] hold_kind, hold_id, hold_extent, hold_next
+    cdef public long long[::1] pair_edge, pair_first, pair_second, pair_next_out
+    cdef public long long[::1] pair_next_in, cells, free_cells, head_first
+    cdef public long long[::1] head_last, head_length, trail_code, trail_index
+    cdef public long long[::1] trail_old, status, predicate, var0
+    cdef public long long[::1] width, flags, master, relation
+    cdef public long long[::1] origin, label, key, span
+    cdef public long long[::1] creator, scopes, children, sibling
+    cdef public long long[::1] merged_into, merged, merged_next, pairs_out
+    cdef public long long[::1] pairs_in, link_head, link_before, link_after
+    cdef public long long[::1] scope_kind, scope_token, scope_rule, scope_parent
+    cdef public long long[::1] scope_frame, scope_size, scope_slots, scope_holds
+    cdef public long long[::1] scope_next, scope_at, scope_branch, scope_watch
+    cdef public long long[::1] scope_inputs
+
+    cpdef int make_tokens(self, long long capacity) except -1
+
+    @cython.locals(size="long long")
+    cpdef int grow_tokens(self) except -1
+
+    @cython.locals(at="long long", t="long long")
+    cpdef long long new_token(
+        self, long long predicate, long long flags, long long master, long long creator, long long span
+    ) except? -1
+
+    @cython.locals(child="long long", master="long long")
+    cpdef int release_token(self, long long t) except -1
+
+    cpdef int set_status(self, long long t, long long status) except -1
+
+    cpdef int set_flags(self, long long t, long long flags) except -1
+
+    cpdef int set_merged(self, long long t, long long other) except -1
+
+    @cython.locals(other="long long", previous="long long")
+    cpdef int unset_merged(self, long long t) except -1
+
+    cpdef int make_scopes(self, long long capacity) except -1
+
+    @cython.locals(size="long long")
+    cpdef int grow_scopes(self) except -1
+
+    @cython.locals(frame="long long", offset="long long", s="long long", source="long long")
+    cpdef long long new_scope(
+        self, long long kind, long long token, long long rule, long long parent, long long slots, long long size
+    ) except? -1
+
+    @cython.locals(inputs="long long")
+    cpdef int release_scope(self, long long s) except -1
+
+    cpdef int set_branch(self, long long s, long long branch) except -1
+
+    cpdef int set_inputs(self, long long s, long long inputs, long long watch) except -1
+
+    @cython.locals(h="long long")
+    cpdef int hold(self, long long s, long long kind, long long identity, long long extent) except -1
+
+    @cython.locals(h="long long")
+    cpdef int drop_hold(self, long long s) except -1
+
+    @cython.locals(size="long long")
+    cpdef int grow_pairs(self) except -1
+
+    @cython.locals(start="long long")
+    cpdef long long new_cells(self, long long size) except? -1
+
+    cpdef int release_cells(self, long long start, long long size) except -1
+
+    @cython.locals(at="long long")
+    cpdef int log(self, long long code, long long index, long long old) except -1
