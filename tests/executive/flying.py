@@ -67,6 +67,7 @@ def fly(
     on_failure: OnFailure = "abort_agent",
     seed: int = 1,
     overrides: Mapping[str, float] | None = None,
+    every_tick: bool = False,
 ) -> Outcome:
     """Fly one mission."""
     agent = AgentConfiguration(
@@ -80,7 +81,7 @@ def fly(
     )
     programs = tuple(program(flyer.configuration.model, flyer.text) for flyer in flyers)
     solvers = tuple(default_configuration() for _ in flyers)
-    return run_mission(agent, MissionPrograms(programs, solvers), seed, overrides)
+    return run_mission(agent, MissionPrograms(programs, solvers), seed, overrides, every_tick)
 
 
 def lines(outcome: Outcome, *kinds: str) -> list[str]:

@@ -1,0 +1,117 @@
+"""One mission, one outcome: run again, in another process, in the other form of the engine, or with every tick visited."""
+
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+import pytest
+
+from checker.flight import load_programs
+from checker.mission import read_mission
+from checker.models import load_models
+from checker.sampling.seeds import mission_seed
+from checker.smt.confirm import Finding, confirm
+from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ParameterConfiguration
+from runtime.executive.mission import MissionPrograms, run_mission
+from runtime.executive.outcome import Outcome
+from tests.executive.flying import fly, lines, planner, simulator
+
+FOLDER = Path(__file__).resolve().parents[2]
+LAMP = """
+class Lamp extends AgentTimeline { predicate Off { } predicate On { int n; } Lamp(Mode m) { super(m, "Off"); } }
+"""
+OWNER = f"""{LAMP}
+int GLOW = [2 9];
+Lamp::On {{ int glow; glow == sampledParameter(GLOW); duration == glow; }}
+Lamp lamp = new Lamp(Internal); close();
+"""
+USER = f"""{LAMP}
+class User extends AgentTimeline {{ predicate Idle {{ }} predicate Busy {{ int k; }} User(Mode m) {{ super(m, "Idle"); }} }}
+User::Busy {{ contains(Lamp.On on); on.n == k; meets(Idle rest); on.end == end; on.duration <= 6; }}
+User user = new User(Internal); Lamp lamp = new Lamp(External); close();
+"""
+GOALS = tuple(
+    GoalConfiguration("user", "Busy", mandatory=True, start=(1, 90), parameters=(("k", k),)) for k in range(5)
+)
+
+
+def toy(seed: int) -> Outcome:
+    """Five goals, some of which are repaired away when the lamp glows too long."""
+    glow = ParameterConfiguration("GLOW", 2.0, 9.0, mode="intra", update=5, is_whole=True)
+    return fly(
+        planner("user", USER, "user", "lamp"),
+        simulator("sim", OWNER, "lamp"),
+        until=80,
+        goals=GOALS,
+        parameters=(glow,),
+        seed=seed,
+    )
+
+
+def told(hash_seed: str, interpreted: str) -> str:
+    """The trace of one toy mission, flown by another process."""
+    code = "from tests.executive.test_equal_runs import lines, toy; print(*lines(toy(3)), sep='\\n')"
+    environment = {**os.environ, "PYTHONHASHSEED": hash_seed, "NDDLC_INTERPRETED": interpreted}
+    done = subprocess.run(
+        [sys.executable, "-c", f"import runtime.build_form; {code}"],
+        env=environment,
+        cwd=FOLDER,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return done.stdout
+
+
+def test_the_same_seed_flies_the_same_mission_twenty_times() -> None:
+    first = toy(3)
+    assert any(event.kind == "relax" for event in first.events)
+    assert all(toy(3) == first for _ in range(19))
+    assert toy(4) != first
+
+
+def test_neither_hash_seed_nor_form_of_the_engine_matters() -> None:
+    here = "\n".join(lines(toy(3))) + "\n"
+    assert told("1", "0") == here
+    assert told("2", "1") == here
+
+
+def test_visiting_every_tick_changes_nothing() -> None:
+    glow = ParameterConfiguration("GLOW", 2.0, 9.0, mode="intra", update=5, is_whole=True)
+    flyers = (planner("user", USER, "user", "lamp"), simulator("sim", OWNER, "lamp"))
+    for seed in range(6):
+        visited = fly(*flyers, until=80, goals=GOALS, parameters=(glow,), seed=seed, every_tick=True)
+        assert visited == toy(seed)
+
+
+@lru_cache(maxsize=1)
+def gps() -> tuple[AgentConfiguration, MissionPrograms]:
+    """The mission of models/gps."""
+    mission, _ = read_mission(FOLDER / "models/gps/mission.toml")
+    assert mission is not None
+    agent = load_models(mission).agent
+    reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
+    return agent, load_programs(Path(agent.root), reactors)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [0, 16])
+def test_visiting_every_tick_of_a_real_mission_changes_nothing(number: int) -> None:
+    agent, programs = gps()
+    seed = mission_seed(7234, number)
+    assert run_mission(agent, programs, seed, every_tick=True) == run_mission(agent, programs, seed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", range(3))
+def test_z3_agrees_that_a_failing_mission_cannot_go_on(number: int) -> None:
+    agent, programs = gps()
+    seed = mission_seed(7234, number)
+    outcome = run_mission(replace(agent, final_tick=420), programs, seed, {"GPS_HIT_RATE": 3.9 + number / 30})
+    assert outcome.abort is not None and outcome.abort.conflict is not None
+    for conflict in (outcome.abort.conflict, *outcome.abort.repairs):
+        found = confirm(conflict)
+        assert found.finding is Finding.CONFIRMED and found.untranslated == ()
