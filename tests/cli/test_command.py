@@ -18,6 +18,7 @@ LAMP = """class Lamp extends Timeline { predicate lit { int level = [1 3]; } }
 Lamp lamp = new Lamp();
 close();
 int watts = 60;
+watts <= 100;
 goal(lamp.lit g);
 g.start = 5;
 """

@@ -1,7 +1,7 @@
 """What is shown beside a place: the text marks it with `^` in the line below, as editors count."""
 
 import pytest
-from lsprotocol.types import Position
+from lsprotocol.types import DiagnosticSeverity, Position
 
 from lsp.definition import definition_of
 from lsp.documents import Documents
@@ -74,7 +74,8 @@ def shown(where: str, text: str = MODEL, uri: str = URI) -> str:
 
 
 def test_the_model_of_these_tests_is_sound() -> None:
-    assert Documents().open(URI, 1, MODEL)[0].diagnostics == ()
+    found = Documents().open(URI, 1, MODEL)[0].diagnostics
+    assert [each.message for each in found if each.severity is DiagnosticSeverity.Error] == []
 
 
 @pytest.mark.parametrize(

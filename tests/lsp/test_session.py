@@ -14,7 +14,7 @@ Gps::Active {
   float rate;
   rate == sampledParameter(GPS_HIT_RATE);
   duration <= rate * minHitz;
-  met_by(Inactive p);
+  met_by(Inactive);
 }
 """
 VEHICLE = """\
@@ -58,7 +58,7 @@ def test_a_session_from_the_first_complaint_to_the_exit(client: Any, tmp_path: P
     assert "float GPS_HIT_RATE = [0.1 4.0]" in shown
     assert "Seconds per hit." in shown
     assert "`Gps::Active` [model.nddl:8]" in shown
-    assert "Here, for this token (`Gps.Active`) and `p` (`Gps.Inactive`):" in client.hover(uri, 9, 4)
+    assert "Here, for this token (`Gps.Active`) and `Inactive` (`Gps.Inactive`):" in client.hover(uri, 9, 4)
     assert client.hover(uri, 1, 0) is None
 
     told = client.change(uri, {"range": place(8, 27, 28), "text": "s"})
