@@ -45,6 +45,8 @@ def release(plan: Plan, number: int) -> None:
     """Go back to a mark and drop it."""
     rewind(plan, number)
     plan.rows.level = number
+    if number == 0:
+        plan.engine.commit()
 
 
 def commit(plan: Plan) -> None:
