@@ -1,14 +1,14 @@
 """`nddlc rule`: what a code means, why it is complained about, and an example of either kind."""
 
-import re
 import textwrap
 from collections.abc import Iterator
 
 import click
 
 from checker import mission_codes
+from nddl_lang.lint import configuration as configuration_codes
+from nddl_lang.rulebook import PAGES, configuration, readable
 from nddl_lang.semantics.nearest import nearest
-from nddl_lang.semantics.pages import PAGES
 from nddl_lang.syntax import codes as syntax_codes
 from nddl_lang.text.diagnostic import Code
 from nddlc.inputs import Unusable
@@ -20,12 +20,13 @@ WIDTH = 100
 
 @click.command()
 @click.argument("code", required=False)
-def command(code: str | None) -> None:
+@click.option("--list", "is_list", is_flag=True, help="List all codes, as without a code.")
+def command(code: str | None, is_list: bool) -> None:
     """Explain a code that a message carries; without a code, list them all."""
     known = {each.id: each for each in _codes()}
-    if code is None:
+    if code is None or is_list:
         for each in known.values():
-            click.echo(f"{each.id}  {each.severity.value:<7}  {_readable(each)}")
+            click.echo(f"{each.id}  {each.severity.value:<7}  {readable(each)}")
         return
     found = known.get(code.upper())
     if found is None:
@@ -37,18 +38,13 @@ def command(code: str | None) -> None:
 def _codes() -> list[Code]:
     """All codes, by number."""
     found = {page.code.id: page.code for page in PAGES.values()}
-    for module in (syntax_codes, faults, complaints, mission_codes):
+    for module in (syntax_codes, configuration_codes, faults, complaints, mission_codes):
         found |= {each.id: each for each in vars(module).values() if isinstance(each, Code)}
     return [found[name] for name in sorted(found)]
 
 
-def _readable(code: Code) -> str:
-    """The message with dots where a text's own words come."""
-    return re.sub(r"\{\w+\}", "...", code.template)
-
-
 def _page(code: Code) -> Iterator[str]:
-    yield f"{code.id} ({code.severity.value}): {_readable(code)}"
+    yield f"{code.id} ({code.severity.value}): {readable(code)}"
     page = PAGES.get(code.id)
     if page is None:
         return
@@ -60,3 +56,6 @@ def _page(code: Code) -> Iterator[str]:
         yield caption
         yield ""
         yield textwrap.indent(example.rstrip("\n"), "    ")
+    for paragraph in configuration(code):
+        yield ""
+        yield from textwrap.wrap(paragraph, WIDTH)

@@ -38,4 +38,4 @@ class Checker:
     def _check(self, source: Source, settings: Settings) -> tuple[Diagnostic, ...]:
         directories = (*self._directories, *settings.directories)
         loaded = load_module_graph(source, directories, self._dialect or settings.dialect)
-        return tuple(settings.choose(Linter().lint(Analyser().analyse(loaded))))
+        return tuple(settings.choose(Linter().lint(Analyser(settings.callables).analyse(loaded))))

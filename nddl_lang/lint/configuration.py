@@ -80,6 +80,7 @@ class _Reader:
             "include": lambda key, value: {"directories": tuple(self._directories(key, value))},
             "dialect": lambda key, value: {"dialect": self._one_of(key, value, _DIALECTS)},
             "fail-on": lambda key, value: {"fail_on": self._one_of(key, value, _FAIL_ON, Severity.WARNING)},
+            "constraints": lambda key, value: {"modules": tuple(self._modules(key, value))},
             "severity": lambda key, value: {"severities": tuple(self._weights(key, value))},
         }
         settings = Settings()
@@ -106,6 +107,20 @@ class _Reader:
                 yield directory
             else:
                 self._wrong((*key, index), item, "a directory, seen from this file")
+
+    def _modules(self, key: Key, value: Any) -> Iterator[Path]:
+        if not isinstance(value, dict):
+            self._wrong(key, key[-1], "a table, as in `[constraints]` with `modules`")
+            return
+        for name in value:
+            if name != "modules":
+                self._unknown((*key, name), name, {"modules": None})
+        for index, item in enumerate(self._texts((*key, "modules"), value.get("modules", []))):
+            path = self._directory / item
+            if path.is_file():
+                yield path
+            else:
+                self._wrong((*key, "modules", index), item, "a Python file, seen from this file")
 
     def _weights(self, key: Key, value: Any) -> Iterator[tuple[str, Severity | None]]:
         if not isinstance(value, dict):

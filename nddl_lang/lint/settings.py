@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 
@@ -13,7 +14,8 @@ class Settings:
     """What a configuration file or a command line asks for.
 
     Codes may be cut short: `NDDL5` means all that begin so. `severities` maps codes to what they weigh, None meaning
-    not at all. `fail_on` None: findings never make the command fail.
+    not at all. `fail_on` None: findings never make the command fail. `modules` are the Python files with the project's
+    own constraints; `callables` is what models may call once they are loaded, which is not done here.
     """
 
     select: tuple[str, ...] = ()
@@ -22,6 +24,8 @@ class Settings:
     directories: tuple[Path, ...] = ()
     dialect: Dialect | None = None
     fail_on: Severity | None = Severity.WARNING
+    modules: tuple[Path, ...] = ()
+    callables: Callables = NATIVE_CALLABLES
 
     def choose(self, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
         """The findings that are asked for; an error always is."""

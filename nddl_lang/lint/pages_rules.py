@@ -1,0 +1,137 @@
+"""The pages of the findings about rules: conditions, times, and what asks for what."""
+
+from nddl_lang.lint.guards import ALWAYS_TRUE, NEVER_DECIDED, NEVER_TRUE, SEVERAL_VALUES, VARYING_FIELD
+from nddl_lang.lint.structure import CHAIN, ENDLESS, NEVER_FIRES, NO_EFFECT, UNREACHABLE
+from nddl_lang.lint.subgoals import ANY_OBJECT, ANY_OF_MANY
+from nddl_lang.lint.timing import CONTRADICTION, NO_DURATION, TOO_LONG
+from nddl_lang.text.page import RulePage
+
+_GAUGE = "class Gauge extends Timeline { predicate shown { int level = [0 3]; } predicate dark { } }\n"
+_SCRIPT = "Gauge gauge = new Gauge();\nclose();\ngoal(gauge.shown g);\ng.level = 2;\n"
+
+RULE_LINT_PAGES = (
+    RulePage(
+        NEVER_TRUE,
+        "For none of the values that its variables can have, the condition holds: the branch is dead.",
+        "What is looked at are declarations, the comparisons beside it in the rule, and the conditions around it.",
+        _GAUGE + "Gauge::shown { if (level == 7) { meets(dark); } }\n",
+        _GAUGE + "Gauge::shown { if (level == 3) { meets(dark); } }\n",
+    ),
+    RulePage(
+        ALWAYS_TRUE,
+        "For all values that its variables can have, the condition holds: the `else` is dead, the `if` needless.",
+        "The last condition of a chain of `else if` is not complained about, where it only spells out the rest.",
+        _GAUGE + "Gauge::shown { if (level <= 5) { meets(dark); } }\n",
+        _GAUGE + "Gauge::shown { if (level <= 2) { meets(dark); } }\n",
+    ),
+    RulePage(
+        SEVERAL_VALUES,
+        "A condition compares with an interval or a set of several values.",
+        "Such a value is no single one, so the comparison is never decided and neither branch ever runs.",
+        _GAUGE + "Gauge::shown { if (level == [1 2]) { meets(dark); } }\n",
+        _GAUGE + "Gauge::shown { if (level >= 1 && level <= 2) { meets(dark); } }\n",
+    ),
+    RulePage(
+        NEVER_DECIDED,
+        "A condition asks for a local number that is only narrowed by constraints.",
+        "A condition waits until each of its variables is decided. A search decides only variables with finitely "
+        "many values; that constraints leave a single value does not count.",
+        _GAUGE + "Gauge::shown { int twice; twice == level * 2; if (twice == 4) { meets(dark); } }\n",
+        _GAUGE + "Gauge::shown { if (level == 2) { meets(dark); } }\n",
+    ),
+    RulePage(
+        VARYING_FIELD,
+        "A condition asks for a member of an object while it may be one of several that differ in it.",
+        "EUROPA looks at the member once, when the rule starts. nddlc decides it as soon as the object is decided.",
+        "// nddlc: dialect=nddl3\nclass Lamp extends Timeline { int kind; Lamp(int k) { kind = k; } predicate lit { } "
+        "predicate dark { } }\nLamp::lit { if (object.kind == 1) { meets(dark); } }\n"
+        "Lamp a = new Lamp(1);\nLamp b = new Lamp(2);\n",
+        "// nddlc: dialect=nddl3\nclass Lamp extends Timeline { int kind; Lamp(int k) { kind = k; } predicate lit { } "
+        "predicate dark { } }\nLamp::lit { if (object.kind == 1) { meets(dark); } }\n"
+        "Lamp a = new Lamp(1);\nLamp b = new Lamp(1);\n",
+    ),
+    RulePage(
+        CONTRADICTION,
+        "Relations, durations and comparisons of times in one rule, or in one branch of it, exclude each other.",
+        "Each is a bound on the distance of two times; the ones that are listed form a circle which adds up to less "
+        "than nothing. A token of the predicate can never be part of a plan in which the branch holds.",
+        _GAUGE + "Gauge::shown { meets(dark d); met_by(dark e); d before e; level >= 1; }\n",
+        _GAUGE + "Gauge::shown { meets(dark d); met_by(dark e); e before d; level >= 1; }\n",
+    ),
+    RulePage(
+        TOO_LONG,
+        "A token must lie within another one that is shorter.",
+        "Both durations are bounded in the rule or in the declarations, and the bounds do not fit.",
+        _GAUGE + "Gauge::shown { contains(dark d); duration <= 5; d.duration >= 9; level >= 1; }\n",
+        _GAUGE + "Gauge::shown { contains(dark d); duration <= 9; d.duration >= 5; level >= 1; }\n",
+    ),
+    RulePage(
+        NO_DURATION,
+        "A token is to last no time at all.",
+        "Every token but the events of a `Reservoir` lasts at least 1.",
+        _GAUGE + "Gauge::shown { duration == 0; level >= 1; }\n",
+        _GAUGE + "Gauge::shown { duration == 1; level >= 1; }\n",
+    ),
+    RulePage(
+        UNREACHABLE,
+        "No goal or fact of the script asks for a token of this predicate, neither do the rules that they lead to.",
+        "The predicate is dead, or a goal or a subgoal is missing. Rules go by the class that a token is made with. "
+        "Only predicates of the linted file are judged, in a model with goals; those of an `AgentTimeline` count as "
+        "reached, since other reactors make tokens of them.",
+        _GAUGE + "Gauge::shown { level >= 1; }\n" + _SCRIPT,
+        _GAUGE + "Gauge::shown { level >= 1; meets(dark); }\n" + _SCRIPT,
+    ),
+    RulePage(
+        NEVER_FIRES,
+        "Tokens of this predicate are only made as those of another class, so the rule never runs.",
+        "A rule goes by the class that a token is made with, `Base.p` or `Sub.p`, not by the object that it stands "
+        "on in the end.",
+        _GAUGE + "class Dial extends Gauge { }\nGauge::shown { meets(dark); level >= 1; }\n"
+        "Dial::shown { level >= 2; }\n" + _SCRIPT,
+        _GAUGE + "class Dial extends Gauge { }\nGauge::shown { meets(dark); level >= 1; }\n"
+        "Dial::shown { level >= 2; }\nDial dial = new Dial();\n" + _SCRIPT + "goal(dial.shown h);\n",
+    ),
+    RulePage(
+        ENDLESS,
+        "Each token of this predicate asks for another one that differs from it, and none of them comes later.",
+        "The chain never ends: tokens that differ cannot be merged, and time does not run out. Put a condition "
+        "around the subgoal.",
+        "class Step extends Timeline { predicate at { int n; } }\n"
+        "Step::at { any(object.at q); q.n == n - 1; }\nStep s = new Step();\nclose();\n",
+        "class Step extends Timeline { predicate at { int n; } }\n"
+        "Step::at { if (n > 0) { any(object.at q); q.n == n - 1; } }\nStep s = new Step();\nclose();\n",
+    ),
+    RulePage(
+        CHAIN,
+        "Each token of this predicate asks for a later one of the same.",
+        "The chain ends only at the horizon, which is often meant so. Only editors show this; `--level hint` shows "
+        "it elsewhere.",
+        _GAUGE + "Gauge::shown { meets(dark); level >= 1; }\nGauge::dark { meets(shown); }\n" + _SCRIPT,
+        _GAUGE + "Gauge::shown { meets(dark); level >= 1; }\n" + _SCRIPT,
+    ),
+    RulePage(
+        ANY_OBJECT,
+        "A rule asks for a token of its own class by the name of the class.",
+        "Any object of the class may then hold the token, not only the rule's own. Usually `object.p` is meant; "
+        "where another object is, say which.",
+        _GAUGE + "Gauge::shown { meets(Gauge.dark); level >= 1; }\n",
+        _GAUGE + "Gauge::shown { meets(object.dark); level >= 1; }\n",
+    ),
+    RulePage(
+        ANY_OF_MANY,
+        "`any` relates a token without a name, of a predicate that unrelated classes have.",
+        "It demands that such a token exists at some time, nothing else; often it is left from looking for a fault.",
+        _GAUGE + "class Lamp extends Timeline { predicate dark { } }\nGauge::shown { any(object.dark); level >= 1; }\n",
+        _GAUGE + "class Lamp extends Timeline { predicate dark { } }\n"
+        "Gauge::shown { before(object.dark); level >= 1; }\n",
+    ),
+    RulePage(
+        NO_EFFECT,
+        "No rule on this action marks a token as its effect.",
+        "A goal that needs an action is achieved by one of its effects. Without any, the action is a plain predicate.",
+        "class Arm extends Timeline { predicate held { } action grab { } }\n"
+        "Arm::grab { meets(object.held); }\nArm arm = new Arm();\nclose();\n",
+        "class Arm extends Timeline { predicate held { } action grab { } }\n"
+        "Arm::grab { meets(effect object.held); }\nArm arm = new Arm();\nclose();\n",
+    ),
+)
