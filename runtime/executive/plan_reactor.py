@@ -55,6 +55,8 @@ class PlanReactor:
 
     def start_tick(self, tick: int) -> None:
         """Set "now", and turn the requests whose time has come into goals."""
+        self.bench.archive(self.timelines, self.tick)
+        self.bench.tidy()
         self.tick = tick
         self.steps_left = self.max_steps
         self.is_stirred = False

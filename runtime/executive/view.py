@@ -57,6 +57,7 @@ class PlanView:
         self.predicates = {predicate.name: number for number, predicate in enumerate(database.program.predicates)}
         self.globals = {name: number for number, (name, _) in enumerate(database.program.globals)}
         self.requested: dict[int, int] = {}  # token -> key
+        self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
         self.external_objects: set[int] = set()
 
     # ---- names ----

@@ -4,7 +4,9 @@ from math import inf
 
 from compiler.program import FIRST_PARAMETER, DomainConstant
 from runtime.executive.messages import Arguments
+from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST, PlanView
+from runtime.plan.archiving import archive
 from runtime.plan.codes import (
     FLAG_FACT,
     FLAG_GOAL,
@@ -49,6 +51,7 @@ class Workbench(PlanView):
         """Raise a lower bound."""
         if self.engine.lower(v) >= bound:
             return True
+        self.moved[v] = None
         return self.engine.restrict_base(v, bound, inf, span, t) and self.database.settle()
 
     def at_most(self, v: int, bound: float, span: int, t: int) -> bool:
@@ -133,6 +136,36 @@ class Workbench(PlanView):
     def cancel(self, t: int) -> bool:
         """Take a token out of the plan, with all that followed from it; it stays to be decided again."""
         return bool(self.database.cancel(t))
+
+    def archive(self, timelines: list[TimelineState], tick: int) -> int:
+        """Take out of the plan what is over; of each timeline the token before the current one is kept.
+
+        What is done by rules that say "met by" finds its partner for as long as the next token holds.
+        """
+        kept = set()
+        for line in timelines:
+            if line.current >= 0:
+                kept.add(line.current)
+                kept.add(int(self.rows.link_before[LISTS * line.current + LIST_ORDER]))
+        count = self.rows.token_count
+        over = [t for t in range(count) if t not in kept and not self.is_freed(t) and self.is_over(t, tick)]
+        return archive(self.database.plan, over, tick) if over and self.database.settle() else 0
+
+    def tidy(self) -> None:
+        """Forget limits of times that a later one of the same kind has made needless: they grow with every tick."""
+        engine = self.engine
+        needless: list[int] = []
+        for v in self.moved:
+            lowest: dict[int, int] = {}
+            for r in engine.restrictions_of(v):  # the newest first, and those of the clock only ever grow
+                span = engine.restriction_span[r]
+                if span < -1 and engine.restriction_hi[r] == inf and engine.restriction_flags[r] == 0:
+                    if lowest.setdefault(span, r) != r:
+                        needless.append(r)
+        self.moved.clear()
+        if needless:
+            engine.retract((), (), needless, ())
+            self.database.settle()
 
     def remove(self, tokens: list[int]) -> bool:
         """Take tokens away for good."""

@@ -39,7 +39,7 @@ def fill(q: Queues) -> int:
         elif q.rows.status[t] == ACTIVE:
             add_threat(q, t)
     for v in range(q.engine.variables):
-        if q.engine.kind[v] >= 0:
+        if q.engine.kind[v] >= 0 and not q.engine.constant[v]:
             add_variable(q, v)
     q.rows_seen = q.rows.trail_length if q.rows.level else 0  # the first mark empties that trail
     q.engine_seen = q.engine.trail_size

@@ -9,14 +9,16 @@ from pathlib import Path
 
 import pytest
 
-from checker.flight import load_programs
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.sampling.seeds import mission_seed
 from checker.smt.confirm import Finding, confirm
+from compiler.lower import compile_model
+from nddl_lang.analysis import analyse_file
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ParameterConfiguration
 from runtime.executive.mission import MissionPrograms, run_mission
 from runtime.executive.outcome import Outcome
+from runtime.solver.configuration import default_configuration
 from tests.executive.flying import fly, lines, planner, simulator
 
 FOLDER = Path(__file__).resolve().parents[2]
@@ -93,8 +95,8 @@ def gps() -> tuple[AgentConfiguration, MissionPrograms]:
     mission, _ = read_mission(FOLDER / "models/gps/mission.toml")
     assert mission is not None
     agent = load_models(mission).agent
-    reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    return agent, load_programs(Path(agent.root), reactors)
+    programs = tuple(compile_model(analyse_file(Path(agent.root) / reactor.model)) for reactor in agent.reactors)
+    return agent, MissionPrograms(programs, tuple(default_configuration() for _ in programs))
 
 
 @pytest.mark.slow
