@@ -5,7 +5,8 @@ from runtime.constraints.engine cimport Engine
 from runtime.plan.plan cimport Plan
 from runtime.plan.rows cimport Rows
 
-cdef long long FIRST_WRITTEN, HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES, INFINITY, OP_EQ
+cdef long long FIRST_WRITTEN, HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES, INFINITY
+cdef long long KIND_FLOAT, NONE, OP_EQ
 
 
 @cython.locals(holds=bint)
@@ -20,7 +21,7 @@ cpdef bint edge(
 ) except -1
 
 
-@cython.locals(arguments=list, owner="long long", rows=Rows)
+@cython.locals(arguments=list, owner="long long", position="long long", rows=Rows)
 cpdef long long constraint(
     Plan plan, long long scope, long long operation, long long first, long long span
 ) except? -1
@@ -55,5 +56,8 @@ cpdef long long make_variable(
 ) except? -1
 
 
-@cython.locals(kind="long long", values=list)
-cpdef long long copy(Engine engine, long long prototype) except? -1
+@cython.locals(engine=Engine, kind="long long", values=list)
+cpdef long long copy(Plan plan, long long prototype) except? -1
+
+
+cpdef bint is_gapless(long long kind, list values) except -1

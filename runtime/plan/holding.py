@@ -1,7 +1,6 @@
 """Post edges and constraints, make variables, and hang each on the scope that wants it: the door to the engine."""
 
-from runtime.constraints.codes import OP_EQ
-from runtime.constraints.engine import Engine
+from runtime.constraints.codes import KIND_FLOAT, OP_EQ
 from runtime.plan.codes import (
     FIRST_WRITTEN,
     HOLDS_CONSTRAINT,
@@ -9,6 +8,7 @@ from runtime.plan.codes import (
     HOLDS_RESTRICTION,
     HOLDS_VARIABLES,
     INFINITY,
+    NONE,
 )
 from runtime.plan.plan import Plan
 
@@ -37,7 +37,9 @@ def constraint(plan: Plan, scope: int, operation: int, first: int, span: int) ->
     """Post a constraint on the operands collected from `first` on, and forget them; its id."""
     rows = plan.rows
     owner = rows.scope_token[scope]
-    arguments = [int(v) for v in plan.operands[first : plan.operands_used]]
+    arguments: list[int] = []
+    for position in range(first, plan.operands_used):
+        arguments.append(plan.operands[position])
     plan.operands_used = first
     if operation < FIRST_WRITTEN:
         c = plan.engine.post(operation, arguments, span, owner)
@@ -91,19 +93,30 @@ def copy_variable(plan: Plan, scope: int, prototype: int, role: int, name: int) 
 
 def make_variable(plan: Plan, prototype: int, role: int, owner: int, name: int) -> int:
     """Make a variable like a prototype."""
-    v = copy(plan.engine, prototype)
+    v = copy(plan, prototype)
     plan.note_variable(v, role, owner, name)
     if plan.engine.is_open[v]:
         plan.services.note_open(v, prototype)
     return v
 
 
-def copy(engine: Engine, prototype: int) -> int:
-    """Make a variable with the base domain of another one."""
+def copy(plan: Plan, prototype: int) -> int:
+    """Make a variable with the base domain of another one, which does not change once it is closed."""
+    engine = plan.engine
     kind = engine.kind[prototype]
+    if prototype < plan.form_capacity and plan.form[prototype]:
+        return engine.new_interval(kind, plan.form_lower[prototype], plan.form_upper[prototype], NONE, NONE)
     values = engine.base_values(prototype)
     if engine.is_open[prototype]:
-        return engine.new_open(kind, values or [], -1, -1)
-    if values is not None:
-        return engine.new_values(kind, values, -1, -1)
-    return engine.new_interval(kind, engine.base_lower(prototype), engine.base_upper(prototype), -1, -1)
+        return engine.new_open(kind, values or [], NONE, NONE)
+    if values is not None and not is_gapless(kind, values):
+        return engine.new_values(kind, values, NONE, NONE)
+    lower = values[0] if values else engine.base_lower(prototype)
+    upper = values[-1] if values else engine.base_upper(prototype)
+    plan.note_form(prototype, lower, upper)
+    return engine.new_interval(kind, lower, upper, NONE, NONE)
+
+
+def is_gapless(kind: int, values: list[float]) -> bool:
+    """Whether a sorted set of whole numbers is an interval."""
+    return kind != KIND_FLOAT and len(values) > 0 and values[-1] - values[0] + 1 == len(values)

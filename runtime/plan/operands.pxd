@@ -7,7 +7,7 @@ from runtime.plan.plan cimport Plan
 from runtime.plan.rows cimport Rows
 
 cdef long long HOLDS_CONSTRAINT, HOLDS_VARIABLES, IN_CONSTANT, IN_FIELD, IN_GLOBAL, IN_LOCAL, IN_PROTOTYPE, IN_SELF
-cdef long long IN_TOKEN, IN_UNION, NONE, ROLE_INTERNAL, TOKEN_SHIFT
+cdef long long IN_TOKEN, IN_UNION, KIND_FLOAT, KIND_INT, NONE, ROLE_INTERNAL, TOKEN_SHIFT
 
 
 @cython.locals(rows=Rows, slot="long long")
@@ -23,10 +23,14 @@ cpdef long long member(Plan plan, long long o, long long name) except? -1
 
 
 @cython.locals(
-    c="long long", engine=Engine, members=list, owner="long long", prototype="long long", result="long long",
-    v="long long", values=list
+    c="long long", engine=Engine, members=list, o="long long", owner="long long", prototype="long long",
+    result="long long", v="long long", values=list
 )
 cpdef long long proxy(Plan plan, long long scope, long long index, long long name, long long span) except? -1
+
+
+@cython.locals(engine=Engine, lower=double, upper=double, values=list)
+cpdef list base_listed(Plan plan, long long v)
 
 
 @cython.locals(engine=Engine, kind="long long", owner="long long", v="long long", values=list)

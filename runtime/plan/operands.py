@@ -1,5 +1,6 @@
 """Find the engine variable that an operand means; object fields become proxies while their object is unknown."""
 
+from runtime.constraints.codes import KIND_FLOAT, KIND_INT
 from runtime.plan.codes import (
     HOLDS_CONSTRAINT,
     HOLDS_VARIABLES,
@@ -68,10 +69,11 @@ def proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
     values: list[int] = []
     members: list[int] = []
     prototype = plan.name_prototype[name]
-    for o in engine.base_values(index) or []:
-        v = member(plan, int(o), name)
+    for each in base_listed(plan, index):
+        o = int(each)
+        v = member(plan, o, name)
         if v >= 0:
-            values.append(int(o))
+            values.append(o)
             members.append(v)
     result = copy_variable(plan, scope, prototype, ROLE_INTERNAL, NONE)
     plan.proxy_index[result] = index
@@ -83,6 +85,19 @@ def proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
     return result
 
 
+def base_listed(plan: Plan, v: int) -> list[float]:
+    """The values of a base domain; of an interval of numbers its two ends."""
+    engine = plan.engine
+    values = engine.base_values(v)
+    if values is not None:
+        return values
+    lower = engine.base_lower(v)
+    upper = engine.base_upper(v)
+    if engine.kind[v] == KIND_INT or engine.kind[v] == KIND_FLOAT:
+        return [lower, upper]
+    return [float(x) for x in range(int(lower), int(upper) + 1)]
+
+
 def unite(plan: Plan, scope: int, number: int, span: int) -> int:
     """A variable whose domain is the union of the base domains of several others, as they are now."""
     engine = plan.engine
@@ -91,7 +106,7 @@ def unite(plan: Plan, scope: int, number: int, span: int) -> int:
     for source_kind, source in plan.unions[number]:
         v = operand(plan, scope, source_kind, source, span)
         kind = engine.kind[v]
-        values += engine.base_values(v) or [engine.base_lower(v), engine.base_upper(v)]
+        values += base_listed(plan, v)
     owner = plan.rows.scope_token[scope]
     v = engine.new_values(kind, values, span, owner)
     plan.note_variable(v, ROLE_INTERNAL, owner, NONE)

@@ -14,6 +14,7 @@ cdef class Plan:
     cdef public long long[::1] code, block_start, block_end, field_kind
     cdef public long long[::1] field_value, field_start, field_length, field_names
     cdef public long long[::1] predicate_class, predicate_flags, predicate_timeline, predicate_resource
+    cdef public long long[::1] predicate_suffix, predicate_at, predicate_parent, predicate_root
     cdef public long long[::1] parameter_start, parameter_count, parameter_prototype, parameter_copy_kind
     cdef public long long[::1] parameter_copy_value, parameter_name, body_block, body_slots
     cdef public long long[::1] body_tokens, first_rule, rule_number, rule_block
@@ -21,18 +22,20 @@ cdef class Plan:
     cdef public long long[::1] relation_start, relation_distance, relation_duration, class_prototype
     cdef public long long[::1] class_closed, object_class, object_var0, object_constant
     cdef public long long[::1] object_head, object_timeline, member_at, name_prototype
-    cdef public long long[::1] globals, variable_role, variable_owner, variable_name
-    cdef public long long[::1] variable_guards, proxy_index, proxy_member, awaited
-    cdef public long long[::1] guard_of, stack_at, stack_end, stack_scope
-    cdef public long long[::1] stack_slot, stack_value, queue, operands
-    cdef public long long[::1] mark_engine, mark_rows, mark_uses, mark_awaited
-    cdef public long long[::1] mark_objects
-    cdef public long long state_prototype, rejectable_prototype, native_prototype, duration_prototype
-    cdef public long long instant_prototype, time_prototype, object_capacity, object_count
-    cdef public long long first_object_head, member_names, clock, variable_capacity
-    cdef public long long awaited_capacity, awaited_count, watch_capacity, stack_capacity
-    cdef public long long stack_length, queue_capacity, queue_length, operand_capacity
-    cdef public long long operands_used, mark_capacity, statement, self_object
+    cdef public long long[::1] form, globals, variable_role, variable_owner
+    cdef public long long[::1] variable_name, variable_guards, proxy_index, proxy_member
+    cdef public long long[::1] awaited, guard_of, stack_at, stack_end
+    cdef public long long[::1] stack_scope, stack_slot, stack_value, queue
+    cdef public long long[::1] operands, mark_engine, mark_rows, mark_uses
+    cdef public long long[::1] mark_awaited, mark_objects
+    cdef public long long suffixes, state_prototype, rejectable_prototype, native_prototype
+    cdef public long long duration_prototype, instant_prototype, time_prototype, object_capacity
+    cdef public long long object_count, first_object_head, member_names, form_capacity
+    cdef public long long clock, variable_capacity, awaited_capacity, awaited_count
+    cdef public long long watch_capacity, stack_capacity, stack_length, queue_capacity
+    cdef public long long queue_length, operand_capacity, operands_used, mark_capacity
+    cdef public long long statement, self_object
+    cdef public double[::1] form_lower, form_upper
     cdef public list unions
     cdef public object services, envelope
     cdef public Resources resources
@@ -56,6 +59,8 @@ cdef class Plan:
     cpdef int add_operand(self, long long v) except -1
 
     cpdef int note_watch(self, long long constraint, long long guard) except -1
+
+    cpdef int note_form(self, long long prototype, double lower, double upper) except -1
 
     cpdef int await_variable(self, long long v) except -1
 

@@ -4,7 +4,7 @@ from array import array
 from typing import Protocol
 
 from runtime.constraints.engine import Engine
-from runtime.plan.arrays import blank, grown
+from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
 from runtime.plan.codes import NONE
 from runtime.plan.resources import Envelope, Resources
 from runtime.plan.rows import Rows
@@ -52,6 +52,12 @@ class Plan:
         self.predicate_flags = blank(1)
         self.predicate_timeline = blank(1)
         self.predicate_resource = blank(1)
+        # Predicates of one name: what the class has under each name, the base class's, and the topmost.
+        self.suffixes = 0
+        self.predicate_suffix = blank(1)
+        self.predicate_at = blank(1)
+        self.predicate_parent = blank(1)
+        self.predicate_root = blank(1)
         self.parameter_start = blank(1)
         self.parameter_count = blank(1)
         self.parameter_prototype = blank(1)
@@ -94,6 +100,11 @@ class Plan:
         self.member_names = 0
         self.member_at = blank(1)
         self.name_prototype = blank(1)
+        # Prototypes whose domain is an interval.
+        self.form_capacity = 256
+        self.form = blank(256)
+        self.form_lower = blank_reals(256)
+        self.form_upper = blank_reals(256)
         # Global variables, and what every engine variable is.
         self.globals = blank(1)
         self.clock = NONE  # the global that reads "now or later" during execution: a guard does not wait for its value
@@ -214,6 +225,18 @@ class Plan:
                 self.watch_capacity *= 2
             self.guard_of = grown(self.guard_of, self.watch_capacity)
         self.guard_of[constraint] = guard
+
+    def note_form(self, prototype: int, lower: float, upper: float) -> None:
+        """Remember that a prototype is an interval."""
+        if prototype >= self.form_capacity:
+            while prototype >= self.form_capacity:
+                self.form_capacity *= 2
+            self.form = grown(self.form, self.form_capacity)
+            self.form_lower = grown_reals(self.form_lower, self.form_capacity)
+            self.form_upper = grown_reals(self.form_upper, self.form_capacity)
+        self.form[prototype] = 1
+        self.form_lower[prototype] = lower
+        self.form_upper[prototype] = upper
 
     def await_variable(self, v: int) -> None:
         """Count a guard that waits for `v`."""

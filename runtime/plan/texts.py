@@ -88,6 +88,8 @@ def base_text(prototypes: Prototypes, engine: Engine, v: int, names: Sequence[st
         text = set_text(prototypes, kind, values, names)
         return text[1:-1] if len(values) == 1 else text
     lower, upper = engine.base_lower(v), engine.base_upper(v)
+    if kind not in (KIND_INT, KIND_FLOAT):
+        return set_text(prototypes, kind, list(range(int(lower), int(upper) + 1)), names)
     if lower == upper:
         return set_text(prototypes, kind, [lower], names)[1:-1]
     return f"[{number_text(lower, kind)}, {number_text(upper, kind)}]"
