@@ -15,6 +15,7 @@ from runtime.executive.mission import MissionPrograms, run_mission
 from runtime.executive.outcome import Cause, Conflict, Outcome
 from runtime.solver.configuration import Configuration, default_configuration
 from runtime.solver.read import read_configuration
+from runtime.user.library import load_library
 
 PREFIX = re.compile(r"\b\w+:(?=\w)")  # the reactor's name before a variable's
 Reactors = tuple[tuple[str, str | None], ...]  # model and solver of each
@@ -23,7 +24,8 @@ Reactors = tuple[tuple[str, str | None], ...]  # model and solver of each
 def load(agent: AgentConfiguration) -> Fly:
     """Compile the models of `agent`; the result flies one mission per call."""
     root = Path(agent.root)
-    programs = load_programs(root, tuple((reactor.model, reactor.solver) for reactor in agent.reactors))
+    reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
+    programs = load_programs(root, reactors, agent.constraints)
 
     def fly(seed: int) -> Outcome:
         return _relative(run_mission(agent, programs, seed), root)
@@ -32,13 +34,15 @@ def load(agent: AgentConfiguration) -> Fly:
 
 
 @lru_cache(maxsize=4)
-def load_programs(root: Path, reactors: Reactors) -> MissionPrograms:
+def load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...]) -> MissionPrograms:
     """The compiled models and the flaw handling of some reactors; kept, for flights that differ in parameters only."""
+    library = load_library(root, constraints)
     models = {
-        model: compile_model(analyse_file(root / model)) for model in dict.fromkeys(model for model, _ in reactors)
+        model: compile_model(analyse_file(root / model, callables=library.callables))
+        for model in dict.fromkeys(model for model, _ in reactors)
     }
     solvers = tuple(load_solver(root, solver) for _, solver in reactors)
-    return MissionPrograms(tuple(models[model] for model, _ in reactors), solvers)
+    return MissionPrograms(tuple(models[model] for model, _ in reactors), solvers, library.constraints)
 
 
 def load_solver(root: Path, path: str | None) -> Configuration:

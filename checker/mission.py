@@ -73,6 +73,7 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
     head = top.table("mission", "[mission]", needed=True)
     reactors = _read_reactors(top.tables("reactor", needed=True), root)
     goals = _read_goals(top.tables("goal"), reactors, text)
+    constraints = _read_constraints(top.table("constraints", "[constraints]"), root)
     parameters, unranged = _read_parameters(top.table("parameters", "[parameters]"))
     agent = AgentConfiguration(
         name=head.string("name"),
@@ -83,6 +84,7 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
         parameters=parameters,
         tick=head.number("tick", 1.0, 1e-9),
         on_failure=cast("OnFailure", head.choice("on_failure", ("abort_agent", "kill_reactor"), "abort_agent")),
+        constraints=constraints,
     )
     check = _read_check(top.table("check", "[check]"))
     head.close()
@@ -116,6 +118,16 @@ def _read_check(table: Table) -> CheckConfiguration:
         table.complain_of_value("seed", check.seed, f"at most {LARGEST_SEED}")
     table.close()
     return check
+
+
+def _read_constraints(table: Table, root: Path) -> tuple[str, ...]:
+    modules = table.strings("modules")
+    table.close()
+    for index, file in enumerate(modules):
+        if not (root / file).is_file():
+            span = table.text.value_span((*table.path, "modules", index))
+            table.text.diagnostics.append(NO_FILE.at(span, path=file, help=_suggest_file(root, file)))
+    return modules
 
 
 def _read_reactors(tables: list[Table], root: Path) -> tuple[ReactorConfiguration, ...]:

@@ -10,9 +10,11 @@ from checker.names import relative_name
 from compiler.lower import compile_model
 from compiler.program import ParameterSite, Program
 from nddl_lang.analysis import Analysis, analyse_file
+from nddl_lang.semantics.callables import Callables
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Place
+from runtime.user.library import load_library
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -35,11 +37,15 @@ class ModelSet:
 
 
 def load_models(mission: Mission) -> ModelSet:
-    """Read all models of a mission; every mistake in them is reported, once."""
+    """Read all models of a mission; every mistake in them is reported, once.
+
+    Raises UserCodeError where a module with constraints cannot be used.
+    """
     agent = mission.agent
-    analyses = analyse_models(agent)
     root = Path(agent.root)
-    texts = {
+    library = load_library(root, agent.constraints)
+    analyses = analyse_models(agent, library.callables)
+    texts = library.texts | {
         relative_name(source.name, root): source.text
         for analysis in analyses.values()
         for source in analysis.loaded.sources
@@ -57,10 +63,10 @@ def load_models(mission: Mission) -> ModelSet:
     return ModelSet(completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits))
 
 
-def analyse_models(agent: AgentConfiguration) -> dict[str, Analysis]:
+def analyse_models(agent: AgentConfiguration, callables: Callables) -> dict[str, Analysis]:
     """The meaning of each model of an agent, by its path in the mission file."""
     names = dict.fromkeys(reactor.model for reactor in agent.reactors)
-    return {name: analyse_file(Path(agent.root) / name) for name in names}
+    return {name: analyse_file(Path(agent.root) / name, callables=callables) for name in names}
 
 
 def _sites(programs: dict[str, Program]) -> dict[str, ParameterSite]:

@@ -11,6 +11,7 @@ from runtime.executive.outcome import Outcome
 
 GOALS_OPEN = "F10"
 NO_RECORD = "F7"
+USER_CODE = "USER"  # of an ERROR: a constraint that the project wrote in Python failed
 
 CODE_NAMES = {
     "F1": "an expected observation did not come in time",
@@ -28,7 +29,7 @@ CODE_NAMES = {
 
 
 class Verdict(Enum):
-    """The fate of a mission; ERROR is the tool's own failure and never counted among the others."""
+    """The fate of a mission; ERROR is a failure of the tool, or of Python code that it was given; never counted."""
 
     PASS = "PASS"
     FAIL = "FAIL"

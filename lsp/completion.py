@@ -9,8 +9,7 @@ from lsprotocol.types import CompletionItem, CompletionItemKind
 from lsp.describe import parameter_text
 from lsp.meaning import WORDS, piece_at
 from nddl_lang.analysis import Analysis
-from nddl_lang.semantics.constraints import CONSTRAINTS
-from nddl_lang.semantics.functions import FUNCTIONS, METHODS, Receiver
+from nddl_lang.semantics.functions import METHODS, Receiver
 from nddl_lang.semantics.natives import builtin_names, builtin_type
 from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.semantics.schema import Kind, Label, Predicate, Schema, Type, Variable
@@ -100,9 +99,10 @@ def _names(place: _Place) -> Items:
         yield _item(name, CompletionItemKind.TypeParameter, None)
     for row in RELATIONS.values():
         yield _item(row.name, CompletionItemKind.Operator, row.meaning)
-    for constraint in CONSTRAINTS.values():
+    callables = place.analysis.callables
+    for constraint in callables.constraints.values():
         yield _item(constraint.name, CompletionItemKind.Function, f"({constraint.signature.text}) {constraint.meaning}")
-    for function in FUNCTIONS.values():
+    for function in callables.functions.values():
         yield _item(function.name, CompletionItemKind.Function, f"({function.signature.text}) {function.meaning}")
     for word in WORDS:
         yield _item(word, CompletionItemKind.Keyword, None)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from nddl_lang.analysis import Analysis
-from nddl_lang.semantics.constraints import CONSTRAINTS, ConstraintRow
+from nddl_lang.semantics.constraints import ConstraintRow
 from nddl_lang.semantics.functions import FUNCTIONS, METHODS, FunctionRow, MethodRow, Receiver
 from nddl_lang.semantics.relations import RELATIONS, RelationRow
 from nddl_lang.semantics.schema import (
@@ -158,9 +158,10 @@ def _thing(analysis: Analysis, around: tuple[Any, ...]) -> Thing | None:
         case Identifier(name=name), Relation(relation=relation) if node is relation:
             return RELATIONS.get(name)
         case Identifier(name=name), CallConstraint(name=constraint) if node is constraint:
-            return FUNCTIONS[name] if name == "sampledParameter" else CONSTRAINTS.get(name)
+            rows = analysis.callables.constraints
+            return FUNCTIONS[name] if name == "sampledParameter" else rows.get(name)
         case Identifier(name=name), CallExpr(function=function) if node is function:
-            return FUNCTIONS.get(name)
+            return analysis.callables.functions.get(name)
         case Identifier(), MethodCall(method=method) if node is method:
             return _method(analysis, parent)
         case Identifier(), NewExpr(class_name=class_name) if node is class_name and parent is not None:
@@ -257,8 +258,8 @@ def _by_word(analysis: Analysis, word: str) -> Thing | None:
         or BASIC_TYPES.get(word)
         or (Word(word) if word in WORDS else None)
         or (FUNCTIONS[word] if word == "sampledParameter" else None)
-        or CONSTRAINTS.get(word)
-        or FUNCTIONS.get(word)
+        or analysis.callables.constraints.get(word)
+        or analysis.callables.functions.get(word)
     )
 
 

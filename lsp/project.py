@@ -1,5 +1,6 @@
 """One model under edit: its texts in, its analysis out, with all that an edit leaves alone kept from before."""
 
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,6 +17,8 @@ from nddl_lang.syntax.parser import Parse
 from nddl_lang.syntax.placement import CLASS, TOP
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source
+from runtime.user.fault import UserCodeError
+from runtime.user.library import load_library
 
 OpenText = Callable[[Path], str | None]
 _Place = tuple[str, Dialect, bool]
@@ -47,9 +50,9 @@ class Project:
     def __init__(self, key: str, settings: Settings) -> None:
         self.key = key
         self._settings = settings
-        self._analyser = Analyser()
-        self._linter = Linter()
         self._configuration = _configuration(Path(key))
+        self._analyser = Analyser(self._configuration.callables)
+        self._linter = Linter()
         self._kept: dict[_Place, tuple[Incremental, Parse]] = {}
         self._used: dict[_Place, tuple[Incremental, Parse]] = {}
         self._snapshot: Snapshot | None = None
@@ -68,7 +71,7 @@ class Project:
     def analyse(self, name: str, text: str, open_text: OpenText) -> None:
         """Take a new snapshot: the model is `text`, called `name`, and what `open_text` gives for its includes."""
         # Should this fail half-way, nothing half-done is kept.
-        analyser, self._analyser = self._analyser, Analyser()
+        analyser, self._analyser = self._analyser, Analyser(self._configuration.callables)
         linter, self._linter = self._linter, Linter()
         self._used = {}
         loaded = load_module_graph(
@@ -107,4 +110,10 @@ class Project:
 def _configuration(root: Path) -> Configuration:
     """What the project of a file asks for; a configuration with mistakes counts as far as it is understood."""
     path = find_configuration(root.parent) if root.is_absolute() else None
-    return Configuration() if path is None else read_configuration(path)[0]
+    configuration = Configuration() if path is None else read_configuration(path)[0]
+    try:
+        library = load_library(Path(), [module.as_posix() for module in configuration.modules])
+    except UserCodeError as mistake:
+        print(f"nddlc: {mistake}", file=sys.stderr)  # editors keep what a server says there
+        return configuration
+    return replace(configuration, callables=library.callables)

@@ -15,7 +15,7 @@ from checker.findings import Findings
 from checker.flight import load
 from checker.mission import LARGEST_SEED, Mission, read_mission
 from checker.models import load_models
-from checker.oracle import Verdict
+from checker.oracle import USER_CODE
 from checker.report.document import json_report
 from checker.report.html import html_report
 from checker.report.junit import junit_report
@@ -26,6 +26,7 @@ from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import as_dict, render
 from nddlc.inputs import Unusable, chosen_dialect, colours, readable
+from nddlc.libraries import library_of
 
 HOLDS, FINDINGS, UNUSABLE, BUG, INTERRUPTED = 0, 1, 2, 3, 130
 STORE = Path(".nddlc/runs.sqlite")
@@ -65,7 +66,7 @@ def command(
     """
     (file,) = readable((path,), ())
     if file.suffix == ".nddl":
-        analysis = analyse_file(file, chosen_dialect(ctx, None))
+        analysis = analyse_file(file, chosen_dialect(ctx, None), callables=library_of(file).callables)
         _tell(analysis.diagnostics, style)
         return UNUSABLE if analysis.has_errors else HOLDS
     campaign = _prepare(file, missions, seed, max_failure_rate, style)
@@ -164,4 +165,6 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path) ->
         return INTERRUPTED
     if findings.rate.exceeds:
         return FINDINGS
-    return BUG if findings.count(Verdict.ERROR) else HOLDS
+    if any(result.judgement.code != USER_CODE for result in findings.errors):
+        return BUG
+    return UNUSABLE if findings.errors else HOLDS

@@ -5,6 +5,7 @@ import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from importlib.metadata import entry_points
 from pathlib import Path
 
 import click
@@ -12,12 +13,14 @@ import click
 from nddl_lang.lint.check import Checker
 from nddl_lang.lint.configuration import is_code
 from nddl_lang.lint.settings import Settings, at_least
+from nddl_lang.semantics.callables import ENTRY_POINTS
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
 from nddl_lang.text.junit import junit_of
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.sarif import sarif_of
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, write_text
+from nddlc.main import named
 
 WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
 LEVELS = [severity.value for severity in Severity]
@@ -95,6 +98,8 @@ def _codes(given: tuple[str, ...], option: str) -> Iterator[str]:
 def _settings(path: Path, codes: dict[str, tuple[str, ...]], fail_on: str | None) -> Settings:
     """The settings of the project that a file belongs to, with what the command line adds."""
     settings = configured(path)
+    if settings.modules or entry_points(group=ENTRY_POINTS):  # else the engine need not be imported
+        settings = replace(settings, callables=named("nddlc.libraries:library_of")(path).callables)
     if codes["select"]:
         settings = replace(settings, select=codes["select"])
     if codes["ignore"]:

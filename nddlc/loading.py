@@ -10,6 +10,7 @@ from nddl_lang.analysis import analyse_file
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import as_dict
+from nddlc.libraries import library_of
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout import read
 
@@ -34,12 +35,13 @@ class Loaded:
 def load(path: Path, directories: tuple[str, ...], dialect: Dialect | None, name: str | None = None) -> Loaded:
     """Analyse, compile and run the script of the model at `path`; the script stops at the first error."""
     file = name or str(path)
-    analysis = analyse_file(path, dialect, directories)
+    library = library_of(path)
+    analysis = analyse_file(path, dialect, directories, library.callables)
     found = tuple(analysis.diagnostics)
     if any(each.severity is Severity.ERROR for each in found):
         return Loaded(file, found, None, None)
     program = compile_model(analysis)
-    database = PlanDatabase(program)
+    database = PlanDatabase(program, constraints=library.constraints)
     fault = database.run_script()
     return Loaded(file, found if fault is None else (*found, fault), program, database)
 

@@ -11,6 +11,7 @@ from typing import Any
 import click
 
 from nddl_lang.semantics.nearest import nearest
+from runtime.user.fault import UserCodeError
 
 # A subcommand is one file, imported only when it is used; a new one needs a line here and nothing else.
 COMMANDS = {
@@ -88,6 +89,10 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return end.exit_code
     except click.ClickException as mistake:
         mistake.show()
+        return UNUSABLE
+    except UserCodeError as mistake:
+        click.echo(f"nddlc: {mistake}", err=True)
+        click.echo("  help: this is in a constraint of the project, see docs/constraints.md", err=True)
         return UNUSABLE
     except (click.Abort, KeyboardInterrupt):
         click.echo("nddlc: interrupted", err=True)

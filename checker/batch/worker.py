@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
 from checker.batch.result import MissionResult, condense
-from checker.oracle import Judgement, Verdict, judge
+from checker.oracle import USER_CODE, Judgement, Verdict, judge
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Outcome
+from runtime.user.fault import UserCodeError
 
 Fly = Callable[[int], Outcome]  # a seed in, an outcome out
 Load = Callable[[AgentConfiguration], Fly]  # importable by name, so that a fresh process can have it
@@ -54,6 +55,8 @@ def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
     """Fly one mission and judge it; an exception is the tool's failure, not the model's."""
     try:
         outcome = fly(task.seed)
+    except UserCodeError as problem:
+        return error_result(task, str(problem), problem.detail, USER_CODE)
     except Exception as problem:
         return error_result(task, f"{type(problem).__name__}: {problem}", traceback.format_exc())
     judgement = judge(outcome)
@@ -62,6 +65,6 @@ def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
     return MissionResult(task.number, task.seed, judgement, outcome, has_trace=True)
 
 
-def error_result(task: Task, reason: str, detail: str = "") -> MissionResult:
-    """The result of a mission that the tool could not fly to its end."""
-    return MissionResult(task.number, task.seed, Judgement(Verdict.ERROR, "", reason), None, False, detail)
+def error_result(task: Task, reason: str, detail: str = "", code: str = "") -> MissionResult:
+    """The result of a mission that could not be flown to its end, by a fault of the tool or of code it was given."""
+    return MissionResult(task.number, task.seed, Judgement(Verdict.ERROR, code, reason), None, False, detail)

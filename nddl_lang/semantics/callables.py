@@ -7,6 +7,9 @@ from nddl_lang.semantics.constraints import CONSTRAINTS, ConstraintRow
 from nddl_lang.semantics.functions import FUNCTIONS, METHODS, FunctionRow, Receiver
 from nddl_lang.syntax.words import BASE_TYPES, GOALS, PLAIN, RELATIONS
 
+# The group of entry points by which installed packages add constraints.
+ENTRY_POINTS = "nddlc.constraints"
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Callables:

@@ -80,3 +80,4 @@ class AgentConfiguration:
     parameters: tuple[ParameterConfiguration, ...] = ()
     tick: float = 1.0  # seconds per tick: the model's TICK_DURATION
     on_failure: OnFailure = "abort_agent"
+    constraints: tuple[str, ...] = ()  # Python files with constraints that the models call, relative to the root

@@ -15,6 +15,7 @@ from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
 from runtime.solver.configuration import Configuration
+from runtime.user.constraint import Constraint
 
 INFINITY = 4503599627370495
 
@@ -29,6 +30,7 @@ class MissionPrograms:
 
     programs: tuple[Program, ...]
     solvers: tuple[Configuration, ...]
+    constraints: tuple[Constraint, ...] = ()  # those of the project that the models call
 
 
 class World:
@@ -83,7 +85,7 @@ def run_mission(
     world = World(configuration, seed, overrides or {}, trace)
     reactors: list[PlanReactor] = []
     for each, program, solver in zip(configuration.reactors, programs.programs, programs.solvers, strict=True):
-        database = PlanDatabase(program, world.of(each.name, program))
+        database = PlanDatabase(program, world.of(each.name, program), programs.constraints)
         fault = database.run_script()
         if fault is not None:
             raise UnusableModelError(f"{fault.span.source.name}:{fault.span.line}: {fault.message}")

@@ -22,6 +22,7 @@ from runtime.executive.outcome import Cause, Conflict, Place, Term, VariableInfo
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST
 from runtime.executive.workbench import Workbench
 from runtime.plan.codes import DURATION, END, FIRST_PARAMETER, OBJECT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_TOKEN, START, STATE
+from runtime.user.written import Written
 
 NAMES = {code: name for name, code in reversed(OPERATIONS.items())} | {OP_PLUS: "addEq", OP_SAMPLE: "sampledParameter"}
 BUILT_IN = {STATE: "state", OBJECT: "object", DURATION: "duration", START: "start", END: "end"}
@@ -161,6 +162,9 @@ class Teller:
         engine = self.engine
         name = NAMES.get(engine.op[cause.id], f"constraint {engine.op[cause.id]}")
         arguments = [self.argument(v) for v in engine.arguments(cause.id)]
+        if isinstance(written := engine.externals.get(cause.id), Written):
+            terms = written.terms(arguments) or ((written.name, tuple(arguments)),)
+            return "constraint", worded(written.name, arguments), tuple(Term(*term) for term in terms)
         kind = "constraint"
         if name == "sampledParameter":
             kind = "sample"

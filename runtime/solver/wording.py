@@ -12,6 +12,7 @@ from runtime.plan.readout import live_tokens, token_names
 from runtime.plan.texts import base_text, domain_text
 from runtime.plan.why import span_of
 from runtime.solver.matching import BUILT_IN
+from runtime.user.written import Written
 
 NAMES = {code: name for name, code in reversed(OPERATIONS.items())} | {OP_PLUS: "addEq"}
 
@@ -121,7 +122,8 @@ class Wording:
         if engine.op[c] == OP_TEMPORAL_DISTANCE and len(arguments) == 3:
             names = [self.variable(v) for v in arguments]
             return f"{names[0]} + {names[1]} = {names[2]}, {names[1]} is {self.value(arguments[1])}"
-        name = NAMES.get(engine.op[c], "constraint")
+        external = engine.externals.get(c)
+        name = external.name if isinstance(external, Written) else NAMES.get(engine.op[c], "constraint")
         return f"{name}({', '.join(self.variable(v) for v in arguments)})"
 
 

@@ -10,7 +10,7 @@ from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 from types import ModuleType
 
-from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables, owner_of
+from nddl_lang.semantics.callables import ENTRY_POINTS, NATIVE_CALLABLES, Callables, owner_of
 from nddl_lang.semantics.constraints import ConstraintRow, Origin
 from nddl_lang.semantics.functions import FunctionRow, ResultKind
 from nddl_lang.semantics.signature import Argument, ArgumentKind, Signature, signature
@@ -18,7 +18,6 @@ from runtime.user.constraint import Constraint
 from runtime.user.fault import UserCodeError, failed
 from runtime.user.written import has_test
 
-GROUP = "nddlc.constraints"
 LIST = "CONSTRAINTS"
 KINDS = (
     ArgumentKind.NUMBER,
@@ -49,7 +48,7 @@ def load_library(root: Path, files: Sequence[str], packages: Iterable[EntryPoint
     Every process that loads the same files has the same library, whichever way it was started.
     """
     if packages is None:
-        packages = entry_points(group=GROUP)
+        packages = entry_points(group=ENTRY_POINTS)
     found: list[tuple[str, Constraint]] = []
     texts: dict[str, str] = {}
     for name in dict.fromkeys(files):
