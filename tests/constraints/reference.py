@@ -9,11 +9,17 @@ from math import inf
 from runtime.constraints import codes
 from runtime.constraints.engine import Engine
 
-RUNS = int(os.environ.get("NDDLC_RANDOM_RUNS", "150"))
+RUNS = int(os.environ.get("NDDLC_RANDOM_RUNS", "200"))  # of each property
+BATCHES = range(20)
 
 Values = tuple[int, ...]
 Post = tuple[int, tuple[int, ...]]  # operation, arguments
 Edge = tuple[int, int, int]  # source, target, weight
+
+
+def seeds(batch: int) -> range:
+    """Give the seeds of one of the batches that a property is tested in."""
+    return range(batch, RUNS, len(BATCHES))
 
 
 def shortest_distances(count: int, edges: list[Edge]) -> list[list[float]] | None:

@@ -11,7 +11,17 @@ from runtime.constraints import codes
 from runtime.constraints.cause import Cause, CauseKind
 from runtime.constraints.engine import Engine
 from runtime.constraints.minimise import Scratch, minimise, sufficient
-from tests.constraints.reference import BY_BOUND, BY_VALUE, RUNS, Problem, built, domains_of, random_problem
+from tests.constraints.reference import (
+    BATCHES,
+    BY_BOUND,
+    BY_VALUE,
+    RUNS,
+    Problem,
+    built,
+    domains_of,
+    random_problem,
+    seeds,
+)
 
 JUDGED = tuple(op for op in BY_VALUE + BY_BOUND if op not in (codes.OP_EQ_MAXIMUM, codes.OP_EQ_MINIMUM))
 
@@ -103,9 +113,8 @@ def first_conflict(seed: int, commits: bool) -> Engine | None:
     return None
 
 
-@pytest.mark.parametrize("commits", [False, True])
-@pytest.mark.parametrize("seed", range(RUNS // 5))
-def test_an_explanation_is_inconsistent_and_nothing_in_it_is_spare(seed: int, commits: bool) -> None:
+def explain_and_shrink(seed: int, commits: bool) -> None:
+    """Explain the first conflict of one random problem."""
     engine = first_conflict(seed, commits)
     if engine is None:
         return
@@ -118,6 +127,13 @@ def test_an_explanation_is_inconsistent_and_nothing_in_it_is_spare(seed: int, co
     scratch = Scratch(engine)
     assert scratch.refutes(least)
     assert not any(scratch.refutes([cause for cause in least if cause is not spare]) for spare in least)
+
+
+@pytest.mark.parametrize("commits", [False, True])
+@pytest.mark.parametrize("batch", BATCHES)
+def test_an_explanation_is_inconsistent_and_nothing_in_it_is_spare(batch: int, commits: bool) -> None:
+    for seed in seeds(batch)[::5]:
+        explain_and_shrink(seed, commits)
 
 
 def test_nearly_every_explanation_is_minimal_for_z3_too() -> None:

@@ -7,7 +7,7 @@ import pytest
 
 from runtime.constraints import codes
 from runtime.constraints.engine import Engine
-from tests.constraints.reference import RUNS, Edge, shortest_distances
+from tests.constraints.reference import BATCHES, Edge, seeds, shortest_distances
 
 
 def random_network(chance: random.Random) -> tuple[int, list[Edge], list[tuple[float, float]]]:
@@ -53,8 +53,8 @@ def bounds_of(engine: Engine, count: int) -> list[tuple[float, float]]:
     return [(engine.lower(v), engine.upper(v)) for v in range(count)]
 
 
-@pytest.mark.parametrize("seed", range(2 * RUNS))
-def test_bounds_and_verdict_equal_all_pairs_distances(seed: int) -> None:
+def compare_with_distances(seed: int) -> None:
+    """Add the edges of one random network, one by one."""
     count, edges, bounds = random_network(random.Random(seed))
     engine = build(bounds)
     holding = all(engine.add_edge(*edge, 0, -1) for edge in edges) and engine.propagate()
@@ -64,8 +64,14 @@ def test_bounds_and_verdict_equal_all_pairs_distances(seed: int) -> None:
         assert bounds_of(engine, count) == expected
 
 
-@pytest.mark.parametrize("seed", range(RUNS))
-def test_undoing_restores_every_bound(seed: int) -> None:
+@pytest.mark.parametrize("batch", BATCHES)
+def test_bounds_and_verdict_equal_all_pairs_distances(batch: int) -> None:
+    for seed in seeds(batch):
+        compare_with_distances(seed)
+
+
+def add_and_undo(seed: int) -> None:
+    """Add the edges of one random network, and go back again and again."""
     chance = random.Random(seed)
     count, edges, bounds = random_network(chance)
     engine = build(bounds)
@@ -84,8 +90,14 @@ def test_undoing_restores_every_bound(seed: int) -> None:
             assert bounds_of(engine, count) == before
 
 
-@pytest.mark.parametrize("seed", range(RUNS))
-def test_taking_edges_out_leaves_what_the_others_ask_for(seed: int) -> None:
+@pytest.mark.parametrize("batch", BATCHES)
+def test_undoing_restores_every_bound(batch: int) -> None:
+    for seed in seeds(batch):
+        add_and_undo(seed)
+
+
+def add_and_take_out(seed: int) -> None:
+    """Add the edges of one random network, and take some out again and again."""
     chance = random.Random(seed)
     count, edges, bounds = random_network(chance)
     engine = build(bounds)
@@ -105,8 +117,14 @@ def test_taking_edges_out_leaves_what_the_others_ask_for(seed: int) -> None:
             assert bounds_of(engine, count) == expected_bounds(count, list(kept.values()), bounds)
 
 
-@pytest.mark.parametrize("seed", range(RUNS))
-def test_a_conflict_among_edges_can_be_taken_back(seed: int) -> None:
+@pytest.mark.parametrize("batch", BATCHES)
+def test_taking_edges_out_leaves_what_the_others_ask_for(batch: int) -> None:
+    for seed in seeds(batch):
+        add_and_take_out(seed)
+
+
+def fail_and_mend(seed: int) -> None:
+    """Add all edges of one random network, consistent or not, then take them out one by one."""
     chance = random.Random(seed)
     count, edges, bounds = random_network(chance)
     engine = build(bounds)
@@ -124,6 +142,12 @@ def test_a_conflict_among_edges_can_be_taken_back(seed: int) -> None:
         gone = chance.choice(left)
         left.remove(gone)
         engine.retract(edges=[ids[gone]])
+
+
+@pytest.mark.parametrize("batch", BATCHES)
+def test_a_conflict_among_edges_can_be_taken_back(batch: int) -> None:
+    for seed in seeds(batch):
+        fail_and_mend(seed)
 
 
 def test_an_edge_costs_at_most_a_hundred_bytes() -> None:

@@ -7,21 +7,22 @@ import pytest
 from runtime.constraints import codes
 from runtime.constraints.engine import Engine
 from tests.constraints.reference import (
+    BATCHES,
     BY_BOUND,
     BY_VALUE,
     ONLY_SOUND,
-    RUNS,
     Post,
     built,
     domains_of,
     random_problem,
+    seeds,
 )
 
 ALL = BY_VALUE + BY_BOUND + ONLY_SOUND
 
 
-@pytest.mark.parametrize("seed", range(RUNS))
-def test_rewinding_restores_every_domain(seed: int) -> None:
+def post_and_rewind(seed: int) -> None:
+    """Post one random problem bit by bit, and go back again and again."""
     chance = random.Random(seed)
     problem = random_problem(chance, ALL, chance.randint(2, 6), 8)
     engine = built(problem, [])
@@ -43,8 +44,14 @@ def test_rewinding_restores_every_domain(seed: int) -> None:
             assert all(engine.decided[v] == 0 for v in range(count)) or stack
 
 
-@pytest.mark.parametrize("seed", range(2 * RUNS))
-def test_retracting_equals_never_having_posted(seed: int) -> None:
+@pytest.mark.parametrize("batch", BATCHES)
+def test_rewinding_restores_every_domain(batch: int) -> None:
+    for seed in seeds(batch):
+        post_and_rewind(seed)
+
+
+def post_and_retract(seed: int) -> None:
+    """Post one random problem bit by bit, and retract some of it again and again."""
     chance = random.Random(seed)
     problem = random_problem(chance, ALL, chance.randint(2, 6), 8)
     engine = built(problem, [])
@@ -76,6 +83,12 @@ def test_retracting_equals_never_having_posted(seed: int) -> None:
             assert holding == fresh_holding
             if holding:
                 assert domains_of(engine, count) == domains_of(fresh, count)
+
+
+@pytest.mark.parametrize("batch", BATCHES)
+def test_retracting_equals_never_having_posted(batch: int) -> None:
+    for seed in seeds(batch):
+        post_and_retract(seed)
 
 
 def test_bounds_that_hold_each_other_up_are_loosened() -> None:
