@@ -96,7 +96,7 @@ def _parameters(whole: Whole, part: Part, node: ClassDecl) -> Iterator[Diagnosti
     for declaration in node.members or ():
         if isinstance(declaration, PredicateDecl):
             predicate = owner.predicates.get(declaration.name.name)
-            if predicate is not None:
+            if predicate is not None and predicate.name in whole.requested:
                 yield from _free(whole, part, declaration, predicate)
 
 

@@ -55,14 +55,14 @@ def truth(part: Part, condition: Expr, known: Known, depth: int = 0) -> bool | N
 
 def _comparison(part: Part, condition: BinaryExpr, known: Known) -> bool | None:
     left, right = (_domain(part, side, known) for side in (condition.left, condition.right))
-    if left is None or right is None:
-        return None
     kind = _kind(part, condition)
     if condition.op in ("==", "!="):
-        answer = _equality(left, right, kind)
+        answer = None if left is None or right is None else _equality(left, right, kind)
         if answer is None and _is_excluded(part, condition, known):
             answer = False
         return answer if condition.op == "==" or answer is None else not answer
+    if left is None or right is None:
+        return None
     return _order(condition.op, domains.hull(left), domains.hull(right), kind)
 
 

@@ -50,6 +50,7 @@ class Gist:
     written: frozenset[Variable] = frozenset()  # members that only get a value, in a constructor
     words: frozenset[str] = frozenset()  # names of types and enum values, and the texts of strings
     labels: frozenset[Label] = frozenset()
+    requested: frozenset[str] = frozenset()  # names of the predicates of which it makes tokens
     objects: tuple[NewExpr, ...] = ()
     given: tuple[Given, ...] = ()
 
@@ -77,6 +78,7 @@ def gist(part: Part) -> Gist:
         frozenset(written),
         frozenset(words),
         frozenset(mentioned_labels(part)) if not isinstance(part.node, ClassDecl | RuleDecl) else frozenset(),
+        frozenset(target.predicate.name for target in part.tables.targets.values()),
         tuple(part.all(NewExpr)),
         tuple(_given(part)),
     )
@@ -138,6 +140,7 @@ class Whole:
     variables: set[Variable] = field(default_factory=set)
     words: set[str] = field(default_factory=set)
     labels: set[Label] = field(default_factory=set)
+    requested: set[str] = field(default_factory=set)
     objects: dict[str, list[NewExpr]] = field(default_factory=dict)
     given: dict[Key, list[tuple[Domain, Span]]] = field(default_factory=dict)
     assigned: dict[Key, Domain] = field(default_factory=dict)
@@ -182,6 +185,7 @@ def assemble(analysis: Analysis, parts: list[Part], gists: list[Gist]) -> Whole:
         whole.variables |= each.variables
         whole.words |= each.words
         whole.labels |= each.labels
+        whole.requested |= each.requested
         if part.node.span.source not in library and _is_script(part):
             whole.is_whole = True
         for new in each.objects:
