@@ -1,4 +1,4 @@
-"""One mission, one outcome: run again, in another process, in the other form of the engine, or with every tick visited."""
+"""One mission, one outcome: again, in another process, in the other form of the engine, or with every tick visited."""
 
 import os
 import subprocess
@@ -31,7 +31,9 @@ Lamp::On {{ int glow; glow == sampledParameter(GLOW); duration == glow; }}
 Lamp lamp = new Lamp(Internal); close();
 """
 USER = f"""{LAMP}
-class User extends AgentTimeline {{ predicate Idle {{ }} predicate Busy {{ int k; }} User(Mode m) {{ super(m, "Idle"); }} }}
+class User extends AgentTimeline {{
+  predicate Idle {{ }} predicate Busy {{ int k; }} User(Mode m) {{ super(m, "Idle"); }}
+}}
 User::Busy {{ contains(Lamp.On on); on.n == k; meets(Idle rest); on.end == end; on.duration <= 6; }}
 User user = new User(Internal); Lamp lamp = new Lamp(External); close();
 """

@@ -1,0 +1,96 @@
+"""Long missions: what is over leaves the plan, and nothing that was known because of it is lost."""
+
+import pytest
+
+from runtime.executive.configuration import ReactorConfiguration
+from runtime.executive.plan_reactor import PlanReactor
+from runtime.executive.planning import Planner
+from runtime.executive.trace import Trace
+from runtime.executive.workbench import Workbench
+from runtime.plan.database import PlanDatabase
+from runtime.solver.configuration import default_configuration
+from tests.executive.flying import program
+from tests.executive.test_equal_runs import toy
+
+METRONOME = """
+class Clock extends AgentTimeline { predicate Tick { int n; float x; } Clock(Mode m) { super(m, "Tick"); } }
+Clock::Tick {
+  duration == 10; meets(Tick next);
+  int one; one == 1; next.n == n + one;
+  float half; half == 0.5; next.x == x + half;
+}
+Clock clock = new Clock(Internal); close();
+goal(Clock.Tick first); first.start == 0; first.n == 0; first.x == 0.0;
+"""
+
+
+def metronome(final_tick: int) -> PlanReactor:
+    """A simulator whose every token asks for the next one, by itself."""
+    place = ReactorConfiguration("clock", "clock.nddl", internal=("clock",))
+    database = PlanDatabase(program("clock.nddl", METRONOME), None)
+    assert database.run_script() is None
+    bench = Workbench(database, "clock")
+    bench.commit()
+    planner = Planner(bench, default_configuration(), 400)
+    return PlanReactor(place, bench, planner, final_tick, Trace())
+
+
+def sizes(reactor: PlanReactor) -> tuple[int, ...]:
+    """How many tokens, variables, edges, restrictions, scopes and holds there are or ever were at once."""
+    engine, rows = reactor.bench.engine, reactor.bench.rows
+    counts = (rows.token_count, engine.variables, engine.edges_used, rows.scope_count, rows.hold_count)
+    return (rows.live, *counts, len(engine.restriction_span))
+
+
+def let_pass(reactor: PlanReactor, first: int, last: int) -> list[tuple[int, ...]]:
+    """Have a reactor live through some ticks; its sizes every 1000 ticks."""
+    seen = []
+    for tick in range(first, last + 1):
+        if reactor.due > tick:
+            continue
+        reactor.trace.tick = tick
+        reactor.start_tick(tick)
+        assert reactor.synchronise(tick) is None
+        reactor.observations(tick)
+        while reactor.step(tick):
+            pass
+        assert reactor.failure() is None
+        reactor.due = reactor.next_tick(tick)
+        if tick % 1000 == 0:
+            seen.append(sizes(reactor))
+    return seen
+
+
+@pytest.mark.slow
+def test_the_plan_stays_small_for_twenty_thousand_ticks() -> None:
+    reactor = metronome(20_000)
+    seen = let_pass(reactor, 0, 20_000)
+    assert seen[1] == seen[-1]
+    assert seen[-1][0] <= 5
+    last = reactor.trace.events[-1]
+    assert (last.tick, last.text) == (20_000, "Tick(n=2000, x=1000.0)")
+
+
+def test_the_plan_stays_small() -> None:
+    reactor = metronome(2_000)
+    seen = let_pass(reactor, 0, 2_000)
+    assert seen[1] == seen[2]
+    assert reactor.trace.events[-1].text == "Tick(n=200, x=100.0)"
+
+
+def test_what_is_visited_at_every_tick_stays_small_too() -> None:
+    reactor = metronome(400)
+    grown = []
+    for tick in range(400):
+        reactor.due = tick
+        let_pass(reactor, tick, tick)
+        if tick in (100, 399):
+            grown.append(sizes(reactor))
+    assert grown[0] == grown[1]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_archive_changes_no_outcome(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    with_archive = toy(seed)
+    monkeypatch.setattr(Workbench, "archive", lambda *_: 0)
+    assert toy(seed) == with_archive
