@@ -4,6 +4,7 @@ cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.guards cimport wait
 from runtime.plan.holding cimport between, constraint, copy_variable, equate, post_two, restrict
+from runtime.plan.kinds cimport own_predicate
 from runtime.plan.operands cimport operand
 from runtime.plan.plan cimport Plan
 from runtime.plan.relating cimport relate
@@ -45,6 +46,7 @@ cpdef long long relation(Plan plan, long long scope, long long at, long long spa
 
 @cython.locals(
     flags="long long", given="long long", master="long long", mode="long long", origin="long long",
+    predicate="long long",
     role="long long", rows=Rows, t="long long", tokens="long long"
 )
 cpdef long long child(Plan plan, long long scope, long long at, long long span) except? -1

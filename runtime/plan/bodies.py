@@ -29,6 +29,7 @@ from runtime.plan.codes import (
 )
 from runtime.plan.guards import wait
 from runtime.plan.holding import between, constraint, copy_variable, equate, post_two, restrict
+from runtime.plan.kinds import own_predicate
 from runtime.plan.operands import operand
 from runtime.plan.plan import Plan
 from runtime.plan.relating import relate
@@ -148,7 +149,10 @@ def child(plan: Plan, scope: int, at: int, span: int) -> int:
     elif mode == OBJECT_GIVEN:
         given = operand(plan, scope, plan.code[at + 7], plan.code[at + 8], span)
     flags = FLAG_CONDITION if role == 1 else FLAG_EFFECT if role == 2 else 0
-    t = make_token(plan, plan.code[at + 3], flags, master, scope, given, span)
+    predicate = plan.code[at + 3]
+    if mode == OBJECT_OWN:
+        predicate = own_predicate(plan, predicate, master)
+    t = make_token(plan, predicate, flags, master, scope, given, span)
     rows.label[t] = plan.code[at + 4]
     rows.relation[t] = plan.code[at + 9]
     tokens = rows.scope_frame[scope] + rows.scope_slots[scope]

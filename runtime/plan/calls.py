@@ -27,6 +27,7 @@ from runtime.plan.faults import (
     WRONG_STATE,
 )
 from runtime.plan.flatten import Code
+from runtime.plan.kinds import is_kind_of
 from runtime.plan.objects import Objects
 from runtime.plan.operands import operand
 from runtime.plan.plan import Plan
@@ -122,7 +123,7 @@ class Calls:
         wrong = wrong or self.wrong_state(other, ACTIVE, NONE, "merged into", span)
         if wrong is not None:
             return wrong
-        if rows.predicate[t] != rows.predicate[other]:
+        if not is_kind_of(self.plan, rows.predicate[other], rows.predicate[t]):
             one, another = (self.program.predicates[rows.predicate[each]].name for each in (t, other))
             return OTHER_PREDICATE.at(span, name=self.name(t), other=self.name(other), predicate=one, others=another)
         lifecycle.merge(self.plan, t, other, number)

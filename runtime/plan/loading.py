@@ -150,9 +150,35 @@ def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: 
     plan.rule_tokens = packed(max(rule.tokens, 1) for rule in program.rules)
     plan.rule_declared = packed(rule.declared_at for rule in program.rules)
     plan.rule_span = packed(code.span(rule.span) for rule in program.rules)
+    load_kinds(plan, program, prototypes)
     for head in range(HEAD_PREDICATE + len(program.predicates)):
         new_head(plan.rows, head)
     plan.first_object_head = HEAD_PREDICATE + len(program.predicates)
+
+
+def load_kinds(plan: Plan, program: Program, prototypes: Prototypes) -> None:
+    """How predicates of one name are related through their classes."""
+    suffixes: dict[str, int] = {}
+    suffix = [suffixes.setdefault(each.name.rpartition(".")[2], len(suffixes)) for each in program.predicates]
+    plan.suffixes = len(suffixes)
+    at = array("q", [NONE]) * (len(suffixes) * len(program.classes) + 1)
+    for number, predicate in enumerate(program.predicates):
+        at[prototypes.class_numbers[predicate.class_name] * plan.suffixes + suffix[number]] = number
+    parents: list[int] = []
+    roots: list[int] = []
+    for number, predicate in enumerate(program.predicates):
+        line = [number]
+        for class_ in prototypes.ancestry(prototypes.class_numbers[predicate.class_name])[1:]:
+            above = at[class_ * plan.suffixes + suffix[number]]
+            if above < 0:
+                break
+            line.append(above)
+        parents.append(line[1] if len(line) > 1 else NONE)
+        roots.append(line[-1])
+    plan.predicate_suffix = packed(suffix)
+    plan.predicate_at = at
+    plan.predicate_parent = packed(parents)
+    plan.predicate_root = packed(roots)
 
 
 def load_code(plan: Plan, code: Code) -> None:

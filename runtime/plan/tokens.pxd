@@ -3,13 +3,14 @@
 cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.holding cimport constraint, equate, make_variable, restrict
+from runtime.plan.kinds cimport active_head
 from runtime.plan.links cimport link_by_key, unlink
 from runtime.plan.operands cimport operand
 from runtime.plan.plan cimport Plan
 from runtime.plan.rows cimport Rows
 
 cdef long long ACTIVE, DURATION, END, FIRST_PARAMETER, FLAG_EVENT, FLAG_NATIVE, FLAG_REJECTABLE, HEAD_OPEN
-cdef long long HEAD_PREDICATE, HEAD_THREAT, IN_NONE, LIST_OPEN, LIST_PREDICATE, LIST_THREAT, NONE, OBJECT
+cdef long long HEAD_THREAT, IN_NONE, LIST_OPEN, LIST_PREDICATE, LIST_THREAT, NONE, OBJECT
 cdef long long OP_TEMPORAL_DISTANCE, RESOURCE_HOLDS, RESOURCE_PRODUCES, ROLE_TOKEN, SCOPE_BODY, SCOPE_RULE, START
 cdef long long STATE, SYMBOL_ACTIVE
 

@@ -10,7 +10,6 @@ from runtime.plan.codes import (
     FLAG_NATIVE,
     FLAG_REJECTABLE,
     HEAD_OPEN,
-    HEAD_PREDICATE,
     HEAD_THREAT,
     IN_NONE,
     LIST_OPEN,
@@ -28,6 +27,7 @@ from runtime.plan.codes import (
     SYMBOL_ACTIVE,
 )
 from runtime.plan.holding import constraint, equate, make_variable, restrict
+from runtime.plan.kinds import active_head
 from runtime.plan.links import link_by_key, unlink
 from runtime.plan.operands import operand
 from runtime.plan.plan import Plan
@@ -94,7 +94,7 @@ def activation(plan: Plan, t: int, span: int) -> bool:
     predicate = rows.predicate[t]
     rows.set_status(t, ACTIVE)
     unlink(rows, t, LIST_OPEN)
-    link_by_key(rows, t, LIST_PREDICATE, HEAD_PREDICATE + predicate)
+    link_by_key(rows, t, LIST_PREDICATE, active_head(plan, predicate))
     if plan.predicate_timeline[predicate]:
         link_by_key(rows, t, LIST_THREAT, HEAD_THREAT)
     kind = plan.predicate_resource[predicate]

@@ -9,8 +9,9 @@ from typing import Protocol
 
 from runtime.constraints.cause import Cause
 from runtime.constraints.minimise import minimise
-from runtime.plan.codes import HEAD_PREDICATE, LIST_PREDICATE, LISTS, MERGED, NONE, OBJECT, REJECTED
+from runtime.plan.codes import MERGED, NONE, OBJECT, REJECTED
 from runtime.plan.database import PlanDatabase
+from runtime.plan.kinds import first_active, next_active
 from runtime.plan.lifecycle import merge, settle
 from runtime.plan.timelines import order
 from runtime.solver.codes import CUSTOM, OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
@@ -163,14 +164,14 @@ class Recorder:
             self.try_places(d, item, wording)
         elif self.stack.kind[d] == OPEN_CONDITION:
             rows = self.plan.rows
-            other = rows.head_first[HEAD_PREDICATE + rows.predicate[item]]
+            other = first_active(self.plan, rows.predicate[item])
             trials = 0
             while other >= 0 and trials < MOST_TRIALS:
                 mark = self.database.mark()
                 if not merge(self.plan, item, other, NONE):
                     self.note(d, Attempt(f"merge it with `{wording.token(other)}`", self.lines(wording)))
                 self.database.release(mark)
-                other = rows.link_after[LISTS * other + LIST_PREDICATE]
+                other = next_active(self.plan, other, rows.predicate[item])
                 trials += 1
 
     def try_places(self, d: int, t: int, wording: Wording) -> None:

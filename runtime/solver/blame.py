@@ -20,15 +20,14 @@ from runtime.constraints.reasons import collect_reasons, collect_weight
 from runtime.plan.codes import (
     DURATION,
     END,
-    HEAD_PREDICATE,
     LIST_ORDER,
-    LIST_PREDICATE,
     LISTS,
     OBJECT,
     ROLE_TOKEN,
     START,
     STATE,
 )
+from runtime.plan.kinds import first_active, next_active
 from runtime.solver.codes import (
     EVERYTHING,
     NONE,
@@ -266,11 +265,11 @@ class Blame:
         self.meet(q.token_level[t])
         self.ask_domain(rows.var0[t] + STATE)
         predicate = rows.predicate[t]
-        candidate = rows.head_first[HEAD_PREDICATE + predicate]
+        candidate = first_active(q.plan, predicate)
         while candidate >= 0:
             self.meet(q.active_level[candidate])
             self.blame_difference(rows.var0[t], rows.var0[candidate], rows.width[t])
-            candidate = rows.link_after[LISTS * candidate + LIST_PREDICATE]
+            candidate = next_active(q.plan, candidate, predicate)
         for other in range(d):
             if self.may_bring(other, predicate):
                 self.meet(other + 1)

@@ -6,9 +6,6 @@ from runtime.plan.codes import (
     FLAG_ACTION,
     FLAG_EFFECT,
     FLAG_FACT,
-    HEAD_PREDICATE,
-    LIST_PREDICATE,
-    LISTS,
     NONE,
     OBJECT,
     START,
@@ -17,6 +14,7 @@ from runtime.plan.codes import (
     SYMBOL_MERGED,
     SYMBOL_REJECTED,
 )
+from runtime.plan.kinds import first_active, next_active
 from runtime.plan.lifecycle import activate, merge, reject
 from runtime.plan.tokens import make_token
 from runtime.solver.codes import (
@@ -85,9 +83,9 @@ def mend_by_merging(q: Queues, stack: Decisions, d: int, t: int) -> int:
     rows = q.rows
     candidate = stack.cursor[d]
     if candidate < 0:
-        candidate = rows.head_first[HEAD_PREDICATE + rows.predicate[t]]
+        candidate = first_active(q.plan, rows.predicate[t])
     else:
-        candidate = rows.link_after[LISTS * candidate + LIST_PREDICATE]
+        candidate = next_active(q.plan, candidate, rows.predicate[t])
     while candidate >= 0:
         if is_compatible(q, t, candidate):
             if q.probing:
@@ -95,7 +93,7 @@ def mend_by_merging(q: Queues, stack: Decisions, d: int, t: int) -> int:
             stack.cursor[d] = candidate
             stack.tries[d] += 1
             return APPLIED if merge(q.plan, t, candidate, NONE) else FAILED_CHOICE
-        candidate = rows.link_after[LISTS * candidate + LIST_PREDICATE]
+        candidate = next_active(q.plan, candidate, rows.predicate[t])
     return NO_CHOICE
 
 
@@ -103,11 +101,11 @@ def mend_by_sorted_merging(q: Queues, stack: Decisions, d: int, t: int) -> int:
     """Merge with the next compatible active token in the order of the handler; `cursor` counts them."""
     if stack.cursor[d] < 0:
         found = []
-        candidate = q.rows.head_first[HEAD_PREDICATE + q.rows.predicate[t]]
+        candidate = first_active(q.plan, q.rows.predicate[t])
         while candidate >= 0:
             if is_compatible(q, t, candidate):
                 found.append(candidate)
-            candidate = q.rows.link_after[LISTS * candidate + LIST_PREDICATE]
+            candidate = next_active(q.plan, candidate, q.rows.predicate[t])
         stack.lists[d] = sorted_candidates(q, t, found, q.treatments.token_order[stack.handler[d]])
         stack.cursor[d] = 0
     candidates = stack.lists[d]

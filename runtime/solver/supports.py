@@ -25,14 +25,9 @@ class Supports:
                 number = counts.get(predicate, 0)
                 counts[predicate] = number + 1
                 ways[predicate].append((index[code.name], number))
-        self.first = array("q", [0])
-        self.action = array("q")
-        self.effect = array("q")
-        for rows in ways:
-            for action, effect in rows:
-                self.action.append(action)
-                self.effect.append(effect)
-            self.first.append(len(self.action))
+        self.first = array("q", [sum(map(len, ways[:number])) for number in range(len(ways) + 1)])
+        self.action = array("q", [action for rows in ways for action, _ in rows])
+        self.effect = array("q", [effect for rows in ways for _, effect in rows])
         self.reach = reachable(program, index, ways)
 
     def leads_to(self, predicate: int, other: int) -> bool:
@@ -43,12 +38,16 @@ class Supports:
 def reachable(program: Program, index: dict[str, int], ways: list[list[tuple[int, int]]]) -> list[int]:
     """For each predicate the set, as bits, of all that its rules, and actions that support it, may ask for."""
     reach = [1 << number for number in range(len(program.predicates))]
+    bases = {code.name: code.base for code in program.classes}
     for number, code in enumerate(program.predicates):
         for rule in code.rules:
-            for name in children(program.rules[rule].body):
+            for name in children(program.rules[rule].body, code.class_name, index):
                 reach[number] |= 1 << index[name]
         for action, _ in ways[number]:
             reach[number] |= 1 << action
+        base, suffix = bases[code.class_name], code.name.rpartition(".")[2]
+        if (inherited := index.get(f"{base}.{suffix}")) is not None:
+            reach[number] |= 1 << inherited  # a token of the subclass's predicate is one of the base's, too
     for middle in range(len(reach)):
         for number in range(len(reach)):
             if (reach[number] >> middle) & 1:
@@ -56,12 +55,13 @@ def reachable(program: Program, index: dict[str, int], ways: list[list[tuple[int
     return reach
 
 
-def children(body: Iterable[Instruction]) -> Iterator[str]:
-    """The predicates that a body asks for, on any branch."""
+def children(body: Iterable[Instruction], owner: str, index: dict[str, int]) -> Iterator[str]:
+    """The predicates that a body asks for, on any branch, when it runs for a token of class `owner`."""
     for instruction in body:
         if isinstance(instruction, Child):
-            yield instruction.predicate
+            name = f"{owner}.{instruction.predicate.rpartition('.')[2]}"
+            yield name if instruction.object == "own" and name in index else instruction.predicate
         elif isinstance(instruction, Guard):
-            yield from children((*instruction.then, *instruction.otherwise))
+            yield from children((*instruction.then, *instruction.otherwise), owner, index)
         elif isinstance(instruction, Foreach):
-            yield from children(instruction.body)
+            yield from children(instruction.body, owner, index)
