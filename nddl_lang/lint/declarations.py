@@ -62,14 +62,13 @@ def _globals(whole: Whole, part: Part, node: VariableDecl) -> Iterator[Diagnosti
 
 
 def _members(whole: Whole, part: Part, node: ClassDecl) -> Iterator[Diagnostic]:
-    written = {member for gist in whole.gists for member in gist.written}
     for declaration in node.members or ():
         if not isinstance(declaration, VariableDecl):
             continue
         for declarator in declaration.declarators:
             member = part.tables.declared.get(declarator.name)
             if isinstance(member, Variable) and member not in whole.variables:
-                done = "read" if member in written else "used"
+                done = "read" if member in whole.written else "used"
                 if member.type.kind is Kind.OBJECT and done == "read":
                     continue  # the object that it holds may be what counts
                 yield UNUSED_MEMBER.at(declarator.name.span, name=member.name, owner=node.name.name, done=done)

@@ -70,7 +70,7 @@ class Linter:
     """Lints a model again and again while it is edited, each time only the statements that changed."""
 
     def __init__(self) -> None:
-        self._known: dict[SideTables, _Known] = {}
+        self.known: dict[SideTables, _Known] = {}
 
     def lint(self, analysis: Analysis) -> tuple[Diagnostic, ...]:
         """All complaints: those of the analysis, then findings, in the order of the files and of the text.
@@ -83,12 +83,12 @@ class Linter:
         order: list[_Known] = []
         for statement in analysis.statements:
             tables = analysis.by_statement[statement]
-            each = self._known.get(tables)
+            each = self.known.get(tables)
             if each is None:
                 each = _lint_statement(Part(statement, tables, analysis.dialect))
             known[tables] = each
             order.append(each)
-        self._known = known
+        self.known = known
         whole = assemble(analysis, [each.part for each in order], [each.gist for each in order])
         found = [finding for finding in _findings(whole, order) if finding.span.source not in whole.library]
         places = {source: number for number, source in enumerate(analysis.loaded.sources)}

@@ -14,7 +14,7 @@ from nddl_lang.lint.removal import removal
 from nddl_lang.text.diagnostic import Code, Diagnostic, Fix, Severity
 from nddl_lang.text.source import Source, Span
 
-UNUSED_SUPPRESSION = Code("NDDL590", Severity.WARNING, "lint", "there is nothing to ignore here{what}")
+UNUSED_SUPPRESSION = Code("NDDL590", Severity.WARNING, "lint", "there is nothing{what} to ignore here")
 NO_SUCH_CODE = Code("NDDL591", Severity.WARNING, "lint", "`{text}` is no code of a finding")
 
 _COMMENT = re.compile(r"nddlc:[ \t]*ignore(?P<file>-file)?\b[ \t]*(?P<codes>\[[^\]\n]*\]|[^\n]*)")
@@ -104,4 +104,4 @@ def _unused(suppressions: list[Suppression]) -> Iterator[Diagnostic]:
             fix = Fix("remove the comment", (removal(each.span),))
             yield UNUSED_SUPPRESSION.at(each.span, fixes=(fix,), what="")
         elif left:
-            yield UNUSED_SUPPRESSION.at(each.span, what=" of " + ", ".join(f"`{code}`" for code in left))
+            yield UNUSED_SUPPRESSION.at(each.span, what=" with the code " + " or ".join(f"`{code}`" for code in left))

@@ -138,6 +138,7 @@ class Whole:
     library: frozenset[Source]
     is_whole: bool = False
     variables: set[Variable] = field(default_factory=set)
+    written: set[Variable] = field(default_factory=set)
     words: set[str] = field(default_factory=set)
     labels: set[Label] = field(default_factory=set)
     requested: set[str] = field(default_factory=set)
@@ -183,6 +184,7 @@ def assemble(analysis: Analysis, parts: list[Part], gists: list[Gist]) -> Whole:
     ancestry: dict[str, list[str]] = {}
     for part, each in zip(parts, gists, strict=True):
         whole.variables |= each.variables
+        whole.written |= each.written
         whole.words |= each.words
         whole.labels |= each.labels
         whole.requested |= each.requested
