@@ -46,8 +46,7 @@ cpdef long long relation(Plan plan, long long scope, long long at, long long spa
 
 @cython.locals(
     flags="long long", given="long long", master="long long", mode="long long", origin="long long",
-    predicate="long long",
-    role="long long", rows=Rows, t="long long", tokens="long long"
+    predicate="long long", role="long long", rows=Rows, t="long long", tokens="long long"
 )
 cpdef long long child(Plan plan, long long scope, long long at, long long span) except? -1
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from compiler.program import OBJECT, STATE, Call, Program, TokenVariable
+from compiler.program import OBJECT, STATE, Call, Constant, Program, TokenVariable
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 from runtime.plan import lifecycle, retracting, timelines
@@ -13,6 +13,8 @@ from runtime.plan.codes import (
     INACTIVE,
     NONE,
     STATE_NAMES,
+    STATE_SYMBOLS,
+    SYMBOL_ACTIVE,
     SYMBOL_MERGED,
     SYMBOL_REJECTED,
 )
@@ -35,6 +37,14 @@ from runtime.plan.prototypes import Prototypes
 from runtime.plan.texts import base_text
 
 Action = Callable[[], Diagnostic | None]
+
+
+def is_activation(call: Call) -> bool:
+    """Whether a call is `token.state.specify(ACTIVE)`."""
+    if call.method != "specify" or not isinstance(call.variable, TokenVariable) or call.variable.variable != STATE:
+        return False
+    given = call.arguments[0]
+    return isinstance(given, Constant) and given.domain.values == (STATE_SYMBOLS[SYMBOL_ACTIVE],)
 
 
 class Calls:
@@ -63,6 +73,10 @@ class Calls:
         span = self.code.span(call.span)
         if call.token is not None:
             return self.of_token(call, call.token, span)
+        if is_activation(call):
+            assert isinstance(call.variable, TokenVariable)
+            slot = call.variable.token
+            return lambda: self.activate(self.token(slot), call.span, span)
         if call.variable is not None:
             kind, value = self.code.operand(call.variable)
             arguments = [self.code.operand(each) for each in call.arguments]

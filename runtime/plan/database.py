@@ -8,6 +8,7 @@ from nddl_lang.text.diagnostic import Diagnostic
 from runtime.constraints.engine import Engine
 from runtime.plan import lifecycle, marks, retracting, timelines
 from runtime.plan.codes import NONE
+from runtime.plan.faults import NO_OBJECT
 from runtime.plan.flatten import Code
 from runtime.plan.flaws import Flaws
 from runtime.plan.loading import load_code, load_members, load_predicates, load_prototypes, load_relations
@@ -71,6 +72,13 @@ class PlanDatabase:
         """A constant with the value that the environment draws for a parameter, of the kind of `v`; or NONE."""
         value = None if self.environment is None else self.environment(self.names.text(parameter))
         return NONE if value is None else self.engine.new_constant(self.engine.kind[v], value, value)
+
+    def note_homeless(self, t: int) -> None:
+        """Let a token that no object can hold stop the script; in a search it is a conflict like others."""
+        rows = self.plan.rows
+        if rows.level == 0 and rows.span[t] >= 0 and self.objects.fault is None:
+            name = self.program.predicates[rows.predicate[t]].class_name
+            self.objects.fault = NO_OBJECT.at(self.code.spans[rows.span[t]], name=name)
 
     def sample_range(self, parameter: int) -> int:
         """The prototype of the values that a parameter may have; or NONE."""

@@ -3,7 +3,7 @@
 cimport cython
 from runtime.plan.plan cimport Plan
 
-cdef long long HEAD_PREDICATE, LIST_PREDICATE, LISTS, NONE
+cdef long long HEAD_PREDICATE, LISTS, LIST_PREDICATE, NONE
 
 
 cpdef bint is_kind_of(Plan plan, long long predicate, long long other) except -1
@@ -12,10 +12,14 @@ cpdef bint is_kind_of(Plan plan, long long predicate, long long other) except -1
 @cython.locals(class_="long long", found="long long")
 cpdef long long own_predicate(Plan plan, long long predicate, long long master) except? -1
 
+
 cpdef long long active_head(Plan plan, long long predicate) except? -1
+
 
 cpdef long long first_active(Plan plan, long long predicate) except? -1
 
+
 cpdef long long next_active(Plan plan, long long t, long long predicate) except? -1
+
 
 cpdef long long on_list(Plan plan, long long t, long long predicate) except? -1

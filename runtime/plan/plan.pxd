@@ -15,8 +15,6 @@ cdef class Plan:
     cdef public long long[::1] field_value, field_start, field_length, field_names
     cdef public long long[::1] predicate_class, predicate_flags, predicate_timeline, predicate_resource
     cdef public long long[::1] predicate_suffix, predicate_at, predicate_parent, predicate_root
-    cdef public long long suffixes
-    cdef public long long[::1] predicate_suffix, predicate_at, predicate_parent, predicate_root
     cdef public long long[::1] parameter_start, parameter_count, parameter_prototype, parameter_copy_kind
     cdef public long long[::1] parameter_copy_value, parameter_name, body_block, body_slots
     cdef public long long[::1] body_tokens, first_rule, rule_number, rule_block

@@ -19,6 +19,9 @@ class Services(Protocol):
     def draw(self, parameter: int, v: int) -> int:
         """A constant with the value that the environment draws for a parameter, of the kind of `v`; or NONE."""
 
+    def note_homeless(self, t: int) -> None:
+        """Take note of a token that no object can hold."""
+
     def sample_range(self, parameter: int) -> int:
         """The prototype of the values that a parameter may have; or NONE."""
 

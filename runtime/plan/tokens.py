@@ -56,6 +56,9 @@ def make_token(plan: Plan, predicate: int, flags: int, master: int, creator: int
     make_variable(plan, place, ROLE_TOKEN, t, OBJECT)
     if engine.is_open[first + OBJECT]:
         engine.close(first + OBJECT)
+    if engine.lb[first + OBJECT] > engine.ub[first + OBJECT]:
+        plan.services.note_homeless(t)
+        engine.restrict_base(first + OBJECT, 1.0, 0.0, span, t)
     duration = plan.instant_prototype if flags & FLAG_EVENT else plan.duration_prototype
     make_variable(plan, duration, ROLE_TOKEN, t, DURATION)
     make_variable(plan, plan.time_prototype, ROLE_TOKEN, t, START)

@@ -33,6 +33,17 @@ def test_a_goal_needs_an_object() -> None:
     assert "`T`" in fault.message
 
 
+def test_a_child_needs_an_object_too() -> None:
+    text = TIMELINES + "class U extends Timeline { predicate m { } } T::p { any(U.m s); }" + OBJECTS
+    fault = stopped(text + "goal(t.p g); g.activate();")
+    assert (fault.code.kind, fault.span.text) == ("state", "U.m s")
+
+
+def test_deciding_that_a_token_is_active_activates_it() -> None:
+    text = TIMELINES + "T::p { meets(object.q s); }" + OBJECTS + "goal(t.p g); g.state.specify(ACTIVE);"
+    assert set(tokens(loaded(text))) == {"g", "T.q#1"}
+
+
 def test_merging_needs_an_active_token_of_the_same_predicate() -> None:
     assert "inactive" in stopped(SCENE + "goal(t.p g); goal(t.p h); h.merge(g);").message
     assert "`T.q`" in stopped(SCENE + "goal(t.p g); goal(t.q h); g.activate(); h.merge(g);").message
