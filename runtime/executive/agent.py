@@ -280,19 +280,20 @@ class Agent:
         conflict = failure.conflict
         if conflict is None:
             return None
-        causes, variables = list(conflict.causes), list(conflict.variables)
+        causes, variables = [[cause] for cause in conflict.causes], list(conflict.variables)
         for watched in failure.watched:
             owner = next((r for r in self.reactors if r.name == watched.source.owner), None)
             told = owner.why_it_lasts(watched.source.token, watched.source.token_key) if owner else None
             if told is None:
                 continue
             name, reasons = told
-            cause = causes[watched.number]
+            cause = conflict.causes[watched.number]
             because = f"{watched.source.predicate} on `{watched.source.timeline}` is observed as long as it lasts"
-            causes[watched.number] = replace(cause, because=because, terms=(Term("eq", (watched.variable, name)),))
-            causes += reasons.causes
+            observed = replace(cause, because=because, terms=(Term("eq", (watched.variable, name)),))
+            causes[watched.number] = [*reasons.causes, observed]
             variables += reasons.variables
-        return Conflict(tuple(causes), tuple(dict.fromkeys(variables)))
+        told_causes = tuple(cause for together in causes for cause in together)
+        return Conflict(told_causes, tuple(dict.fromkeys(variables)))
 
     def _kill(self, reactor: Reactor, failure: Failure) -> None:
         """Take a failed reactor out and tell the users of its timelines (T-REX 1.6, second generation)."""

@@ -51,7 +51,10 @@ def told(bench: Workbench, causes: list[EngineCause]) -> Conflict:
 
 
 def latest(bench: Workbench, v: int) -> tuple[str, Conflict]:
-    """What sets the latest value of `v`, and that nothing ends it earlier: each link of the chain is used up."""
+    """What sets the latest value of `v`, and that nothing ends it earlier: each link of the chain is used up.
+
+    The root comes first; that a token lasts as long as it may is told right after the limit that it uses up.
+    """
     teller = Teller(bench)
     engine = bench.engine
     causes: dict[Cause, None] = {}
@@ -66,8 +69,11 @@ def latest(bench: Workbench, v: int) -> tuple[str, Conflict]:
     name = str(teller.argument(v))
     token = teller.token(bench.database.plan.variable_owner[v])
     words = f"{token} lasts as long as the model lets it"
-    policy = Cause("clock", None, "", token, words, tuple(dict.fromkeys(tight)))
-    return name, Conflict((*causes, policy), tuple(teller.variables.values()))
+    policy = Cause("model", None, "", token, words, tuple(dict.fromkeys(tight)))
+    chain = list(reversed(causes))
+    limits = [k for k, cause in enumerate(chain) if any(term.name == "leq" for term in cause.terms)]
+    chain.insert(limits[-1] + 1 if limits else len(chain), policy)
+    return name, Conflict(tuple(chain), tuple(teller.variables.values()))
 
 
 def used_up(teller: "Teller", cause: Cause) -> list[Term]:

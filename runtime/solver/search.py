@@ -99,8 +99,8 @@ class Solver:
         """Make all decisions final: the stack is empty, and nothing of it can be taken back."""
         self.stack.clear()
         self.has_active = False
+        self.is_started = False  # the plan is looked at anew before the next step, if there is one
         commit(self.plan)
-        fill(self.queues)
 
     def take_back(self) -> None:
         """Undo all decisions."""
