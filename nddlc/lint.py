@@ -1,6 +1,7 @@
 """`nddlc lint`: everything that is wrong with models, and the mending of what can be mended."""
 
 import difflib
+import gc
 import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -62,6 +63,9 @@ def command(
     with 1 otherwise.
     """
     paths = models_in(files, directories)
+    # What one run makes lives to its end: looking for garbage would only cost, the more the larger the model.
+    gc.disable()
+    ctx.call_on_close(gc.enable)
     codes = {name: tuple(_codes(given, name)) for name, given in (("select", select), ("ignore", ignore))}
     checker = Checker(tuple(Path(directory) for directory in directories), chosen_dialect(ctx, dialect))
     found: list[Diagnostic] = []

@@ -2,7 +2,7 @@
 
 from nddl_lang.semantics.arguments import check_count, check_types
 from nddl_lang.semantics.constraints import FORMER_CONSTRAINTS, ConstraintRow, Origin
-from nddl_lang.semantics.expressions import NOT_IN_NDDL3, check_condition, sampled_parameter, type_of
+from nddl_lang.semantics.expressions import NO_ENVIRONMENT, NOT_IN_NDDL3, check_condition, sampled_parameter, type_of
 from nddl_lang.semantics.functions import FUNCTIONS
 from nddl_lang.semantics.names import suggest_name
 from nddl_lang.semantics.scope import Context, Scope
@@ -30,7 +30,7 @@ def check_call_constraint(context: Context, scope: Scope, node: CallConstraint) 
         _complain_unknown(context, node)
         return
     if row.origin is Origin.NDDLC and context.dialect is Dialect.NDDL3:
-        context.complain(NOT_IN_NDDL3.at(node.name.span, name=name))
+        context.complain(NOT_IN_NDDL3.at(node.name.span, help=NO_ENVIRONMENT, name=name))
     types = [
         sampled_parameter(context, scope, node, argument, FUNCTIONS[name])
         if _is_parameter(row, index)

@@ -47,6 +47,7 @@ from nddl_lang.text.diagnostic import Code, Edit, Fix, Severity
 
 UNKNOWN_FUNCTION = Code("NDDL209", Severity.ERROR, "name", "there is no function `{name}`")
 NOT_IN_NDDL3 = Code("NDDL211", Severity.ERROR, "name", "`{name}` is not part of nddl3")
+NO_ENVIRONMENT = "give the value from outside: compare with a number, or with a global variable that the script assigns"
 MIXED_SET = Code(
     "NDDL303", Severity.ERROR, "type", "the values of a set have one type; `{text}` is {found}, `{first}` is {expected}"
 )
@@ -313,7 +314,7 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
 def check_dialect(context: Context, call: CallExpr, row: FunctionRow) -> None:
     """Complain about a function that only the dialect nddlc has."""
     if row.origin is Origin.NDDLC and context.dialect is Dialect.NDDL3:
-        context.complain(NOT_IN_NDDL3.at(call.function.span, name=row.name))
+        context.complain(NOT_IN_NDDL3.at(call.function.span, help=NO_ENVIRONMENT, name=row.name))
 
 
 def _result_type(context: Context, row: FunctionRow, types: list[Type | None]) -> Type:

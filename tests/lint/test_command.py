@@ -1,0 +1,285 @@
+"""`nddlc lint` from the outside: what is chosen, silenced and mended, how it is printed, and how it ends."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from xml.etree import ElementTree
+
+import jsonschema
+import pytest
+
+from nddlc.main import run
+
+Captured = pytest.CaptureFixture[str]
+ODD = "int a; int b; int c;\na < b < c;\n"
+UNUSED = "class Lamp extends Timeline { predicate lit { int level; } }\nLamp::lit {\n  int watts;\n  level >= 3;\n}\n"
+REGION = {
+    "type": "object",
+    "required": ["startLine"],
+    "properties": {
+        name: {"type": "integer", "minimum": 1} for name in ("startLine", "startColumn", "endLine", "endColumn")
+    },
+    "additionalProperties": False,
+}
+ARTIFACT = {
+    "type": "object",
+    "required": ["uri"],
+    "properties": {"uri": {"type": "string", "pattern": r"^[A-Za-z0-9/._~%-]+$"}},
+    "additionalProperties": False,
+}
+PLACE = {
+    "type": "object",
+    "required": ["artifactLocation", "region"],
+    "properties": {"artifactLocation": ARTIFACT, "region": REGION},
+    "additionalProperties": False,
+}
+TEXT = {"type": "object", "required": ["text"], "properties": {"text": {"type": "string", "minLength": 1}}}
+REPLACEMENT = {
+    "type": "object",
+    "required": ["deletedRegion"],
+    "properties": {"deletedRegion": REGION, "insertedContent": {"type": "object", "required": ["text"]}},
+    "additionalProperties": False,
+}
+CHANGE = {
+    "type": "object",
+    "required": ["artifactLocation", "replacements"],
+    "properties": {
+        "artifactLocation": ARTIFACT,
+        "replacements": {"type": "array", "minItems": 1, "items": REPLACEMENT},
+    },
+    "additionalProperties": False,
+}
+RESULT = {
+    "type": "object",
+    "required": ["ruleId", "message"],
+    "properties": {
+        "ruleId": {"type": "string"},
+        "ruleIndex": {"type": "integer", "minimum": 0},
+        "level": {"enum": ["none", "note", "warning", "error"]},
+        "message": TEXT,
+        "locations": {"type": "array", "items": {"type": "object", "properties": {"physicalLocation": PLACE}}},
+        "relatedLocations": {
+            "type": "array",
+            "uniqueItems": True,
+            "items": {"type": "object", "properties": {"id": {"minimum": 0}, "message": TEXT}},
+        },
+        "fixes": {
+            "type": "array",
+            "items": {
+                "type": "object",
+                "required": ["artifactChanges"],
+                "properties": {"description": TEXT, "artifactChanges": {"type": "array", "items": CHANGE}},
+            },
+        },
+    },
+    "additionalProperties": False,
+}
+RULE = {
+    "type": "object",
+    "required": ["id"],
+    "properties": {
+        "id": {"type": "string"},
+        "shortDescription": TEXT,
+        "defaultConfiguration": {"properties": {"level": {"enum": ["none", "note", "warning", "error"]}}},
+    },
+    "additionalProperties": False,
+}
+# The part of the schema of SARIF 2.1.0 that what is written here falls under.
+SARIF = {
+    "type": "object",
+    "required": ["version", "runs"],
+    "properties": {
+        "$schema": {"type": "string", "format": "uri"},
+        "version": {"enum": ["2.1.0"]},
+        "runs": {
+            "type": "array",
+            "items": {
+                "type": "object",
+                "required": ["tool"],
+                "properties": {
+                    "tool": {
+                        "type": "object",
+                        "required": ["driver"],
+                        "properties": {
+                            "driver": {
+                                "type": "object",
+                                "required": ["name"],
+                                "properties": {
+                                    "name": {"type": "string"},
+                                    "rules": {"type": "array", "uniqueItems": True, "items": RULE},
+                                },
+                                "additionalProperties": False,
+                            }
+                        },
+                        "additionalProperties": False,
+                    },
+                    "columnKind": {"enum": ["utf16CodeUnits", "unicodeCodePoints"]},
+                    "results": {"type": "array", "items": RESULT},
+                },
+                "additionalProperties": False,
+            },
+        },
+    },
+    "additionalProperties": False,
+}
+
+
+def file(directory: Path, text: str, name: str = "m.nddl") -> str:
+    """A file with a text, by name."""
+    path = directory / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return str(path)
+
+
+def codes(captured: Captured) -> list[str]:
+    """The codes that were printed as JSON."""
+    return [each["code"] for each in json.loads(captured.readouterr().out)["diagnostics"]]
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        ([], ["NDDL554"]),
+        (["--select", "NDDL55"], ["NDDL554"]),
+        (["--select", "NDDL501,NDDL6"], []),
+        (["--ignore", "NDDL554"], []),
+        (["--ignore", "NDDL501", "--ignore", "nddl5"], []),
+        (["--level", "error"], []),
+    ],
+)
+def test_what_is_asked_for_is_reported(
+    options: list[str], expected: list[str], tmp_path: Path, capsys: Captured
+) -> None:
+    assert run(["lint", file(tmp_path, ODD), "--format", "json", *options]) == int(bool(expected))
+    assert codes(capsys) == expected
+
+
+@pytest.mark.parametrize(("limit", "code"), [("error", 0), ("warning", 1), ("info", 1), ("never", 0)])
+def test_the_threshold_decides_how_it_ends(limit: str, code: int, tmp_path: Path, capsys: Captured) -> None:
+    assert run(["lint", file(tmp_path, ODD), "--fail-on", limit]) == code
+    assert "1 warning in 1 file" in capsys.readouterr().out
+
+
+def test_errors_cannot_be_deselected(tmp_path: Path, capsys: Captured) -> None:
+    path = file(tmp_path, "int a = b; // nddlc: ignore\n")
+    assert run(["lint", path, "--ignore", "NDDL", "--format", "json"]) == 1
+    assert codes(capsys) == ["NDDL201"]
+
+
+def test_a_code_that_cannot_be_one_is_refused(tmp_path: Path, capsys: Captured) -> None:
+    assert run(["lint", file(tmp_path, ODD), "--select", "E501"]) == 2
+    assert "`E501` in --select is no code" in capsys.readouterr().err
+
+
+def test_statistics_count_codes(tmp_path: Path, capsys: Captured) -> None:
+    assert run(["lint", file(tmp_path, ODD + "b < a < c;\n"), "--statistics"]) == 1
+    assert "     2  NDDL554" in capsys.readouterr().out
+
+
+def test_of_a_directory_the_models_are_linted_and_not_their_parts(tmp_path: Path, capsys: Captured) -> None:
+    file(tmp_path, '#include "sub/part.nddl"\n' + ODD, "main.nddl")
+    file(tmp_path, "a < a < b;\n", "sub/part.nddl")
+    file(tmp_path, ODD, ".hidden/other.nddl")
+    assert run(["lint", str(tmp_path), "--format", "json"]) == 1
+    shown = json.loads(capsys.readouterr().out)
+    assert shown["files"] == [str(tmp_path / "main.nddl")]
+    assert {each["code"] for each in shown["diagnostics"]} == {"NDDL202"}
+
+
+def test_a_directory_without_models_is_refused(tmp_path: Path, capsys: Captured) -> None:
+    assert run(["lint", str(tmp_path)]) == 2
+    assert "there is no model" in capsys.readouterr().err
+
+
+def test_sarif_follows_its_schema(tmp_path: Path, capsys: Captured) -> None:
+    path = file(tmp_path, UNUSED + "int a; int b;\na < b < a;\nLmap l;\n", "a name, 100 %.nddl")
+    assert run(["lint", path, "--format", "sarif"]) == 1
+    jsonschema.validate(json.loads(capsys.readouterr().out), SARIF)
+    assert run(["lint", file(tmp_path, UNUSED), "--format", "sarif"]) == 1
+    log = json.loads(capsys.readouterr().out)
+    jsonschema.validate(log, SARIF)
+    (result,) = log["runs"][0]["results"]
+    assert (result["ruleId"], result["level"]) == ("NDDL501", "warning")
+    assert result["locations"][0]["physicalLocation"]["region"] == {
+        "startLine": 3,
+        "startColumn": 7,
+        "endLine": 3,
+        "endColumn": 12,
+    }
+    assert result["fixes"][0]["artifactChanges"][0]["replacements"][0]["insertedContent"] == {"text": ""}
+
+
+def test_junit_has_one_case_per_file(tmp_path: Path, capsys: Captured) -> None:
+    names = [file(tmp_path, ODD), file(tmp_path, "int a;\n", "fine.nddl")]
+    assert run(["lint", *names, "--format", "junit"]) == 1
+    suites = ElementTree.fromstring(capsys.readouterr().out.split("\n", 1)[1])
+    assert (suites.get("tests"), suites.get("failures")) == ("2", "1")
+    cases = {str(case.get("name")): case.find("failure") for case in suites.iter("testcase")}
+    failure = cases[names[0]]
+    assert failure is not None and failure.get("type") == "NDDL554" and "a < b < c;" in str(failure.text)
+    assert cases[names[1]] is None
+
+
+def test_github_gets_one_line_per_finding(tmp_path: Path, capsys: Captured) -> None:
+    path = file(tmp_path, ODD)
+    assert run(["lint", path, "--format", "github"]) == 1
+    line = (
+        f"::warning file={path},line=2,endLine=2,col=7,endColumn=7,title=NDDL554::`<` compares the truth of `a < b`\n"
+    )
+    assert capsys.readouterr().out == line
+
+
+def test_fixes_are_carried_out(tmp_path: Path, capsys: Captured) -> None:
+    path = file(tmp_path, UNUSED + "filter int a;\na >= 3; // nddlc: ignore NDDL501\n")
+    assert run(["lint", path, "--fix"]) == 0
+    expected = UNUSED.replace("  int watts;\n", "") + "int a;\na >= 3; "
+    assert Path(path).read_text(encoding="utf-8").rstrip() == expected.rstrip()
+    assert "3 fixes carried out\nnothing wrong in 1 file" in capsys.readouterr().out
+    assert list(tmp_path.iterdir()) == [Path(path)]
+
+
+def test_unsafe_fixes_are_asked_for(tmp_path: Path, capsys: Captured) -> None:
+    path = file(tmp_path, ODD)
+    assert run(["lint", path, "--fix"]) == 1
+    assert Path(path).read_text(encoding="utf-8") == ODD
+    assert run(["lint", path, "--unsafe-fixes"]) == 0
+    assert Path(path).read_text(encoding="utf-8") == "int a; int b; int c;\na < b && b < c;\n"
+    capsys.readouterr()
+
+
+def test_a_diff_changes_nothing(tmp_path: Path, capsys: Captured) -> None:
+    path = file(tmp_path, UNUSED)
+    assert run(["lint", path, "--diff"]) == 1
+    assert "\n-  int watts;\n" in capsys.readouterr().out
+    assert Path(path).read_text(encoding="utf-8") == UNUSED
+
+
+def test_what_is_no_text_is_not_mended(tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_bytes(b"// \xff\n" + UNUSED.encode())
+    assert run(["lint", str(path), "--fix"]) == 1
+    assert path.read_bytes() == b"// \xff\n" + UNUSED.encode()
+    assert "is not UTF-8 text" in capsys.readouterr().err
+
+
+def test_the_other_dialect_is_named_with_what_to_write_instead(tmp_path: Path, capsys: Captured) -> None:
+    text = (
+        "class A { int m = 3; }\nint a = 1;\nint b = a + 1;\nfloat f = -(2.0);\nb == a-1;\nb == a / 2;\n"
+        "class T extends Timeline { predicate p { float rate; } }\nT::p {\n  before [1 5] (object.p q);\n"
+        "  rate == sampledParameter(f);\n}\n"
+    )
+    path = file(tmp_path, text)
+    assert run(["lint", path, "--fail-on", "error"]) == 0
+    capsys.readouterr()
+    assert run(["lint", path, "--dialect", "nddl3", "--format", "json"]) == 1
+    found = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert {each["line"] for each in found} >= {1, 3, 4, 5, 6, 9, 10}
+    assert [each["code"] for each in found if not each["help"] and not each["fixes"]] == []
+
+
+def test_a_pipe_may_close(tmp_path: Path) -> None:
+    command = [sys.executable, "-m", "nddlc.main", "lint", file(tmp_path, ODD)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (1, "")
