@@ -11,7 +11,7 @@ from checker.explain import confirmation_text, threshold_text
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES, Verdict
 from checker.report.svg import Dot, rate_plot, scatter_plot, strip_plot
-from checker.report.wording import decision, missions, percent, rate_line, verdict_word
+from checker.report.wording import blamed, decision, missions, percent, rate_line, verdict_word
 from checker.sampling.wording import describe, number
 from checker.story import Step, Story
 from runtime.executive.configuration import ParameterConfiguration
@@ -53,7 +53,7 @@ def _head(findings: Findings) -> list[str]:
     tiles = [(flown, "missions flown"), (str(rate.failures), "failed"), (percent(rate.observed), "failure rate")]
     tiles.append((percent(rate.limit), "accepted"))
     if findings.errors:
-        tiles.append((str(len(findings.errors)), "errors of the tool"))
+        tiles.append((str(len(findings.errors)), f"errors {blamed(findings)}"))
     return [
         f'<span class="verdict {word}">{word}</span>',
         f"<h1>{escape(findings.agent.name)}</h1>",

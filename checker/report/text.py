@@ -3,7 +3,7 @@
 from checker.excerpts import Excerpts
 from checker.explain import confirmation_text, excerpt_lines, threshold_text
 from checker.findings import Findings
-from checker.report.wording import decision, fault_title, headline, rate_line
+from checker.report.wording import blamed, decision, fault_title, headline, rate_line
 from checker.sampling.wording import describe
 
 MOST_FAULTS = 5
@@ -29,7 +29,7 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
     if len(findings.faults) > MOST_FAULTS:
         lines += ["", f"{len(findings.faults) - MOST_FAULTS} more kinds of failure are in the report"]
     if findings.errors:
-        lines += ["", f"errors of the tool, counted nowhere: {len(findings.errors)}"]
+        lines += ["", f"errors {blamed(findings)}, counted nowhere: {len(findings.errors)}"]
         for error in findings.errors[:MOST_ERRORS]:
             lines.append(f"   mission {error.number} (seed {error.seed}): {error.judgement.reason}")
     return "\n".join(lines) + "\n"

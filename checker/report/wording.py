@@ -1,7 +1,7 @@
 """The sentences that every form of the report shares."""
 
 from checker.findings import Findings
-from checker.oracle import CODE_NAMES, Verdict
+from checker.oracle import CODE_NAMES, USER_CODE, Verdict
 from checker.sampling.wording import number
 from checker.statistics import Rate
 
@@ -24,8 +24,14 @@ def headline(findings: Findings) -> str:
     if findings.is_interrupted:
         flown += f" of {findings.planned} (interrupted)"
     errors = len(findings.errors)
-    broken = f", {errors} not flown to the end because of an error of the tool" if errors else ""
+    broken = f", {errors} not flown to the end because of an error {blamed(findings)}" if errors else ""
     return f"{name}: {flown}, {rate.failures} failed{broken}"
+
+
+def blamed(findings: Findings) -> str:
+    """Whose error kept missions from being flown."""
+    is_ours = any(result.judgement.code != USER_CODE for result in findings.errors)
+    return "of the tool" if is_ours else "in a constraint of the project"
 
 
 def rate_line(rate: Rate) -> str:

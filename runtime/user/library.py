@@ -4,9 +4,7 @@ import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256
-from importlib.machinery import SourceFileLoader
 from importlib.metadata import EntryPoint, entry_points
-from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 from types import ModuleType
 
@@ -75,10 +73,8 @@ def load_library(root: Path, files: Sequence[str], packages: Iterable[EntryPoint
 def load_module(path: Path) -> ModuleType:
     """Run the Python file at `path` as a module of its own."""
     name = f"nddlc_user_{sha256(str(path.resolve()).encode()).hexdigest()[:16]}"
-    loader = SourceFileLoader(name, str(path))
-    spec = spec_from_loader(name, loader, origin=str(path))
-    assert spec is not None
-    module = module_from_spec(spec)
+    module = ModuleType(name)
+    module.__file__ = str(path)
     sys.modules[name] = module  # dataclasses and the like look themselves up there
     try:
         # Compiled afresh each time: what lies in a cache is told from the text by its time only.

@@ -1,0 +1,118 @@
+"""Constraints written in Python narrow, refuse, fail and explain like built-in ones."""
+
+from pathlib import Path
+
+import pytest
+
+from runtime.constraints.cause import CauseKind
+from runtime.constraints.minimise import minimise
+from runtime.user.fault import UserCodeError
+from tests.user_constraints.own import TWICE, database, domains, library
+
+ODD = """
+class Odd(Constraint):
+    name = "odd"
+    signature = "x:number"
+    meaning = "x is odd"
+
+    def holds(self, values):
+        return values[0] % 2 == 1
+
+
+CONSTRAINTS = [Odd()]
+"""
+CALM = """
+class Calm(Constraint):
+    name = "calm"
+    signature = "sea:any port:object night:bool label:string"
+    meaning = "one may leave the port"
+
+    def propagate(self, view):
+        if view.values(1) is not None:
+            assert all(isinstance(each, str) for each in view.values(1))
+        return view.keep(0, ["GLASSY", "RIPPLED"]) and view.remove(0, "RIPPLED") and view.fix(2, True)
+
+    def holds(self, values):
+        return values[1:] == ["home", True, "late"]
+
+
+CONSTRAINTS = [Calm()]
+"""
+
+
+def test_bounds_follow_both_ways(tmp_path: Path) -> None:
+    found = domains("int x = [1 10]; int y = [0 13]; twice(y, x);", library(tmp_path, TWICE))
+    assert found == {"x": "[1, 6] int", "y": "[2, 12] int"}
+
+
+def test_a_test_alone_refuses_wrong_values(tmp_path: Path) -> None:
+    own = library(tmp_path, ODD)
+    assert "" not in domains("int x = 3; odd(x); odd(5);", own)
+    assert domains("int x = 4; odd(x);", own)[""] == "inconsistent"
+
+
+def test_a_function_is_computed_once_its_arguments_are_known(tmp_path: Path) -> None:
+    text = 'CONSTRAINTS = [function("root", "x:number", "float", lambda x: x**0.5 if x >= 0 else None, "the root")]'
+    own = library(tmp_path, text)
+    assert domains("float x = 9.0; float y; y == root(x);", own)["y"] == "{3.0} float"
+    assert domains("float y; root(y, 16.0);", own)["y"] == "{4.0} float"
+    assert domains("float x = [1.0 4.0]; float y = [0.0 9.0]; y == root(x);", own)["y"] == "[0.0, 9.0] float"
+    assert domains("float y; y == root(-1.0);", own)[""] == "inconsistent"
+
+
+def test_names_are_texts(tmp_path: Path) -> None:
+    own = library(tmp_path, CALM)
+    text = """enum Sea { GLASSY, RIPPLED, ROUGH }
+    class Port { }
+    Port home = new Port(); Port far = new Port(); close();
+    Sea sea; bool night;
+    """
+    found = domains(f'{text} calm(sea, home, night, "late");', own)
+    assert (found["sea"], found["night"]) == ("{GLASSY} Sea", "{true} bool")
+    assert domains(f'{text} calm(sea, far, night, "late");', own)[""] == "inconsistent"
+    assert domains(f'{text} calm(sea, home, night, "early");', own)[""] == "inconsistent"
+
+
+def test_a_rule_posts_it_for_each_token_and_a_conflict_names_its_line(tmp_path: Path) -> None:
+    own = library(tmp_path, TWICE)
+    text = """class A extends Timeline { predicate P { int d; twice(d, duration); neq(d, 3); } }
+    A a = new A(); close();
+    goal(a.P p);
+    p.duration <= 9;
+    p.d == 30;
+    """
+    made = database(text, own)
+    assert not made.is_consistent
+    causes = minimise(made.engine, made.engine.explain())
+    lines = [made.code.spans[cause.span].text for cause in causes if cause.kind is CauseKind.CONSTRAINT]
+    assert "twice(d, duration);" in lines
+    assert "neq(d, 3);" not in lines
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("return 1 / 0 > view.lower(0)", "own.py:7: `propagate` of the constraint `bad` failed: ZeroDivisionError"),
+        ("view.raise_to(0, 1)", "it returned None instead of True or False"),
+        (
+            "return view.raise_to(0, float('nan'))",
+            "own.py:7: `propagate` of the constraint `bad` failed: ValueError: nan",
+        ),
+        ("return view.raise_to(3, 0)", "IndexError: there is no argument 3; there are 1"),
+        ("raise SystemExit", "own.py:7: `propagate` of the constraint `bad` failed: SystemExit"),
+    ],
+)
+def test_what_goes_wrong_in_it_names_file_and_line(body: str, said: str, tmp_path: Path) -> None:
+    text = f"""
+class Bad(Constraint):
+    name = "bad"
+    signature = "x:number"
+    meaning = "it fails"
+    def propagate(self, view):{chr(10)}        {body}
+CONSTRAINTS = [Bad()]
+"""
+    own = library(tmp_path, text.replace("\nclass Bad", "class Bad", 1))
+    with pytest.raises(UserCodeError) as caught:
+        database("int x = [0 9]; bad(x);", own)
+    assert said in str(caught.value)
+    assert "Traceback" in caught.value.detail
