@@ -16,7 +16,7 @@ from setuptools.command.build_ext import build_ext
 from freshness import engine_modules
 
 # No fused multiply-add: a plan must not depend on the processor.
-COMPILE_FLAGS = ["/O2", "/fp:precise"] if sys.platform == "win32" else ["-O3", "-g0", "-ffp-contract=off"]
+COMPILE_FLAGS = ["/O2", "/fp:precise"] if sys.platform == "win32" else ["-O2", "-g0", "-ffp-contract=off"]
 
 PROBE = "#include <stdlib.h>\n#include <math.h>\nint probe(void) { return abs(-1); }\n"
 
