@@ -23,7 +23,7 @@ from runtime.plan.codes import (
 )
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout import live_tokens, read
-from tests.plan.models import loaded
+from tests.plan.models import loaded, token
 
 MODEL = """
 enum Mode { slow, fast }
@@ -191,3 +191,39 @@ def test_a_plan_taken_apart_is_the_plan_that_was_loaded(seed: int) -> None:
         assert read(database) == before
     assert database.engine.variables <= variables + 400
     assert database.engine.edges_used <= edges + 400
+
+
+def tables(database: PlanDatabase) -> tuple[int, ...]:
+    """How long the tables of plan and engine have become."""
+    rows, engine = database.plan.rows, database.engine
+    return (
+        rows.token_count,
+        rows.scope_count,
+        rows.hold_count,
+        rows.cell_count,
+        rows.pair_count,
+        engine.variables,
+        engine.edges_used,
+        engine.constraints_used,
+        engine.restrictions_used,
+        database.plan.resources.count,
+    )
+
+
+def test_tables_stay_as_long_as_the_longest_plan() -> None:
+    database = loaded(MODEL)
+    trip = token(database, "trip")
+    idle = next(n for n, each in enumerate(database.program.predicates) if each.name == "Arm.idle")
+    lengths = []
+    for _ in range(60):
+        mark = database.mark()
+        assert database.activate(trip)
+        database.release(mark)
+        assert database.activate(trip)
+        t = database.new_token(idle, 3, 1, -2)
+        assert database.settle() and database.activate(t) and database.order(3, t, t)
+        assert database.remove_tokens([t])
+        assert database.cancel(trip)
+        database.commit()
+        lengths.append(tables(database))
+    assert lengths[1] == lengths[-1]
