@@ -2,6 +2,7 @@
 
 from array import array
 
+from runtime.constraints.codes import OP_TEMPORAL_DISTANCE
 from runtime.constraints.store import Store
 from runtime.solver.heap import Heap
 from runtime.solver.widening import widened
@@ -18,6 +19,7 @@ class Distances:
         self.distance = array("q", [0]) * 64
         self.via = array("q", [0]) * 64
         self.by_bounds = False
+        self.temporal_only = False  # EUROPA's network does not know of comparisons such as `leq` between times
 
     def admits(self, source: int, target: int, weight: int) -> bool:
         """Whether `target - source <= weight` is possible: no path of edges back from `target` says otherwise.
@@ -55,10 +57,16 @@ class Distances:
             while e >= 0:
                 u = engine.edge_target[e]
                 longer = length + engine.edge_weight[e] + engine.ub[v] - engine.ub[u]
-                if longer < limit and (self.stamped[u] != self.stamp or longer < self.distance[u]):
+                is_shorter = longer < limit and (self.stamped[u] != self.stamp or longer < self.distance[u])
+                if is_shorter and self.is_known(e):
                     self.stamped[u] = self.stamp
                     self.distance[u] = longer
                     self.via[u] = e
                     heap.push(longer, 0, u)
                 e = engine.out_next[e]
         return True
+
+    def is_known(self, e: int) -> bool:
+        """Whether edge `e` is one to follow."""
+        c = self.engine.edge_link[e] if self.temporal_only else -1
+        return c < 0 or self.engine.op[c] == OP_TEMPORAL_DISTANCE

@@ -149,8 +149,11 @@ def is_token_flaw(q: Queues, t: int, kind: int) -> bool:
 
 
 def is_variable_flaw(q: Queues, v: int) -> bool:
-    """Whether a variable exists and is not decided."""
-    return q.engine.kind[v] >= 0 and not q.is_decided(v)
+    """Whether a variable exists, is not decided, and is one of the plan: tokens out of it decide nothing."""
+    if q.engine.kind[v] < 0 or q.is_decided(v):
+        return False
+    t = q.filters.token_of(v)
+    return t < 0 or q.rows.status[t] == ACTIVE
 
 
 def select_loose(q: Queues, manager: int) -> int:
