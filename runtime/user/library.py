@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Iterable, Sequence
+from contextlib import redirect_stdout
 from dataclasses import dataclass, field
 from hashlib import sha256
 from importlib.metadata import EntryPoint, entry_points
@@ -78,7 +79,8 @@ def load_module(path: Path) -> ModuleType:
     sys.modules[name] = module  # dataclasses and the like look themselves up there
     try:
         # Compiled afresh each time: what lies in a cache is told from the text by its time only.
-        exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)
+        with redirect_stdout(sys.stderr):  # what is printed there is read by programs
+            exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)
     except (Exception, SystemExit) as problem:
         del sys.modules[name]
         if isinstance(problem, OSError) and problem.filename == str(path):

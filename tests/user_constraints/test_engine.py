@@ -4,8 +4,11 @@ from pathlib import Path
 
 import pytest
 
+from checker.smt.confirm import Finding, confirm
 from runtime.constraints.cause import CauseKind
 from runtime.constraints.minimise import minimise
+from runtime.executive.story import conflict_of
+from runtime.executive.workbench import Workbench
 from runtime.user.fault import UserCodeError
 from tests.user_constraints.own import TWICE, database, domains, library
 
@@ -116,3 +119,16 @@ CONSTRAINTS = [Bad()]
         database("int x = [0 9]; bad(x);", own)
     assert said in str(caught.value)
     assert "Traceback" in caught.value.detail
+
+
+def test_z3_names_what_it_was_not_told_and_believes_terms(tmp_path: Path) -> None:
+    text = "int x = [1 10]; int y = [0 13]; y == 13; x >= 7; twice(y, x);"
+    told = conflict_of(Workbench(database(text, library(tmp_path, TWICE)), "reactor"))
+    assert told is not None
+    assert confirm(told).finding is Finding.CONFIRMED
+    assert confirm(told).untranslated == ()
+    silent = TWICE.replace("def terms", "def words")
+    told = conflict_of(Workbench(database(text, library(tmp_path, silent)), "reactor"))
+    assert told is not None
+    assert confirm(told).untranslated == ("twice",)
+    assert "twice(y, x)" in [cause.because for cause in told.causes]
