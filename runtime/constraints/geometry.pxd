@@ -16,9 +16,7 @@ cdef double DEGREE, DISTANCE_TOLERANCE, FLOAT_TOLERANCE, POSITION_TOLERANCE, SLA
 @cython.locals(first="long long", op="long long", r="long long", support="long long", x="long long")
 cpdef bint run_geometry(Store s, long long c) except -1
 
-@cython.locals(
-    a=double, b=double, centre=double, hi=double, least=double, lo=double, most=double, sign=double, slack=double
-)
+@cython.locals(a=double, b=double, centre=double, hi=double, least=double, lo=double, most=double, sign=double)
 cpdef bint turn(Store s, long long r, long long x, double ahead, long long support) except -1
 
 cpdef bint passes(double lo, double hi, double peak) except -1

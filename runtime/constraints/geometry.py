@@ -98,11 +98,12 @@ def turn(s: Store, r: int, x: int, ahead: float, support: int) -> bool:
     if hi > centre + 90.0:
         return True
     sign = -1.0 if math.fmod(centre, 360.0) != 0.0 else 1.0
-    a = sign * angle_of(low(s, r))
-    b = sign * angle_of(high(s, r))
-    # Near its ends the arc sine is steep: an error in the sine is there the square root of it in the angle.
-    slack = 1e-7 + SLACK + (0.003 if low(s, r) < -0.999999 or high(s, r) > 0.999999 else 0.0)
-    return within(s, x, centre + min(a, b) - ahead - slack, centre + max(a, b) - ahead + slack, support)
+    # The sine is known to the tolerance only; near its extremes that is a wide range of angles.
+    a = angle_of(low(s, r) - FLOAT_TOLERANCE)
+    b = angle_of(high(s, r) + FLOAT_TOLERANCE)
+    if sign < 0.0:
+        a, b = -b, -a
+    return within(s, x, centre + a - ahead - SLACK, centre + b - ahead + SLACK, support)
 
 
 def passes(lo: float, hi: float, peak: float) -> bool:

@@ -39,6 +39,8 @@ def set_lower(s: Store, v: int, x: int, support: int) -> bool:
         x = next_value(s, v, x)
     if x > s.ub[v]:
         return s.fail(v, SIDE_LOWER, support)
+    if s.coarse and x - s.lb[v] < (s.ub[v] - s.lb[v]) >> 7:
+        return True
     s.write_lower(v, x, support)
     s.queue_edges(v, 0)
     s.wake(v, EVENT_LOWER)
@@ -53,6 +55,8 @@ def set_upper(s: Store, v: int, x: int, support: int) -> bool:
         x = previous_value(s, v, x)
     if x < s.lb[v]:
         return s.fail(v, SIDE_UPPER, support)
+    if s.coarse and s.ub[v] - x < (s.ub[v] - s.lb[v]) >> 7:
+        return True
     s.write_upper(v, x, support)
     s.queue_edges(v, 1)
     s.wake(v, EVENT_UPPER)
@@ -111,6 +115,8 @@ def set_real_lower(s: Store, v: int, x: float, support: int) -> bool:
         x = s.fhi[v]
         if x <= s.flo[v]:
             return True
+    if s.coarse and x - s.flo[v] < 0.01 * (s.fhi[v] - s.flo[v]):
+        return True
     s.write_real_lower(v, x, support)
     s.wake(v, EVENT_LOWER)
     return True
@@ -133,6 +139,8 @@ def set_real_upper(s: Store, v: int, x: float, support: int) -> bool:
         x = s.flo[v]
         if x >= s.fhi[v]:
             return True
+    if s.coarse and s.fhi[v] - x < 0.01 * (s.fhi[v] - s.flo[v]):
+        return True
     s.write_real_upper(v, x, support)
     s.wake(v, EVENT_UPPER)
     return True

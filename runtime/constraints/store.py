@@ -175,6 +175,7 @@ class Store:
         self.woken = array("i", [0]) * room
         self.woken_count = 0
         self.running = -1
+        self.coarse = False
         # The conflict, and what was counted.
         self.consistent = True
         self.conflict_kind = 0
