@@ -57,14 +57,17 @@ def load_members(plan: Plan, program: Program, prototypes: Prototypes, names: Na
     width = len(names.texts)
     plan.member_names = width
     at = array("q", [NONE]) * (width * len(program.classes) + 1)
+    typed = array("q", [NONE]) * (width * len(program.classes) + 1)
     prototype = array("q", [NONE]) * (width + 1)
     for number, class_ in enumerate(program.classes):
         for k, member in enumerate(class_.members):
             name = names.number(member.name)
             at[number * width + name] = k
+            typed[number * width + name] = prototypes.of(member.type, member.domain)
             if prototype[name] < 0:
-                prototype[name] = prototypes.of(member.type, member.domain)
+                prototype[name] = typed[number * width + name]
     plan.member_at = at
+    plan.member_prototype = typed
     plan.name_prototype = prototype
 
 

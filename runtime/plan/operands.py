@@ -75,6 +75,7 @@ def proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
         if v >= 0:
             values.append(o)
             members.append(v)
+            prototype = plan.member_prototype[plan.object_class[o] * plan.member_names + name]
     result = copy_variable(plan, scope, prototype, ROLE_INTERNAL, NONE)
     plan.proxy_index[result] = index
     plan.proxy_member[result] = name

@@ -102,7 +102,8 @@ class Plan:
         self.first_object_head = 0
         self.member_names = 0
         self.member_at = blank(1)
-        self.name_prototype = blank(1)
+        self.member_prototype = blank(1)
+        self.name_prototype = blank(1)  # for a member of no known object
         # Prototypes whose domain is an interval.
         self.form_capacity = 256
         self.form = blank(256)

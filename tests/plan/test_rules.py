@@ -110,3 +110,22 @@ def test_a_chain_of_children_is_no_recursion() -> None:
     assert database.plan.rows.live == 201
     assert database.remove_tokens([token(database, "g")])
     assert database.plan.rows.live == 0
+
+
+def test_a_field_of_an_undecided_object_has_the_type_that_its_class_gives_it() -> None:
+    text = """
+    class Road { string end_point; Road(string g) { end_point = g; } }
+    class Town { }
+    class Rail { Town end_point; float fare; Rail(Town t, float f) { end_point = t; fare = f; } }
+    class Ticket { int fare; Ticket(int f) { fare = f; } }
+    class T extends Timeline { predicate ride { Rail by; Town to; float paid; } }
+    T::ride { eq(by.end_point, to); eq(by.fare, paid); }
+    Ticket ticket = new Ticket(3);
+    Town ulm = new Town(); Town jena = new Town(); Town kiel = new Town();
+    Rail south = new Rail(ulm, 2.5);
+    Rail east = new Rail(jena, 7.25);
+    T t = new T(); close();
+    goal(t.ride g); g.activate();
+    """
+    assert domains(loaded(text))["g.to"] == "{jena, ulm} Town"
+    assert domains(loaded(text + "g.to.specify(jena);"))["g.paid"] == "{7.25} float"
