@@ -112,11 +112,11 @@ def copy(plan: Plan, prototype: int) -> int:
     if values is not None and not is_gapless(kind, values):
         return engine.new_values(kind, values, NONE, NONE)
     lower = values[0] if values else engine.base_lower(prototype)
-    upper = values[-1] if values else engine.base_upper(prototype)
+    upper = values[len(values) - 1] if values else engine.base_upper(prototype)
     plan.note_form(prototype, lower, upper)
     return engine.new_interval(kind, lower, upper, NONE, NONE)
 
 
 def is_gapless(kind: int, values: list[float]) -> bool:
     """Whether a sorted set of whole numbers is an interval."""
-    return kind != KIND_FLOAT and len(values) > 0 and values[-1] - values[0] + 1 == len(values)
+    return kind != KIND_FLOAT and len(values) > 0 and values[len(values) - 1] - values[0] + 1 == len(values)
