@@ -1,7 +1,8 @@
-"""Find the horizon and the limits that a model gives its planner: an object of class PlannerConfig."""
+"""Find the horizon and the limits that a model gives its planner: an object that is a PlannerConfig."""
 
 from dataclasses import dataclass
 
+from compiler.program import ClassCode
 from runtime.constraints.codes import HALF_INF
 from runtime.plan.database import PlanDatabase
 
@@ -22,9 +23,10 @@ class Limits:
 def model_limits(database: PlanDatabase) -> Limits | None:
     """What the first object of class PlannerConfig says, where all that it says is known; None if there is none."""
     plan = database.plan
+    classes = {each.name: each for each in database.program.classes}
     for o in range(len(database.objects.names)):
         owner = database.program.classes[plan.object_class[o]]
-        if owner.name != "PlannerConfig":
+        if not _is_configuration(owner, classes):
             continue
         places = {member.name: place for place, member in enumerate(owner.members)}
         values = []
@@ -37,3 +39,11 @@ def model_limits(database: PlanDatabase) -> Limits | None:
         if UNLIMITED not in values[:2]:
             return Limits(*values)
     return None
+
+
+def _is_configuration(owner: ClassCode, classes: dict[str, ClassCode]) -> bool:
+    """Whether a class is PlannerConfig or extends it."""
+    name: str | None = owner.name
+    while name is not None and name != "PlannerConfig":
+        name = classes[name].base if name in classes else None
+    return name is not None

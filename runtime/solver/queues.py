@@ -142,7 +142,11 @@ class Queues:
         t = self.plan.variable_owner[v]
         if self.rows.master[t] < 0 or v - self.rows.var0[t] != OBJECT:
             return True
-        return self.engine.is_decided(self.plan.class_prototype[self.plan.predicate_class[self.rows.predicate[t]]])
+        objects = self.plan.class_prototype[self.plan.predicate_class[self.rows.predicate[t]]]
+        if self.engine.is_open[objects]:
+            listed = self.engine.base_values(objects)
+            return listed is not None and len(listed) == 1
+        return self.engine.is_decided(objects)
 
     def handler_now(self, row: int, t: int) -> int:
         """The handler of a row that applies now, the most specific one whose guards hold.

@@ -1,12 +1,15 @@
 """A solver's configuration as text, what is read of it, and what is wrong with it."""
 
+from pathlib import Path
 from textwrap import dedent
 
 import pytest
 
 from nddl_lang.text.source import Source
 from runtime.solver.configuration import Configuration, FlawFilter, Match, default_configuration
+from runtime.solver.limits import Limits, model_limits
 from runtime.solver.read import read_configuration
+from tests.solver.planning import loaded
 
 SAMPLE = """\
 <Solver name="S">
@@ -161,3 +164,15 @@ def test_any_bytes_are_read_without_an_exception() -> None:
     ):
         for name in ("s.xml", "s.toml"):
             read_configuration(Source(name, text))
+
+
+def test_a_class_that_extends_planner_config_gives_the_limits(tmp_path: Path) -> None:
+    text = """
+    #include "PlannerConfig.nddl"
+    class Season extends PlannerConfig { Season(int from, int to) { super(from, to, 7, 3); } }
+    Season season = new Season(5, 50);
+    close();
+    """
+    database = loaded(tmp_path, text).database
+    assert database is not None
+    assert model_limits(database) == Limits(5, 50, 7, 3)

@@ -2,10 +2,28 @@
 
 from pathlib import Path
 
+from nddl_lang.text.source import Source
 from runtime.solver.codes import EXHAUSTED, PLAN
+from runtime.solver.read import read_configuration
 from tests.solver.planning import solver_for
 
 SHIP = "class Ship extends Timeline { predicate Sail { int sails = {2, 3}; } predicate Drift { } }"
+EXAMPLES = """
+<Solver name="that decides objects too">
+  <FlawFilter component="HorizonFilter" policy="PartiallyContained"/>
+  <ThreatManager defaultPriority="0"><FlawHandler component="StandardThreatHandler"/></ThreatManager>
+  <OpenConditionManager defaultPriority="0">
+    <FlawHandler component="StandardOpenConditionHandler"/>
+  </OpenConditionManager>
+  <UnboundVariableManager defaultPriority="0">
+    <FlawFilter var-match="start"/>
+    <FlawFilter var-match="end"/>
+    <FlawFilter var-match="duration"/>
+    <FlawFilter component="InfiniteDynamicFilter"/>
+    <FlawHandler component="StandardVariableHandler"/>
+  </UnboundVariableManager>
+</Solver>
+"""
 OUT = "Ship ship = new Ship(); close();"
 
 
@@ -48,3 +66,15 @@ def test_variables_of_a_token_that_was_active_in_vain_are_not_decided(tmp_path: 
 def test_a_goal_that_fits_nowhere_exhausts_the_search(tmp_path: Path) -> None:
     goals = "goal(ship.Drift a); goal(ship.Drift b); a.start = 0; b.start = 0; a.duration = 5; b.duration = 7;"
     assert steps(tmp_path, SHIP + OUT + goals)[0] == EXHAUSTED
+
+
+def test_the_only_object_of_a_class_is_given_whether_or_not_the_class_is_closed(tmp_path: Path) -> None:
+    pier = "class Pier extends Timeline { predicate Busy { } } class Port extends Timeline { Pier pier; " + (
+        "Port(Pier p) { pier = p; } predicate Call { } } Port::Call { met_by(object.pier.Busy b); }"
+    )
+    scene = pier + "Pier pier = new Pier(); Port port = new Port(pier); {} goal(port.Call c); c.start = [1 9];"
+    how, complaints = read_configuration(Source("examples.xml", EXAMPLES))
+    assert how is not None and not complaints
+    for closing in ("", "close();"):
+        solver = solver_for(tmp_path, scene.replace("{} goal", closing + " goal"), europa=True, how=how)
+        assert (solver.solve(100, 100), solver.steps) == (PLAN, 4)
