@@ -10,6 +10,7 @@
 #   make format       let ruff format and mend what it can
 #   make fuzz         the property tests with many more examples
 #   make conformance  the conformance suite of NDDL
+#   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
 #   make bench        missions per second, compiled and interpreted
 #   make clean        remove what was made, .venv included
 #
@@ -22,7 +23,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz conformance bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz conformance corpus bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -94,6 +95,9 @@ fuzz: build
 
 conformance: build
 	$(PYTEST) tests/conformance
+
+corpus: build
+	$(BIN)/python -m tests.corpus '$(CORPUS)'
 
 bench: build
 	@for script in bench/*.py; do $(BIN)/python $$script || exit; done
