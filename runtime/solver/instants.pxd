@@ -1,0 +1,45 @@
+# The C types of `instants.py`.
+
+cimport cython
+from runtime.constraints.engine cimport Engine
+from runtime.solver.decisions cimport Decisions
+from runtime.solver.queues cimport Queues
+from runtime.solver.uses cimport Uses
+
+cdef long long APPLIED, CONCURRENT_FIRST, CONCURRENT_ONLY, CONSTRAINT_FIRST, FAILED_CHOICE, NONE, NO_CHOICE
+cdef long long PRECEDES_FIRST, PREFER_EARLIEST, PREFER_LATEST, PREFER_LEAST, PREFER_LOWER, PREFER_MOST, PREFER_UPPER
+cdef double BEST_PRIORITY
+
+
+@cython.locals(
+    at="long long", excess="double", handler="long long", is_mine=bint, is_rival=bint, low="long long",
+    o="long long", priority="double", row="long long", takes_first=bint, uses=Uses
+)
+cpdef long long select_instant(Queues q, long long manager) except? -1
+
+
+@cython.locals(at="long long", code="long long", difference="double", excess="double", k="long long", low="long long")
+cpdef bint is_better(
+    Queues q, long long manager, long long other_at, long long other_low, double other_excess
+) except -1
+
+
+@cython.locals(
+    at="long long", count="long long", first="long long", handler="long long", kinds="long long", pair="long long",
+    rounds="long long", second="long long", step="long long", together=bint, turn="long long"
+)
+cpdef long long mend_instant(Queues q, Decisions stack, long long d) except? -1
+
+
+@cython.locals(
+    at="long long", base="long long", count="long long", first="long long", is_here=bint, k="long long",
+    lb="long long[::1]", second="long long", step="long long", ub="long long[::1]", uses=Uses
+)
+cpdef long long mend_in_order_of_ids(Queues q, Decisions stack, long long d) except? -1
+
+
+@cython.locals(
+    at="long long", engine=Engine, giver="long long", grounded="long long", k="long long", taker="long long",
+    uses=Uses, v="long long"
+)
+cpdef long long useful_pairs(Queues q, Decisions stack, long long d) except? -1

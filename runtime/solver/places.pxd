@@ -1,0 +1,27 @@
+# The C types of `places.py`.
+
+cimport cython
+from runtime.constraints.bits cimport next_value
+from runtime.constraints.engine cimport Engine
+from runtime.plan.rows cimport Rows
+from runtime.solver.decisions cimport Decisions
+from runtime.solver.queues cimport Queues
+
+cdef long long DURATION, END, HALF_INF, LISTS, LIST_ORDER, NEVER, OBJECT, START
+
+
+@cython.locals(engine=Engine, o="long long", v="long long")
+cpdef long long fill_places(Queues q, Decisions stack, long long d, long long t) except? -1
+
+
+@cython.locals(
+    behind="long long", count="long long", first="long long", gap="long long", last="long long", middle="long long"
+)
+cpdef long long fill_timeline(Queues q, Decisions stack, long long d, long long t, long long o) except? -1
+
+
+cpdef bint can_precede(Queues q, long long first, long long second) except -1
+
+
+@cython.locals(end="long long", engine=Engine, need="long long", previous="long long", rows=Rows, start="long long")
+cpdef bint is_open_place(Queues q, long long t, long long before, long long after) except -1

@@ -1,0 +1,59 @@
+# The C types of `search.py`.
+
+cimport cython
+from runtime.constraints.engine cimport Engine
+from runtime.plan.lifecycle cimport settle
+from runtime.plan.marks cimport commit, mark, release, rewind
+from runtime.plan.plan cimport Plan
+from runtime.solver.blame cimport Blame
+from runtime.solver.choices cimport mend
+from runtime.solver.decisions cimport Decisions
+from runtime.solver.filters cimport Filters
+from runtime.solver.queues cimport Queues
+from runtime.solver.selection cimport select
+from runtime.solver.watching cimport catch_up, fill, note_levels
+
+cdef long long APPLIED, EXHAUSTED, FAILED, MOVED, NO_CHOICE, NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
+cdef long long RESOURCE_THREAT, TIMEOUT
+
+
+cdef class Solver:
+    cdef public object database, account
+    cdef public Plan plan
+    cdef public Engine engine
+    cdef public bint europa, has_active, is_exhausted, is_started
+    cdef public Filters filters
+    cdef public Queues queues
+    cdef public Decisions stack
+    cdef public Blame blame
+    cdef public long long steps, failures, steps_floor, depth_floor, max_steps, max_depth
+
+    cpdef int set_horizon(self, long long lower, long long upper) except -1
+
+    cpdef int set_scope(self, object scope) except -1
+
+    cpdef int set_custom(self, object manager) except -1
+
+    cpdef int refresh(self) except -1
+
+    cpdef int keep(self) except -1
+
+    cpdef int take_back(self) except -1
+
+    @cython.locals(count="long long", outcome="long long")
+    cpdef long long solve(self, long long max_steps, long long max_depth, object is_late=*) except? -1
+
+    @cython.locals(d="long long", most="long long", outcome="long long", q=Queues, stack=Decisions)
+    cpdef long long step(self) except? -1
+
+    @cython.locals(d="long long", q=Queues, stack=Decisions)
+    cpdef long long enter(self) except? -1
+
+    @cython.locals(stack=Decisions)
+    cpdef long long leave(self, long long d) except? -1
+
+    @cython.locals(stack=Decisions, target="long long")
+    cpdef long long give_up(self, long long d) except? -1
+
+
+cpdef bint is_rejection(Queues q, Decisions stack, long long d) except -1
