@@ -60,15 +60,13 @@ def clipped(x: int) -> int:
 
 
 def floor_of(x: int, y: int) -> int:
-    """Divide rounding down; C rounds towards zero."""
+    """Divide by a positive y, rounding down; C rounds towards zero."""
     q = x // y
-    if q * y > x or (q * y != x and (x < 0) != (y < 0) and q * y >= x):
-        q -= 1
-    return q
+    return q - 1 if q * y > x else q
 
 
 def ceiling_of(x: int, y: int) -> int:
-    """Divide rounding up."""
+    """Divide by a positive y, rounding up."""
     return -floor_of(-x, y)
 
 

@@ -1,9 +1,11 @@
 # The C types of `engine.py`.
 
 cimport cython
+from libc cimport math
 from runtime.constraints.arithmetic cimport run_arithmetic
 from runtime.constraints.bases cimport base_high, base_low, base_set, is_base_single
 from runtime.constraints.comparison cimport run_comparison
+from runtime.constraints.constants cimport constant_interval, constant_set
 from runtime.constraints.explain cimport explain_bound, explain_conflict
 from runtime.constraints.functions cimport run_function
 from runtime.constraints.geometry cimport run_geometry
@@ -23,7 +25,7 @@ from runtime.constraints.variables cimport (
 cdef long long FAMILY_ARITHMETIC, FAMILY_COMPARISON, FAMILY_FUNCTION, FAMILY_GEOMETRY, FAMILY_LOGIC, FAMILY_SETS
 cdef long long FLAG_DECISION, FLAG_VALUES, KIND_FLOAT, MOST_RUNS, OP_ELEMENT, OP_EXTERNAL, PATIENCE
 cdef long long SUPPORT_RESTRICTION
-cdef double inf
+cdef double FLOAT_TOLERANCE, inf
 
 
 cdef class Engine(Store):
@@ -48,13 +50,9 @@ cdef class Engine(Store):
 
     cpdef bint close(self, long long v) except -1
 
-    @cython.locals(reserved="long long")
     cpdef long long new_constant(self, long long kind, double lo, double hi) except? -1
 
-    @cython.locals(reserved="long long", size="long long")
     cpdef long long new_constant_values(self, long long kind, list values) except? -1
-
-    cpdef int make_constant(self, long long v, long long entries) except -1
 
     @cython.locals(r="long long", support="long long")
     cpdef bint restrict_base(self, long long v, double lo, double hi, long long span, long long owner) except -1

@@ -1,5 +1,6 @@
 """Post constraints, narrow, propagate, go back: the one object through which all other rooms reason."""
 
+import math
 from collections.abc import Sequence
 from math import inf
 
@@ -15,12 +16,14 @@ from runtime.constraints.codes import (
     FAMILY_SETS,
     FLAG_DECISION,
     FLAG_VALUES,
+    FLOAT_TOLERANCE,
     KIND_FLOAT,
     OP_ELEMENT,
     OP_EXTERNAL,
     SUPPORT_RESTRICTION,
 )
 from runtime.constraints.comparison import run_comparison
+from runtime.constraints.constants import constant_interval, constant_set
 from runtime.constraints.explain import explain_bound, explain_conflict
 from runtime.constraints.external import External
 from runtime.constraints.functions import run_function
@@ -54,7 +57,7 @@ class Engine(Store):
 
     def __init__(self) -> None:
         super().__init__()
-        self.constants: dict[object, int] = {}
+        self.constants: dict[tuple[object, ...], int] = {}
         self.newest_edge = -1
         self.newest_restriction = -1
 
@@ -111,37 +114,25 @@ class Engine(Store):
         key = (kind, float(lo), float(hi))
         v = self.constants.get(key, -1)
         if v < 0:
-            reserved = self.reserved_next
-            self.reserved_next = self.reserved_end
-            v = self.new_interval(kind, lo, hi, -1, -1)
-            self.reserved_next = reserved
-            self.make_constant(v, 2)
-            self.constants[key] = v
+            v = self.constants[key] = constant_interval(self, kind, lo, hi)
         return v
 
     def new_constant_values(self, kind: int, values: list[float]) -> int:
         """Give the shared variable of a constant set."""
-        key = (kind, *sorted(set(values)))
+        values = sorted(set(values))
+        key = (kind, tuple(values))
         v = self.constants.get(key, -1)
         if v < 0:
-            reserved = self.reserved_next
-            self.reserved_next = self.reserved_end
-            size = self.trail_size
-            v = self.new_values(kind, values, -1, -1)
-            self.reserved_next = reserved
-            self.make_constant(v, self.trail_size - size)
-            self.constants[key] = v
+            v = self.constants[key] = constant_set(self, kind, values)
         return v
-
-    def make_constant(self, v: int, entries: int) -> None:
-        """Keep a new variable out of the trail, so that it outlives every rewind."""
-        self.constant[v] = 1
-        self.trail_size -= entries
 
     # ------------------------------------------------------------------------------------- restricting, deciding
 
     def restrict_base(self, v: int, lo: float, hi: float, span: int, owner: int) -> bool:
         """Intersect the base domain with an interval; false if no value is left."""
+        if self.kind[v] != KIND_FLOAT:
+            lo = math.ceil(lo - FLOAT_TOLERANCE) if lo > -inf else lo
+            hi = math.floor(hi + FLOAT_TOLERANCE) if hi < inf else hi
         r = add_restriction(self, v, lo, hi, 0, span, owner)
         self.newest_restriction = r
         support = r * 4 + SUPPORT_RESTRICTION

@@ -3,9 +3,9 @@
 cimport cython
 from runtime.constraints.store cimport Store
 
-cdef long long FAMILY_ARITHMETIC, FAMILY_COMPARISON, FAMILY_FUNCTION, KIND_BOOL, MODE_EDGES, OP_ABS_VAL, OP_ADD_EQ
-cdef long long OP_BIND, OP_DIV_EQ, OP_EQ, OP_EQ_SUM, OP_LEQ, OP_LT, OP_MUL_EQ, OP_TEMPORAL_DISTANCE, SIDE_HOLES
-cdef long long SIDE_LOWER, SIDE_UPPER, SUPPORT_CONSTRAINT, SUPPORT_EDGE
+cdef long long FAMILY_ARITHMETIC, FAMILY_COMPARISON, FAMILY_FUNCTION, KIND_BOOL, KIND_FLOAT, MODE_EDGES, OP_ABS_VAL
+cdef long long OP_ADD_EQ, OP_BIND, OP_DIV_EQ, OP_EQ, OP_EQ_SUM, OP_LEQ, OP_LT, OP_MUL_EQ, OP_TEMPORAL_DISTANCE
+cdef long long SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_CONSTRAINT, SUPPORT_EDGE
 
 
 @cython.locals(c="long long", first="long long", k="long long", kind="long long", op="long long", other="long long")
@@ -27,6 +27,6 @@ cpdef int collect_sum(
 cpdef int collect_all(Store s, long long c, long long v, long long side) except -1
 
 @cython.locals(family="long long")
-cpdef bint reads_itself(Store s, long long op, long long v) except -1
+cpdef bint reads_itself(Store s, long long op, long long v, long long side) except -1
 
 cpdef bint is_carried(Store s, long long c) except -1

@@ -5,6 +5,7 @@ from runtime.constraints.codes import (
     FAMILY_COMPARISON,
     FAMILY_FUNCTION,
     KIND_BOOL,
+    KIND_FLOAT,
     MODE_EDGES,
     OP_ABS_VAL,
     OP_ADD_EQ,
@@ -110,18 +111,21 @@ def collect_all(s: Store, c: int, v: int, side: int) -> None:
             add_reason(s, u, SIDE_UPPER)
             if s.word[u] >= 0:
                 add_reason(s, u, SIDE_HOLES)
-    if reads_itself(s, s.op[c], v):
+    if reads_itself(s, s.op[c], v, side):
         add_reason(s, v, SIDE_LOWER)
         add_reason(s, v, SIDE_UPPER)
 
 
-def reads_itself(s: Store, op: int, v: int) -> bool:
+def reads_itself(s: Store, op: int, v: int, side: int) -> bool:
     """Tell whether an operation narrows `v` from where it stands: a value at the end is taken, a branch is chosen."""
     if s.kind[v] == KIND_BOOL:
         return False
     family = op >> 5
     if family == FAMILY_ARITHMETIC:
-        return op == OP_MUL_EQ or op == OP_DIV_EQ or op == OP_ABS_VAL
+        if op == OP_MUL_EQ or op == OP_DIV_EQ:
+            # A factor of what is not 0 is not 0: its bound steps from 0 to 1 or -1.
+            return s.kind[v] != KIND_FLOAT and (s.lb[v] == 1 if side == SIDE_LOWER else s.ub[v] == -1)
+        return op == OP_ABS_VAL
     if family == FAMILY_FUNCTION:
         return op == OP_BIND
     return True
