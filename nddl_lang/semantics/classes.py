@@ -21,6 +21,9 @@ from nddl_lang.text.diagnostic import Code, Note, Severity
 
 DUPLICATE_TYPE = Code("NDDL220", Severity.ERROR, "duplicate", "`{name}` is declared twice")
 DUPLICATE_MEMBER = Code("NDDL221", Severity.ERROR, "duplicate", "class `{owner}` has a member `{name}` already")
+ENUM_OF_THAT_NAME = Code(
+    "NDDL235", Severity.WARNING, "duplicate", "`{name}` is an enum already; as a type it means the class from here on"
+)
 NATIVE_CLASS = Code("NDDL222", Severity.WARNING, "duplicate", "class `{name}` is built in; this text is not read")
 MEMBER_VALUE = Code(
     "NDDL325", Severity.ERROR, "type", "the value of a member is written out; `{text}` depends on others"
@@ -35,7 +38,10 @@ def check_class(context: Context, node: ClassDecl) -> None:
         context.complain(NATIVE_CLASS.at(node.name.span, name=name))
         return
     is_open = known is not None and (node.members is None or not known.is_defined)
-    if not is_open and complain_taken(context, node.name):
+    if known is None and (enum := world.find_enum(name)) is not None and world.find_typedef(name) is None:
+        notes = (Note("the enum is here", enum.span),) if enum.span else ()
+        context.complain(ENUM_OF_THAT_NAME.at(node.name.span, notes=notes, name=name))
+    elif not is_open and complain_taken(context, node.name):
         return
     if node.members is None:
         if known is None:

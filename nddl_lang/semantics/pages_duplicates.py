@@ -1,6 +1,6 @@
 """The pages of the codes about names that are taken."""
 
-from nddl_lang.semantics.classes import DUPLICATE_MEMBER, DUPLICATE_TYPE, NATIVE_CLASS
+from nddl_lang.semantics.classes import DUPLICATE_MEMBER, DUPLICATE_TYPE, ENUM_OF_THAT_NAME, NATIVE_CLASS
 from nddl_lang.semantics.constructors import CONSTRUCTOR_NAME, DUPLICATE_CONSTRUCTOR, DUPLICATE_FORMAL
 from nddl_lang.semantics.declarations import DUPLICATE_NAME, DUPLICATE_VALUE
 from nddl_lang.semantics.predicates import BUILTIN_PARAMETER, DUPLICATE_PARAMETER, DUPLICATE_PREDICATE
@@ -31,6 +31,14 @@ DUPLICATE_PAGES = (
         "EUROPA makes two variables of the same name, and each place takes another one of them.",
         "class Lamp { int watts; }\nclass Spot extends Lamp { int watts; }\n",
         "class Lamp { int watts; }\nclass Spot extends Lamp { int angle; }\n",
+    ),
+    RulePage(
+        ENUM_OF_THAT_NAME,
+        "A class bears the name of an enum above it.",
+        "EUROPA allows it and lets the class take the name over: what is declared with it below is an object. The "
+        "values of the enum stay what they are. The other way round, an enum named like a class, is an error.",
+        "enum Lamp { bright, dim }\nclass Lamp { int watts; }\n",
+        "enum Glow { bright, dim }\nclass Lamp { int watts; }\n",
     ),
     RulePage(
         NATIVE_CLASS,

@@ -27,15 +27,15 @@ def find_type(context: Context, name: Identifier) -> Type | None:
 
 
 def known_type(context: Context, name: str) -> Type | None:
-    """The type of that name: a basic one, a typedef, an enum or a class."""
+    """The type of that name: a basic one, a typedef, a class or an enum."""
     world = context.world
     if (basic := BASIC_TYPES.get(name)) is not None:
         return basic
     if (typedef := world.find_typedef(name)) is not None:
         return typedef.type
-    if world.find_enum(name) is not None:
-        return enum_type(name)
-    return object_type(name) if world.find_class(name) is not None else None
+    if world.find_class(name) is not None:
+        return object_type(name)  # also where an enum above has that name, as in EUROPA
+    return enum_type(name) if world.find_enum(name) is not None else None
 
 
 def find_class(context: Context, name: Identifier) -> Class | None:
