@@ -19,7 +19,12 @@ def loaded(folder: Path, text: str) -> Loaded:
 
 
 def solver_for(
-    folder: Path, text: str, *, europa: bool = False, horizon: tuple[int, int] = (0, 100), how: Configuration | None = None
+    folder: Path,
+    text: str,
+    *,
+    europa: bool = False,
+    horizon: tuple[int, int] = (0, 100),
+    how: Configuration | None = None,
 ) -> Solver:
     """A solver that has not begun."""
     database = loaded(folder, text).database

@@ -128,7 +128,8 @@ def rules_model(seed: int) -> str:
                 where = random.choice(("object", "T"))
                 body.append(f"{relation}({where}.{child} c_{child});")
                 if random.random() < 0.5:
-                    body.append(random.choice((f"eq(c_{child}.x, x);", f"neq(c_{child}.x, x);", f"lt(x, c_{child}.x);")))
+                    link = random.choice((f"eq(c_{child}.x, x);", f"neq(c_{child}.x, x);", f"lt(x, c_{child}.x);"))
+                    body.append(link)
         if i + 1 < len(predicates) and random.random() < 0.5:
             child = predicates[-1]
             body.append(f"if (x == {random.randint(0, 2)}) {{ meets(object.{child} g_{child}); }}")
