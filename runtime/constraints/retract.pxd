@@ -3,7 +3,7 @@
 cimport cython
 from libc cimport math
 from runtime.constraints.bits cimport drop_log, release_words
-from runtime.constraints.circles cimport holds_itself
+from runtime.constraints.loosening cimport follow_cone, loosen_by, loosen_by_constraint, loosen_by_edge
 from runtime.constraints.narrow cimport raise_to, reduce_to
 from runtime.constraints.network cimport attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
 from runtime.constraints.posting cimport release_constraint
@@ -12,8 +12,8 @@ from runtime.constraints.store cimport Store
 from runtime.constraints.trail cimport clear_queues, commit_trail
 from runtime.constraints.variables cimport drop_restriction, drop_variable, keep_values
 
-cdef long long FLAG_DECISION, FLAG_VALUES, HALF_INF, INF, KIND_FLOAT, NEVER, OP_TEMPORAL_DISTANCE, OP_WATCH
-cdef long long SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_CONSTRAINT, SUPPORT_EDGE, SUPPORT_RESTRICTION
+cdef long long FLAG_DECISION, FLAG_VALUES, HALF_INF, INF, KIND_FLOAT, NEVER, OP_TEMPORAL_DISTANCE, SIDE_LOWER
+cdef long long SIDE_UPPER, SUPPORT_EDGE, SUPPORT_RESTRICTION
 cdef double FLOAT_TOLERANCE, inf
 
 
@@ -25,24 +25,6 @@ cpdef list gather(Store s, list constraints, list variables)
 
 @cython.locals(e="long long", found=list)
 cpdef list edges_of(Store s, long long v)
-
-@cython.locals(bit="long long", new="long long")
-cpdef void loosen(Store s, long long v, long long side) except *
-
-@cython.locals(entry="long long", holder="long long", side="long long")
-cpdef void loosen_by(Store s, long long v, long long support) except *
-
-@cython.locals(support="long long", v="long long")
-cpdef int loosen_by_edge(Store s, long long e) except -1
-
-@cython.locals(slot="long long", support="long long")
-cpdef int loosen_by_constraint(Store s, long long c) except -1
-
-@cython.locals(c="long long", e="long long", i="long long", slot="long long", u="long long", v="long long")
-cpdef int follow_cone(Store s) except -1
-
-@cython.locals(d="long long")
-cpdef int loosen_by_distance(Store s, long long c, long long v, long long side) except -1
 
 @cython.locals(c="long long", i="long long", side="long long", slot="long long", v="long long")
 cpdef int reset_cone(Store s) except -1
