@@ -1,5 +1,6 @@
 """Write small random models, and say by trying everything whether they have a plan."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import permutations, product
 from random import Random
@@ -36,7 +37,7 @@ def variables_puzzle(seed: int) -> Puzzle:
         names = (a, b, c) if kind in ("addEq", "mulEq") else (a, b)
         lines.append(f"{kind}({', '.join(f'v{n}' for n in names)});")
         tests.append((kind, names))
-    checks = {
+    checks: dict[str, Callable[..., bool]] = {
         "neq": lambda x, y: x != y,
         "leq": lambda x, y: x <= y,
         "lt": lambda x, y: x < y,
