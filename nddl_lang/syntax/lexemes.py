@@ -113,8 +113,9 @@ def report_glued_sign(piece: Piece, start: int, word: str, is_glued_left: bool) 
 def string_end(text: str, start: int, end: int, is_path: bool) -> int:
     """Where the string that begins at `start` ends; `end` is after the next quote, or at the end of the text.
 
-    A string may hold line ends, unless it is the path of an include. But where an operand follows at once, the quote that was taken for the closing one
-    opens the next string: then the first string has no end, and is taken to end with its line.
+    A string may hold line ends, unless it is the path of an include. But where an operand follows at once, the quote
+    that was taken for the closing one opens the next string: then the first string has no end, and is taken to end with
+    its line.
     """
     line_end = text.find("\n", start, end)
     is_closed = end - start > 1 and text[end - 1] == '"'
