@@ -10,6 +10,7 @@ from typing import Any
 
 import click
 
+import runtime.build_form
 from nddl_lang.semantics.nearest import nearest
 from runtime.user.fault import UserCodeError
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 
+import runtime.build_form
 from checker.batch.result import MissionResult, condense
 from checker.oracle import USER_CODE, Judgement, Verdict, judge
 from runtime.executive.configuration import AgentConfiguration
