@@ -6,7 +6,7 @@ from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Observation, Request, token_text
 from runtime.executive.outcome import Conflict
 from runtime.executive.planning import Planner
-from runtime.executive.repair import relax
+from runtime.executive.repair import hold_present, relax, stand
 from runtime.executive.settle import Unsettled, settle
 from runtime.executive.story import conflict_of, latest
 from runtime.executive.timelines import NOTHING, Goal, TimelineState
@@ -238,7 +238,9 @@ class PlanReactor:
             if goal.request.number == number and not goal.is_closed and self.bench.is_alive(goal.token, goal.token_key):
                 if not self.bench.is_started(goal.token, self.tick):
                     goal.is_closed = True
+                    seen = hold_present(self.bench, self.timelines)
                     self.bench.remove([goal.token])
+                    stand(self.bench, self.timelines, seen, False)
                     self.is_stirred = True
                     self.due = self.tick + 1
 

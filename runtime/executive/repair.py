@@ -11,7 +11,7 @@ def relax(bench: Workbench, timelines: list[TimelineState], goals: list[Goal], t
     With `forget`, what is over is dropped too, and the present values of the reactor's own timelines; what others
     published stays. Goals that are too late are removed. False if even that is inconsistent.
     """
-    seen = {line.name: bench.fact_of(line.current) for line in timelines if not line.is_internal}
+    seen = hold_present(bench, timelines)
     if forget:
         present = set(seen.values())
         bench.remove([token for token in bench.all_tokens() if bench.is_over(token, tick) and token not in present])
@@ -23,13 +23,31 @@ def relax(bench: Workbench, timelines: list[TimelineState], goals: list[Goal], t
             if line.is_internal and line.current != NOTHING:
                 bench.remove([line.current])
                 line.current = NOTHING
-        for line in timelines:
-            if not line.is_internal and line.current != NOTHING:
-                # Whatever was planned for it is gone: the observation stands by itself again.
-                line.current = seen[line.name]
-                bench.stand_alone(line.current, line.object_id)
+    stand(bench, timelines, seen, forget)
     for goal in goals:
         if bench.is_alive(goal.token, goal.token_key) and bench.is_waiting(goal.token, tick):
             if not bench.at_least(bench.start(goal.token), tick, SPAN_CLOCK, goal.token):
                 bench.remove([goal.token])
+    stand(bench, timelines, seen, False)
     return bench.is_consistent()
+
+
+def hold_present(bench: Workbench, timelines: list[TimelineState]) -> dict[str, int]:
+    """See to it that what has been published or observed stays, whatever is taken back; the observations by timeline.
+
+    A token may have begun before the one that asked for it.
+    """
+    for line in timelines:
+        if line.is_internal and line.current != NOTHING:
+            bench.detach(line.current)
+    return {line.name: bench.fact_of(line.current) for line in timelines if not line.is_internal}
+
+
+def stand(bench: Workbench, timelines: list[TimelineState], seen: dict[str, int], is_every: bool) -> None:
+    """Let observations stand by themselves where what was planned for them is gone (`is_every`: all of them)."""
+    for line in timelines:
+        if line.is_internal or line.current == NOTHING or line.current == seen[line.name]:
+            continue
+        if is_every or bench.stands_for(seen[line.name]) != line.current:
+            line.current = seen[line.name]
+            bench.stand_alone(line.current, line.object_id)

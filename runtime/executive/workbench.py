@@ -6,7 +6,7 @@ from compiler.program import FIRST_PARAMETER, DomainConstant
 from runtime.executive.messages import Arguments
 from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST, PlanView
-from runtime.plan.archiving import archive
+from runtime.plan.archiving import archive, detach
 from runtime.plan.codes import (
     FLAG_FACT,
     FLAG_GOAL,
@@ -166,6 +166,10 @@ class Workbench(PlanView):
         if needless:
             engine.retract((), (), needless, ())
             self.database.settle()
+
+    def detach(self, t: int) -> None:
+        """Let a token stay when the one that asked for it goes."""
+        detach(self.database.plan, t)
 
     def remove(self, tokens: list[int]) -> bool:
         """Take tokens away for good."""

@@ -98,6 +98,24 @@ def orphan(plan: Plan, t: int, doomed: dict[int, None]) -> None:
             rows.sibling[child] = NONE
 
 
+def detach(plan: Plan, t: int) -> None:
+    """Let `t` stand by itself: it no longer goes when the token that asked for it does."""
+    rows = plan.rows
+    master = rows.master[t]
+    if master < 0:
+        return
+    child = rows.children[master]
+    if child == t:
+        rows.children[master] = rows.sibling[t]
+    else:
+        while rows.sibling[child] != t:
+            child = rows.sibling[child]
+        rows.sibling[child] = rows.sibling[t]
+    rows.master[t] = NONE
+    rows.creator[t] = NONE
+    rows.sibling[t] = NONE
+
+
 def freeze(plan: Plan, doomed: dict[int, None]) -> None:
     """Put into base domains what edges and constraints that go with the `doomed` tokens say of other variables."""
     engine = plan.engine

@@ -81,3 +81,15 @@ def test_a_planner_that_runs_out_of_steps_goes_on_at_the_next_tick() -> None:
     outcome = fly(planner("user", script, "user", max_steps=2), until=25, goals=goals)
     assert outcome.abort is None
     assert len(history(outcome, "user")) == 11
+
+
+def test_what_has_begun_stays_when_the_token_that_asked_for_it_goes() -> None:
+    # Busy waits for the end of the lamp's light, which has begun; then the light lasts too long, and Busy is given up.
+    rules = "User::Busy { ends(Lamp.On on); on.duration <= 4; meets(Idle i); } User::Idle { duration >= 3; }"
+    owner = f"{LAMP} Lamp::On {{ duration == 6; }} Lamp lamp = new Lamp(Internal); close();"
+    goals = tuple(GoalConfiguration("user", "Busy", start=(5, at)) for at in (7, 20, 40))
+    flyers = (user(rules), simulator("sim", owner, "lamp"))
+    outcome = fly(*flyers, until=45, goals=goals)
+    assert outcome.last_tick == 45
+    assert fly(*flyers, until=45, goals=goals, every_tick=True) == outcome
+    assert any(event.kind == "relax" for event in outcome.events)
