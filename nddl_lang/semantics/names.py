@@ -31,6 +31,7 @@ DECLARED_BELOW = Code("NDDL202", Severity.ERROR, "name", "`{name}` is used above
 NAME_OF_OTHER_BLOCK = Code(
     "NDDL203", Severity.ERROR, "name", "`{name}` is known only inside the block that declares it"
 )
+TOKEN_OF_SCRIPT = "`{name}` is a token of the script; rules and predicates see only tokens of their own"
 UNKNOWN_MEMBER = Code("NDDL204", Severity.ERROR, "name", "class `{owner}` has no member `{name}`")
 UNKNOWN_TOKEN_VARIABLE = Code("NDDL205", Severity.ERROR, "name", "a token of `{predicate}` has no parameter `{name}`")
 UNKNOWN_ENUM_VALUE = Code("NDDL206", Severity.ERROR, "name", "`{name}` is no value of enum `{enum}`")
@@ -76,11 +77,16 @@ def find(context: Context, scope: Scope, name: str) -> Reference | None:
             return MemberReference(None, ())
         if (member := world.find_member(scope.own_class, name)) is not None:
             return MemberReference(None, (member,))
-    if (label := scope.find_label(name) or world.find_goal(name)) is not None:
+    if (label := scope.find_label(name) or find_script_token(context, scope, name)) is not None:
         return TokenReference(label)
     if (variable := world.find_global(name)) is not None:
         return GlobalReference(variable)
     return ClassReference(name) if world.find_class(name) is not None else None
+
+
+def find_script_token(context: Context, scope: Scope, name: str) -> Label | None:
+    """The token of the script with that name, where it can be seen: rules are about tokens that are not made yet."""
+    return context.world.find_goal(name) if scope.place is Place.SCRIPT else None
 
 
 def resolve_dotted(context: Context, scope: Scope, parts: Sequence[Identifier]) -> Reference | None:
@@ -90,7 +96,7 @@ def resolve_dotted(context: Context, scope: Scope, parts: Sequence[Identifier]) 
     start: Reference | None
     if label is None:
         start = scope.find_local(head.name) or scope.find_own(head.name)
-        if start is None and (goal := world.find_goal(head.name)) is not None:
+        if start is None and (goal := find_script_token(context, scope, head.name)) is not None:
             label = goal
     if label is not None:
         context.tables.references[head] = TokenReference(label)
@@ -213,12 +219,15 @@ def complain_unknown(context: Context, scope: Scope, name: Identifier) -> None:
         fix = Fix(f"write `object.{word}`", (Edit(name.span, f"object.{word}"),))
         help_ = f"`{word}` is a member of class `{scope.own_class}`; in a rule or predicate write `object.{word}`"
         context.complain(_with(UNKNOWN_NAME.at(name.span, name=word), help_, (fix,)))
+    elif world.find_goal(word) is not None and scope.place is not Place.SCRIPT:
+        context.complain(_with(UNKNOWN_NAME.at(name.span, name=word), TOKEN_OF_SCRIPT.format(name=word), ()))
     elif (below := scope.declared_below(word) or world.declared_below(word)) is not None:
         note = Note(f"`{word}` is declared here; statements run in order", below)
         context.complain(DECLARED_BELOW.at(name.span, notes=(note,), name=word))
     else:
         own = builtin_names(scope.own.predicate.is_event) if scope.own is not None else ()
-        candidates = [*scope.visible(), *own, *world.names(*_VALUE_TABLES)]
+        tables = [each for each in _VALUE_TABLES if each != "goal" or scope.place is Place.SCRIPT]
+        candidates = [*scope.visible(), *own, *world.names(*tables)]
         context.complain(suggest_name(UNKNOWN_NAME.at(name.span, name=word), name, candidates))
 
 

@@ -2,7 +2,15 @@
 
 from nddl_lang.semantics.arguments import WRONG_COUNT
 from nddl_lang.semantics.expressions import type_of
-from nddl_lang.semantics.names import MISPLACED_THIS, complain_unknown, find, resolve_dotted, suggest_name
+from nddl_lang.semantics.names import (
+    MISPLACED_THIS,
+    TOKEN_OF_SCRIPT,
+    complain_unknown,
+    find,
+    find_script_token,
+    resolve_dotted,
+    suggest_name,
+)
 from nddl_lang.semantics.relations import REFUSED_RELATIONS, RELATIONS, RelationRow
 from nddl_lang.semantics.schema import (
     Class,
@@ -71,7 +79,7 @@ def check_instance(context: Context, scope: Scope, instance: Instance) -> Label 
 
 def find_token(context: Context, scope: Scope, name: Identifier) -> Label | None:
     """The token of that name; a complaint where there is none."""
-    label = scope.find_label(name.name) or context.world.find_goal(name.name)
+    label = scope.find_label(name.name) or find_script_token(context, scope, name.name)
     if label is not None:
         context.tables.references[name] = TokenReference(label)
         return label
@@ -80,6 +88,9 @@ def find_token(context: Context, scope: Scope, name: Identifier) -> Label | None
     elif (other := find(context, scope, name.name)) is not None:
         what = "a class" if isinstance(other, ClassReference) else "a variable"
         help_ = f"`{name.name}` is {what}; relations link tokens"
+        context.complain(UNKNOWN_TOKEN.at(name.span, help=help_, name=name.name))
+    elif context.world.find_goal(name.name) is not None:
+        help_ = TOKEN_OF_SCRIPT.format(name=name.name)
         context.complain(UNKNOWN_TOKEN.at(name.span, help=help_, name=name.name))
     elif any(is_known(name.name) for is_known in (scope.lost_at, scope.declared_below, context.world.declared_below)):
         complain_unknown(context, scope, name)
@@ -91,8 +102,10 @@ def find_token(context: Context, scope: Scope, name: Identifier) -> Label | None
             help_ = f"a name in parentheses creates a token: `{text}`"
             complaint = UNKNOWN_TOKEN.at(name.span, help=help_, fixes=(fix,), name=name.name)
             context.complain(complaint)
-        else:
+        elif scope.place is Place.SCRIPT:
             context.complain(suggest_name(complaint, name, [*scope.visible_labels(), *context.world.names("goal")]))
+        else:
+            context.complain(suggest_name(complaint, name, scope.visible_labels()))
     return None
 
 
