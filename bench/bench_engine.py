@@ -1,7 +1,7 @@
 """Measure the constraint engine: time per edge visit and per bound update, bytes per edge, compiled against not.
 
-    python bench/bench_engine.py            both forms, the second in a process of its own
-    python bench/bench_engine.py --json     one object, this form only
+python bench/bench_engine.py            both forms, the second in a process of its own
+python bench/bench_engine.py --json     one object, this form only
 """
 
 import argparse
