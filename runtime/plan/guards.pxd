@@ -7,7 +7,7 @@ from runtime.plan.operands cimport member
 from runtime.plan.plan cimport Plan
 from runtime.plan.rows cimport Rows
 
-cdef long long BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, NONE, OP_WATCH, SCOPE_GUARD
+cdef long long BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, NONE, KIND_OBJECT, OP_WATCH, SCOPE_GUARD
 
 
 @cython.locals(
@@ -31,5 +31,5 @@ cpdef bint is_settled(Plan plan, long long v) except -1
 cpdef bint agree(Plan plan, long long x, long long name) except -1
 
 
-@cython.locals(condition="long long", engine=Engine, i="long long", inputs="long long", rows=Rows)
+@cython.locals(condition="long long", engine=Engine, holds=bint, i="long long", inputs="long long", rows=Rows)
 cpdef long long choice(Plan plan, long long s) except? -1

@@ -1,6 +1,6 @@
 """Let guards wait for the variables that decide them, and tell which branch they ask for."""
 
-from runtime.constraints.codes import OP_WATCH
+from runtime.constraints.codes import KIND_OBJECT, OP_WATCH
 from runtime.plan.codes import BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, NONE, SCOPE_GUARD
 from runtime.plan.holding import constraint
 from runtime.plan.operands import member
@@ -80,4 +80,6 @@ def choice(plan: Plan, s: int) -> int:
     for i in range(inputs + 2, inputs + 2 + rows.cells[inputs]):
         if not is_settled(plan, rows.cells[i]):
             return BRANCH_WAITING
-    return BRANCH_THEN if engine.lb[condition] else BRANCH_ELSE
+    # An object that is known is there, whatever its number.
+    holds = engine.kind[condition] == KIND_OBJECT or engine.lb[condition] != 0
+    return BRANCH_THEN if holds else BRANCH_ELSE

@@ -129,3 +129,17 @@ def test_a_field_of_an_undecided_object_has_the_type_that_its_class_gives_it() -
     """
     assert domains(loaded(text))["g.to"] == "{jena, ulm} Town"
     assert domains(loaded(text + "g.to.specify(jena);"))["g.paid"] == "{7.25} float"
+
+
+def test_an_object_holds_as_a_guard_once_it_is_decided_be_it_the_first_or_not() -> None:
+    text = """
+    class Buoy { }
+    class T extends Timeline { predicate tie { Buoy buoy; } predicate wait { } predicate go { } }
+    T::tie { if (buoy) { meets(object.wait w); } else { meets(object.go g); } }
+    Buoy near = new Buoy(); Buoy far = new Buoy();
+    T t = new T(); close();
+    goal(t.tie a); a.activate();
+    """
+    assert set(tokens(loaded(text))) == {"a"}
+    assert set(tokens(loaded(text + "a.buoy = near;"))) == {"a", "T.wait#1"}
+    assert set(tokens(loaded(text + "a.buoy = far;"))) == {"a", "T.wait#1"}
