@@ -64,8 +64,10 @@ cpdef int drop_log(Store s, long long v) except -1
 @cython.locals(room="long long")
 cpdef int grow_log(Store s) except -1
 
-@cython.locals(need="long long")
+@cython.locals(count="long long", first="long long", k="long long")
 cpdef int attach_table(Store s, long long v, list values) except -1
+
+cpdef int release_table(Store s, long long first, long long count) except -1
 
 @cython.locals(last="long long", place="long long", total="long long")
 cpdef long long count_values(Store s, long long v) except? -1

@@ -1,7 +1,5 @@
 """Keep which values between a variable's bounds are missing: words of bits, a log of who removed which."""
 
-from array import array
-
 from runtime.constraints.codes import (
     ALL_BITS,
     EVENT_HOLES,
@@ -108,8 +106,11 @@ def attach_words(s: Store, v: int, base: int, values: int) -> None:
 def detach_words(s: Store, v: int) -> None:
     """Take the bit set of `v` away; its log must be empty."""
     release_words(s, s.word[v], s.words_of[v])
+    if s.table[v] >= 0:
+        release_table(s, s.table[v], s.table_length[v])
     s.word[v] = -1
     s.words_of[v] = 0
+    s.table[v] = -1
 
 
 def place_above(s: Store, v: int, x: int) -> int:
@@ -264,14 +265,27 @@ def grow_log(s: Store) -> None:
 
 def attach_table(s: Store, v: int, values: list[float]) -> None:
     """Give `v` a full bit set over a sorted table of values that are sparse or real."""
-    need = s.table_used + len(values)
-    if need > len(s.table_values):
-        s.table_values = grown(s.table_values, "d", 2 * need, 0.0)
-    memoryview(s.table_values)[s.table_used : need] = memoryview(array("d", values))
-    s.table[v] = s.table_used
-    s.table_length[v] = len(values)
-    s.table_used = need
-    attach_words(s, v, 0, len(values))
+    count = len(values)
+    if count < len(s.table_free) and s.table_free[count] >= 0:
+        first = s.table_free[count]
+        s.table_free[count] = int(s.table_values[first])
+    else:
+        first = s.table_used
+        if first + count > len(s.table_values):
+            s.table_values = grown(s.table_values, "d", 2 * (first + count), 0.0)
+        s.table_used = first + count
+    for k in range(count):
+        s.table_values[first + k] = values[k]
+    s.table[v] = first
+    s.table_length[v] = count
+    attach_words(s, v, 0, count)
+
+
+def release_table(s: Store, first: int, count: int) -> None:
+    """Give a table back (tables of more than 64 values are not used again)."""
+    if count < len(s.table_free):
+        s.table_values[first] = s.table_free[count]
+        s.table_free[count] = first
 
 
 def count_values(s: Store, v: int) -> int:

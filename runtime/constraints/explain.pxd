@@ -4,8 +4,8 @@ cimport cython
 from runtime.constraints.reasons cimport collect_all, collect_reasons, collect_weight
 from runtime.constraints.store cimport Store
 
-cdef long long CONFLICT_CYCLE, CONFLICT_DOMAIN, KIND_FLOAT, SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_CONSTRAINT
-cdef long long SUPPORT_EDGE, SUPPORT_RESTRICTION, TRAIL_REAL_LOWER, TRAIL_REAL_UPPER
+cdef long long CONFLICT_CYCLE, CONFLICT_DOMAIN, FLAG_VALUES, KIND_FLOAT, SIDE_HOLES, SIDE_LOWER, SIDE_UPPER
+cdef long long SUPPORT_CONSTRAINT, SUPPORT_EDGE, SUPPORT_RESTRICTION, TRAIL_REAL_LOWER, TRAIL_REAL_UPPER
 
 
 @cython.locals(name="long long")
@@ -27,7 +27,7 @@ cpdef list walk_cycle(Store s, dict found, long long now)
 @cython.locals(code="long long", i="long long", support="long long", value=double, when="long long")
 cpdef state_before(Store s, long long v, long long side, long long time)
 
-@cython.locals(entry="long long", i="long long", oldest="long long", seen=set)
+@cython.locals(entry="long long", i="long long", r="long long", seen=set)
 cpdef int walk_back(Store s, dict found, list waiting, list links) except -1
 
 cpdef void step_back(Store s, dict found, list waiting, list links, change, long long support, double value) except *

@@ -9,6 +9,7 @@ from runtime.constraints.cause import Cause, CauseKind, Link
 from runtime.constraints.codes import (
     CONFLICT_CYCLE,
     CONFLICT_DOMAIN,
+    FLAG_VALUES,
     KIND_FLOAT,
     SIDE_HOLES,
     SIDE_LOWER,
@@ -145,10 +146,12 @@ def walk_back(s: Store, found: dict[Cause, None], waiting: list[Bound], links: l
                     seen.add((v, 3, entry))
                     step_back(s, found, waiting, links, (v, SIDE_HOLES, when, time), s.hole_support[entry], 0.0)
                 entry = s.hole_next[entry]
-            oldest = s.restriction_head[v]
-            while s.restriction_next[oldest] >= 0:
-                oldest = s.restriction_next[oldest]
-            add_cause(s, found, oldest * 4 + SUPPORT_RESTRICTION)
+            # What a set left out from the start is in no log: it is the doing of the declaration, or of a listing.
+            r = s.restriction_head[v]
+            while r >= 0:
+                if s.restriction_flags[r] & FLAG_VALUES or s.restriction_next[r] < 0:
+                    add_cause(s, found, r * 4 + SUPPORT_RESTRICTION)
+                r = s.restriction_next[r]
 
 
 def step_back(

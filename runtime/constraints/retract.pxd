@@ -2,7 +2,7 @@
 
 cimport cython
 from libc cimport math
-from runtime.constraints.bits cimport drop_log, release_words
+from runtime.constraints.bits cimport detach_words, drop_log
 from runtime.constraints.loosening cimport follow_cone, loosen_by, loosen_by_constraint, loosen_by_edge
 from runtime.constraints.narrow cimport raise_to, reduce_to
 from runtime.constraints.network cimport attach_edge, detach_edge, follow_edge, free_edge, propagate_edges

@@ -7,7 +7,7 @@ are pulled tight along the remaining edges; what touches them is propagated agai
 import math
 from math import inf
 
-from runtime.constraints.bits import drop_log, release_words
+from runtime.constraints.bits import detach_words, drop_log
 from runtime.constraints.codes import (
     FLAG_DECISION,
     FLAG_VALUES,
@@ -176,10 +176,7 @@ def set_base_upper(s: Store, v: int, x: float, support: int) -> None:
 def reset_set(s: Store, v: int) -> None:
     """Take the bit set of a variable away; `renew_cone` carries its restrictions to sets out again."""
     drop_log(s, v)
-    release_words(s, s.word[v], s.words_of[v])
-    s.word[v] = -1
-    s.words_of[v] = 0
-    s.table[v] = -1
+    detach_words(s, v)
     reset_bound(s, v, SIDE_LOWER)
     reset_bound(s, v, SIDE_UPPER)
 

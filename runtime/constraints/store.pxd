@@ -33,16 +33,16 @@ cdef class Store:
     cdef public int[::1] table, table_length, hole_head, restriction_head
     cdef public int[::1] watch_head, mute_head, out_head, in_head
     cdef public int[::1] block_first, block_size, block_left, block_next
-    cdef public int[::1] block_free, word_free, hole_variable, hole_word
-    cdef public int[::1] hole_support, hole_next, trail_support, slot_variable
-    cdef public int[::1] slot_constraint, slot_next, slot_prev, edge_source
-    cdef public int[::1] edge_target, out_next, out_prev, in_next
-    cdef public int[::1] in_prev, edge_span, edge_owner, edge_link
-    cdef public int[::1] op, first, arity, span
-    cdef public int[::1] owner, link_a, link_b, run_count
-    cdef public int[::1] constraint_next, slot_free, restriction_variable, restriction_next
-    cdef public int[::1] restriction_span, restriction_owner, edge_queue, hull_queue
-    cdef public int[::1] cheap_queue, dear_queue, woken
+    cdef public int[::1] block_free, word_free, table_free, hole_variable
+    cdef public int[::1] hole_word, hole_support, hole_next, trail_support
+    cdef public int[::1] slot_variable, slot_constraint, slot_next, slot_prev
+    cdef public int[::1] edge_source, edge_target, out_next, out_prev
+    cdef public int[::1] in_next, in_prev, edge_span, edge_owner
+    cdef public int[::1] edge_link, op, first, arity
+    cdef public int[::1] span, owner, link_a, link_b
+    cdef public int[::1] run_count, constraint_next, slot_free, restriction_variable
+    cdef public int[::1] restriction_next, restriction_span, restriction_owner, edge_queue
+    cdef public int[::1] hull_queue, cheap_queue, dear_queue, woken
     cdef public unsigned long long[::1] bits, hole_mask
     cdef public dict restriction_values, externals, object_parent
     cdef public bint holes, coarse, consistent

@@ -175,3 +175,16 @@ def test_a_late_observation_is_explained_back_to_its_causes() -> None:
     assert chain[0].variable == end and chain[0].value == 12
     assert {link.cause.span for link in chain} >= {4, 5, 6, 7, 8}
     assert all(link.cause.owner == 42 for link in chain if link.cause.kind is CauseKind.CONSTRAINT)
+
+
+def test_a_set_is_among_the_causes_of_what_it_leaves_out() -> None:
+    engine = Engine()
+    x = engine.new_interval(codes.KIND_FLOAT, 0.0, 9.0, 1, -1)
+    engine.restrict_base_values(x, [1.0, 4.0, 8.0], 2, -1)
+    engine.restrict_base(x, 2.0, 9.0, 3, -1)
+    engine.restrict_base(x, 0.0, 7.0, 4, -1)
+    assert engine.propagate() and engine.is_singleton(x)
+    y = engine.new_interval(codes.KIND_FLOAT, 5.0, 9.0, 5, -1)
+    engine.post(codes.OP_EQ, [x, y], 6, -1)
+    assert not engine.propagate()
+    assert {cause.span for cause in minimise(engine, sufficient(engine))} == {2, 4, 5, 6}

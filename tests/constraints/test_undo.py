@@ -161,3 +161,24 @@ def test_rows_of_what_was_undone_are_used_again() -> None:
             )
         )
     assert sizes[20] == sizes[-1]
+
+
+def test_sets_of_values_far_apart_come_and_go() -> None:
+    engine = Engine()
+    v = engine.new_interval(codes.KIND_INT, 0, 10**9, 0, -1)
+    x = engine.new_interval(codes.KIND_FLOAT, 0.0, 9.0, 0, -1)
+    engine.commit()
+    for turn in range(50):
+        mark = engine.mark()
+        assert engine.restrict_base_values(v, [3, 70000, 10**6 + turn], 1, -1)
+        assert engine.restrict_base_values(x, [0.5, 2.25, 7.125], 2, -1)
+        engine.post(codes.OP_NEQ, [v, engine.new_constant(codes.KIND_INT, 70000, 70000)], 3, -1)
+        engine.restrict_base(x, 1.0, 9.0, 4, -1)
+        assert engine.propagate()
+        assert (engine.values_of(v), engine.values_of(x)) == ([3, 10**6 + turn], [2.25, 7.125])
+        engine.rewind(mark)
+        assert (engine.upper(v), engine.upper(x), engine.is_finite(x)) == (10**9, 9.0, False)
+        mark = engine.mark()
+        assert engine.restrict_base_values(v, [2, 4], 5, -1) and engine.values_of(v) == [2, 4]
+        engine.rewind(mark)
+    assert engine.table_used == 6
