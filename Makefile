@@ -16,7 +16,7 @@
 #
 # MISSION=file checks another mission; PYTHON=python3.13 sets up with that one.
 
-MISSION := models/gps/mission.toml
+MISSION ?= models/gps/mission.toml
 PYTHON := python3.11 python3.12 python3.13 python3.14 python3 python
 BIN := .venv/bin
 PYTEST := $(BIN)/python -m pytest --numprocesses auto
