@@ -105,7 +105,7 @@ def equate(s: Store, a: int, b: int, support: int) -> bool:
                 return True
             if not (exclude_missing(s, a, b, support) and exclude_missing(s, b, a, support)):
                 return False
-            if s.lb[a] == s.lb[b] and s.ub[a] == s.ub[b]:
+            if s.coarse or (s.lb[a] == s.lb[b] and s.ub[a] == s.ub[b]):
                 return True
     for _ in range(2):
         if not (raise_to(s, a, low(s, b), support) and raise_to(s, b, low(s, a), support)):

@@ -125,8 +125,11 @@ cdef class Engine(Store):
     @cython.locals(c="long long", v="long long")
     cpdef bint propagate(self) except -1
 
-    @cython.locals(family="long long")
+    @cython.locals(holding=bint)
     cpdef bint run(self, long long c) except -1
+
+    @cython.locals(family="long long")
+    cpdef bint carry_out(self, long long c) except -1
 
     @cython.locals(i="long long")
     cpdef int clear_woken(self) except -1

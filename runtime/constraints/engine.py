@@ -183,7 +183,7 @@ class Engine(Store):
         return is_single(self, v)
 
     def is_decided(self, v: int) -> bool:
-        """Tell whether `v` was decided, or has a base domain of a single value."""
+        """Tell whether `v` was decided, or has a base domain of one value."""
         return bool(self.decided[v] or is_base_single(self, v))
 
     def contains(self, v: int, value: float) -> bool:
@@ -323,9 +323,17 @@ class Engine(Store):
             self.run_count[c] = 0
         self.run_count[c] += 1
         # A circle that creeps is slowed down, then left alone: what is not narrowed away loses no solution.
-        self.coarse = self.run_count[c] > PATIENCE
         if self.run_count[c] > MOST_RUNS:
             return True
+        self.coarse = self.run_count[c] > PATIENCE
+        self.running = c if self.settles[c] else -1
+        holding = self.carry_out(c)
+        self.coarse = False
+        self.running = -1
+        return holding
+
+    def carry_out(self, c: int) -> bool:
+        """Have the family of a constraint's operation narrow its arguments; false on a conflict."""
         family = self.op[c] >> 5
         if family == FAMILY_COMPARISON:
             return run_comparison(self, c)

@@ -4,8 +4,8 @@ cimport cython
 from runtime.constraints.reasons cimport collect_all, collect_reasons, collect_weight
 from runtime.constraints.store cimport Store
 
-cdef long long CONFLICT_CYCLE, CONFLICT_DOMAIN, FLAG_VALUES, KIND_FLOAT, SIDE_HOLES, SIDE_LOWER, SIDE_UPPER
-cdef long long SUPPORT_CONSTRAINT, SUPPORT_EDGE, SUPPORT_RESTRICTION, TRAIL_REAL_LOWER, TRAIL_REAL_UPPER
+cdef long long CONFLICT_CYCLE, CONFLICT_DOMAIN, FLAG_VALUES, KIND_BOOL, KIND_FLOAT, SIDE_HOLES, SIDE_LOWER
+cdef long long SIDE_UPPER, SUPPORT_CONSTRAINT, SUPPORT_EDGE, SUPPORT_RESTRICTION, TRAIL_REAL_LOWER, TRAIL_REAL_UPPER
 
 
 @cython.locals(name="long long")

@@ -10,6 +10,7 @@ from runtime.constraints.codes import (
     CONFLICT_CYCLE,
     CONFLICT_DOMAIN,
     FLAG_VALUES,
+    KIND_BOOL,
     KIND_FLOAT,
     SIDE_HOLES,
     SIDE_LOWER,
@@ -57,9 +58,10 @@ def explain_conflict(s: Store) -> list[Cause]:
         if s.conflict_kind == CONFLICT_DOMAIN:
             collect_reasons(s, support, v, side)
             waiting = read_reasons(s, now)
-            if side != SIDE_UPPER:
+            # The last value of a bool is taken from where it stands, so both of its bounds count.
+            if side != SIDE_UPPER or s.kind[v] == KIND_BOOL:
                 waiting.append((v, SIDE_UPPER, now))
-            if side != SIDE_LOWER:
+            if side != SIDE_LOWER or s.kind[v] == KIND_BOOL:
                 waiting.append((v, SIDE_LOWER, now))
         else:
             collect_all(s, support >> 2, -1, SIDE_HOLES)

@@ -37,6 +37,7 @@ def set_lower(s: Store, v: int, x: int, support: int) -> bool:
         return True
     if s.word[v] >= 0:
         x = next_value(s, v, x)
+        s.running = -1  # who made the bound jump over holes may have more to do
     if x > s.ub[v]:
         return s.fail(v, SIDE_LOWER, support)
     if s.coarse and x - s.lb[v] < (s.ub[v] - s.lb[v]) >> 7:
@@ -53,6 +54,7 @@ def set_upper(s: Store, v: int, x: int, support: int) -> bool:
         return True
     if s.word[v] >= 0:
         x = previous_value(s, v, x)
+        s.running = -1
     if x < s.lb[v]:
         return s.fail(v, SIDE_UPPER, support)
     if s.coarse and s.ub[v] - x < (s.ub[v] - s.lb[v]) >> 7:

@@ -4,10 +4,11 @@ cimport cython
 from runtime.constraints.network cimport insert_edge
 from runtime.constraints.store cimport Store
 
-cdef long long EVENT_ANY, EVENT_DECIDED, EVENT_DOMAIN, EVENT_HOLES, KIND_BOOL, KIND_FLOAT, KIND_INT, MODE_EDGES
-cdef long long MODE_REAL, MODE_WHOLE, OP_ADD_EQ, OP_ALL_MAX, OP_ALL_MIN, OP_EQ, OP_EQ_MAXIMUM, OP_EQ_MINIMUM
-cdef long long OP_EXTERNAL, OP_LEQ, OP_LT, OP_PLUS, OP_RAND, OP_TEST_SPECIFIED, OP_WATCH, PRIORITY_CHEAP
-cdef long long PRIORITY_DEAR, PRIORITY_WATCH, TRAIL_CONSTRAINT, TRAIL_LINK
+cdef long long EVENT_ANY, EVENT_DOMAIN, EVENT_HOLES, EVENT_LOWER, EVENT_UPPER, FAMILY_ARITHMETIC, KIND_BOOL
+cdef long long KIND_FLOAT, KIND_INT, MODE_EDGES, MODE_REAL, MODE_WHOLE, OP_ADD_EQ, OP_ALL_MAX, OP_ALL_MIN, OP_EQ
+cdef long long OP_EQ_MAXIMUM, OP_EQ_MINIMUM, OP_EXTERNAL, OP_LEQ, OP_LT, OP_NEQ, OP_PLUS, OP_RAND
+cdef long long OP_TEMPORAL_DISTANCE, OP_TEST_SPECIFIED, OP_WATCH, PRIORITY_CHEAP, PRIORITY_DEAR, PRIORITY_WATCH
+cdef long long TRAIL_CONSTRAINT, TRAIL_LINK
 cdef unsigned long long MASK
 
 
@@ -35,8 +36,14 @@ cpdef bint tie_edges(
 
 cpdef bint tie_edge(Store s, long long c, long long source, long long target, long long weight) except -1
 
-@cython.locals(c="long long", mask="long long", position="long long")
+@cython.locals(c="long long", position="long long")
 cpdef long long post_constraint(Store s, long long op, list arguments, long long span, long long owner) except? -1
+
+@cython.locals(op="long long")
+cpdef bint is_settled_by_one_run(Store s, long long c) except -1
+
+@cython.locals(op="long long")
+cpdef long long events_of(Store s, long long c, long long position) except? -1
 
 @cython.locals(edges=bint, op="long long", v="long long")
 cpdef int choose_mode(Store s, long long c, list arguments) except -1

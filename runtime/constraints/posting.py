@@ -2,9 +2,11 @@
 
 from runtime.constraints.codes import (
     EVENT_ANY,
-    EVENT_DECIDED,
     EVENT_DOMAIN,
     EVENT_HOLES,
+    EVENT_LOWER,
+    EVENT_UPPER,
+    FAMILY_ARITHMETIC,
     KIND_BOOL,
     KIND_FLOAT,
     KIND_INT,
@@ -20,8 +22,10 @@ from runtime.constraints.codes import (
     OP_EXTERNAL,
     OP_LEQ,
     OP_LT,
+    OP_NEQ,
     OP_PLUS,
     OP_RAND,
+    OP_TEMPORAL_DISTANCE,
     OP_TEST_SPECIFIED,
     OP_WATCH,
     PRIORITY_CHEAP,
@@ -179,22 +183,39 @@ def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: i
         arguments = [arguments[1], arguments[0], arguments[2]]
     c = new_constraint(s, op, len(arguments), span, owner)
     choose_mode(s, c, arguments)
-    mask = EVENT_DOMAIN
     if op == OP_WATCH:
         s.priority[c] = PRIORITY_WATCH
-        mask = EVENT_ANY
-    elif op == OP_TEST_SPECIFIED:
-        mask = EVENT_DOMAIN | EVENT_DECIDED
     elif op == OP_EXTERNAL:
         s.priority[c] = PRIORITY_DEAR
     elif op == OP_RAND:
         s.aux[c] = random_whole(s.seed, span, owner)
-    elif s.mode[c] == MODE_EDGES:
-        mask = EVENT_HOLES if op == OP_EQ else 0
     for position in range(s.arity[c]):
-        watch(s, c, position, arguments[position], mask)
+        watch(s, c, position, arguments[position], events_of(s, c, position))
+    s.settles[c] = is_settled_by_one_run(s, c) and len(set(arguments)) == len(arguments)
     s.schedule(c)
     return c
+
+
+def is_settled_by_one_run(s: Store, c: int) -> bool:
+    """Tell whether one run reaches the constraint's own fixpoint, where no bound has to jump over holes."""
+    op = s.op[c]
+    if s.mode[c] == MODE_REAL:
+        return False  # rounding to whole numbers may leave more to do
+    return op == OP_NEQ or op == OP_ADD_EQ or (op == OP_EQ and s.arity[c] == 2)
+
+
+def events_of(s: Store, c: int, position: int) -> int:
+    """Give the events of an argument that may let the constraint narrow another one."""
+    op = s.op[c]
+    if s.mode[c] == MODE_EDGES:
+        return EVENT_HOLES if op == OP_EQ else 0
+    if op == OP_LEQ or op == OP_LT:
+        return EVENT_LOWER if position == 0 else EVENT_UPPER
+    if op >> 5 == FAMILY_ARITHMETIC or op == OP_TEMPORAL_DISTANCE:
+        return EVENT_LOWER | EVENT_UPPER
+    if op == OP_WATCH:
+        return EVENT_ANY
+    return EVENT_ANY if op == OP_TEST_SPECIFIED else EVENT_DOMAIN
 
 
 def choose_mode(s: Store, c: int, arguments: list[int]) -> None:

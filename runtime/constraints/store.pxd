@@ -21,7 +21,7 @@ cdef class Store:
     cdef public long long runs
     cdef public signed char[::1] kind, is_open, decided, constant
     cdef public signed char[::1] queued, slot_mask, mode, restriction_flags
-    cdef public signed char[::1] loose, scheduled, priority
+    cdef public signed char[::1] loose, scheduled, priority, settles
     cdef public long long[::1] lb, ub, lower_when, upper_when
     cdef public long long[::1] bit_base, hole_when, trail_key, trail_value
     cdef public long long[::1] trail_when, slot_key, edge_weight, aux

@@ -173,6 +173,7 @@ class Store:
         self.dear_last = 0
         self.scheduled = array("b", [0]) * room
         self.priority = array("b", [0]) * room
+        self.settles = array("b", [0]) * room  # whether one run leaves a constraint nothing more to narrow
         self.woken = array("i", [0]) * room
         self.woken_count = 0
         self.running = -1
@@ -236,6 +237,7 @@ class Store:
         """Make place for `room` constraints in both queues."""
         self.scheduled = grown(self.scheduled, "b", room, 0)
         self.priority = grown(self.priority, "b", room, 0)
+        self.settles = grown(self.settles, "b", room, 0)
         self.woken = grown(self.woken, "i", room, 0)
         self.cheap_queue = grown_ring(self.cheap_queue, self.cheap_first, self.cheap_last, 2 * room)
         self.cheap_last = (self.cheap_last - self.cheap_first) & self.cheap_mask

@@ -188,3 +188,14 @@ def test_a_set_is_among_the_causes_of_what_it_leaves_out() -> None:
     engine.post(codes.OP_EQ, [x, y], 6, -1)
     assert not engine.propagate()
     assert {cause.span for cause in minimise(engine, sufficient(engine))} == {2, 4, 5, 6}
+
+
+def test_taking_the_last_value_of_a_bool_blames_what_fixed_it() -> None:
+    engine = Engine()
+    a, b, c = (engine.new_interval(codes.KIND_BOOL, 0, 1, k, -1) for k in range(3))
+    engine.post(codes.OP_LT, [b, c], 3, -1)
+    engine.post(codes.OP_LEQ, [c, a], 4, -1)
+    engine.post(codes.OP_NEQ, [c, a], 5, -1)
+    assert not engine.propagate()
+    assert {3, 4, 5} <= {cause.span for cause in engine.explain()}
+    assert Scratch(engine).refutes(engine.explain())

@@ -227,3 +227,14 @@ def test_a_constraint_written_in_python_takes_part() -> None:
     assert {1, 3, 4} <= {cause.span for cause in engine.explain()}
     engine.rewind(mark)
     assert engine.lower(b) == 8
+
+
+def test_after_a_creeping_circle_small_steps_count_again() -> None:
+    engine = Engine()
+    x = engine.new_interval(codes.KIND_FLOAT, 0.0, 1e9, 0, -1)
+    y = engine.new_interval(codes.KIND_FLOAT, 0.0, 1e9, 0, -1)
+    engine.post(codes.OP_MUL_EQ, [y, engine.new_constant(codes.KIND_FLOAT, 0.9999, 0.9999), x], 1, -1)
+    engine.post(codes.OP_EQ, [x, y], 2, -1)
+    assert engine.propagate()
+    v = engine.new_interval(codes.KIND_INT, 0, 10**6, 0, -1)
+    assert engine.restrict_base(v, 1, 10**6, 3, -1) and engine.lower(v) == 1
