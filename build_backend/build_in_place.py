@@ -13,7 +13,7 @@ from freshness import (
     SUFFIX,
     binary,
     binary_digest,
-    engine_modules,
+    compiled_modules,
     orphaned_binaries,
     source_digests,
     stale_modules,
@@ -58,7 +58,7 @@ def write_whole(path: Path, text: str) -> None:
 
 def leave_uncompiled(root: Path) -> None:
     """Remove all binaries: some of them beside sources that have changed are worse than none."""
-    for path in (*orphaned_binaries(root), *(binary(root, module) for module in engine_modules(root))):
+    for path in (*orphaned_binaries(root), *(binary(root, module) for module in compiled_modules(root))):
         path.unlink(missing_ok=True)
     stamp(root).unlink(missing_ok=True)
 

@@ -13,7 +13,7 @@ from pathlib import Path
 from setuptools import Extension
 from setuptools.command.build_ext import build_ext
 
-from freshness import engine_modules
+from freshness import SHARED, engine_modules
 
 # No fused multiply-add: a plan must not depend on the processor.
 COMPILE_FLAGS = ["/O2", "/fp:precise"] if sys.platform == "win32" else ["-O2", "-g0", "-ffp-contract=off"]
@@ -65,13 +65,11 @@ def zig_compiler() -> list[str] | None:
 
 
 def engine_extensions(root: Path) -> list[Extension]:
-    """Make one extension of each engine module; none where the user wants none, so that the wheel fits everywhere."""
+    """Make an extension of each engine module and of what they share; none if asked: that wheel fits everywhere."""
     if is_set("NDDLC_NO_COMPILE"):
         return []
-    return [
-        Extension(name, [name.replace(".", "/") + ".py"], extra_compile_args=COMPILE_FLAGS)
-        for name in engine_modules(root)
-    ]
+    sources = {name: [name.replace(".", "/") + ".py"] for name in engine_modules(root)}
+    return [Extension(name, files, extra_compile_args=COMPILE_FLAGS) for name, files in {**sources, SHARED: []}.items()]
 
 
 class BuildEngine(build_ext):
@@ -98,11 +96,11 @@ class BuildEngine(build_ext):
         """Replace each extension's Python source by the C file that Cython makes of it."""
         folder = Path(self.build_temp, "c")
         script = Path(__file__).with_name("translate.py")
-        sources = [extension.sources[0] for extension in self.extensions]
+        sources = [path for extension in self.extensions for path in extension.sources]
         # In a process of its own: Cython is not there yet when the backend is asked what it needs.
         subprocess.run([sys.executable, str(script), str(folder), *sources], check=True)
         for extension in self.extensions:
-            extension.sources = [str(folder / Path(extension.sources[0]).with_suffix(".c"))]
+            extension.sources = [str(folder / f"{extension.name.replace('.', '/')}.c")]
 
     def build_extensions(self) -> None:
         """Compile with the machine's compiler, else with zig's."""

@@ -1,12 +1,14 @@
 """Tell which of the engine's binaries were made from something else than the sources that stand there now."""
 
 import hashlib
+import importlib.metadata
 import json
 import re
 import sysconfig
 from pathlib import Path
 
 SUFFIX: str = sysconfig.get_config_var("EXT_SUFFIX")
+SHARED = "runtime.shared_views"  # what Cython would otherwise put into each binary; it has no source
 CIMPORT = re.compile(r"^[ \t]*(?:from[ \t].*[ \t])?cimport[ \t](?:[^(\n]*\([^)]*\)|.*)", re.MULTILINE)
 
 
@@ -16,8 +18,13 @@ def engine_modules(root: Path) -> list[str]:
     return [".".join(path.relative_to(root).with_suffix("").parts) for path in declared]
 
 
+def compiled_modules(root: Path) -> list[str]:
+    """Name all that a build makes: the engine modules, and the one that they share."""
+    return [*engine_modules(root), SHARED]
+
+
 def source(root: Path, module: str) -> Path:
-    """Say where the source of `module` lies."""
+    """Say where the source of an engine module lies."""
     return root / (module.replace(".", "/") + ".py")
 
 
@@ -45,7 +52,7 @@ def stale_modules(root: Path) -> list[str]:
 
 def orphaned_binaries(root: Path) -> list[Path]:
     """List the binaries that no engine module stands for any more, and that Python would load all the same."""
-    wanted = {binary(root, module) for module in engine_modules(root)}
+    wanted = {binary(root, module) for module in compiled_modules(root)}
     return sorted(set((root / "runtime").rglob(f"*{SUFFIX}")) - wanted)
 
 
@@ -56,13 +63,23 @@ def unfit_binaries(root: Path) -> list[Path]:
 
 
 def source_digests(root: Path) -> dict[str, str]:
-    """Sum up, for each engine module, what its binary depends on: its files, the layouts it reads, how it is built."""
+    """Sum up what each binary depends on: the module's files, the layouts it reads, how and by what it is built."""
     layouts = {module: source(root, module).with_suffix(".pxd").read_bytes() for module in engine_modules(root)}
     recipe = b"".join((root / "build_backend" / name).read_bytes() for name in ("engine_build.py", "translate.py"))
-    return {
-        module: digest(recipe, source(root, module).read_bytes(), *(layouts[name] for name in needed(module, layouts)))
-        for module in layouts
-    }
+    how = digest(recipe, cython_version().encode())
+    digests = {SHARED: how}
+    for module in layouts:
+        read = (layouts[name] for name in needed(module, layouts))
+        digests[module] = digest(how.encode(), source(root, module).read_bytes(), *read)
+    return digests
+
+
+def cython_version() -> str:
+    """Say which Cython would translate; the binaries of two of them do not share."""
+    try:
+        return importlib.metadata.version("Cython")
+    except importlib.metadata.PackageNotFoundError:
+        return "none"
 
 
 def needed(module: str, layouts: dict[str, bytes]) -> list[str]:

@@ -32,7 +32,7 @@ def engine_requirements() -> list[str]:
     """Name what must be fetched to compile the engine here; `ziglang` brings a C compiler to a machine without one."""
     if is_set("NDDLC_NO_COMPILE"):
         return []
-    return ["Cython>=3.0.11"] if machine_compiler() else ["Cython>=3.0.11", "ziglang>=0.13"]
+    return ["Cython>=3.2"] if machine_compiler() else ["Cython>=3.2", "ziglang>=0.13"]
 
 
 def get_requires_for_build_wheel(config_settings: Settings = None) -> list[str]:

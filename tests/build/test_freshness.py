@@ -1,5 +1,6 @@
 """A binary counts as fresh only while all that it was made from stands there unchanged."""
 
+import importlib.metadata
 import json
 import shutil
 from pathlib import Path
@@ -7,9 +8,11 @@ from pathlib import Path
 import pytest
 
 from freshness import (
+    SHARED,
     SUFFIX,
     binary,
     binary_digest,
+    compiled_modules,
     engine_modules,
     needed,
     orphaned_binaries,
@@ -44,7 +47,7 @@ def tree(tmp_path: Path) -> Path:
 
 
 def seem_built(root: Path) -> None:
-    for module in engine_modules(root):
+    for module in compiled_modules(root):
         binary(root, module).write_bytes(module.encode())
     record = {module: [digest, binary_digest(root, module)] for module, digest in source_digests(root).items()}
     stamp(root).parent.mkdir(exist_ok=True)
@@ -86,7 +89,12 @@ def test_a_module_that_is_not_compiled_makes_nothing_stale(tree: Path) -> None:
 
 def test_a_changed_recipe_makes_all_stale(tree: Path) -> None:
     append(tree / "build_backend/translate.py")
-    assert stale_modules(tree) == [TRAIL, CLOCK, TOKENS]
+    assert sorted(stale_modules(tree)) == sorted([TRAIL, CLOCK, TOKENS, SHARED])
+
+
+def test_another_cython_makes_all_stale(tree: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(importlib.metadata, "version", lambda _: "another")
+    assert sorted(stale_modules(tree)) == sorted([TRAIL, CLOCK, TOKENS, SHARED])
 
 
 def test_a_binary_from_elsewhere_is_stale(tree: Path) -> None:
