@@ -8,7 +8,7 @@
 #   make lint types   ruff; mypy
 #   make compiled     the tests with the engine compiled; `make interpreted` those it matters for, uncompiled
 #   make format       let ruff format and mend what it can
-#   make fuzz         the property tests with many more examples
+#   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
 #   make bench        missions per second, compiled and interpreted
@@ -16,6 +16,7 @@
 #
 # MISSION=file checks another mission; PYTHON=python3.13 sets up with that one.
 
+MUTATIONS ?= 1000000
 MISSION ?= models/gps/mission.toml
 PYTHON := python3.11 python3.12 python3.13 python3.14 python3 python
 BIN := .venv/bin
@@ -91,7 +92,7 @@ format: setup
 	$(BIN)/ruff format
 
 fuzz: build
-	$(PYTEST) --hypothesis-profile=fuzz -m 'not slow'
+	NDDLC_FUZZ=$(MUTATIONS) $(PYTEST) --hypothesis-profile=fuzz -m 'not slow'
 
 conformance: build
 	$(PYTEST) tests/conformance

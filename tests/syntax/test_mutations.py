@@ -8,6 +8,7 @@ import random
 import re
 import time
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -22,6 +23,7 @@ from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.source import Source
 from tests.syntax.corpus import SNIPPETS, edited, mutated, texts
 
+PARTS = 4  # that may run side by side
 MUTATIONS = int(os.environ.get("NDDLC_FUZZ", "400"))
 DIALECTS = list(Dialect)
 
@@ -84,8 +86,9 @@ def test_every_text_of_the_repository_keeps_what_holds() -> None:
         check(text, DIALECTS[number % 2])
 
 
-def test_mutations_keep_what_holds() -> None:
-    for seed in range(MUTATIONS):
+@pytest.mark.parametrize("part", range(PARTS))
+def test_mutations_keep_what_holds(part: int) -> None:
+    for seed in range(part, MUTATIONS, PARTS):
         chance = random.Random(seed)
         text = mutated(chance)
         start = time.process_time()
