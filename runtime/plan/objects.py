@@ -9,7 +9,7 @@ from runtime.constraints.codes import KIND_FLOAT, KIND_OBJECT
 from runtime.plan.bodies import run
 from runtime.plan.codes import INITIAL, MINIMUM, NONE, ROLE_INTERNAL, ROLE_MEMBER, SCOPE_SCRIPT
 from runtime.plan.domains import assign_domain, copy_current
-from runtime.plan.faults import CLOSED_CLASS
+from runtime.plan.faults import CLOSED_CLASS, ENDLESS_OBJECT
 from runtime.plan.flatten import Code
 from runtime.plan.holding import make_variable
 from runtime.plan.links import new_head
@@ -17,6 +17,8 @@ from runtime.plan.natives import DEFAULTS, FILLED, LIMITS_OF
 from runtime.plan.operands import operand
 from runtime.plan.plan import Plan
 from runtime.plan.prototypes import Prototypes
+
+DEEPEST = 100  # objects within objects; no model means more
 
 Place = tuple[int, int]  # an operand as flattened code has it
 
@@ -72,6 +74,7 @@ class Objects:
         self.names: list[str] = []
         self.numbers: dict[str, int] = {}
         self.fault: Diagnostic | None = None
+        self.depth = 0  # of the object under construction within others
         self.constructors = [[self.prepare(each) for each in class_.constructors] for class_ in program.classes]
         self.in_rules = [self.prepare_new(new) for new in code.objects]
 
@@ -179,7 +182,12 @@ class Objects:
         if self.prototypes.is_closed[new.class_number]:
             return CLOSED_CLASS.at(new.span, name=self.program.classes[new.class_number].name)
         o = self.allocate(new.class_number, new.name if parent is None or new.name is None else f"{parent}.{new.name}")
-        return self.construct(new.class_number, new.constructor, o, arguments) or o
+        if self.depth == DEEPEST:
+            return ENDLESS_OBJECT.at(new.span, name=self.program.classes[new.class_number].name)
+        self.depth += 1
+        fault = self.construct(new.class_number, new.constructor, o, arguments)
+        self.depth -= 1
+        return fault or o
 
     def construct(self, number: int, chosen: int, o: int, arguments: list[int]) -> Diagnostic | None:
         """Run a constructor of class `number` on object `o`; arguments pass their current domains."""

@@ -54,6 +54,17 @@ def test_only_rejectable_tokens_are_rejected() -> None:
     assert tokens(loaded(SCENE + "rejectable(t.p g); g.reject();"))["g"]["state"] == "REJECTED"
 
 
+def test_objects_within_objects_come_to_an_end() -> None:
+    fault = stopped("class A { A a; A() { a = new A(); } }\nA x = new A();")
+    assert (fault.code.kind, fault.span.text) == ("rule", "new A()")
+    assert "`A`" in fault.message
+    assert stopped(
+        "class B; class A { B b; A(int n) { b = new B(n); } } class B { A a; B(int n) { a = new A(n); } } A x = new A(1);"
+    )
+    deep = "".join(f"class C{k} {{ C{k - 1} c; C{k}() {{ c = new C{k - 1}(); }} }}\n" for k in range(1, 60))
+    loaded(f"class C0 {{ }}\n{deep}C59 c = new C59();")
+
+
 def test_nothing_is_made_of_a_closed_class() -> None:
     assert stopped("class A { } A.close(); A a = new A();").code.kind == "state"
     text = "class A { } class T extends Timeline { predicate p { } } T::p { A a = new A(); } T t = new T(); close();"
