@@ -67,6 +67,7 @@ endif
 
 build: setup
 	@$(BIN)/python build_backend/build_in_place.py
+	@$(BIN)/python -m compileall -q nddl_lang compiler runtime checker lsp nddlc
 
 lint: setup
 	$(BIN)/ruff check

@@ -1,13 +1,8 @@
-"""How fast the language answers: a full check from cold in process, its growth, a keystroke, and the command."""
+"""How fast the language answers: a full check from cold in process, its growth, and a keystroke."""
 
 import gc
-import os
 import statistics
-import subprocess
-import sys
-import tempfile
 import time
-from pathlib import Path
 
 from lsprotocol.types import Position, Range
 
@@ -16,7 +11,7 @@ from nddl_lang.analysis import analyse_text
 from nddl_lang.lint.linter import lint
 
 SIZES = (1000, 5000, 20000)
-CHECK, KEYSTROKE, COMMAND = 300, 20, 350  # milliseconds that must not be exceeded
+CHECK, KEYSTROKE = 300, 20  # milliseconds that must not be exceeded
 ROUNDS = 100
 UNIT = """
 /// Timeline {0}.
@@ -84,22 +79,6 @@ def keystrokes(text: str) -> list[float]:
     return times
 
 
-def command(text: str) -> tuple[float, float]:
-    """Milliseconds that `nddlc lint` takes on a small file, the best of five: on the wall, and of the processor."""
-    with tempfile.TemporaryDirectory() as directory:
-        path = Path(directory) / "small.nddl"
-        path.write_text(text, encoding="utf-8")
-        times = []
-        for _ in range(5):
-            used = os.times()
-            begun = time.perf_counter()
-            subprocess.run([sys.executable, "-m", "nddlc.main", "lint", str(path)], capture_output=True, check=False)
-            wall, after = time.perf_counter() - begun, os.times()
-            busy = after.children_user + after.children_system - used.children_user - used.children_system
-            times.append((wall * 1000, busy * 1000))
-        return min(times)
-
-
 def main() -> None:
     """Print what each takes, beside what it may take."""
     check(model(100))  # the tables of the parser are read once in a process
@@ -115,10 +94,6 @@ def main() -> None:
     times = keystrokes(model(1000))
     median = statistics.median(times)
     print(f"keystroke in 1000 lines: median {median:.1f} ms, {median / KEYSTROKE:.2f} of {KEYSTROKE} ms")
-    wall, busy = command(model(60))
-    print(
-        f"nddlc lint on a small file: {wall:.0f} ms, {wall / COMMAND:.2f} of {COMMAND} ms; {busy:.0f} ms of processor"
-    )
 
 
 if __name__ == "__main__":
