@@ -11,6 +11,7 @@
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
+#   make rules        the pages of docs/rules, from the tables beside the passes
 #   make bench        missions per second, compiled and interpreted
 #   make clean        remove what was made, .venv included
 #
@@ -24,7 +25,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz conformance corpus bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz conformance corpus rules bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -100,6 +101,9 @@ conformance: build
 
 corpus: build
 	$(BIN)/python -m tests.corpus '$(CORPUS)'
+
+rules: setup
+	$(BIN)/python -m nddl_lang.rulebook docs/rules
 
 bench: build
 	@for script in bench/*.py; do $(BIN)/python $$script || exit; done

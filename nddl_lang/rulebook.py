@@ -21,7 +21,7 @@ GROUPS = {
     "4": "Rules and the state of the script",
     "5": "Findings",
 }
-MARK = "<!-- Made by `python -m nddl_lang.rulebook docs/rules`; edit the page beside the pass instead. -->"
+MARK = "<!-- Made by `make rules`; edit the page beside the pass instead. -->"
 
 
 def readable(code: Code) -> str:

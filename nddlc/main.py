@@ -11,7 +11,7 @@ from typing import Any
 import click
 
 import runtime.build_form
-from nddl_lang.semantics.nearest import nearest
+from nddl_lang.text.nearest import nearest
 from runtime.user.fault import UserCodeError
 
 # A subcommand is one file, imported only when it is used; a new one needs a line here and nothing else.

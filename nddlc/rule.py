@@ -8,9 +8,9 @@ import click
 from checker import mission_codes
 from nddl_lang.lint import configuration as configuration_codes
 from nddl_lang.rulebook import PAGES, configuration, readable
-from nddl_lang.semantics.nearest import nearest
 from nddl_lang.syntax import codes as syntax_codes
 from nddl_lang.text.diagnostic import Code
+from nddl_lang.text.nearest import nearest
 from nddlc.inputs import Unusable
 from runtime.plan import faults
 from runtime.solver import complaints

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from nddl_lang.lint.settings import Settings
-from nddl_lang.semantics.nearest import nearest
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Severity
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path as Key

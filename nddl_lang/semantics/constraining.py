@@ -58,4 +58,5 @@ def _complain_unknown(context: Context, node: CallConstraint) -> None:
         complaint = UNKNOWN_CONSTRAINT.at(
             node.name.span, help="write it as an expression, such as `a + b <= c`", name=name
         )
-    context.complain(suggest_name(complaint, node.name, context.callables.constraints))
+    statements = () if node.arguments else ("close",)
+    context.complain(suggest_name(complaint, node.name, (*context.callables.constraints, *statements)))

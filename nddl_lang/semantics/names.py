@@ -7,7 +7,6 @@ globals, classes. Before a dot a token comes first: `x.y` is the token's variabl
 from collections.abc import Iterable, Sequence
 
 from nddl_lang.semantics.natives import builtin_names, builtin_type
-from nddl_lang.semantics.nearest import nearest
 from nddl_lang.semantics.schema import (
     ClassReference,
     EnumValue,
@@ -25,6 +24,7 @@ from nddl_lang.semantics.scope import Context, Place, Scope
 from nddl_lang.semantics.types import reference_type
 from nddl_lang.syntax.nodes import Identifier, PathExpr
 from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Note, Severity
+from nddl_lang.text.nearest import nearest
 
 UNKNOWN_NAME = Code("NDDL201", Severity.ERROR, "name", "nothing named `{name}` is in scope here")
 DECLARED_BELOW = Code("NDDL202", Severity.ERROR, "name", "`{name}` is used above its declaration")
@@ -40,6 +40,7 @@ NOT_AN_OBJECT = Code("NDDL301", Severity.ERROR, "type", "`{name}` is {type}, so 
 CLASS_AS_VALUE = Code("NDDL302", Severity.ERROR, "type", "`{name}` is a class, not a value")
 
 _VALUE_TABLES = ("global", "goal", "value")
+_LITERALS = ("true", "false", "inf", "inff")
 
 
 def resolve(context: Context, scope: Scope, path: PathExpr) -> Reference | None:
@@ -227,7 +228,7 @@ def complain_unknown(context: Context, scope: Scope, name: Identifier) -> None:
     else:
         own = builtin_names(scope.own.predicate.is_event) if scope.own is not None else ()
         tables = [each for each in _VALUE_TABLES if each != "goal" or scope.place is Place.SCRIPT]
-        candidates = [*scope.visible(), *own, *world.names(*tables)]
+        candidates = [*scope.visible(), *own, *world.names(*tables), *_LITERALS]
         context.complain(suggest_name(UNKNOWN_NAME.at(name.span, name=word), name, candidates))
 
 
@@ -237,9 +238,11 @@ def _is_own_member(context: Context, scope: Scope, name: str) -> bool:
     return context.world.find_member(scope.own_class, name) is not None
 
 
-def suggest_name(complaint: Diagnostic, name: Identifier, candidates: Iterable[str]) -> Diagnostic:
-    """The complaint with the nearest of the candidates as help, if one is near."""
-    known = nearest(name.name, candidates)
+def suggest_name(
+    complaint: Diagnostic, name: Identifier, candidates: Iterable[str], meant: str | None = None
+) -> Diagnostic:
+    """The complaint with what was meant as help, else with the nearest of the candidates, if one is near."""
+    known = meant or nearest(name.name, candidates)
     if known is None:
         return complaint
     fix = Fix(f"write `{known}`", (Edit(name.span, known),), safe=False)

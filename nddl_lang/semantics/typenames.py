@@ -8,19 +8,35 @@ from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.types import BASIC_TYPES, enum_type, object_type
 from nddl_lang.syntax.nodes import Identifier
 from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
+from nddl_lang.text.nearest import nearest
 
 UNKNOWN_TYPE = Code("NDDL212", Severity.ERROR, "name", "there is no type `{name}`")
 UNKNOWN_CLASS = Code("NDDL213", Severity.ERROR, "name", "there is no class `{name}`")
 UNDEFINED_CLASS = Code("NDDL214", Severity.ERROR, "name", "class `{name}` is announced, but not defined so far")
 
 _TYPE_TABLES = ("typedef", "enum", "class")
+# What other languages call the basic types.
+_ELSEWHERE = {
+    "boolean": "bool",
+    "double": "float",
+    "integer": "int",
+    "logical": "bool",
+    "long": "int",
+    "number": "float",
+    "real": "float",
+    "text": "string",
+    "unsigned": "int",
+}
 
 
 def find_type(context: Context, name: Identifier) -> Type | None:
     """The type of that name; a complaint where there is none."""
     type_ = known_type(context, name.name)
     if type_ is None:
-        complain_missing(context, name, UNKNOWN_TYPE, [*BASIC_TYPES, *context.world.names(*_TYPE_TABLES)])
+        known = [*BASIC_TYPES, *context.world.names(*_TYPE_TABLES)]
+        word = name.name.casefold()
+        meant = word if word in _ELSEWHERE else nearest(name.name, [*known, *_ELSEWHERE])
+        complain_missing(context, name, UNKNOWN_TYPE, known, _ELSEWHERE.get(meant or ""))
         return None
     context.tables.type_names[name] = type_
     return type_
@@ -62,8 +78,13 @@ def find_defined_class(context: Context, name: Identifier) -> Class | None:
     return found
 
 
-def complain_missing(context: Context, name: Identifier, code: Code, candidates: Iterable[str]) -> None:
-    """Say that there is no such type or class, unless an earlier mistake may be the reason."""
+def complain_missing(
+    context: Context, name: Identifier, code: Code, candidates: Iterable[str], meant: str | None = None
+) -> None:
+    """Say that there is no such type or class, unless an earlier mistake may be the reason.
+
+    `meant` is what should stand here where that is known, else the nearest of the candidates.
+    """
     word = name.name
     if word in context.reported or context.world.is_doubtful(word):
         return
@@ -73,5 +94,4 @@ def complain_missing(context: Context, name: Identifier, code: Code, candidates:
         note = Note(f"`{word}` is declared here; statements run in order", below)
         context.complain(code.at(name.span, notes=(note,), name=word))
         return
-
-    context.complain(suggest_name(complaint, name, candidates))
+    context.complain(suggest_name(complaint, name, candidates, meant))

@@ -5,6 +5,7 @@ import re
 from nddl_lang.syntax.builder import Builder
 from nddl_lang.syntax.lexemes import excerpt
 from nddl_lang.syntax.tables import END
+from nddl_lang.text.nearest import nearest
 
 _NEXT_WORD = re.compile(r"(?:[ \t\r\n\f]++|//[^\n]*+|/\*.*?\*/)*+(#?\w++|[^\n])?", re.DOTALL)
 
@@ -40,6 +41,8 @@ def advise(kinds: list[str], texts: list[str], first: int, index: int) -> str | 
         return "an interval has two bounds: `[0 10]`"
     if kind in ("INT", "FLOAT") and "SET" in kinds[first:index]:
         return "the values of a set are separated by commas"
+    if kinds[first] == "IDENT" and index == first + 1 and nearest(texts[first], ["else"]):
+        return "did you mean `else`?"
     if kind == "else":
         return "an `else` follows the statement or block of an `if`"
     if kinds[first] in ("predicate", "action") and kind == ";":

@@ -29,6 +29,7 @@ NO_ARGUMENT = Code("NDDL121", Severity.ERROR, "syntax", "the function `{name}` n
 EQUALITY_SIGN = Code("NDDL123", Severity.ERROR, "syntax", "`=` cannot stand in an expression")
 CALL_INITIALISER = Code("NDDL124", Severity.ERROR, "syntax", "`{name}(...)` does not give `{name}` its value")
 IN_ASSIGNMENT = Code("NDDL125", Severity.ERROR, "syntax", "a variable is restricted with `=`, not with `in`")
+MISSPELT = Code("NDDL126", Severity.ERROR, "syntax", "`{text}` is no word of NDDL")
 
 # ---- what only the dialect nddlc accepts ----
 

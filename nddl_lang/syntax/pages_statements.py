@@ -11,6 +11,7 @@ from nddl_lang.syntax.codes import (
     MISPLACED_NEW,
     MISPLACED_VALUE,
     MISSING,
+    MISSPELT,
     NO_ARGUMENT,
     RESERVED_WORD,
     STRAY_BRACE,
@@ -138,5 +139,13 @@ STATEMENT_PAGES = (
         "EUROPA reads this, prints a line, drops the rest of the file, and reports success.",
         "int a;\na in [1 5];\n",
         "int a;\na = [1 5];\n",
+    ),
+    RulePage(
+        MISSPELT,
+        "Where a word of the language would make sense stands a name that is none.",
+        "The text is understood as if the word stood here that comes nearest: of keywords and types the one that makes "
+        "the statement go on, of relations `any` if none is near.",
+        _LAMP + "Lamp::On { befor(object.Off dark); }\n",
+        _LAMP + "Lamp::On { before(object.Off dark); }\n",
     ),
 )

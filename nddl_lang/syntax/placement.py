@@ -27,6 +27,7 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 from nddl_lang.text.diagnostic import Edit, Fix
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Span
 
 
@@ -155,6 +156,8 @@ def _misplaced(b: Builder, statement: Any, place: Place) -> BrokenStatement:
             fixes = (Fix("write `==`", (Edit(Span(b.anchor, at, at + 1), "=="),)),)
     elif isinstance(statement, CallConstraint | ExprConstraint) and place is CLASS:
         help_text = "put it into a predicate or a rule; a constructor needs a body: `{ }`"
+    elif isinstance(statement, CallConstraint) and place is CONSTRUCTOR and nearest(statement.name.name, ["super"]):
+        help_text = "did you mean `super`?"
     elif isinstance(statement, CallConstraint | ExprConstraint) and place is CONSTRUCTOR:
         help_text = "a constructor gives members their values: write `member = value;`"
     elif isinstance(statement, Assignment) and place is CLASS:

@@ -16,6 +16,7 @@ from nddl_lang.syntax.codes import (
     FORMER_DIRECTIVE,
     MALFORMED_NUMBER,
     MISSING,
+    MISSPELT,
     RESERVED_WORD,
     STRAY_BRACE,
     SUPERFLUOUS,
@@ -25,11 +26,12 @@ from nddl_lang.syntax.codes import (
 )
 from nddl_lang.syntax.expectation import accepts, describe_expected, expected_kinds
 from nddl_lang.syntax.former import put_in_parentheses
+from nddl_lang.syntax.misspelt import all_relations, meant_word
 from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.placement import break_statement
 from nddl_lang.syntax.skipping import end_of_statement, misaligned_brace
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS
-from nddl_lang.syntax.words import RESERVED
+from nddl_lang.syntax.words import KINDS, RESERVED
 from nddl_lang.text.diagnostic import Code, Edit, Fix, Note
 
 _STATEMENT_WORDS = frozenset(
@@ -63,6 +65,10 @@ class Recovery:
             depth -= 1
         first = self._first_index(values[depth]) if depth < len(values) else index
         self._is_quiet = self._was_complained_about(first, index)
+        if not self._is_quiet and self._reread_word(states[: depth + 1], values[:depth], first, index):
+            del states[depth + 1 :]
+            del values[depth:]
+            return first
         if self._insert(states, values, index) or self._reread(states, index) or self._leave_out(states, values, index):
             return index
         if not self._is_quiet and put_in_parentheses(self._b, first, index):
@@ -136,6 +142,27 @@ class Recovery:
             kinds[index] = "IDENT"
             return True
         return False
+
+    def _reread_word(self, states: list[int], values: list[Any], first: int, index: int) -> bool:
+        """Read a name in the statement that begins at `first` as the word of the language that it was meant to be."""
+        b = self._b
+        meant = meant_word(states, self._kinds, b.texts, first, index)
+        if meant is None:
+            return False
+        at, word = meant
+        if word is None and self._open_block(values) is None:
+            self._report(
+                MISSPELT, at, text=b.texts[at], help="what asks for tokens here is `goal`, `fact`, `rejectable`"
+            )
+            word = "goal"
+        elif word is None:
+            self._report(MISSPELT, at, text=b.texts[at], help=f"the relations are {all_relations()}")
+            word = "any"
+        else:
+            fix = Fix(f"write `{word}`", (Edit(b.at(at), word),), safe=False)
+            self._report(MISSPELT, at, text=b.texts[at], help=f"did you mean `{word}`?", fixes=(fix,))
+        self._kinds[at], b.texts[at] = KINDS[word], word
+        return True
 
     def _leave_out(self, states: list[int], values: list[Any], index: int) -> bool:
         """Leave out the lexeme `index`, or a comma before it, if that makes the next ones fit."""

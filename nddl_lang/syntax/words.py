@@ -55,6 +55,20 @@ PLAIN = (
 # Words of earlier dialects; today they are ordinary names, so former.py looks at what follows them.
 FORMER = ("filterOnly", "private", "public", "protected", "switch", "constraint", "subgoal", "delete")
 
+# What other languages call the same.
+ELSEWHERE = {
+    "during": "contained_by",
+    "finishes": "ends",
+    "precedes": "before",
+    "follows": "after",
+    "coincides": "equals",
+    "then": "meets",
+    "for": "foreach",
+    "fluent": "predicate",
+    "type": "typedef",
+    "struct": "class",
+}
+
 # The kind of lexeme that each word makes; any other word is an IDENT, and so is in the end a FORMER one.
 KINDS: dict[str, str] = {
     **dict.fromkeys(BASE_TYPES, "BASETYPE"),

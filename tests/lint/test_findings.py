@@ -87,7 +87,7 @@ def test_the_documentation_is_in_step_with_the_pages() -> None:
     expected = dict(files())
     kept = {path.name: path.read_text(encoding="utf-8") for path in RULES.glob("*.md")}
     assert kept.pop("catalogue.md")
-    assert kept == expected, "run `python -m nddl_lang.rulebook docs/rules`"
+    assert kept == expected, "run `make rules`"
 
 
 def test_the_catalogue_names_each_trap_once_and_only_codes_that_exist() -> None:

@@ -7,36 +7,52 @@ _MOST_COMPARED = 150  # names that look alike; so that a thousand complaints sta
 
 
 def nearest(name: str, candidates: Iterable[str]) -> str | None:
-    """The candidate that differs least from `name`, the first of several; None where all differ too much."""
+    """The candidate that differs least from `name`; None where all differ too much.
+
+    A slip is a letter put in, left out or replaced, or two neighbours swapped; capitals are none. Of several the one
+    of the same letters is taken, then the one that begins most alike, that ends most alike, and then the first.
+    """
     limit = min(max(1, len(name) // 3), _MOST_SLIPS)
     folded = name.casefold()
     best: str | None = None
-    best_distance = limit + 1
+    best_distance, best_likeness = limit, (False, -1, -1)
     letters, compared = set(folded), 0
     for candidate in candidates:
-        if candidate == name or abs(len(candidate) - len(name)) >= best_distance or compared >= _MOST_COMPARED:
+        if candidate == name or abs(len(candidate) - len(name)) > best_distance or compared >= _MOST_COMPARED:
             continue
         other = candidate.casefold()
         # A slip changes at most two of the letters that occur.
         if len(letters.symmetric_difference(other)) > 2 * limit:
             continue
         compared += 1
-        distance = 0 if other == folded else _distance(folded, other, best_distance - 1)
-        if distance < best_distance:
-            best, best_distance = candidate, distance
+        distance = 0 if other == folded else _distance(folded, other, best_distance)
+        if distance > best_distance:
+            continue
+        same_letters = sorted(folded) == sorted(other)
+        likeness = (same_letters, _common(folded, other), _common(folded[::-1], other[::-1]))
+        if distance < best_distance or likeness > best_likeness:
+            best, best_distance, best_likeness = candidate, distance, likeness
     return best
+
+
+def _common(one: str, other: str) -> int:
+    """How many letters both begin with."""
+    count = 0
+    for a, b in zip(one, other, strict=False):
+        if a != b:
+            break
+        count += 1
+    return count
 
 
 def _distance(one: str, other: str, limit: int) -> int:
     """Insertions, deletions, replacements and swaps of neighbours from `one` to `other`, or more than `limit`."""
-    start = 0
     shorter = min(len(one), len(other))
-    while start < shorter and one[start] == other[start]:
-        start += 1
+    start = _common(one, other)
     end = 0
     while end < shorter - start and one[-1 - end] == other[-1 - end]:
         end += 1
-    if start == end == 0 and one[1:2] != other[1:2]:
+    if start == end == 0 and one[1:2] != other[1:2] and one[:2] != other[1::-1]:
         return limit + 1
     one, other = one[start : len(one) - end], other[start : len(other) - end]
     # Only cells within `limit` of the diagonal can lead to an answer.

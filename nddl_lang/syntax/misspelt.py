@@ -1,0 +1,47 @@
+"""Find the word of the language that a name was meant to be, where the statement makes sense with it."""
+
+from nddl_lang.syntax.expectation import accepts
+from nddl_lang.syntax.words import ELSEWHERE, FORMER, KINDS, RELATIONS
+from nddl_lang.text.nearest import nearest
+
+_WORDS = tuple(word for word in KINDS if word not in FORMER)
+# A name as short as these is no misspelt word unless it has the same letters.
+_SHORT = 3
+
+
+def meant_word(
+    states: list[int], kinds: list[str], texts: list[str], first: int, index: int
+) -> tuple[int, str | None] | None:
+    """The lexeme that should be a word of the language, and that word, None for some relation or kind of goal.
+
+    `states` are those of the parser before the statement that begins at the lexeme `first` and cannot go on with the
+    lexeme `index`. With the word in its place the parser gets beyond the lexeme after that.
+    """
+    for at in dict.fromkeys((index, index - 1, index - 2, first)):
+        if at < first or kinds[at] != "IDENT":
+            continue
+        before, after = kinds[first:at], kinds[at + 1 : max(at, index) + 2]
+        fitting = {kind for kind in {*KINDS.values()} if accepts(states, [*before, kind, *after])}
+        if not fitting:
+            continue
+        word = _meant(texts[at], [word for word in _WORDS if KINDS[word] in fitting])
+        if word is not None:
+            return at, word
+        if at == first and "RELATION" in fitting and kinds[at + 1] == "(":
+            return at, None
+    return None
+
+
+def _meant(name: str, words: list[str]) -> str | None:
+    """The one of `words` that `name` stands for."""
+    if ELSEWHERE.get(name) in words:
+        return ELSEWHERE[name]
+    word = nearest(name, words)
+    if word is None or (len(name) <= _SHORT and sorted(name.casefold()) != sorted(word)):
+        return None
+    return word
+
+
+def all_relations() -> str:
+    """The relations in one line."""
+    return ", ".join(f"`{name}`" for name in RELATIONS if name != "equal")
