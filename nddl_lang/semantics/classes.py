@@ -24,6 +24,7 @@ DUPLICATE_MEMBER = Code("NDDL221", Severity.ERROR, "duplicate", "class `{owner}`
 ENUM_OF_THAT_NAME = Code(
     "NDDL235", Severity.WARNING, "duplicate", "`{name}` is an enum already; as a type it means the class from here on"
 )
+OWN_BASE = Code("NDDL236", Severity.ERROR, "name", "class `{name}` cannot extend itself")
 NATIVE_CLASS = Code("NDDL222", Severity.WARNING, "duplicate", "class `{name}` is built in; this text is not read")
 MEMBER_VALUE = Code(
     "NDDL325", Severity.ERROR, "type", "the value of a member is written out; `{text}` depends on others"
@@ -49,7 +50,11 @@ def check_class(context: Context, node: ClassDecl) -> None:
             world.put("class", name, announced)
             context.tables.declared[node.name] = announced
         return
-    base = find_defined_class(context, node.base) if node.base is not None and node.base.name != name else None
+    base = None
+    if node.base is not None and node.base.name == name:
+        context.complain(OWN_BASE.at(node.base.span, name=name))
+    elif node.base is not None:
+        base = find_defined_class(context, node.base)
     if node.base is not None and base is None:
         world.put_partial(name)
     owner = Class(name, base.name if base is not None else ROOT_CLASS, node=node, span=node.name.span, doc=node.doc)

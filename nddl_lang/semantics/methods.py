@@ -60,7 +60,7 @@ def _receivers(reference: Reference) -> tuple[Receiver, ...]:
         case ClassReference():
             return (Receiver.CLASS,)
         case TokenReference():
-            return (Receiver.TOKEN, Receiver.VARIABLE)
+            return (Receiver.TOKEN,)
         case EnumValue():
             return ()
         case _:

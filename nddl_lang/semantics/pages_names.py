@@ -1,5 +1,6 @@
 """The pages of the codes about names that are not known."""
 
+from nddl_lang.semantics.classes import OWN_BASE
 from nddl_lang.semantics.names import (
     DECLARED_BELOW,
     MISPLACED_THIS,
@@ -98,6 +99,13 @@ NAME_PAGES = (
         "constructors must be known. Inside a constructor or a rule it is enough that the definition follows.",
         "class Lamp;\nLamp l = new Lamp();\nclass Lamp { }\n",
         "class Lamp { }\nLamp l = new Lamp();\n",
+    ),
+    RulePage(
+        OWN_BASE,
+        "The class names itself as its base.",
+        "Name the class whose members and predicates it should have, or leave `extends` out.",
+        "class Lamp extends Lamp { }\n",
+        "class Lamp { }\n",
     ),
     RulePage(
         UNKNOWN_PREDICATE,
