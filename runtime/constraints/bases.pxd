@@ -16,5 +16,8 @@ cpdef double base_high(Store s, long long v) except? -1.0
 @cython.locals(hi=double, lo=double, r="long long")
 cpdef list base_set(Store s, long long v)
 
+@cython.locals(place="long long")
+cpdef int insert_value(list values, double value) except -1
+
 @cython.locals(hi=double, lo=double, r="long long", values=list)
 cpdef bint is_base_single(Store s, long long v) except -1

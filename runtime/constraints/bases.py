@@ -1,5 +1,6 @@
 """Ask what a base domain allows: the intersection of a variable's declaration and assignments, decisions aside."""
 
+from bisect import bisect_left
 from math import inf
 
 from runtime.constraints.codes import FLAG_DECISION, FLAG_VALUES, FLOAT_TOLERANCE, KIND_FLOAT
@@ -40,6 +41,15 @@ def base_set(s: Store, v: int) -> list[float] | None:
             values = set(listed) if values is None else values.intersection(listed)
         r = s.restriction_next[r]
     return None if values is None else sorted([x for x in values if lo <= x <= hi])
+
+
+def insert_value(values: list[float], value: float) -> None:
+    """Put a value into its place in a sorted list, unless it is there; the greatest, as a rule, goes to the end."""
+    place = len(values)
+    if place and values[place - 1] >= value:
+        place = bisect_left(values, value)
+    if place == len(values) or values[place] != value:
+        values.insert(place, value)
 
 
 def is_base_single(s: Store, v: int) -> bool:

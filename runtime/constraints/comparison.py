@@ -101,7 +101,7 @@ def equate(s: Store, a: int, b: int, support: int) -> bool:
                 return False
             if not (set_upper(s, a, s.ub[b], support) and set_upper(s, b, s.ub[a], support)):
                 return False
-            if s.word[a] < 0 and s.word[b] < 0:
+            if (s.word[a] < 0 and s.word[b] < 0) or s.lb[a] == s.ub[b]:
                 return True
             if not (exclude_missing(s, a, b, support) and exclude_missing(s, b, a, support)):
                 return False

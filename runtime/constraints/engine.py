@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from math import inf
 
 from runtime.constraints.arithmetic import run_arithmetic
-from runtime.constraints.bases import base_high, base_low, base_set, is_base_single
+from runtime.constraints.bases import base_high, base_low, base_set, insert_value, is_base_single
 from runtime.constraints.cause import Cause, Link
 from runtime.constraints.codes import (
     FAMILY_ARITHMETIC,
@@ -102,8 +102,7 @@ class Engine(Store):
         r = self.restriction_head[v]
         while self.restriction_next[r] >= 0:
             r = self.restriction_next[r]
-        if value not in self.restriction_values[r]:
-            self.restriction_values[r] = sorted([*self.restriction_values[r], value])
+        insert_value(self.restriction_values[r], value)
 
     def close(self, v: int) -> bool:
         """End the growth of an open domain."""

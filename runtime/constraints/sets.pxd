@@ -1,14 +1,16 @@
 # The C types of `sets.py`.
 
 cimport cython
-from runtime.constraints.bits cimport count_values, has_value, next_value
+from runtime.constraints.bits cimport clear_bits, count_values, has_value, next_place, next_value
 from runtime.constraints.comparison cimport equate, exclude_missing
 from runtime.constraints.logic cimport meet
-from runtime.constraints.narrow cimport high, is_single, low, raise_to, reduce_to, remove_value, set_lower, set_upper
+from runtime.constraints.narrow cimport high, is_single, low, raise_to, reduce_to, remove_value, round_bounds
+from runtime.constraints.narrow cimport set_lower, set_upper
 from runtime.constraints.store cimport Store
 
-cdef long long HALF_INF, KIND_FLOAT, MOST_VALUES, OP_COMMON_ANCESTOR, OP_ELEMENT, OP_EQ_UNION, OP_HAS_ANCESTOR
-cdef long long OP_LOCK, OP_MEMBER_IMPLY, OP_SUBSET_OF, SIDE_HOLES, SUPPORT_CONSTRAINT
+cdef long long HALF_INF, KIND_FLOAT, MOST_VALUES, NEVER, OP_COMMON_ANCESTOR, OP_ELEMENT
+cdef long long OP_EQ_UNION, OP_HAS_ANCESTOR, OP_LOCK, OP_MEMBER_IMPLY, OP_SUBSET_OF, SIDE_HOLES, SUPPORT_CONSTRAINT
+cdef unsigned long long ONE_BIT
 cdef double FLOAT_TOLERANCE, inf
 
 
@@ -32,8 +34,17 @@ cpdef bint look_up(Store s, long long first, long long count, long long support)
 @cython.locals(x="long long")
 cpdef bint remove_between(Store s, long long index, long long below, long long above, long long support) except -1
 
-@cython.locals(found=bint, index="long long", k="long long", result="long long", x="long long")
+@cython.locals(middle="long long")
+cpdef long long row_of(Store s, long long first, long long end, long long key) except? -1
+
+@cython.locals(
+    base="long long", index="long long", k="long long", mask="unsigned long long", place="long long",
+    result="long long", x="long long"
+)
 cpdef bint remove_unsupported(Store s, long long first, long long count, long long support) except -1
+
+@cython.locals(x="long long")
+cpdef int note_served(Store s, long long v, long long base, long long last) except -1
 
 cpdef bint serves(Store s, long long v, long long x) except -1
 

@@ -2,16 +2,14 @@
 
 from math import inf
 
-from runtime.constraints.bits import (
-    count_values,
-    has_value,
-    next_value,
-)
+from runtime.constraints.bits import clear_bits, count_values, has_value, next_place, next_value
 from runtime.constraints.codes import (
     FLOAT_TOLERANCE,
     HALF_INF,
     KIND_FLOAT,
     MOST_VALUES,
+    NEVER,
+    ONE_BIT,
     OP_COMMON_ANCESTOR,
     OP_ELEMENT,
     OP_EQ_UNION,
@@ -24,7 +22,17 @@ from runtime.constraints.codes import (
 )
 from runtime.constraints.comparison import equate, exclude_missing
 from runtime.constraints.logic import meet
-from runtime.constraints.narrow import high, is_single, low, raise_to, reduce_to, remove_value, set_lower, set_upper
+from runtime.constraints.narrow import (
+    high,
+    is_single,
+    low,
+    raise_to,
+    reduce_to,
+    remove_value,
+    round_bounds,
+    set_lower,
+    set_upper,
+)
 from runtime.constraints.store import Store
 
 
@@ -102,35 +110,45 @@ def look_up(s: Store, first: int, count: int, support: int) -> bool:
         return True
     lo = inf
     hi = -inf
-    last_key = s.lb[index] - 1
+    last_key = NEVER
     able = -1
-    for k in range(first + 2, first + count):
+    for k in range(row_of(s, first + 2, first + count, s.lb[index]), first + count):
         key = s.slot_key[k]
         v = s.slot_variable[k]
-        # Rows stand in the order of their keys: values between two keys have no row.
-        if not remove_between(s, index, last_key, key, support):
+        if key > s.ub[index]:
+            break
+        if not (has_value(s, index, key) and meet(s, result, v)):
+            continue
+        # Rows stand in the order of their keys: values between two that can serve have no row, or one that cannot.
+        if last_key == NEVER:
+            if not set_lower(s, index, key, support):
+                return False
+        elif not remove_between(s, index, last_key, key, support):
             return False
         last_key = key
-        if not has_value(s, index, key):
-            continue
-        if not meet(s, result, v):
-            if not remove_value(s, index, key, support):
-                return False
-            if has_value(s, index, key):
-                return True
-            continue
         lo = min(lo, low(s, v))
         hi = max(hi, high(s, v))
         able = v if able == -1 else -2
-    if not remove_between(s, index, last_key, s.ub[index] + 1, support):
-        return False
     if able == -1:
         return s.fail(index, SIDE_HOLES, support)
+    if not set_upper(s, index, last_key, support):
+        return False
     if able >= 0:
         return equate(s, result, able, support)
     if not (raise_to(s, result, lo, support) and reduce_to(s, result, hi, support)):
         return False
     return s.kind[result] == KIND_FLOAT or remove_unsupported(s, first, count, support)
+
+
+def row_of(s: Store, first: int, end: int, key: int) -> int:
+    """Find by halving the first row whose key is at least `key`."""
+    while first < end:
+        middle = (first + end) >> 1
+        if s.slot_key[middle] < key:
+            first = middle + 1
+        else:
+            end = middle
+    return first
 
 
 def remove_between(s: Store, index: int, below: int, above: int, support: int) -> bool:
@@ -144,23 +162,47 @@ def remove_between(s: Store, index: int, below: int, above: int, support: int) -
 
 
 def remove_unsupported(s: Store, first: int, count: int, support: int) -> bool:
-    """Take from the result of a look-up the values that no selectable variable has."""
+    """Take from the result of a look-up the values that no selectable variable has. O(rows + values)."""
     result = s.slot_variable[first]
     index = s.slot_variable[first + 1]
-    if s.ub[result] - s.lb[result] >= MOST_VALUES:
+    base = s.lb[result]
+    if s.ub[result] - base >= MOST_VALUES:
         return True
-    x = s.lb[result]
+    for k in range(((s.ub[result] - base) >> 5) + 1):
+        s.walk[k] = 0  # 32 values to a cell: 1 where one is served
+    for k in range(first + 2, first + count):
+        if has_value(s, index, s.slot_key[k]):
+            note_served(s, s.slot_variable[k], base, s.ub[result])
+    x = base
     while x <= s.ub[result]:
-        if has_value(s, result, x):
-            found = False
-            for k in range(first + 2, first + count):
-                if has_value(s, index, s.slot_key[k]) and serves(s, s.slot_variable[k], x):
-                    found = True
-                    break
-            if not found and not remove_value(s, result, x, support):
+        if not (s.walk[(x - base) >> 5] >> ((x - base) & 31)) & 1:
+            if s.word[result] >= 0 and s.table[result] < 0:
+                break
+            if not remove_value(s, result, x, support):
                 return False
         x += 1
-    return True
+    # From here on by words, so that the log of holes gets one entry for many values.
+    place = next_place(s, result, x - s.bit_base[result]) if x <= s.ub[result] else -1
+    while place >= 0:
+        k = place >> 6
+        mask = 0
+        while place >= 0 and place >> 6 == k:
+            x = s.bit_base[result] + place - base
+            if base + x <= s.ub[result] and not (s.walk[x >> 5] >> (x & 31)) & 1:
+                mask |= ONE_BIT << (place & 63)
+            place = next_place(s, result, place + 1)
+        if mask:
+            clear_bits(s, result, k, mask, support)
+    return s.word[result] < 0 or round_bounds(s, result, support)
+
+
+def note_served(s: Store, v: int, base: int, last: int) -> None:
+    """Mark in `walk` which whole numbers from `base` to `last` a variable may take."""
+    if s.kind[v] != KIND_FLOAT:
+        last = min(last, s.ub[v])
+    for x in range(base if s.kind[v] == KIND_FLOAT else max(base, s.lb[v]), last + 1):
+        if serves(s, v, x):
+            s.walk[(x - base) >> 5] |= ONE_BIT << ((x - base) & 31)
 
 
 def serves(s: Store, v: int, x: int) -> bool:

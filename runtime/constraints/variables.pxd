@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.bits cimport (
-    attach_table, attach_words, clear_bits, detach_words, drop_log, next_place, value_at,
+    attach_table, attach_words, clear_bits, detach_words, drop_log, next_place, place_above, value_at,
 )
 from runtime.constraints.narrow cimport is_near, raise_to, reduce_to, round_bounds
 from runtime.constraints.store cimport Store
@@ -44,7 +44,7 @@ cpdef void start_interval(Store s, long long v, double lo, double hi, long long 
 @cython.locals(k="long long", place="long long", value=double, width="long long")
 cpdef void start_values(Store s, long long v, list values, long long r) except *
 
-@cython.locals(inside=list, place="long long")
+@cython.locals(inside=list, k="long long", mask="unsigned long long", place="long long", x="long long")
 cpdef bint keep_values(Store s, long long v, list values, long long support) except -1
 
 @cython.locals(inside=list, place="long long", x=double)

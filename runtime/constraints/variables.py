@@ -9,6 +9,7 @@ from runtime.constraints.bits import (
     detach_words,
     drop_log,
     next_place,
+    place_above,
     value_at,
 )
 from runtime.constraints.codes import (
@@ -227,11 +228,17 @@ def keep_values(s: Store, v: int, values: list[float], support: int) -> bool:
         attach_words(s, v, s.lb[v], s.ub[v] - s.lb[v] + 1)
     # Bounds that stand in a hole now are rounded, but keep their support: the log of holes has this one.
     wanted = set(values)
-    place = next_place(s, v, 0)
-    while place >= 0:
-        if value_at(s, v, place) not in wanted:
-            clear_bits(s, v, place >> 6, ONE_BIT << (place & 63), support)
-        place = next_place(s, v, place + 1)
+    place = next_place(s, v, place_above(s, v, s.lb[v]))
+    while place >= 0 and value_at(s, v, place) <= s.ub[v]:
+        k = place >> 6
+        mask = 0
+        while place >= 0 and place >> 6 == k:
+            x = value_at(s, v, place)
+            if x <= s.ub[v] and x not in wanted:
+                mask |= ONE_BIT << (place & 63)
+            place = next_place(s, v, place + 1)
+        if mask:
+            clear_bits(s, v, k, mask, support)
     return round_bounds(s, v, support)
 
 

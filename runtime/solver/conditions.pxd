@@ -3,6 +3,7 @@
 cimport cython
 from runtime.constraints.bits cimport has_value
 from runtime.constraints.engine cimport Engine
+from runtime.constraints.logic cimport meet
 from runtime.plan.kinds cimport first_active, next_active
 from runtime.plan.lifecycle cimport activate, merge, reject
 from runtime.plan.plan cimport Plan
@@ -11,6 +12,7 @@ from runtime.plan.tokens cimport make_token
 from runtime.solver.decisions cimport Decisions
 from runtime.solver.places cimport fill_places, is_open_place
 from runtime.solver.queues cimport Queues
+from runtime.solver.reach cimport Reach
 
 cdef long long ACTIVATE_FIRST, ACTIVATE_ONLY, APPLIED, END, FAILED_CHOICE, FLAG_ACTION, FLAG_EFFECT, FLAG_FACT
 cdef long long HANDLER_HSTS, HANDLER_SUPPORT, MERGE_ONLY, NONE, NO_CHOICE, OBJECT, ORDER_KEY, PHASE_ACTIVATE
@@ -36,9 +38,6 @@ cpdef long long mend_by_sorted_merging(Queues q, Decisions stack, long long d, l
 
 @cython.locals(engine=Engine, k="long long", mine="long long", theirs="long long")
 cpdef bint is_compatible(Queues q, long long t, long long candidate) except -1
-
-
-cpdef bint can_coincide(Queues q, long long a, long long b) except -1
 
 
 @cython.locals(code="long long", count="long long", first="long long", way="long long")

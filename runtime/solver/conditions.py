@@ -1,6 +1,7 @@
 """Settle open conditions: merge with an active token, activate, let an action support it, or reject."""
 
 from runtime.constraints.bits import has_value
+from runtime.constraints.logic import meet
 from runtime.plan.codes import (
     END,
     FLAG_ACTION,
@@ -80,6 +81,7 @@ def mend_by_merging(q: Queues, stack: Decisions, d: int, t: int) -> int:
         return NO_CHOICE
     if q.treatments.token_order[stack.handler[d]] != ORDER_KEY:
         return mend_by_sorted_merging(q, stack, d, t)
+    q.look_around(t)
     rows = q.rows
     candidate = stack.cursor[d]
     if candidate < 0:
@@ -100,6 +102,7 @@ def mend_by_merging(q: Queues, stack: Decisions, d: int, t: int) -> int:
 def mend_by_sorted_merging(q: Queues, stack: Decisions, d: int, t: int) -> int:
     """Merge with the next compatible active token in the order of the handler; `cursor` counts them."""
     if stack.cursor[d] < 0:
+        q.look_around(t)
         found = []
         candidate = first_active(q.plan, q.rows.predicate[t])
         while candidate >= 0:
@@ -120,21 +123,21 @@ def mend_by_sorted_merging(q: Queues, stack: Decisions, d: int, t: int) -> int:
 
 
 def is_compatible(q: Queues, t: int, candidate: int) -> bool:
-    """Whether all variables of two tokens intersect, and their times can coincide."""
+    """Whether all variables of two tokens intersect, and their times can coincide; `q.look_around(t)` came before."""
     mine = q.rows.var0[t]
     theirs = q.rows.var0[candidate]
     engine = q.engine
     if engine.lb[mine + START] > engine.ub[theirs + START] or engine.lb[theirs + START] > engine.ub[mine + START]:
         return False
     for k in range(OBJECT, q.rows.width[t]):
-        if not engine.intersects(mine + k, theirs + k):
+        if not meet(engine, mine + k, theirs + k):
             return False
-    return can_coincide(q, mine + START, theirs + START) and can_coincide(q, mine + END, theirs + END)
-
-
-def can_coincide(q: Queues, a: int, b: int) -> bool:
-    """Whether two timepoints may be at the same time, each way by itself."""
-    return q.distances.admits(a, b, 0) and q.distances.admits(b, a, 0)
+    return (
+        q.to_start.is_apart(theirs + START)
+        and q.from_start.is_apart(theirs + START)
+        and q.to_end.is_apart(theirs + END)
+        and q.from_end.is_apart(theirs + END)
+    )
 
 
 def mend_by_activating(q: Queues, stack: Decisions, d: int, t: int) -> int:

@@ -11,29 +11,29 @@ from runtime.solver.widening import widened
 class Distances:
     """A bounded search for the shortest path (Dijkstra, upper bounds as potentials: at the fixpoint they are valid)."""
 
-    def __init__(self, engine: Store) -> None:
+    def __init__(self, engine: Store, temporal_only: bool) -> None:
         self.engine = engine
+        self.temporal_only = temporal_only  # EUROPA's network does not know of comparisons such as `leq` between times
         self.heap = Heap()
         self.stamp = 0
         self.stamped = array("q", [0]) * 64
         self.distance = array("q", [0]) * 64
         self.via = array("q", [0]) * 64
         self.by_bounds = False
-        self.temporal_only = False  # EUROPA's network does not know of comparisons such as `leq` between times
 
     def admits(self, source: int, target: int, weight: int) -> bool:
         """Whether `target - source <= weight` is possible: no path of edges back from `target` says otherwise.
 
         After a refusal `by_bounds` tells whether the bounds said so, else `via` leads from `source` back on the path.
         Such a path has a length below `-weight`. In reduced lengths that is a search within a limit, which mostly is
-        empty at once.
+        empty at once; lower bounds, potentials as well, may tell without it.
         """
         engine = self.engine
         self.by_bounds = engine.lb[target] > engine.ub[source] + weight
         if self.by_bounds:
             return False
         limit = engine.ub[target] - engine.ub[source] - weight
-        if limit <= 0 or source == target:
+        if limit <= 0 or engine.lb[target] <= engine.lb[source] + weight or source == target:
             return source != target or weight >= 0
         if len(self.stamped) < len(engine.kind):
             self.stamped = widened(self.stamped, len(engine.kind), 0)

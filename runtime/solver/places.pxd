@@ -6,6 +6,7 @@ from runtime.constraints.engine cimport Engine
 from runtime.plan.rows cimport Rows
 from runtime.solver.decisions cimport Decisions
 from runtime.solver.queues cimport Queues
+from runtime.solver.reach cimport Reach
 
 cdef long long DURATION, END, HALF_INF, LISTS, LIST_ORDER, NEVER, OBJECT, START
 
@@ -20,7 +21,10 @@ cpdef long long fill_places(Queues q, Decisions stack, long long d, long long t)
 cpdef long long fill_timeline(Queues q, Decisions stack, long long d, long long t, long long o) except? -1
 
 
-cpdef bint can_precede(Queues q, long long first, long long second) except -1
+cpdef bint can_be_before(Queues q, long long other) except -1
+
+
+cpdef bint can_be_behind(Queues q, long long other) except -1
 
 
 @cython.locals(end="long long", engine=Engine, need="long long", previous="long long", rows=Rows, start="long long")

@@ -10,6 +10,7 @@ from runtime.solver.queues import Queues
 def fill_places(q: Queues, stack: Decisions, d: int, t: int) -> int:
     """Put all places of token `t` into the pool of decision `d`, by object, then from left to right."""
     engine = q.engine
+    q.look_around(t)
     v = q.rows.var0[t] + OBJECT
     o = engine.lb[v]
     while o <= engine.ub[v]:
@@ -28,6 +29,7 @@ def fill_timeline(q: Queues, stack: Decisions, d: int, t: int, o: int) -> int:
 
     `first` is the first token that `t` can precede, `behind` how many can precede `t`: along a sequence each answer
     changes only once, so that halving finds it. EUROPA makes the same tests one by one, from left to right.
+    `q.look_around(t)` came before.
     """
     count = q.take_sequence(o)
     if count == 0:
@@ -35,25 +37,25 @@ def fill_timeline(q: Queues, stack: Decisions, d: int, t: int, o: int) -> int:
         return 0
     first = 0
     last = count
-    if not can_precede(q, t, q.sequence[count - 1]):
+    if not can_be_before(q, q.sequence[count - 1]):
         first = count
-    elif can_precede(q, t, q.sequence[0]):
+    elif can_be_before(q, q.sequence[0]):
         last = 0
     while first < last:
         middle = (first + last) >> 1
-        if can_precede(q, t, q.sequence[middle]):
+        if can_be_before(q, q.sequence[middle]):
             last = middle
         else:
             first = middle + 1
     behind = 0
     last = count
-    if can_precede(q, q.sequence[count - 1], t):
+    if can_be_behind(q, q.sequence[count - 1]):
         behind = count
-    elif not can_precede(q, q.sequence[0], t):
+    elif not can_be_behind(q, q.sequence[0]):
         last = 0
     while behind < last:
         middle = (behind + last) >> 1
-        if can_precede(q, q.sequence[middle], t):
+        if can_be_behind(q, q.sequence[middle]):
             behind = middle + 1
         else:
             last = middle
@@ -67,9 +69,14 @@ def fill_timeline(q: Queues, stack: Decisions, d: int, t: int, o: int) -> int:
     return 0
 
 
-def can_precede(q: Queues, first: int, second: int) -> bool:
-    """Whether the end of `first` may lie before the start of `second`."""
-    return q.distances.admits(q.rows.var0[second] + START, q.rows.var0[first] + END, 0)
+def can_be_before(q: Queues, other: int) -> bool:
+    """Whether the token that is looked around from may end before `other` starts."""
+    return q.from_end.is_apart(q.rows.var0[other] + START)
+
+
+def can_be_behind(q: Queues, other: int) -> bool:
+    """Whether the token that is looked around from may start after `other` ends."""
+    return q.to_start.is_apart(q.rows.var0[other] + END)
 
 
 def is_open_place(q: Queues, t: int, before: int, after: int) -> bool:

@@ -8,12 +8,13 @@ from runtime.solver.custom cimport CustomManager
 from runtime.solver.distances cimport Distances
 from runtime.solver.filters cimport Filters
 from runtime.solver.heap cimport Heap
+from runtime.solver.reach cimport Reach
 from runtime.solver.supports cimport Supports
 from runtime.solver.treatments cimport Treatments
 from runtime.solver.uses cimport Uses
 
-cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, FREED, LISTS, LIST_ORDER, NONE, NO_KEY, OBJECT, ROLE_TOKEN
-cdef long long UNBOUND_VARIABLE
+cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FREED, LISTS, LIST_ORDER, NONE, NO_KEY, OBJECT, ROLE_TOKEN
+cdef long long START, UNBOUND_VARIABLE
 
 
 cdef class Queues:
@@ -25,6 +26,7 @@ cdef class Queues:
     cdef public Supports supports
     cdef public bint exact, has_custom, probing
     cdef public Distances distances
+    cdef public Reach from_start, to_start, from_end, to_end
     cdef public Uses uses
     cdef public Heap takers
     cdef public CustomManager custom
@@ -51,6 +53,9 @@ cdef class Queues:
 
     @cython.locals(count="long long", t="long long")
     cpdef long long take_sequence(self, long long o) except? -1
+
+    @cython.locals(v="long long")
+    cpdef int look_around(self, long long t) except -1
 
     @cython.locals(heap=Heap)
     cpdef int clear(self) except -1

@@ -6,7 +6,7 @@ key that a slot has now is in `token_key` or `variable_key`, NO_KEY if it is in 
 
 from array import array
 
-from runtime.plan.codes import FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN
+from runtime.plan.codes import END, FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN, START
 from runtime.plan.plan import Plan
 from runtime.solver.codes import (
     DROPPED_TOKEN,
@@ -20,6 +20,7 @@ from runtime.solver.distances import Distances
 from runtime.solver.filters import Filters
 from runtime.solver.guarding import guards_hold
 from runtime.solver.heap import Heap
+from runtime.solver.reach import Reach
 from runtime.solver.supports import Supports
 from runtime.solver.treatments import Treatments
 from runtime.solver.uses import Uses
@@ -37,7 +38,11 @@ class Queues:
         self.filters = filters
         self.supports = supports
         self.exact = exact  # make EUROPA's steps
-        self.distances = Distances(plan.engine)
+        self.distances = Distances(plan.engine, exact)
+        self.from_start = Reach(plan.engine, exact)
+        self.to_start = Reach(plan.engine, exact)
+        self.from_end = Reach(plan.engine, exact)
+        self.to_end = Reach(plan.engine, exact)
         self.uses = Uses(plan, self.distances, array("q", [0]))
         self.takers = Heap()
         self.has_custom = False
@@ -170,6 +175,15 @@ class Queues:
             count += 1
             t = self.rows.link_after[LISTS * t + LIST_ORDER]
         return count
+
+    def look_around(self, t: int) -> int:
+        """Have `from_start`, `to_start` and so on answer for the times of token `t`, until the plan changes."""
+        v = self.rows.var0[t]
+        self.from_start.begin(v + START, True)
+        self.to_start.begin(v + START, False)
+        self.from_end.begin(v + END, True)
+        self.to_end.begin(v + END, False)
+        return 0
 
     def clear(self) -> None:
         """Forget all candidates."""

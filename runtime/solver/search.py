@@ -51,7 +51,6 @@ class Solver:
         treatments = Treatments(matching, Texts(database), len(database.program.predicates))
         self.filters = Filters(self.plan, treatments, lower, upper)
         self.queues = Queues(self.plan, treatments, self.filters, Supports(database.program), europa)
-        self.queues.distances.temporal_only = europa
         self.queues.uses = Uses(self.plan, self.queues.distances, grounded(database))
         self.stack = Decisions()
         self.blame = Blame(self.queues, self.stack)
