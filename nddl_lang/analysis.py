@@ -1,15 +1,17 @@
 """Text in; the meaning of a model and all that is wrong with it out."""
 
-from bisect import bisect_right
-from collections.abc import Iterator, Mapping, Sequence
+from bisect import bisect_left, bisect_right
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
 from nddl_lang.semantics.allocation import settle
 from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
+from nddl_lang.semantics.names import UNKNOWN_NAME
 from nddl_lang.semantics.schema import Schema, SideTables
 from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
+from nddl_lang.semantics.typenames import UNKNOWN_CLASS, UNKNOWN_TYPE
 from nddl_lang.semantics.world import Fact, World
 from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
@@ -27,9 +29,10 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
-from nddl_lang.text.source import Source
+from nddl_lang.text.source import Source, Span
 
 _TEXT_IS_MISSING = (MISSING_FILE, UNREADABLE_FILE, TOO_DEEP)
+_UNKNOWN = (UNKNOWN_NAME, UNKNOWN_TYPE, UNKNOWN_CLASS)
 _TABLES = tuple(table.name for table in fields(SideTables))
 
 
@@ -100,8 +103,9 @@ class Analyser:
                 unit = _check(world, statement, loaded.dialect, self._callables)
             units[statement] = unit
         self._units = units
+        echoes = _Echoes(loaded)
         complaints = [
-            (statement, (*unit.complaints, *_settle(world, unit, loaded, self._callables)))
+            (statement, tuple(echoes.without((*unit.complaints, *_settle(world, unit, loaded, self._callables)))))
             for statement, unit in units.items()
         ]
         tables = SideTables()
@@ -165,8 +169,11 @@ def _foresee(world: World, loaded: LoadedModules) -> None:
     """Note what is declared where, and which names are doubtful because text was not understood or is missing."""
     for statement in loaded.module.statements:
         if isinstance(statement, BrokenStatement):
-            for word in names_in(statement.span.text):
+            words = names_in(statement.span.text)
+            for word in words:
                 world.doubt(word)
+            if "include" in words:
+                world.doubt()
         for name in _declared_names(statement):
             world.suppose("below", name.name, name.span)
     if any(diagnostic.code in _TEXT_IS_MISSING for diagnostic in loaded.diagnostics):
@@ -217,6 +224,39 @@ def _in_order(loaded: LoadedModules, checked: list[tuple[Statement, tuple[Diagno
             yield chains.extend(complaint)
     for _, diagnostic in reversed(pending):
         yield diagnostic
+
+
+class _Echoes:
+    """Leaves out what only repeats an earlier message: one mistake costs one message.
+
+    That is a complaint about a place in which a mistake of the syntax was mended, and one more use of a name for which
+    nothing is known that could have been meant.
+    """
+
+    def __init__(self, loaded: LoadedModules) -> None:
+        self._mended: dict[Source, list[int]] = {}
+        for each in loaded.diagnostics:
+            if each.severity is Severity.ERROR and not "NDDL150" <= each.code.id < "NDDL170":  # of one dialect only
+                self._mended.setdefault(each.span.source, []).append(each.span.begin)
+        for places in self._mended.values():
+            places.sort()
+        self._unknown: set[str] = set()
+
+    def without(self, complaints: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+        """The complaints that say something new."""
+        for complaint in complaints:
+            if self._mended and self._is_mended(complaint.span):
+                continue
+            if complaint.code in _UNKNOWN and not complaint.fixes and not complaint.notes:
+                if complaint.message in self._unknown:
+                    continue
+                self._unknown.add(complaint.message)
+            yield complaint
+
+    def _is_mended(self, span: Span) -> bool:
+        places = self._mended.get(span.source, [])
+        at = bisect_left(places, span.begin)
+        return at < len(places) and places[at] < span.finish and "\n" not in span.text
 
 
 class _Chains:

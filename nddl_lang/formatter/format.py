@@ -9,6 +9,7 @@ from nddl_lang.syntax.codes import INTEGER_RANGE, UNKNOWN_ESCAPE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.parser import Parse, parse
 from nddl_lang.syntax.piece import Piece
+from nddl_lang.syntax.walk import same_tree
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.source import Source
 
@@ -31,7 +32,16 @@ def format_text(text: str, dialect: Dialect = Dialect.NDDLC, name: str = "text")
 
 
 def format_parse(parsed: Parse) -> Formatted:
-    """The text of `parsed` in the style."""
+    """The text of `parsed` in the style; as it is where another layout would make more, or less, of its mistakes."""
+    written = _written(parsed)
+    if any(_leaves_doubt(diagnostic) for diagnostic in parsed.diagnostics):
+        again = parse(Source(parsed.source.name, written), parsed.dialect)
+        if not same_tree(parsed.module, again.module) or _written(again) != written:
+            written = parsed.source.text
+    return Formatted(written, parsed.diagnostics)
+
+
+def _written(parsed: Parse) -> str:
     text = parsed.source.text
     mark = "\ufeff" if text.startswith("\ufeff") else ""
     writer = Writer(text)
@@ -48,7 +58,7 @@ def format_parse(parsed: Parse) -> Formatted:
     if not mark and written.startswith("\ufeff"):
         # It was an unknown character inside the text; at the beginning it would be a byte order mark.
         mark = line_end
-    return Formatted(mark + written, parsed.diagnostics)
+    return mark + written
 
 
 def _leaves_doubt(diagnostic: Diagnostic) -> bool:

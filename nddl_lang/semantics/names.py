@@ -205,8 +205,11 @@ def complain_unknown_member(context: Context, class_name: str, name: Identifier)
     context.complain(suggest_name(complaint, name, members))
 
 
-def complain_unknown(context: Context, scope: Scope, name: Identifier) -> None:
-    """Say that nothing of that name is known, once per statement, unless an earlier mistake may be the reason."""
+def complain_unknown(context: Context, scope: Scope, name: Identifier, tables: tuple[str, ...] = ()) -> None:
+    """Say that nothing of that name is known, once per statement, unless an earlier mistake may be the reason.
+
+    What may have been meant is looked for among values, and in `tables` too.
+    """
     world, word = context.world, name.name
     if word in context.reported or scope.is_doubtful(word) or world.is_doubtful(word):
         return
@@ -227,8 +230,8 @@ def complain_unknown(context: Context, scope: Scope, name: Identifier) -> None:
         context.complain(DECLARED_BELOW.at(name.span, notes=(note,), name=word))
     else:
         own = builtin_names(scope.own.predicate.is_event) if scope.own is not None else ()
-        tables = [each for each in _VALUE_TABLES if each != "goal" or scope.place is Place.SCRIPT]
-        candidates = [*scope.visible(), *own, *world.names(*tables), *_LITERALS]
+        values = [each for each in _VALUE_TABLES if each != "goal" or scope.place is Place.SCRIPT]
+        candidates = [*scope.visible(), *own, *world.names(*values, *tables), *_LITERALS]
         context.complain(suggest_name(UNKNOWN_NAME.at(name.span, name=word), name, candidates))
 
 

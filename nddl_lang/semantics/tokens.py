@@ -195,7 +195,7 @@ def _find_target(context: Context, scope: Scope, path: PathExpr) -> tuple[Predic
     reference = find(context, scope, head.name) if len(prefix) == 1 else resolve_dotted(context, scope, prefix)
     if reference is None:
         if len(prefix) == 1:
-            complain_unknown(context, scope, head)
+            complain_unknown(context, scope, head, ("class",))
         return None
     context.tables.references[prefix[-1]] = reference
     type_ = reference_type(reference, scope.own_class)

@@ -5,6 +5,7 @@ import re
 from nddl_lang.syntax.builder import Builder
 from nddl_lang.syntax.lexemes import excerpt
 from nddl_lang.syntax.tables import END
+from nddl_lang.syntax.words import RELATIONS
 from nddl_lang.text.nearest import nearest
 
 _NEXT_WORD = re.compile(r"(?:[ \t\r\n\f]++|//[^\n]*+|/\*.*?\*/)*+(#?\w++|[^\n])?", re.DOTALL)
@@ -24,27 +25,74 @@ def describe_found(b: Builder, kinds: list[str], index: int) -> str:
 
 
 def advise(kinds: list[str], texts: list[str], first: int, index: int) -> str | None:
-    """What to write instead, where the mistake is one that is often made."""
+    """What to write instead, where the mistake is one that is often made.
+
+    The statement begins at the lexeme `first` and cannot go on with the lexeme `index`.
+    """
     kind = kinds[index]
-    before = kinds[index - 1] if index else ""
-    if kinds[first] == "GOAL" and index == first + 1:
-        return f"write `{texts[first]}(object.predicate name);`"
-    if kinds[first] == "typedef" and kind in ("IDENT", ";") and "[" not in kinds[first:index]:
-        return "a typedef needs a domain: `typedef int [0 10] Name;`"
-    if kinds[first] == "enum" and kind in ("[", "INT", "FLOAT"):
-        return "an enum lists names; for numbers write `typedef int [0 5] Name;`"
-    if kinds[first] == "enum" and kind == "}":
-        return "an enum needs at least one value"
+    match kinds[first]:
+        case "GOAL" if index == first + 1:
+            return f"write `{texts[first]}(object.predicate name);`"
+        case "typedef" if kind in ("IDENT", ";") and "[" not in kinds[first:index]:
+            return "a typedef needs a domain: `typedef int [0 10] Name;`"
+        case "enum" if kind in ("[", "INT", "FLOAT"):
+            return "an enum lists names; for numbers write `typedef int [0 5] Name;`"
+        case "enum" if kind == "}":
+            return "an enum needs at least one value"
+        case "class" if kind == ":":
+            return "a class that builds on another is written `class A extends B { }`"
+        case "predicate" | "action" if kind == "(":
+            return f"parameters stand in braces: `{kinds[first]} {texts[index - 1]} {{ int x; }}`"
+        case "predicate" | "action" if index == first + 2:
+            return f"it has a body, if only an empty one: `{kinds[first]} {texts[index - 1]} {{ }}`"
+        case "foreach" if kind == ":":
+            return "write `in`"
+        case "#include":
+            return 'the path stands in double quotes: `#include "path.nddl"`'
+        case "IDENT" if advice := _advise_after_name(kinds, texts, first, index):
+            return advice
+    return _advise_anywhere(kinds, texts, first, index)
+
+
+def _advise_after_name(kinds: list[str], texts: list[str], first: int, index: int) -> str | None:
+    """What to write where the statement begins with a name, which may be meant to be anything."""
+    kind, before, name = kinds[index], kinds[first:index], texts[first]
+    if index == first + 1 and nearest(name, ["else"]):
+        return "did you mean `else`?"
+    if index == first + 1 and kind == "STRING":
+        return "did you mean `#include`?" if name == "include" or nearest(name, ["include"]) else None
+    if before == ["IDENT"] and kind == "{":
+        return f"say what it is: `class {name} {{ }}`, `predicate {name} {{ }}`, or `Class::{name} {{ }}` for a rule"
+    if before in (["IDENT", ":"], ["IDENT", ".", "IDENT"]) and kind in ("IDENT", "{"):
+        return "a rule is written `Class::predicate { }`"
+    if before[1:2] == ["::"]:
+        return "a rule has no parameters of its own: `Class::predicate { }`" if "(" in before else None
+    if before[1:2] == ["("] and kind == "{":
+        return f"the parameters of a constructor have types: `{name}(int a) {{ }}`"
+    if before[1:2] == ["("] and kind == ";":
+        return "arguments are separated by commas; a constructor has a body, if only an empty one: `{ }`"
+    if before == ["IDENT", "IDENT"] and kind == "-":
+        return "a name holds letters, digits and `_` only"
+    return None
+
+
+def _advise_anywhere(kinds: list[str], texts: list[str], first: int, index: int) -> str | None:
+    """What to write where it does not matter how the statement begins."""
+    kind, before = kinds[index], kinds[index - 1] if index else ""
+    if kinds[first + 2 : first + 3] == ["("] and (word := f"{texts[first]}_{texts[first + 1]}") in RELATIONS:
+        return f"did you mean `{word}`?"
+    if kind in (":", "::") and before == "IDENT" and kinds[first] in ("RELATION", "GOAL"):
+        return "a predicate of an object or class is written `object.predicate`"
+    if kind == "=" and before == ":":
+        return "write `==` for a constraint, or `=` to give a variable its value"
+    if kind == "," and before == "INT" and kinds[index + 1] == "INT":
+        return f"numbers have a decimal point: `{texts[index - 1]}.{texts[index + 1]}`"
     if kind == "}" and before == "SET":
         return "a set needs at least one value"
     if kind in ("]", ";") and "[" in kinds[max(first, index - 2) : index]:
         return "an interval has two bounds: `[0 10]`"
     if kind in ("INT", "FLOAT") and "SET" in kinds[first:index]:
         return "the values of a set are separated by commas"
-    if kinds[first] == "IDENT" and index == first + 1 and nearest(texts[first], ["else"]):
-        return "did you mean `else`?"
     if kind == "else":
         return "an `else` follows the statement or block of an `if`"
-    if kinds[first] in ("predicate", "action") and kind == ";":
-        return f"it has a body, if only an empty one: `{kinds[first]} {texts[index - 1]} {{ }}`"
     return None

@@ -33,6 +33,8 @@ _PASSED_ON: dict[int | None, str] = {-number: rule[0] for number, rule in enumer
 def parse_piece(piece: Piece, place: Place, is_strict: bool) -> None:
     """Fill in the statements of `piece`, which stands in `place`, and what is wrong with them."""
     b = Builder(piece, is_strict)
+    if piece.mends:
+        _mend(b)
     if piece.has_former_words:
         replace_former(b)
     piece.statements = place_statements(b, _run(b), place)
@@ -42,6 +44,16 @@ def parse_piece(piece: Piece, place: Place, is_strict: bool) -> None:
         refuse_waiting(b)
     if len(piece.kinds) > DEPTH_LIMIT and _may_be_deep(piece) and is_deeper(piece.statements, DEPTH_LIMIT):
         _give_up(b)
+
+
+def _mend(b: Builder) -> None:
+    """Put in and leave out the braces that were found missing or too many when the piece was cut from the text."""
+    b.own()
+    for index, brace in sorted(b.piece.mends, reverse=True):
+        if brace:
+            b.insert(index, brace)
+        else:
+            b.remove(index, index + 1)
 
 
 def _may_be_deep(piece: Piece) -> bool:

@@ -59,7 +59,7 @@ def describe_expected(kinds: set[str]) -> str:
     if "IDENT" in rest and "this" in rest:
         words.append("a name")
         rest -= {"IDENT", "this"}
-    if len(rest & _OPERATORS) > 1:
+    if rest & _OPERATORS:
         rest -= _OPERATORS
         words.append("an operator")
     rest.discard(".")

@@ -84,7 +84,10 @@ def put_in_parentheses(b: Builder, first: int, index: int) -> bool:
             Edit(Span(b.anchor, b.starts[name + 1], b.starts[name + 1]), "("),
             Edit(Span(b.anchor, b.ends[index], b.ends[index]), ")"),
         )
-        b.insert(index + 1, ")")
+        if kinds[index + 1] == ")":
+            edits = edits[:1]
+        else:
+            b.insert(index + 1, ")")
         b.insert(name + 1, "(")
     else:
         return False

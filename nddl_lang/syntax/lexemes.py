@@ -15,6 +15,7 @@ from nddl_lang.syntax.codes import (
 )
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.text.diagnostic import Edit, Fix
+from nddl_lang.text.nearest import nearest
 
 # Infinity of EUROPA on a machine with 64 bits.
 INFINITY = 2**52 - 1
@@ -29,6 +30,7 @@ _OCTAL = re.compile(r"([+-]?)0+([0-7]{1,22})[lL]?")
 _LEADING_DIGITS = re.compile(r"[+-]?[0-9]{1,16}")
 _ESCAPE = re.compile(r"\\(?:[btnfr\"'\\]|u[0-9a-fA-F]{4}|[0-7]|(.)|\Z)", re.DOTALL)
 _AFTER_STRING = re.compile(r"[ \t\r\n\f]*+(?:[;,)}\]:=!<>&|+\-*/]|\Z)")
+_NEARLY_INCLUDE = re.compile(r"(#[ \t]*([A-Za-z]+))[ \t]*\"")
 _EXCERPT = 24
 
 _HELP = {
@@ -154,6 +156,12 @@ def read_quoted(piece: Piece, start: int, word: str) -> str:
         fixes = (Fix("use double quotes", (Edit(piece.span(start, end), f'"{word[1:-1]}"'),)),)
     piece.report(FORMER_STRING, start, end, fixes=fixes)
     return "STRING"
+
+
+def misspelt_include(word: str) -> str | None:
+    """The beginning of a directive that was meant to be `#include`; None where it is another one."""
+    found = _NEARLY_INCLUDE.match(word)
+    return found[1] if found is not None and (found[2] == "include" or nearest(found[2], ["include"])) else None
 
 
 def read_directive(piece: Piece, start: int, word: str) -> None:

@@ -27,7 +27,8 @@ def meant_word(
         word = _meant(texts[at], [word for word in _WORDS if KINDS[word] in fitting])
         if word is not None:
             return at, word
-        if at == first and "RELATION" in fitting and kinds[at + 1] == "(":
+        # `overlaps(object.p q)`: only relations and goals take a path and a name.
+        if at == first and "RELATION" in fitting and kinds[at + 1] == "(" and "." in kinds[at:index]:
             return at, None
     return None
 

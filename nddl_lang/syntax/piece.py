@@ -10,7 +10,8 @@ class Piece:
     """A top-level statement with the blanks and comments before it; offsets are relative to `anchor`.
 
     `kinds`, `texts`, `starts` and `ends` are its lexemes; `docs` maps the start of a lexeme to the doc comment
-    above it. `reach` tells how far the text was looked at: an edit beyond it leaves the piece as it is.
+    above it. `mends` are braces to put in before a lexeme, or, where the text is empty, lexemes to leave out, in order.
+    `reach` tells how far the text was looked at: an edit beyond it leaves the piece as it is.
     """
 
     __slots__ = (
@@ -25,6 +26,7 @@ class Piece:
         "is_too_deep",
         "kinds",
         "length",
+        "mends",
         "reach",
         "starts",
         "statements",
@@ -41,6 +43,7 @@ class Piece:
         self.ends: list[int] = []
         self.comments: list[tuple[int, int]] = []
         self.docs: dict[int, str] = {}
+        self.mends: list[tuple[int, str]] = []
         self.has_former_words = False
         self.is_cut_short = False
         self.is_too_deep = False

@@ -65,11 +65,17 @@ class Recovery:
             depth -= 1
         first = self._first_index(values[depth]) if depth < len(values) else index
         self._is_quiet = self._was_complained_about(first, index)
-        if not self._is_quiet and self._reread_word(states[: depth + 1], values[:depth], first, index):
+        if self._turn_comparison(first, index) or (
+            not self._is_quiet and self._reread_word(states[: depth + 1], values[:depth], first, index)
+        ):
             del states[depth + 1 :]
             del values[depth:]
             return first
-        if self._insert(states, values, index) or self._reread(states, index) or self._leave_out(states, values, index):
+        if (
+            self._insert(states, values, index)
+            or self._reread(states, index)
+            or self._leave_out(states, values, first, index)
+        ):
             return index
         if not self._is_quiet and put_in_parentheses(self._b, first, index):
             del states[depth + 1 :]
@@ -143,6 +149,26 @@ class Recovery:
             return True
         return False
 
+    def _turn_comparison(self, first: int, index: int) -> bool:
+        """Read `=>` and `=<` as the comparisons that they were meant to be."""
+        b, kinds = self._b, self._kinds
+        if (
+            index <= first
+            or kinds[index - 1] != "="
+            or kinds[index] not in "<>"
+            or b.ends[index - 1] != b.starts[index]
+        ):
+            return False
+        sign = f"{kinds[index]}="
+        span = b.span(index - 1, index)
+        if not self._is_quiet:
+            fix = Fix(f"write `{sign}`", (Edit(span, sign),))
+            b.report(SUPERFLUOUS, span, text=f"={kinds[index]}", help=f"write `{sign}`", fixes=(fix,))
+        kinds[index] = b.texts[index] = sign
+        b.starts[index] = b.starts[index - 1]
+        b.remove(index - 1, index)
+        return True
+
     def _reread_word(self, states: list[int], values: list[Any], first: int, index: int) -> bool:
         """Read a name in the statement that begins at `first` as the word of the language that it was meant to be."""
         b = self._b
@@ -164,9 +190,17 @@ class Recovery:
         self._kinds[at], b.texts[at] = KINDS[word], word
         return True
 
-    def _leave_out(self, states: list[int], values: list[Any], index: int) -> bool:
+    def _leave_out(self, states: list[int], values: list[Any], first: int, index: int) -> bool:
         """Leave out the lexeme `index`, or a comma before it, if that makes the next ones fit."""
         b, kinds = self._b, self._kinds
+        if kinds[index] == "/" and index == first and (index == 0 or self._is_first_in_line(index)):
+            fix = Fix("write `//`", (Edit(b.at(index), "//"),))
+            self._report(SUPERFLUOUS, index, text="/", help="a comment begins with `//`", fixes=(fix,))
+            last = index + 1
+            while kinds[last] != END and not self._is_first_in_line(last):
+                last += 1
+            b.remove(index, last)
+            return True
         is_after_comma = index > 0 and kinds[index - 1] == "," and values and values[-1] == index - 1
         if is_after_comma and accepts(states[:-1], kinds[index : index + 2]):
             self._report_superfluous(index - 1)
@@ -234,7 +268,7 @@ class Recovery:
         expected = describe_expected(expected_kinds(states))
         found = describe_found(b, kinds, index)
         help_text = advise(kinds, b.texts, first, index)
-        if kinds[index] == END and index > 0:
+        if index > 0 and (kinds[index] == END or (index > first and self._is_first_in_line(index))):
             span = b.piece.span(b.ends[index - 1], b.ends[index - 1])
         else:
             span = b.at(index)
@@ -252,16 +286,14 @@ class Recovery:
 
     def _may_begin_statement(self, index: int) -> bool:
         """Whether the lexeme `index` looks as if the statement before it had ended."""
-        b, kinds = self._b, self._kinds
-        if kinds[index] in ("}", END) or kinds[index] in _STATEMENT_WORDS:
-            return True
-        offset = b.anchor.offset
-        return "\n" in b.anchor.source.text[offset + b.ends[index - 1] : offset + b.starts[index]]
+        kinds = self._kinds
+        return kinds[index] in ("}", END) or kinds[index] in _STATEMENT_WORDS or self._is_first_in_line(index)
 
     def _begins_next(self, index: int) -> bool:
         """Whether the lexeme `index` is the first in its line, and a word that only begins statements."""
-        if self._kinds[index] not in _STATEMENT_WORDS or index == 0:
-            return False
+        return self._kinds[index] in _STATEMENT_WORDS and index > 0 and self._is_first_in_line(index)
+
+    def _is_first_in_line(self, index: int) -> bool:
         b = self._b
         offset = b.anchor.offset
         return "\n" in b.anchor.source.text[offset + b.ends[index - 1] : offset + b.starts[index]]

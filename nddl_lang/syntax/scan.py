@@ -5,16 +5,27 @@ Reading a piece depends on nothing before it, so the incremental parser can star
 
 import re
 
+from nddl_lang.syntax.braces import (
+    close_body,
+    is_surplus,
+    lacks_brace,
+    leave_out,
+    leave_out_doubled,
+    open_head,
+    put_in,
+)
 from nddl_lang.syntax.brackets import DEPTH_LIMIT, STEPS, Brackets
 from nddl_lang.syntax.codes import (
     BYTE_ORDER_MARK,
     COMMENT_AT_END,
     INCLUDE_BLANK,
+    MISSPELT,
     TOO_DEEP,
     UNCLOSED_COMMENT,
     UNDECODABLE,
 )
 from nddl_lang.syntax.lexemes import (
+    misspelt_include,
     read_directive,
     read_number,
     read_other,
@@ -51,7 +62,8 @@ _ELSE_AHEAD = re.compile(r"(?:[ \t\r\n\f]++|//[^\n]*+|/\*.*?\*/)*+(else(?![A-Za-
 _OPERANDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]"))
 # At the start of a line these begin a top-level statement, whatever is still open.
 _TOP_LEVEL = frozenset(("class", "enum", "typedef", "GOAL"))
-_WATCHED_WORDS = _TOP_LEVEL | {"if", "FORMER"}
+_MEMBERS = frozenset(("predicate", "action"))
+_WATCHED_WORDS = _TOP_LEVEL | _MEMBERS | {"if", "FORMER", "super"}
 _BRACKETS = frozenset("{}()[];")
 _WATCHED_SIGNS = _BRACKETS | {"::", "#include"}
 _BEYOND = 1 << 62
@@ -74,6 +86,7 @@ class Scanner:
         self._brackets = Brackets()
         self._docs: list[str] = []
         self._has_if = False
+        self._head = self._doubled = -1
         self._end = -1
         kinds, texts, starts, ends = piece.kinds, piece.texts, piece.starts, piece.ends
         at = base
@@ -127,6 +140,8 @@ class Scanner:
         if self._end < 0:
             self._end = len(self._source.text)
             piece.reach = _BEYOND
+        if self._doubled > 0 and len(self._brackets.open) == 1:
+            leave_out_doubled(piece, self._doubled, base)
         piece.length = self._end - base
         piece.reach = max(piece.reach - base, piece.length)
         piece.comments = [(start - base, end - base) for start, end in piece.comments if start < self._end]
@@ -137,7 +152,7 @@ class Scanner:
     def _cut(self, seen: int) -> str:
         """End the piece before the lexeme at hand, which ends at `seen`; no kind, so it is not taken in."""
         self._end = self._piece.ends[-1]
-        self._piece.reach = seen + 1
+        self._piece.reach = max(self._piece.reach, seen + 1)
         return ""
 
     def _begins_statement(self, start: int) -> bool:
@@ -160,15 +175,38 @@ class Scanner:
         elif kind == "FORMER":
             self._piece.has_former_words = True
             return "IDENT"
+        elif kind in _MEMBERS:
+            self._watch_member(kind, start, len(self._piece.kinds))
+            self._head = len(self._piece.kinds)
+        elif kind == "super":
+            if self._piece.kinds[-1:] == [")"]:
+                put_in(self._piece, self._brackets, self._base, len(self._piece.kinds))
         elif self._piece.kinds and self._begins_statement(start):
             return self._cut(finish)
         elif kind == "typedef":
             self._brackets.in_typedef = True
+        elif kind != "GOAL":
+            self._head = len(self._piece.kinds)
         return kind
+
+    def _watch_member(self, kind: str, start: int, at: int) -> None:
+        """Where a member of a class begins, nothing else may be open but the class."""
+        piece, brackets = self._piece, self._brackets
+        if self._head >= 0:
+            open_head(piece, brackets, self._base, self._head, kind)
+            self._head = -1
+        if len(brackets.open) > 1 and piece.kinds[0] == "class" and self._indent(start) >= 0:
+            close_body(piece, brackets, self._base, at)
 
     def _watch_sign(self, kind: str, start: int, finish: int) -> str:
         piece = self._piece
         kinds = piece.kinds
+        if self._head >= 0 and kind in _BRACKETS:
+            open_head(piece, self._brackets, self._base, self._head, kind)
+            self._head = -1
+        if kind == "(" and len(self._brackets.open) > 1 and kinds[0] == "class" and piece.texts[-1] == piece.texts[1]:
+            if self._indent(piece.starts[-1]) >= 0:
+                close_body(piece, self._brackets, self._base, len(kinds) - 1)
         if kind == "::":
             if len(kinds) > 1 and kinds[-1] == "IDENT" and self._begins_statement(piece.starts[-1]):
                 for column in (kinds, piece.texts, piece.starts, piece.ends):
@@ -177,18 +215,44 @@ class Scanner:
         elif kind == "#include":
             return self._read_include(start, finish)
         elif self._brackets.closes_statement(kind, kinds[-1] if kinds else None):
+            if kind == "}" and kinds and self._is_surplus(start, finish):
+                return ""
+            if kinds[1:2] == ["::"] and kinds[3:4] != ["{"] and self._lacks_brace(finish):
+                return kind
             self._end = finish
             if self._has_if:
                 # The condition may have an `else` branch.
                 ahead = _ELSE_AHEAD.match(self._source.text, finish)
                 assert ahead is not None
-                piece.reach = ahead.end() + len("else") + 1
+                piece.reach = max(piece.reach, ahead.end() + len("else") + 1)
                 if ahead[1] is not None:
                     self._end = -1
         elif self._brackets.is_too_deep and not piece.is_too_deep:
             piece.is_too_deep = True
             piece.report(TOO_DEEP, start - self._base, finish - self._base, limit=DEPTH_LIMIT, help=STEPS)
-        return "SET" if kind == "{" and self._brackets.innermost == "SET" else kind
+        if kind != "{":
+            return kind
+        if kinds[-1:] == ["{"]:
+            self._doubled = len(kinds)
+        return "SET" if self._brackets.innermost == "SET" else kind
+
+    def _is_surplus(self, start: int, finish: int) -> bool:
+        """Whether the `}` at `start` closes the piece too early; then it is left out."""
+        piece = self._piece
+        indent = self._indent(piece.starts[0])
+        if indent < 0 or self._indent(start) >= 0 or not is_surplus(piece, self._source.text, finish, indent):
+            return False
+        leave_out(piece, self._brackets, start, self._base)
+        return True
+
+    def _lacks_brace(self, finish: int) -> bool:
+        """Whether a rule ends too early for want of a `{`, which is then put in."""
+        piece = self._piece
+        indent = self._indent(piece.starts[0])
+        if indent < 0 or piece.mends or not lacks_brace(piece, self._source.text, finish, indent):
+            return False
+        put_in(piece, self._brackets, self._base, 3)
+        return True
 
     def _read_include(self, start: int, finish: int) -> str:
         """An include at the start of a line ends what stands before it; see `_read_rare` for its own end."""
@@ -254,6 +318,13 @@ class Scanner:
                 self._end = end
         elif group == _QUOTED:
             kind = read_quoted(piece, start - base, word)
+        elif group == _DIRECTIVE and (name := misspelt_include(word)):
+            finish = start + len(name)
+            kind = self._read_include(start, finish)
+            if kind:
+                fix = Fix("write `#include`", (Edit(piece.span(start - base, finish - base), "#include"),), safe=False)
+                help_text = "did you mean `#include`?"
+                piece.report(MISSPELT, start - base, finish - base, text=name, help=help_text, fixes=(fix,))
         elif group == _DIRECTIVE:
             read_directive(piece, start - base, word)
             if not piece.kinds:

@@ -29,10 +29,11 @@ def end_of_statement(
             if stack and stack[-1] == _OPENERS[kind]:
                 stack.pop()
         elif kind == ";":
+            was_open = False
             while stack and stack[-1] != "{":
-                stack.pop()
+                was_open = stack.pop() == "("
             if not stack and at >= index:
-                return at + 1
+                return at + 1 + (was_open and kinds[at + 1] == ")")
         elif kind == "}":
             while stack and stack[-1] in "([":
                 stack.pop()

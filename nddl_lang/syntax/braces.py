@@ -1,0 +1,108 @@
+"""See braces that are missing or too many while a piece is cut from the text, by what can only follow one.
+
+Elsewhere the parser would find out too late: the piece would end at the wrong `}`, and what belongs to it would come to
+stand at the top level. All offsets are absolute, as the piece is not finished yet.
+"""
+
+import re
+
+from nddl_lang.syntax.brackets import Brackets
+from nddl_lang.syntax.codes import MISSING, STRAY_BRACE, SUPERFLUOUS, UNCLOSED_BRACE
+from nddl_lang.syntax.piece import Piece
+from nddl_lang.text.diagnostic import Edit, Fix, Note
+
+_PARAMETERS = frozenset(("BASETYPE", "filter"))
+_MEMBERS = _PARAMETERS | {"predicate", "action"}
+_LINE = re.compile(r"\n([ \t]*)(//[^\n]*|[^\s])")
+_NEXT_LINE = re.compile(r"(?:[ \t\r\f]*+(?://[^\n]*+)?\n)*+([ \t]*+)(\}|(?:predicate|action)(?![A-Za-z0-9_$]))?")
+_LONGEST = len("predicate") + 1
+
+
+def open_head(piece: Piece, brackets: Brackets, base: int, head: int, kind: str) -> None:
+    """Open the block of the class, predicate, action or enum at the lexeme `head` if its `{` was left out.
+
+    `kind` is that of the next lexeme, a sign or a word that begins a member.
+    """
+    kinds = piece.kinds
+    at = head + (4 if kinds[head + 2 : head + 3] == ["extends"] else 2)
+    if at > len(kinds) or kinds[head + 1] != "IDENT" or kinds[at - 1] != "IDENT":
+        return
+    first = kinds[at] if at < len(kinds) else kind
+    match kinds[head]:
+        case "class":
+            is_missing = first in _MEMBERS
+        case "enum":
+            is_missing = first == "IDENT" and kind == "}"
+        case _:
+            is_missing = kind == ";" and (first in _PARAMETERS or kinds[at : at + 2] == ["IDENT", "IDENT"])
+    if is_missing:
+        put_in(piece, brackets, base, at)
+
+
+def put_in(piece: Piece, brackets: Brackets, base: int, at: int) -> None:
+    """Put a missing `{` before the lexeme `at`."""
+    brackets.open.append("{")
+    piece.mends.append((at, "{"))
+    place = piece.ends[at - 1] - base
+    fix = Fix("add ` {`", (Edit(piece.span(place, place), " {"),))
+    piece.report(MISSING, place, place, text="{", place="here", fixes=(fix,))
+
+
+def close_body(piece: Piece, brackets: Brackets, base: int, at: int) -> None:
+    """Close the predicate or constructor that is still open where another member of a class begins at lexeme `at`."""
+    kinds = piece.kinds
+    depth, opener = 0, at - 1
+    while opener > 0 and (kinds[opener] not in ("{", "SET") or depth > 0):
+        depth += {"}": 1, "{": -1, "SET": -1}.get(kinds[opener], 0)
+        opener -= 1
+    while len(brackets.open) > 1:
+        if brackets.open.pop() in ("{", "SET"):
+            piece.mends.append((at, "}"))
+    start = piece.starts[opener] - base
+    place = piece.ends[at - 1] - base
+    notes = (Note("it should end here", piece.span(place, place)),)
+    piece.report(UNCLOSED_BRACE, start, start + 1, text="{", notes=notes)
+
+
+def is_surplus(piece: Piece, text: str, finish: int, indent: int) -> bool:
+    """Whether the `}` that ends at `finish` and closes the piece, last in its line, was written once too often.
+
+    It was if a member of the class follows, or a `}` below the place where the piece began, `indent` blanks deep.
+    """
+    following = _NEXT_LINE.match(text, finish)
+    assert following is not None
+    end = following.end()
+    # A comment in the last line of all may come to end there.
+    piece.reach = max(piece.reach, len(text) + 1 if text.startswith("/", end) else end + _LONGEST)
+    if "\n" not in text[piece.starts[0] : finish] or "\n" not in following[0] or following[2] is None:
+        return False
+    depth = len(following[1])
+    return depth == indent if following[2] == "}" else depth > indent and piece.kinds[0] == "class"
+
+
+def leave_out(piece: Piece, brackets: Brackets, start: int, base: int) -> None:
+    """Go on as if the `}` at `start`, which closed the piece, were not there."""
+    brackets.open.append("{")
+    at = start - base
+    fix = Fix("remove the `}`", (Edit(piece.span(at, at + 1), ""),), safe=False)
+    piece.report(STRAY_BRACE, at, at + 1, text="}", fixes=(fix,))
+
+
+def leave_out_doubled(piece: Piece, doubled: int, base: int) -> None:
+    """Leave out the second of two `{` when one of them is never closed."""
+    piece.mends.append((doubled, ""))
+    at = piece.starts[doubled] - base
+    fix = Fix("remove `{`", (Edit(piece.span(at, at + 1), ""),))
+    piece.report(SUPERFLUOUS, at, at + 1, text="{", fixes=(fix,))
+
+
+def lacks_brace(piece: Piece, text: str, finish: int, indent: int) -> bool:
+    """Whether a rule without braces, whose only statement ends at `finish`, has more of them and a `}` after those."""
+    for line in _LINE.finditer(text, finish):
+        piece.reach = max(piece.reach, line.end() + 1)
+        if line[2].startswith("//") or len(line[1]) > indent:
+            continue
+        between = text[finish : line.start()]
+        return line[2] == "}" and len(line[1]) == indent and between.count("{") == between.count("}")
+    piece.reach = max(piece.reach, len(text) + 1)
+    return False
