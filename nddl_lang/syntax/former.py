@@ -70,6 +70,7 @@ def put_in_parentheses(b: Builder, first: int, index: int) -> bool:
     The relation begins at the lexeme `first`, and the parser did not know what to make of the lexeme `index`.
     """
     kinds = b.kinds
+    edits: tuple[Edit, ...]
     name = first if kinds[first] == "RELATION" else first + 1
     if kinds[name : name + 1] != ["RELATION"] or index <= name:
         return False
