@@ -25,7 +25,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz conformance corpus rules bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof conformance corpus rules bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -95,6 +95,11 @@ format: setup
 
 fuzz: build
 	NDDLC_FUZZ=$(MUTATIONS) $(PYTEST) --hypothesis-profile=fuzz -m 'not slow'
+
+EXAMPLES := 100000
+
+engine-proof: build
+	$(BIN)/python -m tests.constraints.proof $(EXAMPLES)
 
 conformance: build
 	$(PYTEST) tests/conformance

@@ -11,7 +11,7 @@ from runtime.constraints.posting cimport tie_edge, tie_edges
 from runtime.constraints.store cimport Store
 
 cdef long long HALF_INF, KIND_FLOAT, KIND_INT, MODE_EDGES, MOST_VALUES, NEVER, OP_ALL_DIFF, OP_EQ, OP_LEQ, OP_LT
-cdef long long OP_NEQ, OP_PLUS, OP_TEMPORAL_DISTANCE, SIDE_HOLES, SUPPORT_CONSTRAINT
+cdef long long OP_NEQ, OP_PLUS, OP_TEMPORAL_DISTANCE, SIDE_HOLES, SIDE_LOWER, SUPPORT_CONSTRAINT
 cdef double FLOAT_TOLERANCE, STRICT_STEP
 cdef unsigned long long ALL_BITS, ONE_BIT
 

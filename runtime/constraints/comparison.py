@@ -27,6 +27,7 @@ from runtime.constraints.codes import (
     OP_PLUS,
     OP_TEMPORAL_DISTANCE,
     SIDE_HOLES,
+    SIDE_LOWER,
     STRICT_STEP,
     SUPPORT_CONSTRAINT,
 )
@@ -83,6 +84,9 @@ def precede(s: Store, a: int, b: int, strict: bool, support: int) -> bool:
             return False
         return s.lb[a] <= -HALF_INF or set_lower(s, b, s.lb[a] + step, support)
     x = high(s, b)
+    if strict and x != math.inf and low(s, a) + FLOAT_TOLERANCE >= x:
+        # Bounds that touch would count as equal to those that the step moves them to.
+        return s.fail(b, SIDE_LOWER, support)
     if strict and x != math.inf:
         x = math.ceil(x - FLOAT_TOLERANCE) - 1 if s.kind[a] != KIND_FLOAT else x - STRICT_STEP
     if not reduce_to(s, a, x, support):

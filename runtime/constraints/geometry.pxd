@@ -27,6 +27,8 @@ cpdef double angle_of(double x) except? -1.0
 cpdef bint hold_root(Store s, long long r, long long x, long long support) except -1
 
 @cython.locals(hi=double, lo=double)
+cpdef bint be_whole(Store s, long long r, long long support) except -1
+
 cpdef bint hold_floor(Store s, long long r, long long x, long long support) except -1
 
 @cython.locals(hi=double, lo=double)

@@ -143,7 +143,14 @@ def hold_floor(s: Store, r: int, x: int, support: int) -> bool:
         return False
     if hi < inf and not reduce_to(s, r, math.floor(hi + FLOAT_TOLERANCE), support):
         return False
-    return within(s, x, low(s, r) - FLOAT_TOLERANCE, high(s, r) + 1.0, support)
+    return be_whole(s, r, support) and within(s, x, low(s, r) - FLOAT_TOLERANCE, high(s, r) + 1.0, support)
+
+
+def be_whole(s: Store, r: int, support: int) -> bool:
+    """Move the bounds of r inwards to whole numbers."""
+    if low(s, r) > -inf and not raise_to(s, r, math.ceil(low(s, r) - FLOAT_TOLERANCE), support):
+        return False
+    return high(s, r) == inf or reduce_to(s, r, math.floor(high(s, r) + FLOAT_TOLERANCE), support)
 
 
 def hold_ceiling(s: Store, r: int, x: int, support: int) -> bool:
@@ -154,7 +161,7 @@ def hold_ceiling(s: Store, r: int, x: int, support: int) -> bool:
         return False
     if hi < inf and not reduce_to(s, r, math.ceil(hi), support):
         return False
-    return within(s, x, low(s, r) - 1.0, high(s, r) + FLOAT_TOLERANCE, support)
+    return be_whole(s, r, support) and within(s, x, low(s, r) - 1.0, high(s, r) + FLOAT_TOLERANCE, support)
 
 
 def hold_exponential(s: Store, r: int, x: int, support: int) -> bool:

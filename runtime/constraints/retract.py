@@ -207,11 +207,14 @@ def renew_cone(s: Store) -> None:
     """Pull the bounds of the cone tight along the edges, restrict to sets, and schedule all that touches them."""
     for i in range(s.cone_count):
         v = s.cone[i] >> 2
-        side = s.cone[i] & 3
         s.loose[v] = 0
+        if s.kind[v] >= 0:
+            uncross(s, v, s.cone[i] & 3)
+    for i in range(s.cone_count):
+        v = s.cone[i] >> 2
+        side = s.cone[i] & 3
         if s.kind[v] < 0:
             continue
-        uncross(s, v, side)
         if side == SIDE_LOWER:
             pull_lower(s, v)
         else:

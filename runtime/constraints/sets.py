@@ -268,6 +268,8 @@ def next_object(s: Store, v: int, value: int) -> int:
 def share_ancestor(s: Store, a: int, b: int, p: int, support: int) -> bool:
     """Narrow: a and b lie inside one of the objects of p; acts once a or b is known."""
     for _ in range(2):
+        if is_single(s, a) and not has_ancestor_in(s, s.lb[a], p):
+            return s.fail(a, SIDE_HOLES, support)
         if is_single(s, a) and is_listed(s, p):
             ancestor = s.lb[p]
             while ancestor <= s.ub[p]:

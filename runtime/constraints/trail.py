@@ -103,6 +103,6 @@ def undo_to(s: Store, size: int) -> None:
 
 
 def commit_trail(s: Store) -> None:
-    """Forget how to go back; time stamps go on counting."""
-    s.trail_base += s.trail_size
+    """Forget how to go back; time stamps go on counting, also past those of what `retract` wrote without a trail."""
+    s.trail_base += s.trail_size + 1
     s.trail_size = 0

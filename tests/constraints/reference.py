@@ -8,6 +8,7 @@ from math import inf
 
 from runtime.constraints import codes
 from runtime.constraints.engine import Engine
+from tests.constraints.meaning import holds
 
 RUNS = int(os.environ.get("NDDLC_RANDOM_RUNS", "200"))  # of each property
 BATCHES = range(20)
@@ -32,73 +33,6 @@ def shortest_distances(count: int, edges: list[Edge]) -> list[list[float]] | Non
             for j in range(count):
                 d[i][j] = min(d[i][j], d[i][k] + d[k][j])
     return None if any(d[i][i] < 0 for i in range(count)) else d
-
-
-def holds(op: int, x: Values) -> bool:
-    """Tell whether a constraint holds for known values."""
-    match op:
-        case codes.OP_EQ:
-            return len(set(x)) == 1
-        case codes.OP_NEQ:
-            return x[0] != x[1]
-        case codes.OP_LT:
-            return x[0] < x[1]
-        case codes.OP_LEQ:
-            return x[0] <= x[1]
-        case codes.OP_ALL_DIFF:
-            return len(set(x)) == len(x)
-        case codes.OP_TEMPORAL_DISTANCE:
-            return x[2] - x[0] == x[1]
-        case codes.OP_ADD_EQ:
-            return x[0] + x[1] == x[2]
-        case codes.OP_MUL_EQ:
-            return x[0] * x[1] == x[2]
-        case codes.OP_DIV_EQ:
-            return x[1] != 0 and x[2] * x[1] == x[0]
-        case codes.OP_EQ_SUM:
-            return x[0] == sum(x[1:])
-        case codes.OP_EQ_PRODUCT:
-            product = 1
-            for y in x[1:]:
-                product *= y
-            return x[0] == product
-        case codes.OP_EQ_MAXIMUM:
-            return x[0] == max(x[1:])
-        case codes.OP_EQ_MINIMUM:
-            return x[0] == min(x[1:])
-        case codes.OP_ABS_VAL:
-            return x[0] == abs(x[1])
-        case codes.OP_NEG:
-            return x[0] == -x[1]
-        case codes.OP_DIFF_SQUARE:
-            return x[2] == (x[0] - x[1]) ** 2
-        case codes.OP_TEST_EQ:
-            return x[0] == (x[1] == x[2])
-        case codes.OP_TEST_NEQ:
-            return x[0] == (x[1] != x[2])
-        case codes.OP_TEST_LEQ:
-            return x[0] == (x[1] <= x[2])
-        case codes.OP_TEST_LT:
-            return x[0] == (x[1] < x[2])
-        case codes.OP_TEST_AND:
-            return (x[0] != 0) == (x[1] != 0 and x[2] != 0)
-        case codes.OP_TEST_OR:
-            return (x[0] != 0) == (x[1] != 0 or x[2] != 0)
-        case codes.OP_OR:
-            return any(x)
-        case codes.OP_COUNT_ZEROES:
-            return x[0] == sum(y == 0 for y in x[1:])
-        case codes.OP_COUNT_NON_ZEROES:
-            return x[0] == sum(y != 0 for y in x[1:])
-        case codes.OP_COND_ALL_DIFF:
-            return (x[0] != 0) == (len(set(x[1:])) == len(x) - 1)
-        case codes.OP_COND_EQ:
-            return (x[0] != 0) == (len(set(x[1:])) == 1)
-        case codes.OP_MAXF:
-            return x[0] == max(x[1:])
-        case codes.OP_ABSF:
-            return x[0] == abs(x[1])
-    raise AssertionError(op)
 
 
 # How strongly an operation narrows: to the values, or to the bounds, that its solutions have; else it only is sound.

@@ -5,6 +5,8 @@ import random
 import pytest
 
 from runtime.constraints import codes
+from runtime.constraints.engine import Engine
+from runtime.constraints.minimise import minimise, sufficient
 from tests.constraints.reference import (
     BATCHES,
     BY_BOUND,
@@ -77,3 +79,15 @@ def keep_whole_solutions(seed: int) -> None:
 def test_reals_keep_every_whole_solution(batch: int) -> None:
     for seed in seeds(batch):
         keep_whole_solutions(seed)
+
+
+def test_floats_whose_bounds_touch_are_not_smaller() -> None:
+    engine = Engine()
+    a = engine.new_interval(codes.KIND_FLOAT, 0.0, 9.0, 0, -1)
+    nine = engine.new_constant(codes.KIND_FLOAT, 9.0, 9.0)
+    engine.post(codes.OP_LT, [a, nine], 1, -1)
+    assert engine.propagate() and engine.upper(a) == 9.0 - codes.STRICT_STEP
+    b = engine.new_interval(codes.KIND_FLOAT, 0.0, 9.0, 2, -1)
+    engine.post(codes.OP_LT, [nine, b], 3, -1)
+    assert not engine.propagate()
+    assert {cause.span for cause in minimise(engine, sufficient(engine))} == {2, 3}

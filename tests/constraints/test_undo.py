@@ -182,3 +182,33 @@ def test_sets_of_values_far_apart_come_and_go() -> None:
         assert engine.restrict_base_values(v, [2, 4], 5, -1) and engine.values_of(v) == [2, 4]
         engine.rewind(mark)
     assert engine.table_used == 6
+
+
+def test_what_a_contradicting_restriction_asks_for_is_not_passed_on() -> None:
+    engine = Engine()
+    a = engine.new_interval(codes.KIND_INT, -19, 14, 0, -1)
+    b = engine.new_interval(codes.KIND_INT, float("-inf"), 10, 0, -1)
+    engine.decide(a, 4, 1, -1)
+    decision = engine.newest_restriction
+    assert engine.add_edge(a, b, 1, 2, -1)
+    engine.commit()
+    assert not engine.restrict_base(b, 11, float("inf"), 3, -1)
+    impossible = engine.newest_restriction
+    engine.commit()
+    assert not engine.retract(restrictions=[decision])
+    assert engine.retract(restrictions=[impossible])
+    assert (engine.lower(a), engine.upper(b)) == (-19, 10)
+
+
+def test_bounds_that_a_retraction_pulled_are_explained_later() -> None:
+    engine = Engine()
+    a, b = (engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), k, -1) for k in range(2))
+    engine.restrict_base(a, float("-inf"), 9, 2, -1)
+    engine.add_edge(a, b, 1, 3, -1)
+    engine.add_edge(a, b, 0, 4, -1)
+    tightest = engine.newest_edge
+    engine.commit()
+    assert engine.retract(edges=[tightest]) and engine.upper(b) == 10
+    engine.restrict_base(a, 0, float("inf"), 5, -1)
+    assert not engine.restrict_base(b, 11, float("inf"), 6, -1)
+    assert {cause.span for cause in engine.explain()} >= {2, 3, 6}
