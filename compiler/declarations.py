@@ -25,8 +25,6 @@ from nddl_lang.syntax.nodes import (
     BrokenStatement,
     CallConstraint,
     ExprConstraint,
-    Foreach,
-    IfStatement,
     Instance,
     Relation,
     RuleStatement,
@@ -177,24 +175,16 @@ def rule_code(rule: Rule, declared_at: int, model: Model) -> RuleCode:
 
 
 def effects_of(predicate: Predicate, rules: tuple[int, ...], model: Model) -> tuple[str, ...]:
-    """What the rules of an action may yield: full predicate names in order of appearance."""
+    """What every run of the rules of an action yields: full predicate names in order of appearance, one per effect."""
     if not predicate.is_action:
         return ()
     targets = model.tables.targets
-    instances = (made for number in rules for made in _instances(model.schema.rules[number].node.body))
-    names = [targets[instance].predicate.full_name for instance in instances if instance.role == "effect"]
-    return tuple(dict.fromkeys(names))
+    instances = (made for number in rules for made in _certain_instances(model.schema.rules[number].node.body))
+    return tuple(targets[instance].predicate.full_name for instance in instances if instance.role == "effect")
 
 
-def _instances(statements: tuple[RuleStatement, ...]) -> Iterator[Instance]:
+def _certain_instances(statements: tuple[RuleStatement, ...]) -> Iterator[Instance]:
+    """What stands behind no guard and in no loop: like EUROPA, no action is chosen for what it may not bring about."""
     for node in statements:
-        match node:
-            case Relation(created=created):
-                yield from created
-            case IfStatement(then=then, otherwise=otherwise):
-                yield from _instances(then)
-                yield from _instances(otherwise or ())
-            case Foreach(body=inner):
-                yield from _instances(inner)
-            case _:
-                pass
+        if isinstance(node, Relation):
+            yield from node.created

@@ -341,7 +341,7 @@ class PredicateCode:
 
     `body` holds constraints and assignments of all levels (token slot 0), the ancestor's first; it runs when a token
     is made, after all its variables are. Parameters keep their numbers in subclasses.
-    `effects` lists what an action's rules may yield, for support: full predicate names in order of appearance.
+    `effects` lists what an action's rules yield in any case, for support: full predicate names in order of appearance.
     """
 
     name: str  # full name, Class.predicate

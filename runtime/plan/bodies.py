@@ -194,6 +194,8 @@ def loop(plan: Plan, scope: int, at: int, span: int) -> int:
         return 6
     block = plan.code[at + 5]
     objects = plan.engine.values_of(v)
+    if not objects:
+        return 6
     frozen = plan.engine.new_constant_values(plan.engine.kind[v], objects)
     post_two(plan, scope, OP_LOCK, v, frozen, span)
     for o in reversed(objects):

@@ -21,6 +21,7 @@ from runtime.plan.codes import (
 from runtime.plan.faults import (
     CLOSED_ALREADY,
     NOT_ONE_OBJECT,
+    NOT_ORDERED,
     NOT_REJECTABLE,
     OTHER_PREDICATE,
     OUTSIDE_DOMAIN,
@@ -186,7 +187,7 @@ class Calls:
             case "constrain":
                 return self.constrain(o, chosen, call.span, span)
             case "free":
-                retracting.free(self.plan, chosen[0], chosen[-1], span)
+                return self.free(o, chosen[0], chosen[-1], call.span, span)
             case _:
                 assert call.method in ("set_capacity", "set_limit"), f"no method {call.method} of objects"
                 bounds = [self.plan.engine.lower(operand(self.plan, self.scope, *each, span)) for each in arguments]
@@ -206,6 +207,8 @@ class Calls:
         if not inside:
             text = base_text(self.prototypes, engine, source, self.objects.names)
             return OUTSIDE_DOMAIN.at(span, value=text, name=name)
+        if engine.decided[v] and not engine.contains(v, value):
+            retracting.reset(self.plan, v)
         engine.decide(v, value, number, NONE)
         return None
 
@@ -220,6 +223,14 @@ class Calls:
             timelines.assign_object(self.plan, o, tokens[0], number)
         else:
             timelines.order(self.plan, o, tokens[0], tokens[1], number)
+        return None
+
+    def free(self, o: int, first: int, second: int, span: Span, number: int) -> Diagnostic | None:
+        """Undo the order of two tokens, or that one was put on an object."""
+        rows = self.plan.rows
+        if first != second and not timelines.has_pair(rows, first, second):
+            return NOT_ORDERED.at(span, name=self.name(first), other=self.name(second), object=self.objects.names[o])
+        retracting.free(self.plan, first, second, number)
         return None
 
     # ---- classes ----

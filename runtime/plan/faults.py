@@ -17,3 +17,4 @@ DUPLICATE_NAME = Code("NDDL662", Severity.ERROR, "duplicate", "there is an objec
 ENDLESS_OBJECT = Code(
     "NDDL663", Severity.ERROR, "rule", "an object of class `{name}` cannot be made: its parts have parts without end"
 )
+NOT_ORDERED = Code("NDDL664", Severity.ERROR, "state", "`{name}` is not ordered before `{other}` on `{object}`")

@@ -34,13 +34,14 @@ def wait(plan: Plan, scope: int, at: int, condition: int, first: int, span: int)
 
 
 def listen(plan: Plan, v: int) -> None:
-    """Note `v` among the operands; for a proxy what it stands on: its object, and the members it may be."""
-    while plan.proxy_index[v] >= 0:
-        x = plan.proxy_index[v]
-        for o in plan.engine.values_of(x):
-            plan.add_operand(member(plan, int(o), plan.proxy_member[v]))
-        v = x
-    plan.add_operand(v)
+    """Note `v` among the operands unless it is a constant; for a proxy its object, and the members it may be."""
+    if not plan.engine.constant[v]:
+        while plan.proxy_index[v] >= 0:
+            x = plan.proxy_index[v]
+            for o in plan.engine.values_of(x):
+                plan.add_operand(member(plan, int(o), plan.proxy_member[v]))
+            v = x
+        plan.add_operand(v)
 
 
 def is_settled(plan: Plan, v: int) -> bool:
@@ -49,6 +50,8 @@ def is_settled(plan: Plan, v: int) -> bool:
     It also is while all objects agree: their members have the same single value. Recursion is as deep as the path.
     The clock of an agent counts as decided: what has come to be true of "now or later" stays true.
     """
+    if plan.engine.constant[v]:
+        return plan.engine.is_decided(v)
     x = plan.proxy_index[v]
     if x < 0:
         return v == plan.clock or plan.engine.is_decided(v)

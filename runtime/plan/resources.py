@@ -201,6 +201,8 @@ class Resources:
         """Give up the constraints that refused at level 0, as the reason may go."""
         taken = self.refusals
         self.refusals = []
+        if taken:
+            self.pending = 1
         return taken
 
     def fill(self, levels: Levels, o: int) -> None:

@@ -90,11 +90,19 @@ def free(plan: Plan, first: int, second: int, span: int) -> bool:
             drop_pair(rows, p)
         p = after
     for t in (first, second):
-        if not has_any_pair(rows, t) and rows.link_head[LISTS * t + LIST_ORDER] >= 0:
-            unplace(plan, t, sweep.edges, span)
+        if not has_any_pair(rows, t):
             drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_PLACE}, sweep)
-            await_order(plan, t)
+            if rows.link_head[LISTS * t + LIST_ORDER] >= 0:
+                unplace(plan, t, sweep.edges, span)
+                await_order(plan, t)
     return finish(plan, sweep)
+
+
+def withdraw_refusals(plan: Plan) -> None:
+    """Let the next statement mend what resources refuse so far: they are looked at again when it is settled."""
+    refusals = plan.resources.take_refusals()
+    if refusals:
+        plan.engine.retract(refusals, [], [], [])
 
 
 def scopes_of(plan: Plan, t: int) -> list[int]:

@@ -30,6 +30,7 @@ from runtime.plan.objects import Objects
 from runtime.plan.operands import operand
 from runtime.plan.plan import Plan
 from runtime.plan.prototypes import Prototypes
+from runtime.plan.retracting import withdraw_refusals
 from runtime.plan.tokens import make_token
 
 KINDS = {"goal": FLAG_GOAL, "fact": FLAG_FACT, "rejectable": FLAG_REJECTABLE}
@@ -69,6 +70,7 @@ class Script:
             self.plan.statement = self.next
             action = self.actions[self.next]
             self.next += 1
+            withdraw_refusals(self.plan)
             fault = action()
             if fault is None:
                 settle(self.plan)

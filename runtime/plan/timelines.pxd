@@ -13,8 +13,12 @@ cdef long long END, HEAD_THREAT, LISTS, LIST_ORDER, LIST_THREAT, NONE, OBJECT, S
 cpdef bint order(Plan plan, long long o, long long before, long long after, long long span) except -1
 
 
-@cython.locals(following="long long", head="long long", rows=Rows, scope="long long", v="long long")
+@cython.locals(following="long long", head="long long", rows=Rows)
 cpdef int insert(Plan plan, long long o, long long t, long long previous, long long span) except -1
+
+
+@cython.locals(scope="long long", v="long long")
+cpdef int fix_object(Plan plan, long long o, long long t, long long span) except -1
 
 
 cpdef bint is_placed(Rows rows, long long t) except -1
@@ -42,5 +46,5 @@ cpdef bint has_any_pair(Rows rows, long long t) except -1
 cpdef int await_order(Plan plan, long long t) except -1
 
 
-@cython.locals(rows=Rows, scope="long long")
+@cython.locals(rows=Rows)
 cpdef bint assign_object(Plan plan, long long o, long long t, long long span) except -1

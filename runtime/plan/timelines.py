@@ -24,10 +24,17 @@ from runtime.plan.rows import Rows
 def order(plan: Plan, o: int, before: int, after: int, span: int) -> bool:
     """Put `before` in front of `after` on object `o`; the same token twice: it alone, behind all that are there.
 
-    A token that is not in the sequence yet becomes the neighbour of the other one.
+    A token that is not in the sequence yet becomes the neighbour of the other one. Objects that are no timelines have
+    no sequence: there only the pair is ordered.
     """
     rows = plan.rows
     head = plan.object_head[o]
+    if not plan.object_timeline[o]:
+        fix_object(plan, o, before, span)
+        if before != after:
+            fix_object(plan, o, after, span)
+            pair(plan, before, after, span)
+        return plan.engine.consistent
     if before == after:
         if not is_placed(rows, before):
             insert(plan, o, before, rows.head_last[head], span)
@@ -50,15 +57,20 @@ def insert(plan: Plan, o: int, t: int, previous: int, span: int) -> None:
     head = plan.object_head[o]
     link(rows, t, LIST_ORDER, head, previous)
     unlink(rows, t, LIST_THREAT)
-    v = rows.var0[t] + OBJECT
-    if not plan.engine.is_decided(v):
-        scope = rows.new_scope(SCOPE_PLACE, t, NONE, NONE, 0, 0)
-        equate(plan, scope, v, plan.object_constant[o], span)
+    fix_object(plan, o, t, span)
     if previous >= 0:
         pair(plan, previous, t, span)
     following = rows.link_after[LISTS * t + LIST_ORDER]
     if following >= 0:
         pair(plan, t, following, span)
+
+
+def fix_object(plan: Plan, o: int, t: int, span: int) -> None:
+    """Give `t` the object `o`, unless its object is decided."""
+    v = plan.rows.var0[t] + OBJECT
+    if not plan.engine.is_decided(v):
+        scope = plan.rows.new_scope(SCOPE_PLACE, t, NONE, NONE, 0, 0)
+        equate(plan, scope, v, plan.object_constant[o], span)
 
 
 def is_placed(rows: Rows, t: int) -> bool:
@@ -153,7 +165,6 @@ def assign_object(plan: Plan, o: int, t: int, span: int) -> bool:
     rows = plan.rows
     if rows.head_first[plan.object_head[o]] < 0 and plan.object_timeline[o]:
         insert(plan, o, t, NONE, span)
-    elif not plan.engine.is_decided(rows.var0[t] + OBJECT):
-        scope = rows.new_scope(SCOPE_PLACE, t, NONE, NONE, 0, 0)
-        equate(plan, scope, rows.var0[t] + OBJECT, plan.object_constant[o], span)
+    else:
+        fix_object(plan, o, t, span)
     return bool(plan.engine.consistent)

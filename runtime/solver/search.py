@@ -50,7 +50,7 @@ class Solver:
         matching = Matching(configuration, database.program)
         treatments = Treatments(matching, Texts(database), len(database.program.predicates))
         self.filters = Filters(self.plan, treatments, lower, upper)
-        self.queues = Queues(self.plan, treatments, self.filters, Supports(database.program), europa)
+        self.queues = Queues(self.plan, treatments, self.filters, Supports(database.program, europa), europa)
         self.queues.uses = Uses(self.plan, self.queues.distances, grounded(database))
         self.stack = Decisions()
         self.blame = Blame(self.queues, self.stack)

@@ -1,15 +1,19 @@
 """List for each predicate the actions that can bring it about, in EUROPA's order."""
 
 from array import array
+from collections import Counter
 from collections.abc import Iterable, Iterator
 
 from compiler.program import Child, Foreach, Guard, Instruction, Program
 
 
 class Supports:
-    """Ways to support a predicate: `action` and the number of its effect, rows `first[p]` to `first[p + 1]`."""
+    """Ways to support a predicate: `action` and the number of its effect, rows `first[p]` to `first[p + 1]`.
 
-    def __init__(self, program: Program) -> None:
+    `europa`: an action with several effects of the predicate is listed, with all of them, as often as it has them.
+    """
+
+    def __init__(self, program: Program, europa: bool = False) -> None:
         index = {code.name: number for number, code in enumerate(program.predicates)}
         bases = {code.name: code.base for code in program.classes}
         declared = {(code.class_name, code.name.rpartition(".")[2]): code for code in program.predicates}
@@ -19,12 +23,9 @@ class Supports:
             inherited = declared.get((base, code.name.rpartition(".")[2])) if base is not None else None
             if not code.is_action or (inherited is not None and inherited.span == code.span):
                 continue  # a subclass that only inherits an action is no other way to get its effects
-            counts: dict[int, int] = {}
-            for name in code.effects:
-                predicate = index[name]
-                number = counts.get(predicate, 0)
-                counts[predicate] = number + 1
-                ways[predicate].append((index[code.name], number))
+            for name, count in Counter(code.effects).items():
+                way = [(index[code.name], number) for number in range(count)]
+                ways[index[name]] += way * count if europa else way
         self.first = array("q", [sum(map(len, ways[:number])) for number in range(len(ways) + 1)])
         self.action = array("q", [action for rows in ways for action, _ in rows])
         self.effect = array("q", [effect for rows in ways for _, effect in rows])

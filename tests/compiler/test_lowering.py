@@ -323,12 +323,12 @@ def test_a_redeclared_predicate_runs_the_constraints_of_all_levels() -> None:
     ]
 
 
-def test_what_an_action_yields_is_listed_in_order_of_appearance() -> None:
+def test_what_an_action_yields_in_any_case_is_listed_in_order_of_appearance() -> None:
     text = (
         f"{WORLD}T::go {{ meets(effect b q); if (true) {{ any(effect a r); }} any(effect b s); any(condition a z); }}\n"
     )
     predicates = {predicate.name: predicate for predicate in compiled(text).predicates}
-    assert predicates["T.go"].effects == ("T.b", "T.a")
+    assert predicates["T.go"].effects == ("T.b", "T.b")
 
 
 def test_constructors_call_the_base_class_first() -> None:
