@@ -1,4 +1,4 @@
-"""Every public case of the conformance suite, in the portable dialect: what nddlc makes of it against what it must."""
+"""Every case of the conformance suite, and our own, in the portable dialect: what comes out against what must."""
 
 import json
 import re
@@ -11,14 +11,15 @@ from tests.conformance.judge import Facts, differences
 
 HERE = Path(__file__).parent
 CASES = HERE / "cases"
-NAMES = sorted(path.stem for path in CASES.glob("*.json"))
+FOLDERS = {path.stem: folder for folder in (CASES, HERE / "own") for path in folder.glob("*.json")}
+NAMES = sorted(FOLDERS)
 KNOWN_FAILURES = set((HERE / "known_failures.txt").read_text(encoding="utf-8").split())
 MOST_STEPS = 2000
 
 
 def command_line(name: str, solve: Facts | None) -> list[str]:
     """How a case is run."""
-    common = ["--json", "--include", str(CASES / "include"), str(CASES / f"{name}.nddl")]
+    common = ["--json", "--include", str(CASES / "include"), str(FOLDERS[name] / f"{name}.nddl")]
     if solve is None:
         return ["--dialect", "nddl3", "load", *common]
     horizon = ["--horizon", *map(str, solve["horizon"])]
@@ -29,8 +30,8 @@ def command_line(name: str, solve: Facts | None) -> list[str]:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_case(name: str, capsys: pytest.CaptureFixture[str]) -> None:
-    want = json.loads((CASES / f"{name}.json").read_text(encoding="utf-8"))["expect"]
-    text = (CASES / f"{name}.nddl").read_bytes().decode("latin-1")
+    want = json.loads((FOLDERS[name] / f"{name}.json").read_text(encoding="utf-8"))["expect"]
+    text = (FOLDERS[name] / f"{name}.nddl").read_bytes().decode("latin-1")
     code = run(command_line(name, want.get("solve")))
     told = capsys.readouterr()
     if code in (0, 1):
@@ -41,6 +42,10 @@ def test_case(name: str, capsys: pytest.CaptureFixture[str]) -> None:
         assert found, f"{name} passes now: take it from known_failures.txt"
         pytest.xfail(found[0])
     assert not found, "\n".join(found)
+
+
+def test_no_case_of_our_own_hides_a_public_one() -> None:
+    assert not {path.stem for path in CASES.glob("*.json")} & {path.stem for path in (HERE / "own").glob("*.json")}
 
 
 def test_every_known_failure_is_a_case() -> None:
