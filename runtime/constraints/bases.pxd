@@ -13,8 +13,11 @@ cpdef double base_low(Store s, long long v) except? -1.0
 @cython.locals(r="long long", x=double)
 cpdef double base_high(Store s, long long v) except? -1.0
 
-@cython.locals(hi=double, lo=double, r="long long")
+@cython.locals(hi=double, listed=list, lo=double, r="long long", values=list)
 cpdef list base_set(Store s, long long v)
+
+@cython.locals(k="long long", x=double)
+cpdef list in_order(list values)
 
 @cython.locals(place="long long")
 cpdef int insert_value(list values, double value) except -1

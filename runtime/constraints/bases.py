@@ -30,17 +30,28 @@ def base_high(s: Store, v: int) -> float:
 
 
 def base_set(s: Store, v: int) -> list[float] | None:
-    """Give the values of a base domain that is a set, sorted; None if it is an interval."""
+    """Give the values of a base domain that is a set, sorted; None if it is an interval. The list is not to change."""
     lo = base_low(s, v)
     hi = base_high(s, v)
-    values: set[float] | None = None
+    values: list[float] | None = None
     r = s.restriction_head[v]
     while r >= 0:
         if s.restriction_flags[r] == FLAG_VALUES:
             listed = s.restriction_values[r]
-            values = set(listed) if values is None else values.intersection(listed)
+            values = listed if values is None else sorted(set(values).intersection(listed))
         r = s.restriction_next[r]
-    return None if values is None else sorted([x for x in values if lo <= x <= hi])
+    if values and (values[0] < lo or values[len(values) - 1] > hi):
+        values = [x for x in values if lo <= x <= hi]
+    return values
+
+
+def in_order(values: list[float]) -> list[float]:
+    """Copy a list of values, sorted and each once."""
+    for k in range(1, len(values)):
+        x = values[k]
+        if values[k - 1] >= x:
+            return sorted(set(values))
+    return list(values)
 
 
 def insert_value(values: list[float], value: float) -> None:

@@ -11,6 +11,8 @@ cdef unsigned long long ALL_BITS, ONE_BIT
 @cython.locals(n="long long")
 cpdef long long lowest_bit(unsigned long long x) except? -1
 
+cpdef long long bits_in(unsigned long long x) except? -1
+
 @cython.locals(n="long long")
 cpdef long long highest_bit(unsigned long long x) except? -1
 
@@ -69,5 +71,7 @@ cpdef int attach_table(Store s, long long v, list values) except -1
 
 cpdef int release_table(Store s, long long first, long long count) except -1
 
-@cython.locals(last="long long", place="long long", total="long long")
+@cython.locals(
+    last="long long", place="long long", rest="long long", total="long long", x="unsigned long long"
+)
 cpdef long long count_values(Store s, long long v) except? -1

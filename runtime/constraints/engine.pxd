@@ -3,7 +3,7 @@
 cimport cython
 from libc cimport math
 from runtime.constraints.arithmetic cimport run_arithmetic
-from runtime.constraints.bases cimport base_high, base_low, base_set, insert_value, is_base_single
+from runtime.constraints.bases cimport base_high, base_low, base_set, in_order, insert_value, is_base_single
 from runtime.constraints.comparison cimport run_comparison
 from runtime.constraints.constants cimport constant_interval, constant_set
 from runtime.constraints.explain cimport explain_bound, explain_conflict

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from math import inf
 
 from runtime.constraints.arithmetic import run_arithmetic
-from runtime.constraints.bases import base_high, base_low, base_set, insert_value, is_base_single
+from runtime.constraints.bases import base_high, base_low, base_set, in_order, insert_value, is_base_single
 from runtime.constraints.cause import Cause, Link
 from runtime.constraints.codes import (
     FAMILY_ARITHMETIC,
@@ -78,7 +78,7 @@ class Engine(Store):
         """Make a variable with a closed set of values, or ids."""
         v = take_row(self)
         clear_row(self, v, kind)
-        values = sorted(set(values))
+        values = in_order(values)
         lo = values[0] if values else 1
         hi = values[len(values) - 1] if values else 0
         r = add_restriction(self, v, lo, hi, FLAG_VALUES, span, owner)
@@ -91,7 +91,7 @@ class Engine(Store):
         v = take_row(self)
         clear_row(self, v, kind)
         r = add_restriction(self, v, -inf, inf, FLAG_VALUES, span, owner)
-        self.restriction_values[r] = sorted(set(values))
+        self.restriction_values[r] = in_order(values)
         start_interval(self, v, -inf, inf, r)
         self.is_open[v] = 1
         return v
@@ -139,7 +139,7 @@ class Engine(Store):
 
     def restrict_base_values(self, v: int, values: list[float], span: int, owner: int) -> bool:
         """Intersect the base domain with a set; false if no value is left."""
-        values = sorted(set(values))
+        values = in_order(values)
         lo = values[0] if values else 1
         hi = values[len(values) - 1] if values else 0
         r = add_restriction(self, v, lo, hi, FLAG_VALUES, span, owner)
@@ -236,9 +236,10 @@ class Engine(Store):
         self, result: int, index: int, keys: list[int], variables: list[int], span: int, owner: int
     ) -> int:
         """Post: `result` equals the variable that stands beside the key which `index` takes."""
-        rows = sorted(zip(keys, variables, strict=True))
-        c = post_constraint(self, OP_ELEMENT, [result, index] + [v for _, v in rows], span, owner)
-        for k, (key, _) in enumerate(rows):
+        if keys != sorted(keys):
+            variables = [v for _, v in sorted(zip(keys, variables, strict=True))]
+        c = post_constraint(self, OP_ELEMENT, [result, index, *variables], span, owner)
+        for k, key in enumerate(sorted(keys)):
             self.slot_key[self.first[c] + 2 + k] = key
         return c
 

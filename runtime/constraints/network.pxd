@@ -3,8 +3,8 @@
 cimport cython
 from runtime.constraints.store cimport Store
 
-cdef long long CONFLICT_CYCLE, EVENT_LOWER, EVENT_UPPER, SIDE_LOWER, SIDE_UPPER, SUPPORT_EDGE, TRAIL_EDGE
-cdef long long TRAIL_LOWER, TRAIL_UPPER, TRAIL_WEIGHT
+cdef long long CONFLICT_CYCLE, EVENT_LOWER, EVENT_UPPER, HALF_INF, SIDE_LOWER, SIDE_UPPER, SUPPORT_EDGE
+cdef long long TRAIL_EDGE, TRAIL_LOWER, TRAIL_UPPER, TRAIL_WEIGHT
 
 
 @cython.locals(room="long long")

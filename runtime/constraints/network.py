@@ -4,6 +4,7 @@ from runtime.constraints.codes import (
     CONFLICT_CYCLE,
     EVENT_LOWER,
     EVENT_UPPER,
+    HALF_INF,
     SIDE_LOWER,
     SIDE_UPPER,
     SUPPORT_EDGE,
@@ -139,7 +140,8 @@ def follow_edge(s: Store, e: int) -> bool:
         s.queue_edges(v, 1)
         if s.word[v] >= 0:
             s.queue_hull(v)
-        s.wake(v, EVENT_UPPER)
+        if x < HALF_INF:
+            s.wake(v, EVENT_UPPER)
     x = s.lb[v] - w
     if x > s.lb[u]:
         if x > s.ub[u]:
@@ -148,7 +150,8 @@ def follow_edge(s: Store, e: int) -> bool:
         s.queue_edges(u, 0)
         if s.word[u] >= 0:
             s.queue_hull(u)
-        s.wake(u, EVENT_LOWER)
+        if x > -HALF_INF:
+            s.wake(u, EVENT_LOWER)
     if s.edge_first == s.edge_last:
         return True
     return propagate_edges(s, u, v, e)
@@ -219,7 +222,7 @@ def push_upper(s: Store, v: int, source: int, new: int) -> bool:
                 s.edge_last = (s.edge_last + 1) & s.edge_mask
             if s.word[u] >= 0:
                 s.queue_hull(u)
-            if s.watch_head[u] >= 0:
+            if s.watch_head[u] >= 0 and x < HALF_INF:  # without a bound there is nothing to learn
                 s.wake(u, EVENT_UPPER)
         e = s.out_next[e]
     s.visits += count
@@ -259,7 +262,7 @@ def push_lower(s: Store, v: int, target: int, new: int) -> bool:
                 s.edge_last = (s.edge_last + 1) & s.edge_mask
             if s.word[u] >= 0:
                 s.queue_hull(u)
-            if s.watch_head[u] >= 0:
+            if s.watch_head[u] >= 0 and x > -HALF_INF:
                 s.wake(u, EVENT_LOWER)
         e = s.in_next[e]
     s.visits += count

@@ -56,6 +56,12 @@ cpdef long long make_variable(
 ) except? -1
 
 
+@cython.locals(engine=Engine, v="long long")
+cpdef long long make_closed(
+    Plan plan, long long prototype, long long role, long long owner, long long name
+) except? -1
+
+
 @cython.locals(engine=Engine, kind="long long", values=list)
 cpdef long long copy(Plan plan, long long prototype) except? -1
 

@@ -100,6 +100,16 @@ def make_variable(plan: Plan, prototype: int, role: int, owner: int, name: int) 
     return v
 
 
+def make_closed(plan: Plan, prototype: int, role: int, owner: int, name: int) -> int:
+    """Make a variable like a prototype as it is now: what joins an open one later is no value of it."""
+    engine = plan.engine
+    if not engine.is_open[prototype]:
+        return make_variable(plan, prototype, role, owner, name)
+    v = engine.new_values(engine.kind[prototype], engine.base_values(prototype) or [], NONE, NONE)
+    plan.note_variable(v, role, owner, name)
+    return v
+
+
 def copy(plan: Plan, prototype: int) -> int:
     """Make a variable with the base domain of another one, which does not change once it is closed."""
     engine = plan.engine

@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
-from runtime.plan.holding cimport constraint, equate, make_variable, restrict
+from runtime.plan.holding cimport constraint, equate, make_closed, make_variable, restrict
 from runtime.plan.kinds cimport active_head
 from runtime.plan.links cimport link_by_key, unlink
 from runtime.plan.operands cimport operand

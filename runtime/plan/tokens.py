@@ -26,7 +26,7 @@ from runtime.plan.codes import (
     STATE,
     SYMBOL_ACTIVE,
 )
-from runtime.plan.holding import constraint, equate, make_variable, restrict
+from runtime.plan.holding import constraint, equate, make_closed, make_variable, restrict
 from runtime.plan.kinds import active_head
 from runtime.plan.links import link_by_key, unlink
 from runtime.plan.operands import operand
@@ -53,9 +53,7 @@ def make_token(plan: Plan, predicate: int, flags: int, master: int, creator: int
     place = plan.class_prototype[plan.predicate_class[predicate]]
     if is_fixed:
         place = plan.object_constant[int(engine.base_lower(given))]
-    make_variable(plan, place, ROLE_TOKEN, t, OBJECT)
-    if engine.is_open[first + OBJECT]:
-        engine.close(first + OBJECT)
+    make_closed(plan, place, ROLE_TOKEN, t, OBJECT)
     if engine.lb[first + OBJECT] > engine.ub[first + OBJECT]:
         plan.services.note_homeless(t)
         engine.restrict_base(first + OBJECT, 1.0, 0.0, span, t)

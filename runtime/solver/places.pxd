@@ -15,10 +15,16 @@ cdef long long DURATION, END, HALF_INF, LISTS, LIST_ORDER, NEVER, OBJECT, START
 cpdef long long fill_places(Queues q, Decisions stack, long long d, long long t) except? -1
 
 
-@cython.locals(
-    behind="long long", count="long long", first="long long", gap="long long", last="long long", middle="long long"
-)
+@cython.locals(behind="long long", count="long long", first="long long", gap="long long")
 cpdef long long fill_timeline(Queues q, Decisions stack, long long d, long long t, long long o) except? -1
+
+
+@cython.locals(high="long long", low="long long", middle="long long", step="long long")
+cpdef long long first_behind(Queues q, long long count) except? -1
+
+
+@cython.locals(high="long long", low="long long", middle="long long", step="long long")
+cpdef long long count_before(Queues q, long long count) except? -1
 
 
 cpdef bint can_be_before(Queues q, long long other) except -1

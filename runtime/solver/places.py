@@ -28,37 +28,15 @@ def fill_timeline(q: Queues, stack: Decisions, d: int, t: int, o: int) -> int:
     """Put the places of token `t` on object `o` into the pool, also those between neighbours that may be too near.
 
     `first` is the first token that `t` can precede, `behind` how many can precede `t`: along a sequence each answer
-    changes only once, so that halving finds it. EUROPA makes the same tests one by one, from left to right.
+    changes only once. EUROPA makes the same tests one by one, from left to right.
     `q.look_around(t)` came before.
     """
     count = q.take_sequence(o)
     if count == 0:
         stack.add_to_pool(d, o, t, t)
         return 0
-    first = 0
-    last = count
-    if not can_be_before(q, q.sequence[count - 1]):
-        first = count
-    elif can_be_before(q, q.sequence[0]):
-        last = 0
-    while first < last:
-        middle = (first + last) >> 1
-        if can_be_before(q, q.sequence[middle]):
-            last = middle
-        else:
-            first = middle + 1
-    behind = 0
-    last = count
-    if can_be_behind(q, q.sequence[count - 1]):
-        behind = count
-    elif not can_be_behind(q, q.sequence[0]):
-        last = 0
-    while behind < last:
-        middle = (behind + last) >> 1
-        if can_be_behind(q, q.sequence[middle]):
-            behind = middle + 1
-        else:
-            last = middle
+    first = first_behind(q, count)
+    behind = count_before(q, count)
     if first == 0:
         stack.add_to_pool(d, o, t, q.sequence[0])
         first = 1
@@ -67,6 +45,55 @@ def fill_timeline(q: Queues, stack: Decisions, d: int, t: int, o: int) -> int:
     if behind == count:
         stack.add_to_pool(d, o, q.sequence[count - 1], t)
     return 0
+
+
+def first_behind(q: Queues, count: int) -> int:
+    """The first in the sequence that the token may precede, `count` if none: bounds say it of all from some place on.
+
+    From there to the left in growing steps, then by halving: a question costs more, the farther away it is.
+    """
+    low = 0
+    high = count
+    while low < high:
+        middle = (low + high) >> 1
+        if q.from_end.is_plain(q.rows.var0[q.sequence[middle]] + START):
+            high = middle
+        else:
+            low = middle + 1
+    low = 0
+    step = 1
+    while low < high:
+        middle = max(high - step, low)
+        if can_be_before(q, q.sequence[middle]):
+            high = middle
+            step *= 2
+        else:
+            low = middle + 1
+            step = (high - low + 1) >> 1
+    return high
+
+
+def count_before(q: Queues, count: int) -> int:
+    """How many of the sequence may precede the token; found as `first_behind` is, from the left."""
+    low = 0
+    high = count
+    while low < high:
+        middle = (low + high) >> 1
+        if q.to_start.is_plain(q.rows.var0[q.sequence[middle]] + END):
+            low = middle + 1
+        else:
+            high = middle
+    high = count
+    step = 1
+    while low < high:
+        middle = min(low + step, high) - 1
+        if can_be_behind(q, q.sequence[middle]):
+            low = middle + 1
+            step *= 2
+        else:
+            high = middle
+            step = (high - low + 1) >> 1
+    return low
 
 
 def can_be_before(q: Queues, other: int) -> bool:

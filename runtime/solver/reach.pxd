@@ -18,6 +18,9 @@ cdef class Reach:
     @cython.locals(begin="long long", end="long long", engine=Store, limit="long long")
     cpdef bint is_apart(self, long long other) except -1
 
+    @cython.locals(begin="long long", end="long long", engine=Store)
+    cpdef bint is_plain(self, long long other) except -1
+
     @cython.locals(room="long long")
     cpdef int restart(self, long long most) except -1
 

@@ -42,8 +42,7 @@ class Reach:
         if engine.lb[begin] > engine.ub[end]:
             return False
         limit = engine.ub[begin] - engine.ub[end]
-        # Either bounds are potentials: no path is shorter than they say.
-        if limit <= 0 or engine.lb[begin] <= engine.lb[end] or begin == end:
+        if self.is_plain(other) or begin == end:
             return True
         if limit > self.most:
             self.restart(limit if limit > 2 * self.most else 2 * self.most)
@@ -55,6 +54,13 @@ class Reach:
             else:
                 self.follow_in()
         return False
+
+    def is_plain(self, other: int) -> bool:
+        """Whether `is_apart` says yes for bounds alone: both are potentials, no path is shorter than they say."""
+        engine = self.engine
+        begin = self.origin if self.is_forward else other
+        end = other if self.is_forward else self.origin
+        return bool(engine.ub[begin] <= engine.ub[end] or engine.lb[begin] <= engine.lb[end])
 
     def restart(self, most: int) -> int:
         """Forget all paths, and from now on look for those up to a greater length."""
