@@ -6,6 +6,7 @@ from checker.excerpts import Excerpts
 from checker.explain import threshold_text
 from checker.findings import Findings
 from checker.oracle import Verdict
+from nddl_lang.text.junit import junit_text, printable
 
 
 def junit_report(findings: Findings, excerpts: Excerpts) -> str:
@@ -23,23 +24,17 @@ def junit_report(findings: Findings, excerpts: Excerpts) -> str:
         attributes = {"classname": name, "name": f"mission {result.number} (seed {result.seed})"}
         case = ElementTree.SubElement(suite, "testcase", attributes)
         if result.verdict is Verdict.ERROR:
-            ElementTree.SubElement(case, "error", {"message": _printable(result.judgement.reason)})
+            ElementTree.SubElement(case, "error", {"message": printable(result.judgement.reason)})
         elif result.verdict is Verdict.FAIL:
             fault = faults[result.number]
             message = f"{result.judgement.code}: {result.judgement.reason}"
-            failure = ElementTree.SubElement(case, "failure", {"type": result.judgement.code, "message": message})
+            failure = ElementTree.SubElement(
+                case, "failure", {"type": result.judgement.code, "message": printable(message)}
+            )
             lines = [f"fails when {threshold_text(threshold)}" for threshold in fault.thresholds]
             if fault.bucket.blame.place is not None:
                 place = fault.bucket.blame.place
                 lines.insert(0, f"{excerpts.path(place)}: {excerpts.line(place).strip()}")
             lines.append(f"nddlc explain {findings.run_id}#{result.number}")
-            failure.text = _printable("\n".join(lines))
-    ElementTree.indent(suites)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(suites, encoding="unicode") + "\n"
-
-
-def _printable(text: str) -> str:
-    """`text` without the characters that XML cannot hold."""
-    return "".join(
-        letter if letter.isprintable() or letter in "\n\t" else "\N{REPLACEMENT CHARACTER}" for letter in text
-    )
+            failure.text = printable("\n".join(lines))
+    return junit_text(suites)

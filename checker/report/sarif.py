@@ -1,6 +1,5 @@
 """Findings in, SARIF 2.1.0 out: one result per fault, at the line to blame, for code hosts that annotate lines."""
 
-import json
 from typing import Any
 
 from checker.excerpts import Excerpts
@@ -8,22 +7,15 @@ from checker.explain import threshold_text
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES
 from checker.report.wording import missions, percent
+from nddl_lang.text.sarif import sarif_log, uri_of
 from runtime.executive.outcome import Place
-
-SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 
 
 def sarif_report(findings: Findings, excerpts: Excerpts) -> str:
     """The faults as SARIF text; a fault without a line points at the mission file."""
     codes = dict.fromkeys(fault.bucket.code for fault in findings.faults)
-    driver = {
-        "name": "nddlc",
-        "rules": [{"id": code, "shortDescription": {"text": CODE_NAMES.get(code, code)}} for code in codes],
-    }
-    results = [_result(fault, findings, excerpts) for fault in findings.faults]
-    run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
-    document = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
-    return json.dumps(document, ensure_ascii=False, indent=1) + "\n"
+    rules = [{"id": code, "shortDescription": {"text": CODE_NAMES.get(code, code)}} for code in codes]
+    return sarif_log(rules, [_result(fault, findings, excerpts) for fault in findings.faults])
 
 
 def _result(fault: Fault, findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
@@ -43,4 +35,4 @@ def _result(fault: Fault, findings: Findings, excerpts: Excerpts) -> dict[str, A
 
 def _location(place: Place, excerpts: Excerpts) -> dict[str, Any]:
     region = {"startLine": place.line, "startColumn": place.column}
-    return {"physicalLocation": {"artifactLocation": {"uri": excerpts.file(place)}, "region": region}}
+    return {"physicalLocation": {"artifactLocation": {"uri": uri_of(excerpts.file(place))}, "region": region}}

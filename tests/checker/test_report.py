@@ -26,6 +26,7 @@ from checker.report.text import text_report
 from checker.report.write import write_whole
 from runtime.executive.outcome import Place
 from tests.checker.fake_agent import load_split
+from tests.sarif import check_sarif
 
 ROOT = Path("models/gps")
 
@@ -87,7 +88,9 @@ def test_junit_has_a_case_per_mission(findings: Findings) -> None:
 
 
 def test_sarif_points_at_the_line(findings: Findings) -> None:
-    (result,) = json.loads(sarif_report(findings, Excerpts(ROOT)))["runs"][0]["results"]
+    log = json.loads(sarif_report(findings, Excerpts(ROOT)))
+    check_sarif(log)
+    (result,) = log["runs"][0]["results"]
     place = result["locations"][0]["physicalLocation"]
     assert place == {
         "artifactLocation": {"uri": "models/gps/rules.nddl"},

@@ -6,123 +6,14 @@ import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
-import jsonschema
 import pytest
 
 from nddlc.main import run
+from tests.sarif import check_sarif
 
 Captured = pytest.CaptureFixture[str]
 ODD = "int a; int b; int c;\na < b < c;\n"
 UNUSED = "class Lamp extends Timeline { predicate lit { int level; } }\nLamp::lit {\n  int watts;\n  level >= 3;\n}\n"
-REGION = {
-    "type": "object",
-    "required": ["startLine"],
-    "properties": {
-        name: {"type": "integer", "minimum": 1} for name in ("startLine", "startColumn", "endLine", "endColumn")
-    },
-    "additionalProperties": False,
-}
-ARTIFACT = {
-    "type": "object",
-    "required": ["uri"],
-    "properties": {"uri": {"type": "string", "pattern": r"^[A-Za-z0-9/._~%-]+$"}},
-    "additionalProperties": False,
-}
-PLACE = {
-    "type": "object",
-    "required": ["artifactLocation", "region"],
-    "properties": {"artifactLocation": ARTIFACT, "region": REGION},
-    "additionalProperties": False,
-}
-TEXT = {"type": "object", "required": ["text"], "properties": {"text": {"type": "string", "minLength": 1}}}
-REPLACEMENT = {
-    "type": "object",
-    "required": ["deletedRegion"],
-    "properties": {"deletedRegion": REGION, "insertedContent": {"type": "object", "required": ["text"]}},
-    "additionalProperties": False,
-}
-CHANGE = {
-    "type": "object",
-    "required": ["artifactLocation", "replacements"],
-    "properties": {
-        "artifactLocation": ARTIFACT,
-        "replacements": {"type": "array", "minItems": 1, "items": REPLACEMENT},
-    },
-    "additionalProperties": False,
-}
-RESULT = {
-    "type": "object",
-    "required": ["ruleId", "message"],
-    "properties": {
-        "ruleId": {"type": "string"},
-        "ruleIndex": {"type": "integer", "minimum": 0},
-        "level": {"enum": ["none", "note", "warning", "error"]},
-        "message": TEXT,
-        "locations": {"type": "array", "items": {"type": "object", "properties": {"physicalLocation": PLACE}}},
-        "relatedLocations": {
-            "type": "array",
-            "uniqueItems": True,
-            "items": {"type": "object", "properties": {"id": {"minimum": 0}, "message": TEXT}},
-        },
-        "fixes": {
-            "type": "array",
-            "items": {
-                "type": "object",
-                "required": ["artifactChanges"],
-                "properties": {"description": TEXT, "artifactChanges": {"type": "array", "items": CHANGE}},
-            },
-        },
-    },
-    "additionalProperties": False,
-}
-RULE = {
-    "type": "object",
-    "required": ["id"],
-    "properties": {
-        "id": {"type": "string"},
-        "shortDescription": TEXT,
-        "defaultConfiguration": {"properties": {"level": {"enum": ["none", "note", "warning", "error"]}}},
-    },
-    "additionalProperties": False,
-}
-# The part of the schema of SARIF 2.1.0 that what is written here falls under.
-SARIF = {
-    "type": "object",
-    "required": ["version", "runs"],
-    "properties": {
-        "$schema": {"type": "string", "format": "uri"},
-        "version": {"enum": ["2.1.0"]},
-        "runs": {
-            "type": "array",
-            "items": {
-                "type": "object",
-                "required": ["tool"],
-                "properties": {
-                    "tool": {
-                        "type": "object",
-                        "required": ["driver"],
-                        "properties": {
-                            "driver": {
-                                "type": "object",
-                                "required": ["name"],
-                                "properties": {
-                                    "name": {"type": "string"},
-                                    "rules": {"type": "array", "uniqueItems": True, "items": RULE},
-                                },
-                                "additionalProperties": False,
-                            }
-                        },
-                        "additionalProperties": False,
-                    },
-                    "columnKind": {"enum": ["utf16CodeUnits", "unicodeCodePoints"]},
-                    "results": {"type": "array", "items": RESULT},
-                },
-                "additionalProperties": False,
-            },
-        },
-    },
-    "additionalProperties": False,
-}
 
 
 def file(directory: Path, text: str, name: str = "m.nddl") -> str:
@@ -196,10 +87,10 @@ def test_a_directory_without_models_is_refused(tmp_path: Path, capsys: Captured)
 def test_sarif_follows_its_schema(tmp_path: Path, capsys: Captured) -> None:
     path = file(tmp_path, UNUSED + "int a; int b;\na < b < a;\nLmap l;\n", "a name, 100 %.nddl")
     assert run(["lint", path, "--format", "sarif"]) == 1
-    jsonschema.validate(json.loads(capsys.readouterr().out), SARIF)
+    check_sarif(json.loads(capsys.readouterr().out))
     assert run(["lint", file(tmp_path, UNUSED), "--format", "sarif"]) == 1
     log = json.loads(capsys.readouterr().out)
-    jsonschema.validate(log, SARIF)
+    check_sarif(log)
     (result,) = log["runs"][0]["results"]
     assert (result["ruleId"], result["level"]) == ("NDDL501", "warning")
     assert result["locations"][0]["physicalLocation"]["region"] == {
