@@ -108,7 +108,7 @@ corpus: build
 	$(BIN)/python -m tests.corpus '$(CORPUS)'
 
 rules: setup
-	$(BIN)/python -m nddl_lang.rulebook docs/rules
+	$(BIN)/python -m nddlc.rulebook docs/rules
 
 bench: build
 	@for script in bench/*.py; do $(BIN)/python $$script || exit; done

@@ -1,17 +1,17 @@
-"""The pages of all codes of the language in, Markdown out: `python -m nddl_lang.rulebook docs/rules` writes them."""
+"""The pages of the codes of the language; pages in, Markdown out."""
 
 import re
-import sys
-from collections.abc import Iterator
-from pathlib import Path
+from collections.abc import Iterable
 
 from nddl_lang.lint import pages as lint_pages
+from nddl_lang.lint.pages_settings import SETTINGS_PAGES
 from nddl_lang.semantics import pages as semantic_pages
 from nddl_lang.syntax import pages as syntax_pages
 from nddl_lang.text.diagnostic import Code, Severity
 from nddl_lang.text.page import RulePage
 
 _FOUND = {**syntax_pages.PAGES, **semantic_pages.PAGES, **lint_pages.PAGES}
+_FOUND |= {page.code.id: page for page in SETTINGS_PAGES}
 PAGES: dict[str, RulePage] = {name: _FOUND[name] for name in sorted(_FOUND)}
 
 GROUPS = {
@@ -19,7 +19,9 @@ GROUPS = {
     "2": "Names",
     "3": "Types",
     "4": "Rules and the state of the script",
-    "5": "Findings",
+    "5": "Findings and settings",
+    "6": "Running the script",
+    "7": "Missions and solvers",
 }
 MARK = "<!-- Made by `make rules`; edit the page beside the pass instead. -->"
 
@@ -32,7 +34,9 @@ def readable(code: Code) -> str:
 def configuration(code: Code) -> list[str]:
     """How a project changes what becomes of a code, in paragraphs."""
     if code.severity is Severity.ERROR:
-        return ["An error: the model means nothing as it stands, so it cannot be ignored or made lighter."]
+        return ["An error: nothing can be done with what was written as it stands, so it cannot be ignored."]
+    if code.id >= "NDDL6":
+        return ["It cannot be changed."]
     return [
         f'In `nddlc.toml`: `severity.{code.id} = "off"`, or `"hint"`, `"info"`, `"warning"`, `"error"`; in '
         f"`pyproject.toml` the same below `[tool.nddlc]`.",
@@ -51,44 +55,25 @@ def markdown(page: RulePage) -> str:
         page.what,
         page.why,
         "## Instead of",
-        f"```nddl\n{page.bad.rstrip()}\n```",
+        f"```{page.language}\n{page.bad.rstrip()}\n```",
         "## Write",
-        f"```nddl\n{page.good.rstrip()}\n```",
+        f"```{page.language}\n{page.good.rstrip()}\n```",
         "## Configuration",
         *configuration(code),
     ]
     return "\n\n".join(parts) + "\n"
 
 
-def index() -> str:
-    """The list of all pages."""
+def index(pages: Iterable[RulePage]) -> str:
+    """The list of `pages`, which come in the order of their codes."""
+    known = list(pages)
     lines = [MARK, "", "# Codes", "", "What each code means; `nddlc rule CODE` shows the same."]
     lines += ["", "How the catalogue of known traps maps to codes stands in [catalogue.md](catalogue.md)."]
     for digit, caption in GROUPS.items():
         lines += ["", f"## {caption}", "", "| code | weight | message |", "| --- | --- | --- |"]
-        for name, page in PAGES.items():
+        for page in known:
+            name = page.code.id
             if name[4] == digit:
                 message = readable(page.code).replace("|", "\\|")
                 lines.append(f"| [{name}]({name}.md) | {page.code.severity.value} | {message} |")
     return "\n".join(lines) + "\n"
-
-
-def files() -> Iterator[tuple[str, str]]:
-    """The names and texts of all files."""
-    yield "README.md", index()
-    for name, page in PAGES.items():
-        yield f"{name}.md", markdown(page)
-
-
-def main(directory: Path) -> None:
-    """Write the files, and remove pages of codes that are gone."""
-    directory.mkdir(parents=True, exist_ok=True)
-    for path in directory.glob("NDDL*.md"):
-        if path.stem not in PAGES:
-            path.unlink()
-    for name, text in files():
-        (directory / name).write_text(text, encoding="utf-8")
-
-
-if __name__ == "__main__":
-    main(Path(sys.argv[1]))

@@ -11,6 +11,7 @@ class RulePage:
 
     `what` and `why` are sentences in Markdown. `bad` is a whole text that draws the code (and no other error),
     `good` the same text mended; a dialect other than the default is declared in the first line of the text.
+    `language` is what the text is written in: `nddl`, `toml` or `xml`.
     """
 
     code: Code
@@ -18,3 +19,4 @@ class RulePage:
     why: str
     bad: str
     good: str
+    language: str = "nddl"

@@ -12,8 +12,6 @@ CLOSED_ALREADY = Code("NDDL657", Severity.ERROR, "state", "`{name}` is closed al
 NOT_ONE_OBJECT = Code("NDDL658", Severity.ERROR, "state", "it is not known which object `{name}` is")
 SEVERAL_VALUES = Code("NDDL659", Severity.ERROR, "domain", "a single value is needed to specify `{name}`")
 WRONG_OBJECT = Code("NDDL660", Severity.ERROR, "domain", "`{name}` cannot be on `{object}`")
-NO_MEMBER = Code("NDDL661", Severity.ERROR, "state", "no object is known yet whose `{name}` this could be")
-DUPLICATE_NAME = Code("NDDL662", Severity.ERROR, "duplicate", "there is an object called `{name}` already")
 ENDLESS_OBJECT = Code(
     "NDDL663", Severity.ERROR, "rule", "an object of class `{name}` cannot be made: its parts have parts without end"
 )
