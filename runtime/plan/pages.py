@@ -7,6 +7,7 @@ from runtime.plan.faults import (
     ENDLESS_OBJECT,
     NO_OBJECT,
     NOT_ONE_OBJECT,
+    NOT_ORDERED,
     NOT_REJECTABLE,
     OTHER_PREDICATE,
     OUTSIDE_DOMAIN,
@@ -100,5 +101,12 @@ SCRIPT_PAGES = (
         "Making one object would never come to an end.",
         "class Box { Box inner; Box() { inner = new Box(); } }\nBox box = new Box();\n",
         _BOX + "Box box = new Box();\n",
+    ),
+    RulePage(
+        NOT_ORDERED,
+        "`free` takes back an order of two tokens that was never given.",
+        "Only what `constrain` ordered can be freed, in the same order.",
+        _TWO + "goal(a.On g);\ngoal(a.On h);\ng.activate();\nh.activate();\na.constrain(g, h);\na.free(h, g);\n",
+        _TWO + "goal(a.On g);\ngoal(a.On h);\ng.activate();\nh.activate();\na.constrain(g, h);\na.free(g, h);\n",
     ),
 )
