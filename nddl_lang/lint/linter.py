@@ -20,7 +20,7 @@ from nddl_lang.lint.scripts import lint_capacity, lint_script
 from nddl_lang.lint.structure import lint_structure
 from nddl_lang.lint.subgoals import lint_subgoals
 from nddl_lang.lint.suppression import suppress
-from nddl_lang.lint.timing import lint_times
+from nddl_lang.lint.timing import lint_times, lint_times_together
 from nddl_lang.lint.whole import Gist, Whole, assemble, gist
 from nddl_lang.semantics.schema import SideTables
 from nddl_lang.text.diagnostic import Diagnostic
@@ -50,6 +50,7 @@ WHOLE_LINTS: tuple[Callable[[Whole], Iterable[Diagnostic]], ...] = (
     lint_script,
     lint_capacity,
     lint_includes,
+    lint_times_together,
     lambda whole: compare_draws(whole.parts),
 )
 

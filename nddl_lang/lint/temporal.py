@@ -4,23 +4,38 @@ from collections.abc import Iterator
 
 from nddl_lang.lint.network import Edge, Node
 from nddl_lang.lint.part import Part
-from nddl_lang.lint.reading import token_domain
+from nddl_lang.lint.reading import declared, domain_of, token_domain
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.literals import number
 from nddl_lang.semantics.natives import LEAST_DURATION
 from nddl_lang.semantics.relations import RELATIONS, Point
-from nddl_lang.semantics.schema import INFINITY, Label, Predicate, TokenVariable
+from nddl_lang.semantics.schema import (
+    INFINITY,
+    GlobalReference,
+    Interval,
+    Kind,
+    Label,
+    LocalReference,
+    Predicate,
+    TokenVariable,
+    Variable,
+)
 from nddl_lang.semantics.types import INT
 from nddl_lang.syntax.nodes import (
+    Assignment,
     BinaryExpr,
     CallConstraint,
     Expr,
     ExprConstraint,
+    GoalStatement,
     IntervalExpr,
+    MethodCall,
     PathExpr,
     Relation,
     RuleDecl,
     RuleStatement,
+    Statement,
+    VariableDecl,
 )
 from nddl_lang.text.source import Span
 
@@ -42,9 +57,20 @@ class RuleTimes:
         predicate = self._part.tables.predicates.get(node) if isinstance(node, RuleDecl) else None
         return list(self._lasting(None, predicate, "this")) if predicate is not None else []
 
-    def edges(self, statement: RuleStatement) -> Iterator[Edge]:
-        """What a statement demands of times."""
+    def edges(self, statement: RuleStatement | Statement) -> Iterator[Edge]:
+        """What a statement of a rule or of the script demands of times."""
         match statement:
+            case GoalStatement(instances=instances):
+                for instance in instances:
+                    label, predicate = self._part.label_of(instance), self._part.predicate_of(instance)
+                    if label is not None and predicate is not None:
+                        yield from self._lasting(label, predicate, label.name)
+            case VariableDecl():
+                yield from self._declared(statement)
+            case Assignment(target=target, value=value):
+                yield from self._comparison(target, "==", value, statement.span)
+            case MethodCall(target=target, method=method, arguments=(value,)) if method.name == "specify":
+                yield from self._comparison(target, "==", value, statement.span)
             case Relation():
                 yield from self._relation(statement)
             case ExprConstraint(expression=BinaryExpr(op="<" | "<=" | ">" | ">=" | "==" as op) as comparison):
@@ -53,6 +79,17 @@ class RuleTimes:
                 yield from self._comparison(left, _CALLS[name.name], right, statement.span)
             case CallConstraint(name=name, arguments=(first, distance, second)) if name.name == "temporalDistance":
                 yield from self._distance(first, distance, second, statement.span)
+
+    def _declared(self, declaration: VariableDecl) -> Iterator[Edge]:
+        """What the domains of int variables say, which may stand between two times."""
+        for declarator in declaration.declarators:
+            variable = self._part.tables.declared.get(declarator.name)
+            if isinstance(variable, Variable) and variable.type.kind is Kind.INT:
+                domain = declared(variable)
+                hull = domains.hull(domain) if domain is not None else None
+                if hull is not None:
+                    names: dict[object, str] = {variable: variable.name}
+                    yield from _edges(_ZERO, (variable, "value"), hull.lower, hull.upper, names, declarator.span, None)
 
     # ---- tokens ----
 
@@ -118,11 +155,13 @@ class RuleTimes:
             left, right, op = right, left, op.replace(">", "<")
         for one, other, way in ((left, right, 1), (right, left, -1)):
             token = self._duration(one)
-            value = number(other)
-            if token is not None and value is not None:
-                yield from _durations(token, value, op, way, span)
+            hull = self._hull(other) if token is not None else None
+            if token is not None and hull is not None:
+                yield from _durations(token, hull, op, way, span)
                 return
         first, second = self._term(left), self._term(right)
+        if first is not None and second is None and op == "==" and isinstance(right, IntervalExpr):
+            yield from self._distance(None, right, left, span)
         if first is None or second is None or first[0] == second[0]:
             return
         (one_node, plus), (other_node, more) = first, second
@@ -131,15 +170,16 @@ class RuleTimes:
         upper = gap if op == "==" else INFINITY
         yield from _edges(one_node, other_node, gap, upper, names, span, None)
 
-    def _distance(self, first: Expr, distance: Expr, second: Expr, span: Span) -> Iterator[Edge]:
-        one, other = self._term(first), self._term(second)
+    def _distance(self, first: Expr | None, distance: Expr, second: Expr, span: Span) -> Iterator[Edge]:
+        """`first` and `second` are so far apart; without `first`, `second` is at that time."""
+        one, other = (self._term(first) if first is not None else (_ZERO, 0.0)), self._term(second)
         bounds: tuple[float | None, float | None] = (number(distance),) * 2
         if isinstance(distance, IntervalExpr):
             bounds = number(distance.lower), number(distance.upper)
         if one is None or other is None or bounds[0] is None or bounds[1] is None or one[0] == other[0]:
             return
         shift = one[1] - other[1]
-        names = {one[0][0]: _token_name(first), other[0][0]: _token_name(second)}
+        names = {one[0][0]: _token_name(first) if first is not None else "", other[0][0]: _token_name(second)}
         yield from _edges(one[0], other[0], bounds[0] + shift, bounds[1] + shift, names, span, None)
 
     def _duration(self, expression: Expr) -> tuple[object, str] | None:
@@ -148,6 +188,13 @@ class RuleTimes:
         if not isinstance(reference, TokenVariable) or reference.name != "duration":
             return None
         return self._token(reference.label), reference.label.name
+
+    def _hull(self, expression: Expr) -> Interval | None:
+        """Between which numbers an expression lies, None where nothing is known."""
+        if isinstance(expression, PathExpr) and isinstance(self._part.reference(expression), GlobalReference):
+            return None  # what a script makes of a variable is more than what declares it
+        domain = domain_of(self._part, expression)
+        return domains.hull(domain) if domain is not None else None
 
     def _term(self, expression: Expr) -> tuple[Node, float] | None:
         """An expression as a time and a distance from it."""
@@ -164,7 +211,14 @@ class RuleTimes:
         reference = self._part.reference(expression) if isinstance(expression, PathExpr) else None
         if isinstance(reference, TokenVariable) and reference.name in ("start", "end", "time"):
             return self._time(self._token(reference.label), reference.name, reference.label.predicate), 0
-        return None
+        match reference:
+            case LocalReference(variable=variable) | GlobalReference(variable=variable):
+                return ((variable, "value"), 0) if variable.type.kind is Kind.INT else None
+            case TokenVariable(label=label, name=name, type=type_):
+                is_number = type_.kind is Kind.INT and name not in ("duration", "state", "object")
+                return ((self._token(label), name), 0) if is_number else None
+            case _:
+                return None
 
 
 def _bounds(relation: Relation, index: int, lower: float, upper: float) -> tuple[float, float]:
@@ -181,15 +235,15 @@ def _token_name(expression: Expr) -> str:
     return expression.parts[0].name if isinstance(expression, PathExpr) and len(expression.parts) > 1 else "this"
 
 
-def _durations(token: tuple[object, str], value: float, op: str, way: int, span: Span) -> Iterator[Edge]:
+def _durations(token: tuple[object, str], hull: Interval, op: str, way: int, span: Span) -> Iterator[Edge]:
     start, end = (token[0], "start"), (token[0], "end")
     strict = 1 if op == "<" else 0
-    if op == "==" or way == 1:
-        words = f"`{token[1]}` lasts at most {_number(value - strict)}"
-        yield Edge(start, end, value - strict, words, span, is_duration=True)
-    if op == "==" or way == -1:
-        words = f"`{token[1]}` lasts at least {_number(value + strict)}"
-        yield Edge(end, start, -value - strict, words, span, is_duration=True)
+    if (op == "==" or way == 1) and hull.upper < INFINITY:
+        words = f"`{token[1]}` lasts at most {_number(hull.upper - strict)}"
+        yield Edge(start, end, hull.upper - strict, words, span, is_duration=True)
+    if (op == "==" or way == -1) and hull.lower > -INFINITY:
+        words = f"`{token[1]}` lasts at least {_number(hull.lower + strict)}"
+        yield Edge(end, start, -hull.lower - strict, words, span, is_duration=True)
 
 
 def _edges(
@@ -207,16 +261,18 @@ def _edges(
     one, other = _time_name(earlier, names), _time_name(later, names)
     word = f"`{relation}`: " if relation is not None else ""
     if abs(lower) < INFINITY:
-        words = f"{word}`{_shifted(one, lower)} <= {other}`"
+        words = f"{word}`{_shifted(one, lower)} <= {other}`" if other else f"`{one} <= {_number(-lower)}`"
         yield Edge(later, earlier, -lower, words, span, is_containment=is_containment)
     if abs(upper) < INFINITY:
-        words = f"{word}`{other} <= {_shifted(one, upper)}`"
+        words = f"{word}`{other} <= {_shifted(one, upper)}`" if other else f"`{_number(-upper)} <= {one}`"
         yield Edge(earlier, later, upper, words, span, is_containment=is_containment)
 
 
 def _time_name(node: Node, names: dict[object, str]) -> str:
     if node == _ZERO:
         return ""
+    if node[1] == "value":
+        return getattr(node[0], "name", "")
     name = names[node[0]]
     return node[1] if name == "this" else f"{name}.{node[1]}"
 

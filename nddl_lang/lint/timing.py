@@ -1,16 +1,89 @@
-"""Find temporal demands of a rule that cannot hold together, branch by branch."""
+"""Find temporal demands that cannot hold together: in a rule, branch by branch, of several rules, and in the script."""
 
 from collections.abc import Iterator
 
 from nddl_lang.lint.network import Edge, negative_cycle
 from nddl_lang.lint.part import Finding, Part
 from nddl_lang.lint.temporal import RuleTimes
-from nddl_lang.syntax.nodes import Foreach, IfStatement, RuleDecl, RuleStatement
-from nddl_lang.text.diagnostic import Code, Note, Severity
+from nddl_lang.lint.whole import Whole
+from nddl_lang.syntax.nodes import (
+    Assignment,
+    CallConstraint,
+    ExprConstraint,
+    Foreach,
+    GoalStatement,
+    IfStatement,
+    MethodCall,
+    Relation,
+    RuleDecl,
+    RuleStatement,
+    VariableDecl,
+)
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
 
 CONTRADICTION = Code("NDDL530", Severity.WARNING, "lint", "the times that are demanded here cannot all hold")
 TOO_LONG = Code("NDDL531", Severity.WARNING, "lint", "a token lasts longer here than the one that contains it")
 NO_DURATION = Code("NDDL532", Severity.WARNING, "lint", "a token lasts at least 1, so this cannot hold")
+
+_TAKING_BACK = frozenset(("reset", "cancel", "free"))
+_OF_SCRIPT = (Assignment, CallConstraint, ExprConstraint, GoalStatement, MethodCall, Relation, VariableDecl)
+
+
+def lint_times_together(whole: Whole) -> Iterator[Diagnostic]:
+    """Contradictions between rules that fire for the same token, and between the statements of the script."""
+    rules: dict[str, list[Part]] = {}
+    for part in whole.parts:
+        if isinstance(part.node, RuleDecl) and (predicate := part.tables.predicates.get(part.node)) is not None:
+            rules.setdefault(predicate.name, []).append(part)
+    for parts in rules.values():
+        for part in parts:
+            yield from _beside_others(whole, part, parts)
+    yield from _in_script(whole)
+
+
+def _beside_others(whole: Whole, part: Part, parts: list[Part]) -> Iterator[Diagnostic]:
+    """What a rule demands beside those rules that fire before it: of ancestors, and above it of its own class."""
+    assert isinstance(part.node, RuleDecl)
+    ancestry = whole.analysis.schema.ancestry(part.node.class_name.name)
+    others = [
+        other
+        for index, other in enumerate(parts)
+        if isinstance(other.node, RuleDecl)
+        and other is not part
+        and other.node.class_name.name in ancestry
+        and (other.node.class_name.name != part.node.class_name.name or index < parts.index(part))
+    ]
+    mine = _plain_edges(part)
+    if not others or not mine or negative_cycle(mine):
+        return
+    theirs = [edge for other in others for edge in _plain_edges(other)]
+    if theirs and not negative_cycle(theirs) and (cycle := negative_cycle([*theirs, *mine])):
+        yield _contradiction(part, cycle)
+
+
+def _plain_edges(part: Part) -> list[Edge]:
+    """What a rule demands whatever its guards say."""
+    assert isinstance(part.node, RuleDecl)
+    times = RuleTimes(part)
+    return [*times.own_edges(), *(edge for statement in part.node.body for edge in times.edges(statement))]
+
+
+def _in_script(whole: Whole) -> Iterator[Diagnostic]:
+    """What the script demands of its tokens, unless it takes something back."""
+    if any(isinstance(part.node, MethodCall) and part.node.method.name in _TAKING_BACK for part in whole.parts):
+        return
+    edges: list[Edge] = []
+    rejectable: set[object] = set()
+    last: Part | None = None
+    for part in whole.parts:
+        if isinstance(part.node, GoalStatement) and part.node.kind == "rejectable":
+            rejectable |= {part.label_of(instance) for instance in part.node.instances}
+        if isinstance(part.node, _OF_SCRIPT) and (mine := list(RuleTimes(part).edges(part.node))):
+            edges += mine
+            last = part
+    edges = [edge for edge in edges if edge.earlier[0] not in rejectable and edge.later[0] not in rejectable]
+    if last is not None and (cycle := negative_cycle(edges)):
+        yield _contradiction(last, cycle)
 
 
 def lint_times(part: Part) -> Iterator[Finding]:
@@ -35,14 +108,14 @@ def lint_times(part: Part) -> Iterator[Finding]:
                 pending.append((statement.body, edges, False))
 
 
-def _contradiction(part: Part, cycle: list[Edge]) -> Finding:
+def _contradiction(part: Part, cycle: list[Edge]) -> Diagnostic:
     own = part.node.span
     here = [
         edge for edge in cycle if edge.span is not None and edge.span.anchor is own.anchor and edge.span.end <= own.end
-    ]
-    last = max(here, key=lambda edge: (edge.span.start, edge.why) if edge.span is not None else (0, ""), default=None)
+    ] or [edge for edge in cycle if edge.span is not None and edge.span.source is own.source]
+    last = max(here, key=lambda edge: (edge.span.begin, edge.why) if edge.span is not None else (0, ""), default=None)
     span = last.span if last is not None and last.span is not None else own
-    ordered = sorted(cycle, key=lambda edge: edge.span.begin if edge.span is not None else -1)
+    ordered = sorted(cycle, key=lambda edge: (edge.span.begin if edge.span is not None else -1, edge.why))
     notes = tuple(Note(edge.why, edge.span if edge.span is not span else None) for edge in ordered)
     return _code(cycle).at(span, notes=notes)
 
