@@ -64,6 +64,12 @@ def models_in(names: tuple[str, ...], directories: tuple[str, ...]) -> list[Path
     return list(found)
 
 
+def parts_in(names: tuple[str, ...], models: list[Path]) -> frozenset[Path]:
+    """The files below directories that are no models of their own, resolved: they are known to be parts of these."""
+    below = {path.resolve() for name in names if Path(name).is_dir() for path in Path(name).rglob("*.nddl")}
+    return frozenset(below - {path.resolve() for path in models})
+
+
 def _is_hidden(path: Path) -> bool:
     return any(part.startswith(".") for part in path.parts)
 

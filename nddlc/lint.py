@@ -20,7 +20,7 @@ from nddl_lang.text.github import github_line
 from nddl_lang.text.junit import junit_of
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.sarif import sarif_of
-from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, write_text
+from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, parts_in, write_text
 from nddlc.main import named
 
 WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
@@ -67,7 +67,9 @@ def command(
     gc.disable()
     ctx.call_on_close(gc.enable)
     codes = {name: tuple(_codes(given, name)) for name, given in (("select", select), ("ignore", ignore))}
-    checker = Checker(tuple(Path(directory) for directory in directories), chosen_dialect(ctx, dialect))
+    parts = parts_in(files, paths)
+    checker = Checker(tuple(Path(directory) for directory in directories), chosen_dialect(ctx, dialect), parts)
+    checked: list[tuple[Settings, tuple[Diagnostic, ...]]] = []
     found: list[Diagnostic] = []
     seen = set()  # a file that several models include is complained about once
     has_failed = False
@@ -78,9 +80,11 @@ def command(
             mended += _mend(checker, path, settings, only_show=only_show, unsafe=unsafe_fixes, is_text=style == "text")
             if only_show:
                 continue
-        for each in checker.check(path, settings):
+        checked.append((settings, checker.check(path, settings)))
+    for settings, findings in checked:
+        for each in findings:
             key = (each.span.source.name, each.span.begin, each.code.id, each.message)
-            if key in seen or not at_least(each.severity, Severity(level)):
+            if key in seen or not at_least(each.severity, Severity(level)) or not checker.is_agreed(each):
                 continue
             seen.add(key)
             found.append(each)

@@ -1,5 +1,6 @@
 """Files in, all that is wrong with them by the settings of their project out."""
 
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
@@ -7,6 +8,7 @@ from nddl_lang.analysis import Analyser
 from nddl_lang.lint.linter import Linter
 from nddl_lang.lint.mending import Mended, mend
 from nddl_lang.lint.settings import Settings
+from nddl_lang.lint.unused import OF_ALL_MODELS
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import load_module_graph
 from nddl_lang.text.diagnostic import Diagnostic
@@ -15,15 +17,40 @@ from nddl_lang.text.source import Source
 
 
 class Checker:
-    """Checks files; `directories` and `dialect` are asked for beside what each project says."""
+    """Checks files; `directories` and `dialect` are asked for beside what each project says.
 
-    def __init__(self, directories: tuple[Path, ...] = (), dialect: Dialect | None = None) -> None:
+    `parts` are files that no models include but those that are checked, by their resolved paths. What no model uses of
+    such a file is only known when all are checked: `is_agreed` tells.
+    """
+
+    def __init__(
+        self,
+        directories: tuple[Path, ...] = (),
+        dialect: Dialect | None = None,
+        parts: frozenset[Path] = frozenset(),
+    ) -> None:
         self._directories = directories
         self._dialect = dialect
+        self._parts = parts
+        self._part_of: dict[Source, Path] = {}
+        self._readers: Counter[Path] = Counter()
+        self._votes: Counter[tuple[Path, int, str]] = Counter()
 
     def check(self, path: Path, settings: Settings) -> tuple[Diagnostic, ...]:
         """All that is wrong with a file and what it includes; raises OSError if it cannot be read."""
-        return self._check(Source(str(path), decode(path.read_bytes())), settings)
+        found = self._check(Source(str(path), decode(path.read_bytes())), settings, is_counted=True)
+        self._votes.update({(part, each.span.begin, each.code.id) for each in found if (part := self._part(each))})
+        return found
+
+    def is_agreed(self, finding: Diagnostic) -> bool:
+        """Whether all models that include the file of a finding say the same, where that is needed."""
+        part = self._part(finding)
+        if part is None or finding.code not in OF_ALL_MODELS:
+            return True
+        return self._votes[part, finding.span.begin, finding.code.id] == self._readers[part]
+
+    def _part(self, finding: Diagnostic) -> Path | None:
+        return self._part_of.get(finding.span.source)
 
     def mend(self, path: Path, settings: Settings, *, unsafe: bool) -> tuple[str, Mended] | None:
         """The text of a file and how it is after its fixes; None where it is no UTF-8 text."""
@@ -35,7 +62,11 @@ class Checker:
         quiet = replace(settings, severities=tuple(each for each in settings.severities if each[1] is None))
         return text, mend(text, lambda changed: self._check(Source(str(path), changed), quiet), unsafe=unsafe)
 
-    def _check(self, source: Source, settings: Settings) -> tuple[Diagnostic, ...]:
+    def _check(self, source: Source, settings: Settings, *, is_counted: bool = False) -> tuple[Diagnostic, ...]:
         directories = (*self._directories, *settings.directories)
         loaded = load_module_graph(source, directories, self._dialect or settings.dialect)
-        return tuple(settings.choose(Linter().lint(Analyser(settings.callables).analyse(loaded))))
+        for included, place in loaded.paths.items():
+            if included is not source and (part := place.resolve()) in self._parts:
+                self._part_of[included] = part
+                self._readers[part] += is_counted
+        return tuple(settings.choose(Linter(self._parts).lint(Analyser(settings.callables).analyse(loaded))))

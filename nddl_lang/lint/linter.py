@@ -1,6 +1,7 @@
 """An analysis in; all that is wrong with the model out: errors, what the lints find, and what a comment takes back."""
 
 from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
 
 from nddl_lang.analysis import Analysis
 from nddl_lang.lint.declarations import lint_declarations
@@ -68,9 +69,13 @@ class _Known:
 
 
 class Linter:
-    """Lints a model again and again while it is edited, each time only the statements that changed."""
+    """Lints a model again and again while it is edited, each time only the statements that changed.
 
-    def __init__(self) -> None:
+    What nothing uses is told of the text itself, and of the files `judged`: included ones that no other model includes.
+    """
+
+    def __init__(self, judged: frozenset[Path] = frozenset()) -> None:
+        self.judged = judged
         self.known: dict[SideTables, _Known] = {}
 
     def lint(self, analysis: Analysis) -> tuple[Diagnostic, ...]:
@@ -90,7 +95,7 @@ class Linter:
             known[tables] = each
             order.append(each)
         self.known = known
-        whole = assemble(analysis, [each.part for each in order], [each.gist for each in order])
+        whole = assemble(analysis, [each.part for each in order], [each.gist for each in order], self.judged)
         found = [finding for finding in _findings(whole, order) if finding.span.source not in whole.library]
         places = {source: number for number, source in enumerate(analysis.loaded.sources)}
         found.sort(key=lambda finding: (places.get(finding.span.source, 0), finding.span.begin, finding.code.id))

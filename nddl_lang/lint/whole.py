@@ -136,6 +136,7 @@ class Whole:
     parts: list[Part]
     gists: list[Gist]
     library: frozenset[Source]
+    judged: frozenset[Source]
     is_whole: bool = False
     variables: set[Variable] = field(default_factory=set)
     written: set[Variable] = field(default_factory=set)
@@ -168,19 +169,20 @@ class Whole:
         return found
 
     def is_own(self, span: Span | None) -> bool:
-        """Whether a place stands in the text that is looked at itself, not in one that it includes."""
-        return span is not None and span.source is self.analysis.loaded.root
+        """Whether a place stands in a text that is judged by this model, not one that other models include too."""
+        return span is not None and span.source in self.judged
 
     def all(self, kind: type[GoalStatement]) -> Iterator[tuple[Part, GoalStatement]]:
         """The goals, facts and rejectables of the script."""
         return ((part, part.node) for part in self.parts if isinstance(part.node, kind))
 
 
-def assemble(analysis: Analysis, parts: list[Part], gists: list[Gist]) -> Whole:
-    """Put together what the statements contribute."""
+def assemble(analysis: Analysis, parts: list[Part], gists: list[Gist], judged: frozenset[Path] = frozenset()) -> Whole:
+    """Put together what the statements contribute; `judged` are included files that the model is judged by too."""
     paths = analysis.loaded.paths
     library = frozenset(source for source, path in paths.items() if Path(path).parent == LIBRARY)
-    whole = Whole(analysis, parts, gists, library)
+    own = {source for source, path in paths.items() if source not in library and path.resolve() in judged}
+    whole = Whole(analysis, parts, gists, library, frozenset({analysis.loaded.root, *own}))
     ancestry: dict[str, list[str]] = {}
     for part, each in zip(parts, gists, strict=True):
         whole.variables |= each.variables

@@ -79,6 +79,43 @@ def test_of_a_directory_the_models_are_linted_and_not_their_parts(tmp_path: Path
     assert {each["code"] for each in shown["diagnostics"]} == {"NDDL202"}
 
 
+PART = """class Lamp extends Timeline { predicate lit { } predicate dark { } }
+int SPARE; int USED;
+enum Colour { red }
+"""
+MODEL = """#include "part.nddl"
+Lamp lamp = new Lamp();
+close();
+goal(lamp.lit g);
+g.duration == USED;
+"""
+
+
+def codes_in(part: str, output: str) -> list[tuple[str, int]]:
+    found = json.loads(output)["diagnostics"]
+    return [(each["code"], each["line"]) for each in found if Path(each["file"]).name == part]
+
+
+def test_of_a_directory_what_no_model_uses_of_a_part_is_told(tmp_path: Path, capsys: Captured) -> None:
+    file(tmp_path, PART, "part.nddl")
+    one = file(tmp_path, MODEL, "one.nddl")
+    assert run(["lint", one, "--format", "json"]) == 0  # another model may include the part too
+    assert codes_in("part.nddl", capsys.readouterr().out) == []
+    assert run(["lint", str(tmp_path), "--format", "json"]) == 1
+    assert codes_in("part.nddl", capsys.readouterr().out) == [("NDDL540", 1), ("NDDL504", 2), ("NDDL507", 3)]
+    file(tmp_path, MODEL + "int mine = [0 9];\nmine >= SPARE;\nColour c = red;\ngoal(lamp.dark h);\n", "two.nddl")
+    run(["lint", str(tmp_path), "--format", "json"])
+    assert codes_in("part.nddl", capsys.readouterr().out) == []
+
+
+def test_what_a_model_with_errors_may_use_is_not_told(tmp_path: Path, capsys: Captured) -> None:
+    file(tmp_path, PART, "part.nddl")
+    file(tmp_path, MODEL, "one.nddl")
+    file(tmp_path, MODEL + "int x = ;\n", "two.nddl")
+    assert run(["lint", str(tmp_path), "--format", "json"]) == 1
+    assert codes_in("part.nddl", capsys.readouterr().out) == []
+
+
 def test_a_directory_without_models_is_refused(tmp_path: Path, capsys: Captured) -> None:
     assert run(["lint", str(tmp_path)]) == 2
     assert "there is no model" in capsys.readouterr().err
