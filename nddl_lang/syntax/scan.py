@@ -217,7 +217,7 @@ class Scanner:
         elif self._brackets.closes_statement(kind, kinds[-1] if kinds else None):
             if kind == "}" and kinds and self._is_surplus(start, finish):
                 return ""
-            if kinds[1:2] == ["::"] and kinds[3:4] != ["{"] and self._lacks_brace(finish):
+            if kinds[1:3] == ["::", "IDENT"] and kinds[3:4] != ["{"] and self._lacks_brace(finish):
                 return kind
             self._end = finish
             if self._has_if:

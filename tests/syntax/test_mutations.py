@@ -86,6 +86,11 @@ def test_every_text_of_the_repository_keeps_what_holds() -> None:
         check(text, DIALECTS[number % 2])
 
 
+@pytest.mark.parametrize("text", ["class T { }\nT::}z;\n    b;\n}\n"])
+def test_texts_that_once_broke_the_parser(text: str) -> None:
+    check(text, Dialect.NDDLC)
+
+
 @pytest.mark.parametrize("part", range(PARTS))
 def test_mutations_keep_what_holds(part: int) -> None:
     for seed in range(part, MUTATIONS, PARTS):
