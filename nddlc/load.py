@@ -9,6 +9,8 @@ from nddl_lang.text.render import render
 from nddlc.inputs import chosen_dialect, colours, model_files, readable
 from nddlc.loading import Facts, Loaded, facts, load
 
+TOKEN_HEAD = ("token", "predicate", "state", "object", "start", "duration", "end", "parameters")
+
 
 @click.command()
 @model_files
@@ -46,7 +48,7 @@ def _page(loaded: Loaded, told: Facts, with_name: bool) -> Iterator[str]:
         return
     tokens = [token_row(token) for token in told["tokens"]]
     if tokens:
-        yield from table(("token", "predicate", "state", "object", "start", "duration", "end", "parameters"), tokens)
+        yield from table(TOKEN_HEAD, tokens)
         yield ""
     shown = {token["id"] for token in told["tokens"]}
     variables = [(name, domain) for name, domain in told["domains"].items() if name.partition(".")[0] not in shown]

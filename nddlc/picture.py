@@ -1,14 +1,21 @@
 """Draw a plan as an SVG picture or as a page that holds it: no scripts, nothing from outside."""
 
+from collections.abc import Sequence
 from html import escape
 
 from nddlc.gantt import Bar, Facts, bars, lanes
+from nddlc.load import TOKEN_HEAD, token_row
 
 WIDTH = 900
 LINE = 26
 HEAD = 30
 PALETTE = ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#997700", "#555555")
-STYLE = "text{font:12px sans-serif;fill:#222}.t{fill:#fff;font-size:11px}.a{stroke:#ccc}.r{stroke:#eee}"
+LIGHT = {"#ee6677", "#ccbb44", "#66ccee"}  # dark letters are read better on these
+STYLE = "text{font:12px sans-serif;fill:#222}.t{font-size:11px}.w{fill:#fff}.a{stroke:#ccc}.r{stroke:#eee}"
+LOOK = (
+    "body{font:14px sans-serif;margin:2em}.p{overflow-x:auto}table{border-collapse:collapse;margin-top:1em}"
+    "td,th{padding:2px 10px;text-align:left;border-bottom:1px solid #ddd}"
+)
 
 
 def svg(facts: Facts, horizon: tuple[int, int]) -> str:
@@ -50,7 +57,8 @@ def _bar(bar: Bar, x: float, width: float, y: int, colours: dict[str, str]) -> l
     room = int((wide - 6) / 6.5)
     if room >= 2:
         name = bar.predicate if len(bar.predicate) <= room else bar.predicate[: room - 1] + "…"
-        parts.append(f'<text class="t" x="{x + 4:.1f}" y="{y + 17}">{escape(name)}</text>')
+        letters = "t" if colours[bar.predicate] in LIGHT else "t w"
+        parts.append(f'<text class="{letters}" x="{x + 4:.1f}" y="{y + 17}">{escape(name)}</text>')
     parts.append("</g>")
     return parts
 
@@ -65,19 +73,15 @@ def _step(length: int) -> int:
         power *= 10
 
 
-def page(facts: Facts, horizon: tuple[int, int], title: str) -> str:
-    """The plan as an HTML page: the picture and a table of all tokens."""
-    cells = []
-    for token in facts["tokens"]:
-        row = [token["id"], token["predicate"], token["state"], token.get("object") or ""]
-        row += ["" if token.get(key) is None else str(token[key]) for key in ("start", "duration", "end")]
-        row.append(", ".join(f"{name} {domain}" for name, domain in (token.get("params") or {}).items()))
-        cells.append("<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>")
-    head = ("token", "predicate", "state", "object", "start", "duration", "end", "parameters")
-    names = "".join(f"<th>{name}</th>" for name in head)
-    look = "body{font:14px sans-serif;margin:2em}td,th{padding:2px 10px;text-align:left;border-bottom:1px solid #ddd}"
+def page(facts: Facts, horizon: tuple[int, int], title: str, said: Sequence[str]) -> str:
+    """The plan as an HTML page: the picture, a table of all tokens, and what else is `said` of it, line by line."""
+    cells = [
+        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in token_row(token)) + "</tr>" for token in facts["tokens"]
+    ]
+    names = "".join(f"<th>{name}</th>" for name in TOKEN_HEAD)
+    picture = f'<div class="p">{svg(facts, horizon)}</div>' if facts["solve"]["result"] == "plan" else ""
     return (
         f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
-        f"<style>{look}</style></head><body><h1>{escape(title)}</h1>{svg(facts, horizon)}"
-        f"<table><tr>{names}</tr>{''.join(cells)}</table></body></html>\n"
+        f"<style>{LOOK}</style></head><body><h1>{escape(title)}</h1>{picture}"
+        f"<table><tr>{names}</tr>{''.join(cells)}</table><pre>{escape(chr(10).join(said))}</pre></body></html>\n"
     )

@@ -3,7 +3,7 @@
 import json
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import click
@@ -13,7 +13,7 @@ from nddl_lang.text.render import render
 from nddlc.because import as_data, shortened, story
 from nddlc.gantt import chart
 from nddlc.inputs import Unusable, chosen_dialect, colours, readable
-from nddlc.load import table, token_row
+from nddlc.load import TOKEN_HEAD, table, token_row
 from nddlc.loading import Facts, Loaded, facts, load
 from nddlc.picture import page, svg
 from runtime.plan.codes import REJECTED
@@ -80,7 +80,9 @@ def command(
     solver = Solver(loaded.database, configuration, limits.start, limits.end, strategy == "europa")
     recorder = Recorder(loaded.database, solver.queues, solver.stack) if explain else None
     solver.account = recorder
-    result = solver.solve(limits.steps, limits.depth, _clock(solver, max_seconds))
+    clock = _Clock(solver, max_seconds)
+    result = solver.solve(limits.steps, limits.depth, clock)
+    clock.wipe()
     reasons = _reasons(recorder, told, result)
     told |= read(loaded.database) | {"consistent": told["consistent"]}
     told["solve"] = {"result": RESULT_NAMES[result], "steps": solver.steps, "depth": solver.depth}
@@ -91,13 +93,14 @@ def command(
     elif style == "svg":
         click.echo(svg(told, (limits.start, limits.end)), nl=False)
     elif style == "html":
-        click.echo(page(told, (limits.start, limits.end), Path(file).name), nl=False)
+        said = [_verdict(told), *(line for name, failure in reasons.items() for line in _why(name, failure))]
+        click.echo(page(told, (limits.start, limits.end), Path(file).name, said), nl=False)
     else:
         for each in loaded.diagnostics:
             click.echo(render(each, colour=colours()))
         click.echo("\n".join(_lines(told, limits)))
         for name, failure in reasons.items():
-            click.echo("\n".join(("", f"why {name}:", *shortened(story(failure, 1)))))
+            click.echo("\n".join(_why(name, failure)))
     return 0 if result == PLAN else 1
 
 
@@ -147,28 +150,44 @@ def _reasons(recorder: Recorder | None, told: Facts, result: int) -> dict[str, F
     return {} if recorder.end is None else {"there is no plan": recorder.end}
 
 
+def _why(name: str, failure: Failure) -> Iterator[str]:
+    """The lines that explain one thing."""
+    yield from ("", f"why {name}:", *shortened(story(failure, 1)))
+
+
 def _is_out(recorder: Recorder, name: str) -> bool:
     """Whether the token of that name is rejected now."""
     tokens = token_names(recorder.database, live_tokens(recorder.database))
     return any(tokens[t] == name and recorder.plan.rows.status[t] == REJECTED for t in tokens)
 
 
-def _clock(solver: Solver, seconds: float | None) -> Callable[[], bool]:
+class _Clock:
     """Tell whether time is over; on a terminal, show how far a long search has come."""
-    begun = time.monotonic()
-    told = begun
-    is_terminal = sys.stderr.isatty()
 
-    def is_over() -> bool:
-        nonlocal told
+    def __init__(self, solver: Solver, seconds: float | None) -> None:
+        self.solver = solver
+        self.seconds = seconds
+        self.begun = self.told = time.monotonic()
+        self.is_terminal = sys.stderr.isatty()
+
+    def __call__(self) -> bool:
         now = time.monotonic()
-        if is_terminal and now - told >= PATIENCE:
-            told = now
-            line = f"{now - begun:.0f} s, {solver.steps} steps, {solver.failures} failed, depth {solver.depth}"
-            click.echo(f"\r{line:<70}\r", err=True, nl=False)
-        return seconds is not None and now - begun >= seconds
+        if self.is_terminal and now - self.told >= PATIENCE:
+            self.told = now
+            solver = self.solver
+            self.write(
+                f"{now - self.begun:.0f} s, {solver.steps} steps, {solver.failures} failed, depth {solver.depth}"
+            )
+        return self.seconds is not None and now - self.begun >= self.seconds
 
-    return is_over
+    def write(self, line: str) -> None:
+        """Put a line where the last one stood."""
+        click.echo(f"\r{line:<70}\r", err=True, nl=False)
+
+    def wipe(self) -> None:
+        """Take the line away, if there is one."""
+        if self.told > self.begun:
+            self.write("")
 
 
 def _lines(told: Facts, limits: Limits) -> Iterator[str]:
@@ -179,7 +198,7 @@ def _lines(told: Facts, limits: Limits) -> Iterator[str]:
         yield ""
     tokens = [token_row(token) for token in told["tokens"]]
     if tokens:
-        yield from table(("token", "predicate", "state", "object", "start", "duration", "end", "parameters"), tokens)
+        yield from table(TOKEN_HEAD, tokens)
         yield ""
     yield _verdict(told)
 
