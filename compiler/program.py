@@ -84,7 +84,7 @@ class Field:
 
 @dataclass(frozen=True, slots=True)
 class UnionOf:
-    """An anonymous variable whose domain is the union of the operands' base domains, taken now: `{a, b}` of names."""
+    """An anonymous variable whose domain is the union of the operands, taken now: `{a, b}` of names."""
 
     operands: tuple["Operand", ...]
 

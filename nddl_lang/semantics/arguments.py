@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from nddl_lang.semantics.schema import Kind, Reference, TokenReference, Type
 from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.signature import Argument, ArgumentKind, Signature
-from nddl_lang.semantics.types import COUNTABLE, comparable, phrase
+from nddl_lang.semantics.types import COUNTABLE, always_differ, comparable, phrase
 from nddl_lang.syntax.nodes import Expr
 from nddl_lang.text.diagnostic import Code, Note, Severity
 from nddl_lang.text.source import Span
@@ -48,6 +48,8 @@ def check_types(
         elif like is None:
             like = (expression, type_)
         elif not comparable(like[1], type_, context.world.is_subclass):
+            if name == "neq" and always_differ(like[1], type_):
+                continue
             context.complain(
                 ARGUMENTS_DIFFER.at(
                     expression.span,

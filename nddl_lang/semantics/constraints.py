@@ -130,7 +130,7 @@ _COMPARISON = (
     _row("countZeroes", "count:number x:number rest*:number", 0, "count of the rest are 0 or false"),
     _row("countNonZeroes", "count:number x:number rest*:number", 0, "count of the rest are neither 0 nor false"),
     _row("subsetOf", "x:same y:same", None, "x takes only values that y may take"),
-    _row("eqUnion", "result:same x:same rest*:same", 0, "result takes only values within the hull of the rest"),
+    _row("eqUnion", "result:same x:same rest*:same", 0, "result is the union of the rest (intervals: its hull)"),
     _row("memberImply", "a:any b:any c:any d:any", None, "if b lies within c, then a lies within d"),
     _row("lockCT", "x:same domain:same", None, "x's domain becomes exactly the given one"),
 )

@@ -3,7 +3,7 @@
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.allocation import check_allocation
 from nddl_lang.semantics.classes import complain_taken
-from nddl_lang.semantics.schema import Domain, Enumeration, EnumValue, Type, Typedef, Values, Variable
+from nddl_lang.semantics.schema import Domain, Enumeration, EnumValue, Kind, Type, Typedef, Values, Variable
 from nddl_lang.semantics.scope import Context, Place, Scope
 from nddl_lang.semantics.typenames import find_type
 from nddl_lang.semantics.types import TOKEN_STATES
@@ -13,6 +13,11 @@ from nddl_lang.text.diagnostic import Code, Note, Severity
 
 DUPLICATE_NAME = Code("NDDL228", Severity.ERROR, "duplicate", "`{name}` is declared twice")
 DUPLICATE_VALUE = Code("NDDL230", Severity.ERROR, "duplicate", "`{name}` is a value of enum `{enum}` already")
+
+
+CLASS_TYPEDEF = Code(
+    "NDDL333", Severity.ERROR, "type", "a typedef restricts numbers, texts or an enum; `{name}` is a class"
+)
 
 
 def check_enum(context: Context, node: EnumDecl) -> None:
@@ -53,6 +58,10 @@ def check_typedef(context: Context, node: TypedefDecl) -> None:
     base = find_type(context, node.base)
     is_taken = complain_taken(context, node.name)
     if base is None:
+        context.world.put_faulty(name)
+        return
+    if base.kind is Kind.OBJECT:
+        context.complain(CLASS_TYPEDEF.at(node.base.span, name=base.base))
         context.world.put_faulty(name)
         return
     is_sound = check_value(context, Scope(Place.SCRIPT), node.domain, base, name) is not None

@@ -22,6 +22,7 @@ from nddl_lang.semantics.types import (
     INT,
     NUMBERS,
     STRING,
+    always_differ,
     comparable,
     object_type,
     phrase,
@@ -52,6 +53,9 @@ MIXED_SET = Code(
     "NDDL303", Severity.ERROR, "type", "the values of a set have one type; `{text}` is {found}, `{first}` is {expected}"
 )
 INCOMPARABLE = Code("NDDL305", Severity.ERROR, "type", "`{left}` is {one} and `{right}` is {other}: never equal")
+ALWAYS_DIFFERENT = Code(
+    "NDDL334", Severity.WARNING, "type", "`{left}` is {one} and `{right}` is {other}: they always differ"
+)
 NO_ORDER = Code("NDDL306", Severity.ERROR, "type", "`{op}` compares numbers; `{text}` is {found}")
 NOT_A_NUMBER = Code("NDDL307", Severity.ERROR, "type", "`{op}` needs numbers; `{text}` is {found}")
 MIXED_ARITHMETIC = Code(
@@ -156,8 +160,9 @@ def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, rig
     if left is None or right is None:
         return
     if not comparable(left, right, context.world.is_subclass):
+        differing = binary.op == "!=" and always_differ(left, right)
         context.complain(
-            INCOMPARABLE.at(
+            (ALWAYS_DIFFERENT if differing else INCOMPARABLE).at(
                 binary.span,
                 left=binary.left.span.text,
                 one=phrase(left),

@@ -2,7 +2,9 @@
 
 from nddl_lang.semantics.classes import MEMBER_VALUE
 from nddl_lang.semantics.constructors import ASSIGNED_TWICE
+from nddl_lang.semantics.declarations import CLASS_TYPEDEF
 from nddl_lang.semantics.expressions import (
+    ALWAYS_DIFFERENT,
     INCOMPARABLE,
     MIXED_ARITHMETIC,
     MIXED_SET,
@@ -62,6 +64,20 @@ TYPE_PAGES = (
         "objects with objects of the same class or a subclass.",
         _COLORS + 'string s = "red";\ns == c;\n',
         _COLORS + "Color s = red;\ns == c;\n",
+    ),
+    RulePage(
+        ALWAYS_DIFFERENT,
+        "No value belongs to both enums, or to both classes, so that the two differ whatever their values are.",
+        "The constraint says nothing; something else was probably meant.",
+        _COLORS + "enum Mood { calm, angry }\nMood m;\nc != m;\n",
+        _COLORS + "Color d;\nc != d;\n",
+    ),
+    RulePage(
+        CLASS_TYPEDEF,
+        "A typedef names a restriction of a basic type or of an enum.",
+        "The objects of a class are made one by one while the script runs; a type cannot list them.",
+        "class Lamp { }\nLamp a = new Lamp();\ntypedef Lamp {a} First;\n",
+        "class Lamp { }\nLamp a = new Lamp();\nLamp first = {a};\n",
     ),
     RulePage(
         NO_ORDER,

@@ -93,6 +93,11 @@ def comparable(one: Type, other: Type, is_subclass: IsSubclass) -> bool:
     return fits(one, other, is_subclass) or fits(other, one, is_subclass)
 
 
+def always_differ(one: Type, other: Type) -> bool:
+    """Whether values of two types that are not comparable can at least be told to differ: two enums, two classes."""
+    return one.kind is other.kind and one.kind in (Kind.ENUM, Kind.OBJECT)
+
+
 def phrase(type_: Type) -> str:
     """A type as it completes `x is ...`: an int, a Color, an object of class `A`."""
     if type_.kind is Kind.OBJECT:

@@ -3,7 +3,7 @@
 cimport cython
 from runtime.constraints.store cimport Store
 
-cdef long long FLAG_DECISION, FLAG_VALUES, KIND_FLOAT
+cdef long long FLAG_DECISION, FLAG_VALUES, HALF_INF, KIND_FLOAT
 cdef double FLOAT_TOLERANCE, inf
 
 
@@ -12,6 +12,12 @@ cpdef double base_low(Store s, long long v) except? -1.0
 
 @cython.locals(r="long long", x=double)
 cpdef double base_high(Store s, long long v) except? -1.0
+
+cpdef bint is_growing(Store s, long long v) except -1
+
+cpdef bint is_base_growing(Store s, long long v) except -1
+
+cpdef bint is_listing(Store s, long long r) except -1
 
 @cython.locals(hi=double, listed=list, lo=double, r="long long", values=list)
 cpdef list base_set(Store s, long long v)

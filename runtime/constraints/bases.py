@@ -3,7 +3,7 @@
 from bisect import bisect_left
 from math import inf
 
-from runtime.constraints.codes import FLAG_DECISION, FLAG_VALUES, FLOAT_TOLERANCE, KIND_FLOAT
+from runtime.constraints.codes import FLAG_DECISION, FLAG_VALUES, FLOAT_TOLERANCE, HALF_INF, KIND_FLOAT
 from runtime.constraints.store import Store
 
 
@@ -29,17 +29,40 @@ def base_high(s: Store, v: int) -> float:
     return x
 
 
+def is_growing(s: Store, v: int) -> bool:
+    """Tell whether further values may join the domain: an open one that nothing has narrowed to known values."""
+    return s.is_open[v] != 0 and (s.lb[v] <= -HALF_INF or s.ub[v] >= HALF_INF)
+
+
+def is_base_growing(s: Store, v: int) -> bool:
+    """Tell whether further values may join the base domain: an open one that no assignment has restricted."""
+    return s.is_open[v] != 0 and base_low(s, v) == -inf
+
+
+def is_listing(s: Store, r: int) -> bool:
+    """Tell whether a restriction only lists what is known of an open domain."""
+    return (s.restriction_flags[r] & FLAG_VALUES) != 0 and s.restriction_lo[r] == -inf
+
+
 def base_set(s: Store, v: int) -> list[float] | None:
-    """Give the values of a base domain that is a set, sorted; None if it is an interval. The list is not to change."""
+    """Give the values of a base domain that is a set, sorted; None if it is an interval. The list is not to change.
+
+    Of a base domain that is growing, these are the values that are listed so far.
+    """
     lo = base_low(s, v)
     hi = base_high(s, v)
+    listed: list[float] | None = None
     values: list[float] | None = None
     r = s.restriction_head[v]
     while r >= 0:
-        if s.restriction_flags[r] == FLAG_VALUES:
+        if is_listing(s, r):
             listed = s.restriction_values[r]
-            values = listed if values is None else sorted(set(values).intersection(listed))
+        elif s.restriction_flags[r] == FLAG_VALUES:
+            others = s.restriction_values[r]
+            values = others if values is None else sorted(set(values).intersection(others))
         r = s.restriction_next[r]
+    if values is None:
+        values = [lo] if listed is not None and lo == hi else listed
     if values and (values[0] < lo or values[len(values) - 1] > hi):
         values = [x for x in values if lo <= x <= hi]
     return values
@@ -73,7 +96,7 @@ def is_base_single(s: Store, v: int) -> bool:
         return True
     r = s.restriction_head[v]
     while r >= 0:
-        if s.restriction_flags[r] == FLAG_VALUES and not s.is_open[v]:
+        if s.restriction_flags[r] == FLAG_VALUES and not is_listing(s, r):
             values = base_set(s, v)
             return values is not None and len(values) == 1
         r = s.restriction_next[r]

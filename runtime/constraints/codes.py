@@ -127,7 +127,7 @@ OP_TEST_SPECIFIED = 76  # truth, x
 OP_TEST_NOT = 77  # truth, x
 
 OP_SUBSET_OF = 96  # a, b: a's domain within b's
-OP_EQ_UNION = 97  # a, b, ...: a within the hull of the others
+OP_EQ_UNION = 97  # a, b, ...: a is the union of the others
 OP_MEMBER_IMPLY = 98  # a, b, c, d: if b within c then a within d
 OP_LOCK = 99  # a, d: a becomes exactly d
 OP_ELEMENT = 100  # result, index, v1, ...: with the table of `post_element`, result = the v of index' value
@@ -142,7 +142,6 @@ OP_MAX = 132  # result, a, b
 OP_MIN = 133
 OP_POW = 134  # result, a, b
 OP_MOD = 135  # result, a, b
-OP_SIN = 136  # result, angle in degrees, clipped to [-90, 90]
 OP_RAND = 137  # result: a whole number, fixed when the constraint is posted
 OP_SAMPLE = 138  # x, value: the environment's draw; one way
 OP_BIND = 139  # target, default: the value of target nearest to the default
@@ -166,6 +165,7 @@ OP_LL_DIST = 173  # distance, lat1, lon1, lat2, lon2
 OP_WGS_DISPLACE = 174  # lat, lon, north, east, lat', lon'
 OP_WGS_DISPLACEMENT = 175  # lat, lon, lat', lon', north, east
 OP_SANE_POS = 176  # lat, lon, ...: the position lies on the earth
+OP_SIN = 177  # result, angle in degrees within [-90, 90]; narrows the result only
 
 OP_WATCH = 192  # x, ...: narrows nothing; joins `woken` when one of its variables changes or is decided
 OP_EXTERNAL = 193  # an object decides, see `post_external`

@@ -3,6 +3,7 @@
 cimport cython
 from libc cimport math
 from runtime.constraints.bits cimport attach_words, clear_bits, has_value, next_place, value_at
+from runtime.constraints.crowding cimport is_crowded
 from runtime.constraints.narrow cimport (
     high, is_single, low, raise_to, reduce_to, remove_value, round_bounds, set_lower, set_upper,
 )
@@ -11,12 +12,15 @@ from runtime.constraints.posting cimport tie_edge, tie_edges
 from runtime.constraints.store cimport Store
 
 cdef long long HALF_INF, KIND_FLOAT, KIND_INT, MODE_EDGES, MOST_VALUES, NEVER, OP_ALL_DIFF, OP_EQ, OP_LEQ, OP_LT
-cdef long long OP_NEQ, OP_PLUS, OP_TEMPORAL_DISTANCE, SIDE_HOLES, SIDE_LOWER, SUPPORT_CONSTRAINT
+cdef long long OP_NEQ, OP_PLUS, OP_TEMPORAL_DISTANCE, OP_WITHIN_BOUNDS, SIDE_HOLES, SIDE_LOWER
+cdef long long SUPPORT_CONSTRAINT
 cdef double FLOAT_TOLERANCE, STRICT_STEP
 cdef unsigned long long ALL_BITS, ONE_BIT
 
 
-@cython.locals(a="long long", b="long long", first="long long", op="long long", support="long long")
+@cython.locals(
+    a="long long", b="long long", first="long long", last="long long", op="long long", support="long long"
+)
 cpdef bint run_comparison(Store s, long long c) except -1
 
 @cython.locals(step="long long", x=double)

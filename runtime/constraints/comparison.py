@@ -26,11 +26,13 @@ from runtime.constraints.codes import (
     OP_NEQ,
     OP_PLUS,
     OP_TEMPORAL_DISTANCE,
+    OP_WITHIN_BOUNDS,
     SIDE_HOLES,
     SIDE_LOWER,
     STRICT_STEP,
     SUPPORT_CONSTRAINT,
 )
+from runtime.constraints.crowding import is_crowded
 from runtime.constraints.narrow import (
     high,
     is_single,
@@ -72,8 +74,11 @@ def run_comparison(s: Store, c: int) -> bool:
         return keep_offset(s, c, a, b, s.slot_variable[first + 2])
     if op == OP_ALL_DIFF:
         return differ_all(s, first, s.arity[c], support)
-    # OP_WITHIN_BOUNDS
-    return raise_to(s, a, low(s, b), support) and reduce_to(s, a, high(s, s.slot_variable[first + 2]), support)
+    assert op == OP_WITHIN_BOUNDS
+    last = s.slot_variable[first + 2]
+    if not (raise_to(s, a, low(s, b), support) and reduce_to(s, a, high(s, last), support)):
+        return False
+    return precede(s, b, last, False, support)
 
 
 def precede(s: Store, a: int, b: int, strict: bool, support: int) -> bool:
@@ -195,7 +200,7 @@ def differ_all(s: Store, first: int, count: int, support: int) -> bool:
                     if j < k and not was_single and is_single(s, b):
                         following = 0
         k = following
-    return True
+    return not is_crowded(s, first, count) or s.fail(s.slot_variable[first], SIDE_HOLES, support)
 
 
 def keep_offset(s: Store, c: int, a: int, k: int, b: int) -> bool:

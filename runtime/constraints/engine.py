@@ -150,7 +150,7 @@ class Engine(Store):
     def restrict_base_to(self, v: int, other: int, span: int, owner: int) -> bool:
         """Intersect the base domain with the base domain of another variable, as it is now."""
         values = base_set(self, other)
-        if values is not None and not self.is_open[other]:
+        if values is not None and base_low(self, other) > -inf:
             return self.restrict_base_values(v, values, span, owner)
         return self.restrict_base(v, base_low(self, other), base_high(self, other), span, owner)
 

@@ -7,7 +7,7 @@ from runtime.constraints.narrow cimport assign, high, is_single, low, raise_to, 
 from runtime.constraints.store cimport Store
 
 cdef long long HALF_INF, KIND_FLOAT, OP_ABS, OP_BIND, OP_CEIL, OP_FLOOR, OP_MAX, OP_MIN, OP_MOD, OP_POW, OP_RAND
-cdef long long OP_SAMPLE, OP_SIN, OP_SQRT, OP_TOWARDS, OP_TRAVEL_TIME, SIDE_HOLES, SUPPORT_CONSTRAINT
+cdef long long OP_SAMPLE, OP_SQRT, OP_TOWARDS, OP_TRAVEL_TIME, SIDE_HOLES, SUPPORT_CONSTRAINT
 cdef double FLOAT_TOLERANCE
 
 

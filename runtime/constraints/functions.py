@@ -17,7 +17,6 @@ from runtime.constraints.codes import (
     OP_POW,
     OP_RAND,
     OP_SAMPLE,
-    OP_SIN,
     OP_SQRT,
     OP_TOWARDS,
     OP_TRAVEL_TIME,
@@ -102,10 +101,8 @@ def apply(op: int, x: float, y: float) -> float:
         return math.sqrt(x) if x > 0.0 else 0.0
     if op == OP_MOD:
         return math.fmod(x, y)
-    if op == OP_POW:
-        return settled(math.pow(x, y))
-    assert op == OP_SIN
-    return sine(min(max(x, -90.0), 90.0))
+    assert op == OP_POW
+    return settled(math.pow(x, y))
 
 
 def sine(degrees: float) -> float:

@@ -8,7 +8,7 @@ from runtime.constraints.reals cimport down, hold_absolute, hold_extreme, up, wi
 from runtime.constraints.store cimport Store
 
 cdef long long KIND_FLOAT, OP_ABSF, OP_CEILF, OP_CIRCLE_MOD, OP_COSF, OP_DEG_TO_RAD, OP_EXPF, OP_FLOORF, OP_LL_DIST
-cdef long long OP_LOGF, OP_MAXF, OP_MINF, OP_SANE_POS, OP_SINF, OP_SQRTF, OP_TICK_DATE, OP_WGS_DISPLACE
+cdef long long OP_LOGF, OP_MAXF, OP_MINF, OP_SANE_POS, OP_SIN, OP_SINF, OP_SQRTF, OP_TICK_DATE, OP_WGS_DISPLACE
 cdef long long OP_WGS_DISPLACEMENT, SUPPORT_CONSTRAINT
 cdef double DEGREE, DISTANCE_TOLERANCE, FLOAT_TOLERANCE, POSITION_TOLERANCE, SLACK, STRICT_STEP, inf
 

@@ -22,6 +22,7 @@ from runtime.constraints.codes import (
     OP_MAXF,
     OP_MINF,
     OP_SANE_POS,
+    OP_SIN,
     OP_SINF,
     OP_SQRTF,
     OP_TICK_DATE,
@@ -51,6 +52,10 @@ def run_geometry(s: Store, c: int) -> bool:
     support = c * 4 + SUPPORT_CONSTRAINT
     if op == OP_MAXF or op == OP_MINF:
         return hold_extreme(s, first, s.arity[c], 1.0 if op == OP_MAXF else -1.0, support)
+    if op == OP_SIN:
+        if not within(s, x, -90.0, 90.0, support):
+            return False
+        return within(s, r, sine(low(s, x)) - SLACK, sine(high(s, x)) + SLACK, support)
     if op == OP_SINF:
         return turn(s, r, x, 0.0, support)
     if op == OP_COSF:

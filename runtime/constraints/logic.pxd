@@ -4,6 +4,7 @@ cimport cython
 from runtime.constraints.bases cimport is_base_single
 from runtime.constraints.bits cimport has_value, next_value
 from runtime.constraints.comparison cimport differ, differ_all, equate, equate_all, precede
+from runtime.constraints.crowding cimport is_crowded
 from runtime.constraints.narrow cimport high, is_single, low, raise_to, reduce_to, remove_value
 from runtime.constraints.store cimport Store
 

@@ -24,6 +24,7 @@ from runtime.constraints.codes import (
     SUPPORT_CONSTRAINT,
 )
 from runtime.constraints.comparison import differ, differ_all, equate, equate_all, precede
+from runtime.constraints.crowding import is_crowded
 from runtime.constraints.narrow import high, is_single, low, raise_to, reduce_to, remove_value
 from runtime.constraints.store import Store
 
@@ -305,5 +306,7 @@ def test_all_different(s: Store, t: int, known: int, first: int, count: int, sup
             b = y
     if open_pairs == 0:
         return s.fail(t, SIDE_HOLES, support) if known == 0 else be_true(s, t, support)
+    if known != 0 and is_crowded(s, first, count):
+        return be_false(s, t, support)
     # One pair is left that may be equal, and one must be.
     return known != 0 or open_pairs > 1 or equate(s, a, b, support)

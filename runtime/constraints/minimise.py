@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from runtime.constraints.bases import is_listing
 from runtime.constraints.cause import Cause, CauseKind
 from runtime.constraints.codes import (
     FLAG_VALUES,
@@ -99,7 +100,7 @@ class Scratch:
             return copy.add_edge(variables[0], variables[1], engine.edge_weight[k], cause.span, cause.owner)
         if cause.kind is CauseKind.RESTRICTION:
             if engine.restriction_flags[k] & FLAG_VALUES:
-                if engine.is_open[engine.restriction_variable[k]]:
+                if is_listing(engine, k):
                     return True
                 return copy.restrict_base_values(variables[0], engine.restriction_values[k], cause.span, cause.owner)
             lo, hi = engine.restriction_lo[k], engine.restriction_hi[k]

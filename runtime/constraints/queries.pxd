@@ -1,7 +1,7 @@
 # The C types of `queries.py`.
 
 cimport cython
-from runtime.constraints.bases cimport base_set
+from runtime.constraints.bases cimport base_set, is_growing
 from runtime.constraints.bits cimport count_values, has_value, next_place, place_above, place_below, value_at
 from runtime.constraints.narrow cimport is_near, is_single
 from runtime.constraints.store cimport Store

@@ -1,6 +1,6 @@
 """List and test the values of derived domains."""
 
-from runtime.constraints.bases import base_set
+from runtime.constraints.bases import base_set, is_growing
 from runtime.constraints.bits import count_values, has_value, next_place, place_above, place_below, value_at
 from runtime.constraints.codes import FLOAT_TOLERANCE, HALF_INF, KIND_FLOAT
 from runtime.constraints.narrow import is_near, is_single
@@ -18,7 +18,7 @@ def may_be(s: Store, v: int, x: float) -> bool:
 
 def has_finitely_many(s: Store, v: int) -> bool:
     """Tell whether a variable is closed and has finitely many values."""
-    if s.is_open[v]:
+    if is_growing(s, v):
         return False
     if s.kind[v] == KIND_FLOAT:
         return s.word[v] >= 0 or is_single(s, v)
@@ -34,7 +34,7 @@ def number_of_values(s: Store, v: int) -> int:
 
 def listed(s: Store, v: int) -> list[float]:
     """List the values of a finite domain in ascending order; of an open one, those listed that are possible."""
-    if s.is_open[v]:
+    if is_growing(s, v):
         return [x for x in base_set(s, v) or [] if has_value(s, v, int(x))]
     if s.kind[v] == KIND_FLOAT:
         return listed_reals(s, v) if s.word[v] >= 0 else [s.flo[v] + (s.fhi[v] - s.flo[v]) * 0.5]

@@ -43,7 +43,8 @@ cpdef bint divide_by(Store s, long long a, long long b, long long q, long long s
 cpdef bint add_all(Store s, long long first, long long count, long long support) except -1
 
 @cython.locals(
-    hi=double, k="long long", lo=double, p=double, q=double, skip="long long", v="long long", x=double, y=double
+    exact=bint, hi=double, k="long long", lo=double, p=double, q=double, skip="long long", v="long long", x=double,
+    y=double
 )
 cpdef bint multiply_all(Store s, long long first, long long count, long long support) except -1
 

@@ -204,8 +204,13 @@ def multiply_all(s: Store, first: int, count: int, support: int) -> bool:
                 q = product(lo, high(s, v))
                 x = product(hi, low(s, v))
                 y = product(hi, high(s, v))
-                lo = down(min(min(p, q), min(x, y)))
-                hi = up(max(max(p, q), max(x, y)))
+                exact = is_exact(lo) and is_exact(hi) and is_exact(low(s, v)) and is_exact(high(s, v))
+                lo = min(min(p, q), min(x, y))
+                hi = max(max(p, q), max(x, y))
+                # A bound of 0 comes from a factor of 0: it is exact.
+                if not exact:
+                    lo = down(lo) if lo != 0.0 else lo
+                    hi = up(hi) if hi != 0.0 else hi
         if skip:
             if not divide(s, s.slot_variable[first], lo, hi, s.slot_variable[first + skip], support):
                 return False
@@ -320,6 +325,6 @@ def measure_distance(s: Store, first: int, support: int) -> bool:
     q = max(-under, over)
     most = math.sqrt(p * p + q * q)
     if not (is_exact(least) and is_exact(most)):
-        least = down(down(least))
+        least = max(0.0, down(down(least)))
         most = up(up(most))
     return within(s, s.slot_variable[first], least, most, support)

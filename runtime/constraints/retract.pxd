@@ -2,6 +2,7 @@
 
 cimport cython
 from libc cimport math
+from runtime.constraints.bases cimport is_listing
 from runtime.constraints.bits cimport detach_words, drop_log
 from runtime.constraints.loosening cimport follow_cone, loosen_by, loosen_by_constraint, loosen_by_edge
 from runtime.constraints.narrow cimport raise_to, reduce_to

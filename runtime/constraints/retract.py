@@ -7,6 +7,7 @@ are pulled tight along the remaining edges; what touches them is propagated agai
 import math
 from math import inf
 
+from runtime.constraints.bases import is_listing
 from runtime.constraints.bits import detach_words, drop_log
 from runtime.constraints.codes import (
     FLAG_DECISION,
@@ -234,7 +235,7 @@ def restrict_to_sets(s: Store, v: int) -> None:
     listed = []
     r = s.restriction_head[v]
     while r >= 0:
-        if s.restriction_flags[r] & FLAG_VALUES and not s.is_open[v]:
+        if s.restriction_flags[r] & FLAG_VALUES and not is_listing(s, r):
             listed.append(r)
         r = s.restriction_next[r]
     for r in reversed(listed):
@@ -276,7 +277,7 @@ def schedule_all(s: Store) -> None:
     """After a conflict at level 0 nothing is known to be carried out: restrict again, schedule all, visit all edges."""
     for r in range(s.restrictions_used):
         v = s.restriction_variable[r]
-        if v >= 0 and s.consistent and not (s.is_open[v] and s.restriction_flags[r] & FLAG_VALUES):
+        if v >= 0 and s.consistent and not is_listing(s, r):
             support = r * 4 + SUPPORT_RESTRICTION
             if raise_to(s, v, s.restriction_lo[r], support):
                 reduce_to(s, v, s.restriction_hi[r], support)

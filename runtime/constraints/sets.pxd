@@ -3,6 +3,7 @@
 cimport cython
 from runtime.constraints.bits cimport clear_bits, count_values, has_value, next_place, next_value
 from runtime.constraints.comparison cimport equate, exclude_missing
+from runtime.constraints.crowding cimport is_subset
 from runtime.constraints.logic cimport meet
 from runtime.constraints.narrow cimport high, is_single, low, raise_to, reduce_to, remove_value, round_bounds
 from runtime.constraints.narrow cimport set_lower, set_upper
@@ -17,13 +18,13 @@ cdef double FLOAT_TOLERANCE, inf
 @cython.locals(a="long long", b="long long", first="long long", op="long long", support="long long")
 cpdef bint run_sets(Store s, long long c) except -1
 
-@cython.locals(x="long long")
-cpdef bint is_subset(Store s, long long a, long long b) except -1
-
 cpdef bint keep_inside(Store s, long long a, long long b, long long support) except -1
 
-@cython.locals(a="long long", hi=double, k="long long", lo=double)
-cpdef bint keep_in_hull(Store s, long long first, long long count, long long support) except -1
+@cython.locals(_="long long", a="long long", hi=double, k="long long", lo=double)
+cpdef bint keep_union(Store s, long long first, long long count, long long support) except -1
+
+@cython.locals(found=bint, k="long long", x="long long")
+cpdef bint remove_outside(Store s, long long a, long long first, long long count, long long support) except -1
 
 @cython.locals(
     able="long long", hi=double, index="long long", k="long long", key="long long", last_key="long long",

@@ -21,6 +21,7 @@ from runtime.constraints.codes import (
     SUPPORT_CONSTRAINT,
 )
 from runtime.constraints.comparison import equate, exclude_missing
+from runtime.constraints.crowding import is_subset
 from runtime.constraints.logic import meet
 from runtime.constraints.narrow import (
     high,
@@ -48,7 +49,7 @@ def run_sets(s: Store, c: int) -> bool:
     if op == OP_SUBSET_OF:
         return keep_inside(s, a, b, support)
     if op == OP_EQ_UNION:
-        return keep_in_hull(s, first, s.arity[c], support)
+        return keep_union(s, first, s.arity[c], support)
     if op == OP_MEMBER_IMPLY:
         if not is_subset(s, b, s.slot_variable[first + 2]):
             return True
@@ -61,24 +62,6 @@ def run_sets(s: Store, c: int) -> bool:
     return share_ancestor(s, a, b, s.slot_variable[first + 2], support)
 
 
-def is_subset(s: Store, a: int, b: int) -> bool:
-    """Tell whether every value of a is one of b."""
-    if s.kind[a] == KIND_FLOAT or s.kind[b] == KIND_FLOAT:
-        return low(s, a) >= low(s, b) - FLOAT_TOLERANCE and high(s, a) <= high(s, b) + FLOAT_TOLERANCE
-    if s.lb[a] < s.lb[b] or s.ub[a] > s.ub[b]:
-        return False
-    if s.word[b] < 0:
-        return True
-    if s.word[a] < 0 and s.ub[a] - s.lb[a] > 64 * s.words_of[b]:
-        return False
-    x = s.lb[a]
-    while x <= s.ub[a]:
-        if not has_value(s, b, x):
-            return False
-        x = x + 1 if s.word[a] < 0 else next_value(s, a, x + 1)
-    return True
-
-
 def keep_inside(s: Store, a: int, b: int, support: int) -> bool:
     """Narrow a to the values of b; b stays."""
     if not (raise_to(s, a, low(s, b), support) and reduce_to(s, a, high(s, b), support)):
@@ -88,15 +71,40 @@ def keep_inside(s: Store, a: int, b: int, support: int) -> bool:
     return exclude_missing(s, b, a, support)
 
 
-def keep_in_hull(s: Store, first: int, count: int, support: int) -> bool:
-    """Narrow the first argument to the hull of all others."""
-    lo = inf
-    hi = -inf
-    for k in range(first + 1, first + count):
-        lo = min(lo, low(s, s.slot_variable[k]))
-        hi = max(hi, high(s, s.slot_variable[k]))
+def keep_union(s: Store, first: int, count: int, support: int) -> bool:
+    """Narrow the first argument to the union of all others (intervals: to its hull), and them to its domain."""
     a = s.slot_variable[first]
-    return raise_to(s, a, lo, support) and reduce_to(s, a, hi, support)
+    for _ in range(2):
+        lo = inf
+        hi = -inf
+        for k in range(first + 1, first + count):
+            lo = min(lo, low(s, s.slot_variable[k]))
+            hi = max(hi, high(s, s.slot_variable[k]))
+        if not (raise_to(s, a, lo, support) and reduce_to(s, a, hi, support)):
+            return False
+        if (s.word[a] >= 0 or s.kind[a] > KIND_FLOAT) and not remove_outside(s, a, first + 1, count - 1, support):
+            return False
+        for k in range(first + 1, first + count):
+            if not keep_inside(s, s.slot_variable[k], a, support):
+                return False
+    return True
+
+
+def remove_outside(s: Store, a: int, first: int, count: int, support: int) -> bool:
+    """Take from a discrete variable the values that none of the variables from slot `first` on has."""
+    if s.kind[a] == KIND_FLOAT or not is_listed(s, a):
+        return True
+    x = s.lb[a]
+    while x <= s.ub[a]:
+        found = False
+        for k in range(first, first + count):
+            if serves(s, s.slot_variable[k], x):
+                found = True
+                break
+        if not found and not remove_value(s, a, x, support):
+            return False
+        x = next_object(s, a, x)
+    return True
 
 
 def look_up(s: Store, first: int, count: int, support: int) -> bool:

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from compiler.program import OBJECT, STATE, Call, Constant, Program, TokenVariable
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
+from runtime.constraints.bases import is_base_growing, is_growing
 from runtime.plan import lifecycle, retracting, timelines
 from runtime.plan.codes import (
     ACTIVE,
@@ -175,7 +176,7 @@ class Calls:
                 retracting.reset(self.plan, v)
                 return None
             case "close":
-                if not self.plan.engine.is_open[v]:
+                if not is_growing(self.plan.engine, v):
                     return CLOSED_ALREADY.at(call.span, name=name)
                 self.plan.engine.close(v)
                 return None
@@ -202,7 +203,7 @@ class Calls:
         value = engine.lower(source)
         values = engine.base_values(v)
         inside = engine.base_lower(v) <= value <= engine.base_upper(v)
-        if values is not None and not engine.is_open[v]:
+        if values is not None and not is_base_growing(engine, v):
             inside = value in values
         if not inside:
             text = base_text(self.prototypes, engine, source, self.objects.names)

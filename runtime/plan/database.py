@@ -8,7 +8,7 @@ from nddl_lang.text.diagnostic import Diagnostic
 from runtime.constraints.engine import Engine
 from runtime.plan import lifecycle, marks, retracting, timelines
 from runtime.plan.codes import NONE
-from runtime.plan.faults import NO_OBJECT
+from runtime.plan.faults import LOOSE_ITEM, NO_OBJECT
 from runtime.plan.flatten import Code
 from runtime.plan.flaws import Flaws
 from runtime.plan.loading import load_code, load_members, load_predicates, load_prototypes, load_relations
@@ -79,6 +79,11 @@ class PlanDatabase:
         if rows.level == 0 and rows.span[t] >= 0 and self.objects.fault is None:
             name = self.program.predicates[rows.predicate[t]].class_name
             self.objects.fault = NO_OBJECT.at(self.code.spans[rows.span[t]], name=name)
+
+    def note_loose_item(self, span: int) -> None:
+        """Let a set with an item whose value is not known stop the script."""
+        if span >= 0 and self.objects.fault is None:
+            self.objects.fault = LOOSE_ITEM.at(self.code.spans[span])
 
     def sample_range(self, parameter: int) -> int:
         """The prototype of the values that a parameter may have; or NONE."""

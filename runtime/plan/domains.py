@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
+from runtime.constraints.bases import is_base_growing, is_growing
 from runtime.constraints.codes import FLOAT_TOLERANCE, KIND_FLOAT
 from runtime.constraints.engine import Engine
 from runtime.plan.codes import NONE, ROLE_INTERNAL
@@ -18,7 +19,7 @@ def copy_current(plan: Plan, prototype: int, source: int) -> int:
     """A variable of a prototype's type whose base domain is the current domain of `source`."""
     engine = plan.engine
     v = make_variable(plan, prototype, ROLE_INTERNAL, NONE, NONE)
-    if engine.is_open[source] and not engine.is_singleton(source):
+    if is_growing(engine, source):
         values = engine.base_values(source)
         if values and not engine.is_open[v]:
             engine.restrict_base_values(v, values, NONE, NONE)
@@ -32,7 +33,7 @@ def copy_current(plan: Plan, prototype: int, source: int) -> int:
 
 def overlap(engine: Engine, v: int, source: int) -> bool:
     """Whether two base domains have a value in common."""
-    if engine.is_open[v] or engine.is_open[source]:
+    if is_base_growing(engine, v) or is_base_growing(engine, source):
         return True
     tolerance = FLOAT_TOLERANCE if engine.kind[v] == KIND_FLOAT else 0
     if engine.base_lower(v) > engine.base_upper(source) + tolerance:

@@ -16,3 +16,4 @@ ENDLESS_OBJECT = Code(
     "NDDL663", Severity.ERROR, "rule", "an object of class `{name}` cannot be made: its parts have parts without end"
 )
 NOT_ORDERED = Code("NDDL664", Severity.ERROR, "state", "`{name}` is not ordered before `{other}` on `{object}`")
+LOOSE_ITEM = Code("NDDL665", Severity.ERROR, "domain", "a set takes names of variables whose value is known only")

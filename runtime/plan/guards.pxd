@@ -1,6 +1,7 @@
 # The C types of `guards.py`.
 
 cimport cython
+from runtime.constraints.bases cimport is_growing
 from runtime.constraints.engine cimport Engine
 from runtime.plan.holding cimport constraint
 from runtime.plan.operands cimport member

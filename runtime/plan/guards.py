@@ -1,5 +1,6 @@
 """Let guards wait for the variables that decide them, and tell which branch they ask for."""
 
+from runtime.constraints.bases import is_growing
 from runtime.constraints.codes import KIND_OBJECT, OP_WATCH
 from runtime.plan.codes import BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, NONE, SCOPE_GUARD
 from runtime.plan.holding import constraint
@@ -69,7 +70,7 @@ def agree(plan: Plan, x: int, name: int) -> bool:
         if v < 0 or not engine.is_decided(v) or (first >= 0 and engine.lower(first) != engine.lower(v)):
             return False
         first = v
-    return first >= 0 and not engine.is_open[x]
+    return first >= 0 and not is_growing(engine, x)
 
 
 def choice(plan: Plan, s: int) -> int:

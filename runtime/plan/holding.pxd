@@ -1,6 +1,7 @@
 # The C types of `holding.py`.
 
 cimport cython
+from runtime.constraints.bases cimport is_base_growing
 from runtime.constraints.engine cimport Engine
 from runtime.plan.plan cimport Plan
 from runtime.plan.rows cimport Rows

@@ -1,5 +1,6 @@
 """Post edges and constraints, make variables, and hang each on the scope that wants it: the door to the engine."""
 
+from runtime.constraints.bases import is_base_growing
 from runtime.constraints.codes import KIND_FLOAT, OP_EQ
 from runtime.plan.codes import (
     FIRST_WRITTEN,
@@ -117,7 +118,7 @@ def copy(plan: Plan, prototype: int) -> int:
     if prototype < plan.form_capacity and plan.form[prototype]:
         return engine.new_interval(kind, plan.form_lower[prototype], plan.form_upper[prototype], NONE, NONE)
     values = engine.base_values(prototype)
-    if engine.is_open[prototype]:
+    if is_base_growing(engine, prototype):
         return engine.new_open(kind, values or [], NONE, NONE)
     if values is not None and not is_gapless(kind, values):
         return engine.new_values(kind, values, NONE, NONE)

@@ -100,15 +100,20 @@ def base_listed(plan: Plan, v: int) -> list[float]:
 
 
 def unite(plan: Plan, scope: int, number: int, span: int) -> int:
-    """A variable whose domain is the union of the base domains of several others, as they are now."""
+    """A variable whose domain is the union of several others, as they are now; in the script each must be known."""
     engine = plan.engine
     values: list[float] = []
     kind = NONE
+    owner = plan.rows.scope_token[scope]
     for source_kind, source in plan.unions[number]:
         v = operand(plan, scope, source_kind, source, span)
         kind = engine.kind[v]
-        values += base_listed(plan, v)
-    owner = plan.rows.scope_token[scope]
+        if engine.is_singleton(v):
+            values.append(engine.lower(v))
+        else:
+            values += base_listed(plan, v)
+            if owner < 0:
+                plan.services.note_loose_item(span)
     v = engine.new_values(kind, values, span, owner)
     plan.note_variable(v, ROLE_INTERNAL, owner, NONE)
     if owner >= 0:

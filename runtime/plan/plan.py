@@ -22,6 +22,9 @@ class Services(Protocol):
     def note_homeless(self, t: int) -> None:
         """Take note of a token that no object can hold."""
 
+    def note_loose_item(self, span: int) -> None:
+        """Take note of a set in the script with an item whose value is not known."""
+
     def sample_range(self, parameter: int) -> int:
         """The prototype of the values that a parameter may have; or NONE."""
 

@@ -127,7 +127,7 @@ class Prototypes:
             case "enum":
                 return engine.new_values(KIND_SYMBOL, [*self.enum_values[name]], NONE, NONE)
             case "symbol":
-                return engine.new_values(KIND_SYMBOL, [*self.enum_values[STATES]], NONE, NONE)
+                return engine.new_open(KIND_SYMBOL, [], NONE, NONE)
             case "object":
                 number = self.class_numbers.get(name, NONE)
                 objects = [] if number < 0 else self.objects[number]

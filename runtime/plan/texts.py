@@ -4,6 +4,7 @@ import json
 from collections.abc import Sequence
 from math import inf
 
+from runtime.constraints.bases import is_growing
 from runtime.constraints.codes import (
     HALF_INF,
     KIND_BOOL,
@@ -22,13 +23,8 @@ def domain_text(prototypes: Prototypes, engine: Engine, v: int, names: Sequence[
     """The derived domain of a variable."""
     kind = engine.kind[v]
     name = NAMES.get(kind, type_name)
-    if engine.is_open[v]:
-        listed = engine.base_values(v) or []
-        values = [x for x in listed if engine.contains(v, x)]
-        single = engine.is_singleton(v)
-        if single:
-            return f"{set_text(prototypes, kind, [engine.lower(v)], names)} {name}"
-        return f"{set_text(prototypes, kind, values, names)} {name} open"
+    if is_growing(engine, v):
+        return f"{set_text(prototypes, kind, engine.values_of(v), names)} {name} open"
     lower, upper = wide(engine.lower(v)), wide(engine.upper(v))
     if kind in (KIND_INT, KIND_FLOAT):
         if lower == upper or (kind == KIND_FLOAT and engine.is_singleton(v)):

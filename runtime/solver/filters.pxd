@@ -1,6 +1,7 @@
 # The C types of `filters.py`.
 
 cimport cython
+from runtime.constraints.bases cimport is_growing
 from runtime.constraints.bits cimport count_values
 from runtime.constraints.engine cimport Engine
 from runtime.plan.plan cimport Plan

@@ -1,5 +1,6 @@
 """Test what a filter keeps back now: tokens outside the horizon, infinite domains, loose parents, the unscoped."""
 
+from runtime.constraints.bases import is_growing
 from runtime.constraints.bits import count_values
 from runtime.constraints.codes import FLOAT_TOLERANCE, HALF_INF, INF, KIND_FLOAT, KIND_INT
 from runtime.plan.codes import ACTIVE, END, LIST_ORDER, LISTS, NONE, OBJECT, ROLE_LOCAL, ROLE_TOKEN, START
@@ -139,7 +140,7 @@ class Filters:
     def is_finite(self, v: int) -> bool:
         """Whether the values can be counted."""
         engine = self.engine
-        if engine.is_open[v]:
+        if is_growing(engine, v):
             return False
         kind = engine.kind[v]
         if kind == KIND_FLOAT:

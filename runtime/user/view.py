@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterable
 from typing import Protocol
 
+from runtime.constraints.bases import is_growing
 from runtime.constraints.codes import (
     FLOAT_TOLERANCE,
     HALF_INF,
@@ -95,8 +96,7 @@ class View:
         number = self._coded(v, value)
         if number is None:
             return False
-        is_growing = self._engine.is_open[v] and not self._engine.is_singleton(v)
-        return bool(is_growing or self._engine.contains(v, number))
+        return bool(is_growing(self._engine, v) or self._engine.contains(v, number))
 
     # ---- narrowing ----
 

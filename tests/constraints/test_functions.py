@@ -48,7 +48,6 @@ def known(x: float) -> Interval:
         (codes.OP_MOD, [7.0, 4.0], 3.0),
         (codes.OP_MOD, [-7.0, 4.0], -3.0),
         (codes.OP_SIN, [30.0], 0.5),
-        (codes.OP_SIN, [120.0], 1.0),
         (codes.OP_SINF, [-30.0], -0.5),
         (codes.OP_COSF, [60.0], 0.5),
         (codes.OP_COSF, [180.0], -1.0),
@@ -69,10 +68,60 @@ def test_a_function_of_known_arguments_gives_its_value(op: int, arguments: list[
 
 @pytest.mark.parametrize(
     ("op", "arguments"),
-    [(codes.OP_SQRT, [-1.0]), (codes.OP_MOD, [1.0, 0.0]), (codes.OP_POW, [-8.0, 0.5]), (codes.OP_POW, [0.0, -1.0])],
+    [
+        (codes.OP_SIN, [120.0]),
+        (codes.OP_SQRT, [-1.0]),
+        (codes.OP_MOD, [1.0, 0.0]),
+        (codes.OP_POW, [-8.0, 0.5]),
+        (codes.OP_POW, [0.0, -1.0]),
+    ],
 )
 def test_a_function_without_a_value_is_a_conflict(op: int, arguments: list[float]) -> None:
     assert run(op, FREE, *(known(x) for x in arguments)) is None
+
+
+def test_the_sine_narrows_its_result_and_holds_the_angle_within_a_quarter_turn() -> None:
+    assert run(codes.OP_SIN, FREE, FREE) == [pytest.approx((-1.0, 1.0), abs=1e-8), (-90.0, 90.0)]
+    assert run(codes.OP_SIN, FREE, (0.0, 30.0)) == [pytest.approx((0.0, 0.5), abs=1e-8), (0.0, 30.0)]
+    assert run(codes.OP_SIN, known(0.5), (0.0, 60.0)) == [known(0.5), (0.0, 60.0)]
+
+
+def test_bounds_within_which_a_value_lies_stand_in_order() -> None:
+    assert run(codes.OP_WITHIN_BOUNDS, (0.0, 9.0), (2.0, 9.0), (1.0, 5.0)) == [(2.0, 5.0), (2.0, 5.0), (2.0, 5.0)]
+    assert run(codes.OP_WITHIN_BOUNDS, (0.0, 9.0), (6.0, 9.0), (1.0, 5.0)) is None
+
+
+def test_a_union_and_its_parts_lie_in_each_other() -> None:
+    assert run(codes.OP_EQ_UNION, (0.0, 5.0), (1.0, 3.0), (4.0, 9.0)) == [(1.0, 5.0), (1.0, 3.0), (4.0, 5.0)]
+    assert run(codes.OP_EQ_UNION, (0.0, 5.0), (1.0, 3.0), (7.0, 9.0)) is None
+
+
+@pytest.mark.parametrize("op", [codes.OP_LT, codes.OP_TEST_LT])
+@pytest.mark.parametrize(("a", "b", "holds"), [(1.0, 1.0, False), (1.0, 1.000004, False), (1.0, 1.00003, True)])
+def test_a_float_is_not_less_than_what_it_equals_within_the_tolerance(op: int, a: float, b: float, holds: bool) -> None:
+    truth = [known(1.0)] if op == codes.OP_TEST_LT else []
+    assert (run(op, *truth, known(a), known(b)) is not None) == holds
+    assert (run(op, *truth, known(a), (0.0, b)) is not None) == holds
+
+
+@pytest.mark.parametrize(
+    ("domains", "fit"),
+    [
+        ([[1, 2], [1, 2], [1, 2]], False),
+        ([[1, 2], [1, 2], [3, 4]], True),
+        ([[1, 5], [1, 5], [1, 5], [1, 2, 3, 4, 5, 6, 7]], False),
+        ([[1, 2], [2, 3], [1, 2], [2, 3]], False),
+        ([[1, 9], [2, 9], [1, 2], [3, 7]], True),
+    ],
+)
+def test_too_many_variables_for_their_values_cannot_all_differ(domains: list[list[float]], fit: bool) -> None:
+    for op in (codes.OP_ALL_DIFF, codes.OP_COND_ALL_DIFF):
+        engine = Engine()
+        variables = [engine.new_values(codes.KIND_INT, values, 0, -1) for values in domains]
+        truth = [engine.new_interval(codes.KIND_BOOL, 0, 1, 0, -1)] if op == codes.OP_COND_ALL_DIFF else []
+        engine.post(op, truth + variables, 0, -1)
+        holds = engine.propagate() and (not truth or engine.upper(truth[0]) == 1)
+        assert holds == fit
 
 
 def test_a_function_waits_for_its_arguments() -> None:

@@ -67,5 +67,9 @@ def test_fixes_of_fixtures_leave_one_complaint_less() -> None:
                 assert fix.safe <= (len(left) < len(diagnostics)), (path.name, fix.title)
 
 
-def test_only_repeated_names_that_europa_allows_are_no_errors() -> None:
-    assert [code for code, page in PAGES.items() if page.code.severity is not Severity.ERROR] == ["NDDL222", "NDDL235"]
+def test_what_europa_allows_without_harm_is_no_error() -> None:
+    assert [code for code, page in PAGES.items() if page.code.severity is not Severity.ERROR] == [
+        "NDDL222",
+        "NDDL235",
+        "NDDL334",
+    ]
