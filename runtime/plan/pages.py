@@ -5,6 +5,7 @@ from runtime.plan.faults import (
     CLOSED_ALREADY,
     CLOSED_CLASS,
     ENDLESS_OBJECT,
+    LOOSE_ITEM,
     NO_OBJECT,
     NOT_ONE_OBJECT,
     NOT_ORDERED,
@@ -108,5 +109,12 @@ SCRIPT_PAGES = (
         "Only what `constrain` ordered can be freed, in the same order.",
         _TWO + "goal(a.On g);\ngoal(a.On h);\ng.activate();\nh.activate();\na.constrain(g, h);\na.free(h, g);\n",
         _TWO + "goal(a.On g);\ngoal(a.On h);\ng.activate();\nh.activate();\na.constrain(g, h);\na.free(g, h);\n",
+    ),
+    RulePage(
+        LOOSE_ITEM,
+        "A set names a variable that may still have several values.",
+        "A set is a list of values. The name of a variable stands for its value, which is to be known by then.",
+        "int n = [1 3];\nint a = {n, 9};\n",
+        "int n = 3;\nint a = {n, 9};\n",
     ),
 )
