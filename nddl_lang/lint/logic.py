@@ -37,8 +37,10 @@ def truth(part: Part, condition: Expr, known: Known, depth: int = 0) -> bool | N
             inner = truth(part, operand, known, depth + 1)
             return None if inner is None else not inner
         case BinaryExpr(op="&&" | "||" as op, left=left, right=right):
-            sides = (truth(part, left, known, depth + 1), truth(part, right, known, depth + 1))
             decisive = op == "||"
+            # The right side matters only where the left one has not decided.
+            beside = assume(part, left, not decisive, known)
+            sides = (truth(part, left, known, depth + 1), truth(part, right, beside, depth + 1))
             if decisive in sides:
                 return decisive
             return not decisive if sides == (not decisive, not decisive) else None

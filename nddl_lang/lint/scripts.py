@@ -13,6 +13,7 @@ from nddl_lang.semantics.schema import (
     Interval,
     Kind,
     Label,
+    Target,
     TokenReference,
     Variable,
 )
@@ -23,7 +24,9 @@ from nddl_lang.syntax.nodes import (
     Instance,
     MethodCall,
     NewExpr,
+    PathExpr,
     PredicateDecl,
+    SuperCall,
     VariableDecl,
 )
 from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
@@ -179,6 +182,9 @@ def _is_parameter(part: Part, declaration: VariableDecl) -> bool:
 # ---- resources ----
 
 
+Limits = list[float | int | None]
+
+
 def lint_capacity(whole: Whole) -> Iterator[Diagnostic]:
     """Uses of a resource that are larger than it can ever hold."""
     capacities = _capacities(whole)
@@ -187,12 +193,12 @@ def lint_capacity(whole: Whole) -> Iterator[Diagnostic]:
     for part in whole.parts:
         for instance in part.all(Instance):
             target = part.tables.targets.get(instance)
-            if target is None or target.label is None or not isinstance(target.object, GlobalReference):
+            if target is None or target.label is None:
                 continue
-            resource = target.object.variable
-            capacity = capacities.get(resource)
-            if capacity is None:
+            resource = _resource(whole, capacities, target)
+            if resource is None:
                 continue
+            capacity = capacities[resource]
             for demand, span in _demands(whole, part, target.label):
                 if demand > capacity + domains.TOLERANCE:
                     notes = (Note("the resource is made here", resource.span),)
@@ -207,6 +213,22 @@ def lint_capacity(whole: Whole) -> Iterator[Diagnostic]:
                     break
 
 
+def _resource(whole: Whole, capacities: dict[Variable, float], target: Target) -> Variable | None:
+    """The resource that a token is on; of several that it may be on, the largest, if all are known."""
+    if isinstance(target.object, GlobalReference):
+        return target.object.variable if target.object.variable in capacities else None
+    class_name = target.predicate.class_name
+    known = [
+        variable
+        for variable in capacities
+        if whole.analysis.schema.is_subclass(variable.type.base, class_name)
+        and isinstance(variable.initialiser, NewExpr)
+    ]
+    if not known or len(known) != len(whole.objects.get(class_name, ())):
+        return None
+    return max(known, key=lambda variable: capacities[variable])
+
+
 def _text(value: float) -> str:
     return domains.text(Interval(value, value))
 
@@ -218,14 +240,32 @@ def _capacities(whole: Whole) -> dict[Variable, float]:
         new = variable.initialiser
         if not isinstance(new, NewExpr):
             continue
-        limits = [number(argument) for argument in new.arguments]
-        capacity = _capacity(new.class_name.name, limits)
+        capacity = _capacity(*_native(whole, new.class_name.name, [number(argument) for argument in new.arguments]))
         if capacity is not None and capacity < INFINITY:
             found[variable] = capacity
     return found
 
 
-def _capacity(class_name: str, limits: list[float | int | None]) -> float | None:
+def _native(whole: Whole, class_name: str, values: Limits) -> tuple[str, Limits]:
+    """The native class that an object is built on, and what the constructors on the way hand to it."""
+    owner = whole.analysis.schema.classes.get(class_name)
+    while owner is not None and not owner.is_native and owner.base is not None:
+        fitting = [each for each in owner.constructors if len(each.parameters) == len(values)]
+        given: Limits = []
+        if len(fitting) == 1 and fitting[0].node is not None:
+            names = {parameter.name: value for parameter, value in zip(fitting[0].parameters, values, strict=True)}
+            for statement in fitting[0].node.body:
+                if isinstance(statement, SuperCall):
+                    given = [
+                        names.get(each.span.text) if isinstance(each, PathExpr) else number(each)
+                        for each in statement.arguments
+                    ]
+        values = given
+        owner = whole.analysis.schema.classes.get(owner.base)
+    return (owner.name if owner is not None else class_name), values
+
+
+def _capacity(class_name: str, limits: Limits) -> float | None:
     match class_name, limits:
         case ("Reusable" | "CBReusable", [float() | int() as capacity, float() | int() as least, *_]):
             return capacity - least

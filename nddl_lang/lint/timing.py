@@ -21,7 +21,7 @@ from nddl_lang.syntax.nodes import (
 )
 from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
 
-CONTRADICTION = Code("NDDL530", Severity.WARNING, "lint", "the times that are demanded here cannot all hold")
+CONTRADICTION = Code("NDDL530", Severity.WARNING, "lint", "what is demanded here cannot all hold")
 TOO_LONG = Code("NDDL531", Severity.WARNING, "lint", "a token lasts longer here than the one that contains it")
 NO_DURATION = Code("NDDL532", Severity.WARNING, "lint", "a token lasts at least 1, so this cannot hold")
 
