@@ -25,6 +25,7 @@ from nddl_lang.syntax.nodes import (
 )
 from nddl_lang.syntax.walk import descendants
 from nddl_lang.text.diagnostic import Code, Edit, Fix, Note, Severity
+from nddl_lang.text.source import Span
 
 FLOAT_EQUALITY = Code("NDDL550", Severity.WARNING, "lint", "`{op}` compares a computed float")
 INT_AMONG_FLOATS = Code(
@@ -112,19 +113,36 @@ def lint_int_among_floats(part: Part) -> Iterator[Finding]:
 
 
 def lint_int_results(part: Part) -> Iterator[Finding]:
-    """An int that is to equal a computed float."""
-    for constraint in part.all(ExprConstraint):
-        expression = constraint.expression
-        if not isinstance(expression, BinaryExpr) or expression.op != "==":
-            continue
-        for path, other in ((expression.left, expression.right), (expression.right, expression.left)):
-            is_int = isinstance(path, PathExpr) and _kind(part, path) is Kind.INT
-            if is_int and _kind(part, other) is Kind.FLOAT and _is_computed(part, other):
+    """An int that is to equal a computed float, or a variable that equals one."""
+    computed = _computed_locals(part)
+    for left, right, span in _equalities(part):
+        for path, other in ((left, right), (right, left)):
+            if (
+                not isinstance(path, PathExpr)
+                or _kind(part, path) is not Kind.INT
+                or _kind(part, other) is not Kind.FLOAT
+            ):
+                continue
+            reference = part.reference(other) if isinstance(other, PathExpr) else None
+            is_local = isinstance(reference, LocalReference) and reference.variable in computed
+            if is_local or _is_computed(part, other):
                 text = other.span.text
                 fix = Fix("round up", (Edit(other.span, f"ceil({text})"),), safe=False)
-                fixes = (fix,) if part.dialect is Dialect.NDDLC else ()
                 help_ = "say how to round: `ceil(...)` or `floor(...)`"
-                yield INT_RESULT.at(expression.span, help=help_, fixes=fixes, name=path.span.text)
+                yield INT_RESULT.at(
+                    span, help=help_, fixes=(fix,) if part.dialect is Dialect.NDDLC else (), name=path.span.text
+                )
+
+
+def _equalities(part: Part) -> Iterator[tuple[Expr, Expr, Span]]:
+    """What is said to be equal, in either form."""
+    for constraint in part.all(ExprConstraint):
+        expression = constraint.expression
+        if isinstance(expression, BinaryExpr) and expression.op == "==":
+            yield expression.left, expression.right, expression.span
+    for call in part.all(CallConstraint):
+        if call.name.name == "eq" and len(call.arguments) == 2:
+            yield call.arguments[0], call.arguments[1], call.span
 
 
 def lint_whole_floats(part: Part) -> Iterator[Finding]:

@@ -265,8 +265,8 @@ def _without_effect(graph: Graph) -> Iterator[Diagnostic]:
             if not node.is_action or not whole.is_own(node.span):
                 continue
             predicate = _declared(graph, part, node)
-            if predicate is None:
-                continue
+            if predicate is None or predicate.name in whole.requested:
+                continue  # what is asked for by its name need not bring anything about
             rules = list(graph.rules_for(predicate.class_name, predicate.name))
             below = [
                 rule
