@@ -54,7 +54,7 @@ class Writer:
                 for comment in before:
                     words.add_comment(self._text[slice(*comment)], "\n" in self._text[self._at : comment[0]])
                     self._at = comment[1]
-                words.add(word, piece.kinds[index - 1] in _BREAK_AFTER)
+                words.add(word, piece.kinds[index - 1] in _BREAK_AFTER, piece.kinds[index])
             self._at = piece.ends[index] + offset
         self._write_words(words)
         self.write_comments(comments[used:])
