@@ -14,7 +14,7 @@ LIGHT = {"#ee6677", "#ccbb44", "#66ccee"}  # dark letters are read better on the
 STYLE = "text{font:12px sans-serif;fill:#222}.t{font-size:11px}.w{fill:#fff}.a{stroke:#ccc}.r{stroke:#eee}"
 LOOK = (
     "body{font:14px sans-serif;margin:2em}.p{overflow-x:auto}table{border-collapse:collapse;margin-top:1em}"
-    "td,th{padding:2px 10px;text-align:left;border-bottom:1px solid #ddd}"
+    "td,th{padding:2px 10px;text-align:left;white-space:nowrap;border-bottom:1px solid #ddd}"
 )
 
 
@@ -83,5 +83,6 @@ def page(facts: Facts, horizon: tuple[int, int], title: str, said: Sequence[str]
     return (
         f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
         f"<style>{LOOK}</style></head><body><h1>{escape(title)}</h1>{picture}"
-        f"<table><tr>{names}</tr>{''.join(cells)}</table><pre>{escape(chr(10).join(said))}</pre></body></html>\n"
+        f'<div class="p"><table><tr>{names}</tr>{"".join(cells)}</table></div>'
+        f"<pre>{escape(chr(10).join(said))}</pre></body></html>\n"
     )
