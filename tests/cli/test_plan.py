@@ -32,7 +32,9 @@ goal(lamp.Off b);
 a.start = 0;
 b.start = 0;
 """
-LONG = (
+LONG = "\n".join(
+    f"int v{i} = [1 9];\n" + "\n".join(f"neq(v{j}, v{i});" for j in range(i)) for i in range(10)
+)  # ten that differ, nine values: no bound tells
     "\n".join(f"int v{i} = [1 9];" for i in range(10)) + "\nallDiff(" + ", ".join(f"v{i}" for i in range(10)) + ");\n"
 )
 
