@@ -35,8 +35,6 @@ b.start = 0;
 LONG = "\n".join(
     f"int v{i} = [1 9];\n" + "\n".join(f"neq(v{j}, v{i});" for j in range(i)) for i in range(10)
 )  # ten that differ, nine values: no bound tells
-    "\n".join(f"int v{i} = [1 9];" for i in range(10)) + "\nallDiff(" + ", ".join(f"v{i}" for i in range(10)) + ");\n"
-)
 
 
 class Terminal(io.StringIO):
