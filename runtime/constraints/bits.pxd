@@ -5,7 +5,7 @@ from runtime.constraints.store cimport Store
 
 cdef long long EVENT_HOLES, KIND_FLOAT, NEVER, TRAIL_HOLES, TRAIL_WORDS
 cdef double FLOAT_TOLERANCE
-cdef unsigned long long ALL_BITS, ONE_BIT
+cdef unsigned long long ALL_BITS, EVERY_SECOND_BIT, FOUR_OF_EIGHT_BITS, ONE_BIT, TWO_OF_FOUR_BITS
 
 
 @cython.locals(n="long long")

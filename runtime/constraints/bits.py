@@ -3,12 +3,15 @@
 from runtime.constraints.codes import (
     ALL_BITS,
     EVENT_HOLES,
+    EVERY_SECOND_BIT,
     FLOAT_TOLERANCE,
+    FOUR_OF_EIGHT_BITS,
     KIND_FLOAT,
     NEVER,
     ONE_BIT,
     TRAIL_HOLES,
     TRAIL_WORDS,
+    TWO_OF_FOUR_BITS,
 )
 from runtime.constraints.grow import grown
 from runtime.constraints.store import Store
@@ -39,9 +42,9 @@ def lowest_bit(x: int) -> int:
 
 def bits_in(x: int) -> int:
     """Count the set bits of a word, in pairs, then in fours, then in bytes (Warren, Hacker's Delight, 5-1)."""
-    x -= (x >> 1) & 0x5555555555555555
-    x = (x & 0x3333333333333333) + ((x >> 2) & 0x3333333333333333)
-    x = (x + (x >> 4)) & 0x0F0F0F0F0F0F0F0F
+    x -= (x >> 1) & EVERY_SECOND_BIT
+    x = (x & TWO_OF_FOUR_BITS) + ((x >> 2) & TWO_OF_FOUR_BITS)
+    x = (x + (x >> 4)) & FOUR_OF_EIGHT_BITS
     x += x >> 8
     x += x >> 16
     x += x >> 32

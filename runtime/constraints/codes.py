@@ -20,6 +20,9 @@ ULP = 2.220446049250313e-16  # one unit in the last place of 1.0: outward roundi
 # Words of bit sets.
 ALL_BITS = 2**64 - 1
 ONE_BIT = 1
+EVERY_SECOND_BIT = 0x5555555555555555
+TWO_OF_FOUR_BITS = 0x3333333333333333
+FOUR_OF_EIGHT_BITS = 0x0F0F0F0F0F0F0F0F
 MOST_VALUES = 1024  # an interval of more values gets no holes
 WIDEST_SET = 4096  # values farther apart are kept in a table
 

@@ -46,7 +46,7 @@ cpdef bint differ_all(Store s, long long first, long long count, long long suppo
 @cython.locals(x="long long")
 cpdef bint keep_offset(Store s, long long c, long long a, long long k, long long b) except -1
 
-@cython.locals(longest="long long", shortest="long long")
+@cython.locals(longest="long long", shortest="long long", x="long long")
 cpdef bint keep_distance(
     Store s, long long c, long long start, long long distance, long long end, long long support
 ) except -1

@@ -226,12 +226,17 @@ def keep_distance(s: Store, c: int, start: int, distance: int, end: int, support
     if s.link_a[c] < 0:
         if not tie_edges(s, c, start, end, longest, -shortest):
             return False
-    elif not (tighten_edge(s, s.link_a[c], longest) and tighten_edge(s, s.link_b[c], -shortest)):
-        return False
+    elif longest < s.edge_weight[s.link_a[c]] or -shortest < s.edge_weight[s.link_b[c]]:
+        if not (tighten_edge(s, s.link_a[c], longest) and tighten_edge(s, s.link_b[c], -shortest)):
+            return False
+    elif s.lb[distance] == s.ub[distance] and s.kind[distance] != KIND_FLOAT:
+        return True  # the edges say all that there is to say
     if s.ub[end] < HALF_INF and s.lb[start] > -HALF_INF:
-        if not reduce_to(s, distance, s.ub[end] - s.lb[start], support):
+        x = s.ub[end] - s.lb[start]
+        if (x < s.ub[distance] or s.kind[distance] == KIND_FLOAT) and not reduce_to(s, distance, x, support):
             return False
     if s.lb[end] > -HALF_INF and s.ub[start] < HALF_INF:
-        if not raise_to(s, distance, s.lb[end] - s.ub[start], support):
+        x = s.lb[end] - s.ub[start]
+        if (x > s.lb[distance] or s.kind[distance] == KIND_FLOAT) and not raise_to(s, distance, x, support):
             return False
     return True

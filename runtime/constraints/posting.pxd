@@ -5,8 +5,8 @@ from runtime.constraints.network cimport insert_edge
 from runtime.constraints.store cimport Store
 
 cdef long long EVENT_ANY, EVENT_DOMAIN, EVENT_HOLES, EVENT_LOWER, EVENT_UPPER, FAMILY_ARITHMETIC, KIND_BOOL
-cdef long long KIND_FLOAT, KIND_INT, MODE_EDGES, MODE_REAL, MODE_WHOLE, OP_ADD_EQ, OP_ALL_MAX, OP_ALL_MIN, OP_EQ
-cdef long long OP_EQ_MAXIMUM, OP_EQ_MINIMUM, OP_EXTERNAL, OP_LEQ, OP_LT, OP_NEQ, OP_PLUS, OP_RAND
+cdef long long KIND_FLOAT, KIND_INT, MODE_EDGES, MODE_REAL, MODE_WHOLE, OP_ADD_EQ, OP_ALL_MAX, OP_ALL_MIN, OP_ELEMENT
+cdef long long OP_EQ, OP_EQ_MAXIMUM, OP_EQ_MINIMUM, OP_EXTERNAL, OP_LEQ, OP_LT, OP_NEQ, OP_PLUS, OP_RAND
 cdef long long OP_TEMPORAL_DISTANCE, OP_TEST_SPECIFIED, OP_WATCH, PRIORITY_CHEAP, PRIORITY_DEAR, PRIORITY_WATCH
 cdef long long TRAIL_CONSTRAINT, TRAIL_LINK
 cdef unsigned long long MASK
@@ -38,6 +38,13 @@ cpdef bint tie_edge(Store s, long long c, long long source, long long target, lo
 
 @cython.locals(c="long long", position="long long")
 cpdef long long post_constraint(Store s, long long op, list arguments, long long span, long long owner) except? -1
+
+@cython.locals(c="long long")
+cpdef long long start_element(
+    Store s, long long result, long long index, long long rows, long long span, long long owner
+) except? -1
+
+cpdef int add_row(Store s, long long c, long long k, long long key, long long v) except -1
 
 @cython.locals(op="long long")
 cpdef bint is_settled_by_one_run(Store s, long long c) except -1

@@ -16,6 +16,7 @@ from runtime.constraints.codes import (
     OP_ADD_EQ,
     OP_ALL_MAX,
     OP_ALL_MIN,
+    OP_ELEMENT,
     OP_EQ,
     OP_EQ_MAXIMUM,
     OP_EQ_MINIMUM,
@@ -194,6 +195,26 @@ def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: i
     s.settles[c] = is_settled_by_one_run(s, c) and len(set(arguments)) == len(arguments)
     s.schedule(c)
     return c
+
+
+def start_element(s: Store, result: int, index: int, rows: int, span: int, owner: int) -> int:
+    """Make a look-up of `rows` rows, to be given by `add_row` in the order of their keys."""
+    c = new_constraint(s, OP_ELEMENT, rows + 2, span, owner)
+    if s.kind[result] == KIND_FLOAT:
+        s.mode[c] = MODE_REAL
+    watch(s, c, 0, result, EVENT_DOMAIN)
+    watch(s, c, 1, index, EVENT_DOMAIN)
+    s.settles[c] = 0
+    s.schedule(c)
+    return c
+
+
+def add_row(s: Store, c: int, k: int, key: int, v: int) -> None:
+    """Give row `k` of a look-up: the key that the index takes for variable `v`."""
+    if s.kind[v] == KIND_FLOAT:
+        s.mode[c] = MODE_REAL
+    watch(s, c, 2 + k, v, EVENT_DOMAIN)
+    s.slot_key[s.first[c] + 2 + k] = key
 
 
 def is_settled_by_one_run(s: Store, c: int) -> bool:

@@ -2,6 +2,7 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
+from runtime.constraints.posting cimport add_row, start_element
 from runtime.plan.holding cimport copy_variable
 from runtime.plan.plan cimport Plan
 from runtime.plan.rows cimport Rows
@@ -23,8 +24,8 @@ cpdef long long member(Plan plan, long long o, long long name) except? -1
 
 
 @cython.locals(
-    c="long long", engine=Engine, members=list, o="long long", owner="long long", prototype="long long",
-    result="long long", v="long long", values=list
+    c="long long", o="long long", objects=list, owner="long long", prototype="long long", result="long long",
+    rows="long long", v="long long", x=double
 )
 cpdef long long proxy(Plan plan, long long scope, long long index, long long name, long long span) except? -1
 

@@ -1,6 +1,7 @@
 """Find the engine variable that an operand means; object fields become proxies while their object is unknown."""
 
 from runtime.constraints.codes import KIND_FLOAT, KIND_INT
+from runtime.constraints.posting import add_row, start_element
 from runtime.plan.codes import (
     HOLDS_CONSTRAINT,
     HOLDS_VARIABLES,
@@ -65,22 +66,26 @@ def member(plan: Plan, o: int, name: int) -> int:
 
 def proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
     """A variable that equals the member called `name` of the object that `index` turns out to be."""
-    engine = plan.engine
-    values: list[int] = []
-    members: list[int] = []
     prototype = plan.name_prototype[name]
-    for each in base_listed(plan, index):
-        o = int(each)
-        v = member(plan, o, name)
-        if v >= 0:
-            values.append(o)
-            members.append(v)
+    objects = base_listed(plan, index)
+    rows = 0
+    for x in objects:
+        o = int(x)
+        if member(plan, o, name) >= 0:
+            rows += 1
             prototype = plan.member_prototype[plan.object_class[o] * plan.member_names + name]
     result = copy_variable(plan, scope, prototype, ROLE_INTERNAL, NONE)
     plan.proxy_index[result] = index
     plan.proxy_member[result] = name
     owner = plan.rows.scope_token[scope]
-    c = engine.post_element(result, index, values, members, span, owner)
+    c = start_element(plan.engine, result, index, rows, span, owner)
+    rows = 0
+    for x in objects:
+        o = int(x)
+        v = member(plan, o, name)
+        if v >= 0:
+            add_row(plan.engine, c, rows, o, v)
+            rows += 1
     if owner >= 0:
         plan.rows.hold(scope, HOLDS_CONSTRAINT, c, 1)
     return result
