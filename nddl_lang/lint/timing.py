@@ -31,30 +31,25 @@ _OF_SCRIPT = (Assignment, CallConstraint, ExprConstraint, GoalStatement, MethodC
 
 def lint_times_together(whole: Whole) -> Iterator[Diagnostic]:
     """Contradictions between rules that fire for the same token, and between the statements of the script."""
-    rules: dict[str, list[Part]] = {}
+    rules: dict[tuple[str, str], list[Part]] = {}
     for part in whole.parts:
-        if isinstance(part.node, RuleDecl) and (predicate := part.tables.predicates.get(part.node)) is not None:
-            rules.setdefault(predicate.name, []).append(part)
-    for parts in rules.values():
-        for part in parts:
-            yield from _beside_others(whole, part, parts)
+        if isinstance(part.node, RuleDecl):
+            rules.setdefault((part.node.class_name.name, part.node.predicate.name), []).append(part)
+    for (class_name, name), parts in rules.items():
+        above = [
+            rule for ancestor in whole.analysis.schema.ancestry(class_name) for rule in rules.get((ancestor, name), ())
+        ]
+        inherited = [rule for rule in above if rule not in parts]
+        for number, part in enumerate(parts):
+            if others := [*inherited, *parts[:number]]:
+                yield from _beside_others(part, others)
     yield from _in_script(whole)
 
 
-def _beside_others(whole: Whole, part: Part, parts: list[Part]) -> Iterator[Diagnostic]:
+def _beside_others(part: Part, others: list[Part]) -> Iterator[Diagnostic]:
     """What a rule demands beside those rules that fire before it: of ancestors, and above it of its own class."""
-    assert isinstance(part.node, RuleDecl)
-    ancestry = whole.analysis.schema.ancestry(part.node.class_name.name)
-    others = [
-        other
-        for index, other in enumerate(parts)
-        if isinstance(other.node, RuleDecl)
-        and other is not part
-        and other.node.class_name.name in ancestry
-        and (other.node.class_name.name != part.node.class_name.name or index < parts.index(part))
-    ]
     mine = _plain_edges(part)
-    if not others or not mine or negative_cycle(mine):
+    if not mine or negative_cycle(mine):
         return
     theirs = [edge for other in others for edge in _plain_edges(other)]
     if theirs and not negative_cycle(theirs) and (cycle := negative_cycle([*theirs, *mine])):

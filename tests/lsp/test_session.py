@@ -179,3 +179,26 @@ def test_the_other_questions_are_answered_over_the_wire(client: Any, tmp_path: P
     edits = client.ask("textDocument/formatting", textDocument=document, options=options)
     assert edits == [{"range": place(0, 4, 6), "newText": ""}]
     assert client.leave() == 0
+
+
+def test_a_misspelt_word_is_mended_from_its_complaint(client: Any, tmp_path: Path) -> None:
+    client.start()
+    uri, _ = model(tmp_path)
+    text = MODEL.replace("minHitz", "minHits").replace("met_by(Inactive)", "metby(object.Inactive ahead)")
+    (complaint,) = client.open(uri, text)["diagnostics"]
+    assert (complaint["code"], complaint["range"]) == ("NDDL126", place(9, 2, 7))
+    assert complaint["codeDescription"]["href"].endswith("/rules/NDDL126.md")
+    (action,) = client.ask(
+        "textDocument/codeAction",
+        textDocument={"uri": uri},
+        range=complaint["range"],
+        context={"diagnostics": [complaint]},
+    )
+    (edit,) = action["edit"]["changes"][uri]
+    assert (action["title"], edit) == (
+        "write `met_by` (check the meaning)",
+        {"range": place(9, 2, 7), "newText": "met_by"},
+    )
+    told = client.change(uri, {"range": edit["range"], "text": edit["newText"]})
+    assert [each["code"] for each in told["diagnostics"]] == ["NDDL502"]
+    assert client.leave() == 0
