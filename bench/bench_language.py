@@ -26,9 +26,9 @@ float RATE{0} = [0.1 4.0];
 Unit{0}::Busy {{
   float rate;
   rate == sampledParameter(RATE{0});
-  meets(Idle after);
+  meets(Idle later);
   met_by(Idle ahead);
-  ahead before after;
+  ahead before later;
   rate * 2.0 == share;
   load <= object.most;
   duration >= 3;
@@ -81,6 +81,7 @@ def keystrokes(text: str) -> list[float]:
 
 def main() -> None:
     """Print what each takes, beside what it may take."""
+    assert not analyse_text("model.nddl", model(100)).has_errors, "a model with errors is not linted"
     check(model(100))  # the tables of the parser are read once in a process
     costs = {}
     for lines in SIZES:
