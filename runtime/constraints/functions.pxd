@@ -8,7 +8,7 @@ from runtime.constraints.store cimport Store
 
 cdef long long HALF_INF, KIND_FLOAT, OP_ABS, OP_BIND, OP_CEIL, OP_FLOOR, OP_MAX, OP_MIN, OP_MOD, OP_POW, OP_RAND
 cdef long long OP_SAMPLE, OP_SQRT, OP_TOWARDS, OP_TRAVEL_TIME, SIDE_HOLES, SUPPORT_CONSTRAINT
-cdef double FLOAT_TOLERANCE
+cdef double FLOAT_TOLERANCE, ULP
 
 
 @cython.locals(
@@ -17,7 +17,17 @@ cdef double FLOAT_TOLERANCE
 )
 cpdef bint run_function(Store s, long long c) except -1
 
+@cython.locals(
+    a="long long", b="long long", corner="long long", hi=double, lo=double, r="long long", x=double, y=double
+)
+cpdef bint spread(Store s, long long op, long long first, long long count, double z, long long support) except -1
+
 cpdef double middle(Store s, long long v) except? -1.0
+
+cpdef double half_width(Store s, long long v) except? -1.0
+
+@cython.locals(x=double, y=double)
+cpdef double whole(Store s, long long v) except? -1.0
 
 @cython.locals(y=double)
 cpdef double settled(double x) except? -1.0

@@ -22,6 +22,7 @@ from runtime.constraints.codes import (
     OP_TRAVEL_TIME,
     SIDE_HOLES,
     SUPPORT_CONSTRAINT,
+    ULP,
 )
 from runtime.constraints.narrow import assign, high, is_single, low, raise_to, reduce_to
 from runtime.constraints.store import Store
@@ -56,7 +57,31 @@ def run_function(s: Store, c: int) -> bool:
     if op == OP_POW and not has_power(x, y):
         return s.fail(r, SIDE_HOLES, support)
     z = apply(op, x, y)
-    return raise_to(s, r, z, support) and reduce_to(s, r, z, support)
+    if op == OP_FLOOR or op == OP_CEIL or op == OP_MOD or op == OP_POW:
+        return raise_to(s, r, z, support) and reduce_to(s, r, z, support)
+    return spread(s, op, first, s.arity[c], z, support)
+
+
+def spread(s: Store, op: int, first: int, count: int, z: float, support: int) -> bool:
+    """Set the result of a continuous function; what is left of its arguments' intervals counts, however narrow."""
+    a = s.slot_variable[first + 1]
+    b = s.slot_variable[first + count - 1]
+    lo = z
+    hi = z
+    for corner in range(4):
+        x = high(s, a) if corner & 1 else low(s, a)
+        y = high(s, b) if corner & 2 else low(s, b)
+        if op != OP_SQRT or x > 0.0:
+            z = apply(op, x, y)
+            lo = min(lo, z)
+            hi = max(hi, z)
+    if op == OP_ABS and low(s, a) < 0.0 < high(s, a):
+        lo = 0.0
+    if lo < hi:
+        lo -= abs(lo) * ULP
+        hi += abs(hi) * ULP
+    r = s.slot_variable[first]
+    return raise_to(s, r, lo, support) and reduce_to(s, r, hi, support)
 
 
 def middle(s: Store, v: int) -> float:
@@ -66,6 +91,18 @@ def middle(s: Store, v: int) -> float:
     if s.flo[v] == s.fhi[v]:
         return s.flo[v]
     return s.flo[v] + (s.fhi[v] - s.flo[v]) * 0.5
+
+
+def half_width(s: Store, v: int) -> float:
+    """Give how far the values of a known variable may be from its middle."""
+    return (s.fhi[v] - s.flo[v]) * 0.5 if s.kind[v] == KIND_FLOAT else 0.0
+
+
+def whole(s: Store, v: int) -> float:
+    """Give the value of a known variable, a whole number if it is within the tolerance of one."""
+    x = middle(s, v)
+    y = math.floor(x + 0.5)
+    return float(y) if abs(x - y) <= FLOAT_TOLERANCE else x
 
 
 def settled(x: float) -> float:

@@ -2,7 +2,7 @@
 
 cimport cython
 from libc cimport math
-from runtime.constraints.functions cimport are_known, middle, settled, sine
+from runtime.constraints.functions cimport are_known, half_width, middle, settled, sine, whole
 from runtime.constraints.narrow cimport high, low, raise_to, reduce_to
 from runtime.constraints.reals cimport down, hold_absolute, hold_extreme, up, within
 from runtime.constraints.store cimport Store
@@ -10,7 +10,8 @@ from runtime.constraints.store cimport Store
 cdef long long KIND_FLOAT, OP_ABSF, OP_CEILF, OP_CIRCLE_MOD, OP_COSF, OP_DEG_TO_RAD, OP_EXPF, OP_FLOORF, OP_LL_DIST
 cdef long long OP_LOGF, OP_MAXF, OP_MINF, OP_SANE_POS, OP_SIN, OP_SINF, OP_SQRTF, OP_TICK_DATE, OP_WGS_DISPLACE
 cdef long long OP_WGS_DISPLACEMENT, SUPPORT_CONSTRAINT
-cdef double DEGREE, DISTANCE_TOLERANCE, FLOAT_TOLERANCE, POSITION_TOLERANCE, SLACK, STRICT_STEP, inf
+cdef double DEGREE, DISTANCE_TOLERANCE, FLOAT_TOLERANCE, LEAST_METRES_PER_DEGREE, METRES_PER_DEGREE, POSITION_TOLERANCE
+cdef double SLACK, STRICT_STEP, inf
 
 
 @cython.locals(first="long long", op="long long", r="long long", support="long long", x="long long")
@@ -26,9 +27,9 @@ cpdef double angle_of(double x) except? -1.0
 @cython.locals(hi=double, least=double, lo=double, most=double, root=double)
 cpdef bint hold_root(Store s, long long r, long long x, long long support) except -1
 
-@cython.locals(hi=double, lo=double)
 cpdef bint be_whole(Store s, long long r, long long support) except -1
 
+@cython.locals(hi=double, lo=double)
 cpdef bint hold_floor(Store s, long long r, long long x, long long support) except -1
 
 @cython.locals(hi=double, lo=double)
@@ -47,10 +48,14 @@ cpdef bint bring_within_turn(Store s, long long r, long long x, long long suppor
 @cython.locals(day=double, k="long long", seconds=double, tick="long long", v="long long", year=double)
 cpdef bint relate_date(Store s, long long first, long long support) except -1
 
+@cython.locals(slack=double, x=double)
 cpdef bint measure(Store s, long long first, long long support) except -1
 
-@cython.locals(k="long long", v="long long")
+@cython.locals(k="long long", total=double)
+cpdef double blur(Store s, long long first, long long last) except? -1.0
+
+@cython.locals(k="long long", slack=double, stretch=double, v="long long")
 cpdef bint displace(Store s, long long first, long long support) except -1
 
-@cython.locals(k="long long", v="long long")
+@cython.locals(k="long long", slack=double, v="long long")
 cpdef bint find_displacement(Store s, long long first, long long support) except -1

@@ -1,7 +1,8 @@
 """Propagate what T-REX and its users add: angles, roots, dates, positions on the earth.
 
 Angles, roots, exponentials and extremes narrow both ways; dates, distances and displacements act once their inputs are
-known. Tolerances: results of trigonometry are widened by 1e-9, distances by 0.5 m, positions by 5e-7 degrees.
+known. Tolerances: results of trigonometry are widened by 1e-9, distances by 0.5 m, positions by 5e-7 degrees, and by
+what is not known of the inputs.
 """
 
 import math
@@ -32,7 +33,7 @@ from runtime.constraints.codes import (
     SUPPORT_CONSTRAINT,
 )
 from runtime.constraints.earth import date_of_tick, displaced, displacement, great_circle, tick_of_date
-from runtime.constraints.functions import are_known, middle, settled, sine
+from runtime.constraints.functions import are_known, half_width, middle, settled, sine, whole
 from runtime.constraints.narrow import high, low, raise_to, reduce_to
 from runtime.constraints.reals import down, hold_absolute, hold_extreme, up, within
 from runtime.constraints.store import Store
@@ -41,6 +42,8 @@ SLACK = 1e-9
 POSITION_TOLERANCE = 5e-7
 DISTANCE_TOLERANCE = 0.5
 DEGREE = math.pi / 180.0
+METRES_PER_DEGREE = 111700.0  # at most
+LEAST_METRES_PER_DEGREE = 110500.0  # along a meridian
 
 
 def run_geometry(s: Store, c: int) -> bool:
@@ -216,7 +219,7 @@ def relate_date(s: Store, first: int, support: int) -> bool:
     """Relate a tick to the second of the day, the day of the year and the year, once one side is known."""
     tick = s.slot_variable[first]
     if are_known(s, first, first + 1):
-        date = date_of_tick(middle(s, tick), s.tick_seconds, s.tick_epoch)
+        date = date_of_tick(whole(s, tick), s.tick_seconds, s.tick_epoch)
         for k in range(3):
             v = s.slot_variable[first + 1 + k]
             if not within(s, v, date[k], date[k], support):
@@ -224,9 +227,9 @@ def relate_date(s: Store, first: int, support: int) -> bool:
         return True
     if not are_known(s, first + 1, first + 4):
         return True
-    seconds = middle(s, s.slot_variable[first + 1])
-    day = middle(s, s.slot_variable[first + 2])
-    year = middle(s, s.slot_variable[first + 3])
+    seconds = whole(s, s.slot_variable[first + 1])
+    day = whole(s, s.slot_variable[first + 2])
+    year = whole(s, s.slot_variable[first + 3])
     x = tick_of_date(seconds, int(day), int(year), s.tick_seconds, s.tick_epoch)
     return within(s, tick, x, x, support)
 
@@ -241,7 +244,16 @@ def measure(s: Store, first: int, support: int) -> bool:
         middle(s, s.slot_variable[first + 3]),
         middle(s, s.slot_variable[first + 4]),
     )
-    return within(s, s.slot_variable[first], max(0.0, x - DISTANCE_TOLERANCE), x + DISTANCE_TOLERANCE, support)
+    slack = DISTANCE_TOLERANCE + METRES_PER_DEGREE * blur(s, first + 1, first + 5)
+    return within(s, s.slot_variable[first], max(0.0, x - slack), x + slack, support)
+
+
+def blur(s: Store, first: int, last: int) -> float:
+    """Add up how far the values of known variables may be from their middles."""
+    total = 0.0
+    for k in range(first, last):
+        total += half_width(s, s.slot_variable[k])
+    return total
 
 
 def displace(s: Store, first: int, support: int) -> bool:
@@ -254,9 +266,14 @@ def displace(s: Store, first: int, support: int) -> bool:
         middle(s, s.slot_variable[first + 2]),
         middle(s, s.slot_variable[first + 3]),
     )
+    # A degree of longitude is shorter away from the equator, so what is not known grows with it.
+    stretch = 1.0 / max(0.01, math.cos(middle(s, s.slot_variable[first]) * DEGREE))
+    slack = POSITION_TOLERANCE + stretch * (
+        2.0 * blur(s, first, first + 2) + blur(s, first + 2, first + 4) / LEAST_METRES_PER_DEGREE
+    )
     for k in range(2):
         v = s.slot_variable[first + 4 + k]
-        if not within(s, v, place[k] - POSITION_TOLERANCE, place[k] + POSITION_TOLERANCE, support):
+        if not within(s, v, place[k] - slack, place[k] + slack, support):
             return False
     return True
 
@@ -271,8 +288,9 @@ def find_displacement(s: Store, first: int, support: int) -> bool:
         middle(s, s.slot_variable[first + 2]),
         middle(s, s.slot_variable[first + 3]),
     )
+    slack = DISTANCE_TOLERANCE + METRES_PER_DEGREE * blur(s, first, first + 4)
     for k in range(2):
         v = s.slot_variable[first + 4 + k]
-        if not within(s, v, way[k] - DISTANCE_TOLERANCE, way[k] + DISTANCE_TOLERANCE, support):
+        if not within(s, v, way[k] - slack, way[k] + slack, support):
             return False
     return True

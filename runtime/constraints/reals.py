@@ -282,7 +282,9 @@ def square_difference(s: Store, a: int, b: int, r: int, support: int) -> bool:
     most = max(-lo, hi)
     least = lo if lo > 0.0 else -hi if hi < 0.0 else 0.0
     exact = is_exact(least) and is_exact(most)
-    if not within(s, r, least * least if exact else down(least * least), most * most, support):
+    least = least * least
+    most = most * most
+    if not within(s, r, least if exact else down(least), most if exact else up(most), support):
         return False
     if high(s, r) == inf or high(s, r) < 0.0:
         return True

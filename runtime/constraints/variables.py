@@ -217,6 +217,8 @@ def keep_values(s: Store, v: int, values: list[float], support: int) -> bool:
     if s.kind[v] == KIND_FLOAT:
         return keep_reals(s, v, values, support)
     if s.word[v] < 0:
+        if s.lb[v] == s.ub[v]:
+            return s.lb[v] in values or s.fail(v, SIDE_HOLES, support)
         inside = [x for x in values if s.lb[v] <= x <= s.ub[v]]
         if not inside:
             return s.fail(v, SIDE_HOLES, support)

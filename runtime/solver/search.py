@@ -134,6 +134,8 @@ class Solver:
         while not self.is_exhausted:
             d = stack.depth
             if not self.has_active:
+                if d == 0:
+                    q.dropped_count = 0  # nothing is taken back behind the first decision
                 if not select(q):
                     return PLAN
                 self.enter()

@@ -4,8 +4,9 @@ python -m tests.constraints.proof [COUNT]    COUNT of each (100,000)
 
 Networks live: edges, distances, restrictions, decisions come, are undone, done again, retracted; after each step all
 bounds are compared with those of all-pairs distances. Sets have constraints of all operations: what propagation leaves
-is compared with enumeration, and searching with the engine must find just the solutions. Explanations of conflicts are
-judged whole, and without each of their elements. Exits with 1 if anything differs.
+is compared with enumeration, and searching with the engine must find just the solutions. Solutions of constraints on
+reals are drawn first, and no propagation around them may lose one. Explanations of conflicts are judged whole, and
+without each of their elements. Turns that plan and undo must leave nothing behind. Exits with 1 if anything differs.
 """
 
 import sys
@@ -13,10 +14,11 @@ import time
 from collections.abc import Callable
 
 from runtime.build_form import build_form
-from tests.constraints import random_networks, random_sets
+from tests.constraints import random_networks, random_reals, random_sets
 from tests.constraints.signatures import SIGNATURES
 from tests.constraints.test_explanations import explain_and_shrink
 from tests.constraints.test_propagation import compare_with_naive_fixpoint
+from tests.solver.lasting import plan_and_undo, post_and_undo, tick
 
 Z3_SHARE = 50  # z3 is asked about one in so many
 SHOWN = 5
@@ -42,6 +44,18 @@ def share(spare: int, elements: int) -> str:
     return f"{elements} elements of explanations, {100 * (1 - spare / max(1, elements)):.2f} % of them needed"
 
 
+def lasted(what: str, life: Callable[[int], list[tuple[int, int]]], turns: int) -> int:
+    """Take many turns; print what is held after the first tenth and at the end; give 1 if it grows."""
+    begun = time.monotonic()
+    found = life(turns)
+    (early, early_process), (late, late_process) = found[1], found[-1]
+    print(f"{what}: {turns} turns, {time.monotonic() - begun:.0f} s", flush=True)
+    print(
+        f"  arrays {early} bytes, then {late}; process {early_process / 2**20:.2f} MiB, then {late_process / 2**20:.2f}"
+    )
+    return int(late > early or late_process > early_process + 2**21)
+
+
 def main() -> None:
     """Judge all and exit with 1 if anything differs."""
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 100_000
@@ -58,9 +72,15 @@ def main() -> None:
     wrong += judged("constraint sets, conflicts", count, lambda seed: random_sets.judge_conflict(seed, sets))
     print(f"  {sets.conflicts} conflicts, {share(sets.spare, sets.elements)}")
     print(f"  with functions that wait for their arguments: {share(sets.far_spare, sets.far_elements)}")
+    reals = random_reals.Tally()
+    wrong += judged("solutions in reals", count, lambda seed: random_reals.judge_reals(seed, reals))
+    print(f"  {reals.narrowed} bounds narrowed around them, {len(reals.posts)} operations")
     wrong += judged(
         "explanations that z3 judges", count // Z3_SHARE, lambda seed: explain_and_shrink(seed, seed % 2 > 0)
     )
+    wrong += lasted("plan and undo", plan_and_undo, count)
+    wrong += lasted("post and undo", post_and_undo, count)
+    wrong += lasted("restrict and retract, tick by tick", tick, count // 5)
     sys.exit(1 if wrong else 0)
 
 

@@ -14,12 +14,13 @@ from runtime.constraints.minimise import Scratch, minimise, sufficient
 from runtime.constraints.narrow import is_single
 from runtime.constraints.store import Store
 from tests.constraints import meaning
-from tests.constraints.signatures import FORWARD, OBJECTS, OTHERS, SIGNATURES, draw_values, images
+from tests.constraints.signatures import FORWARD, OBJECTS, OTHERS, SIGNATURES, TURNING, draw_values, images
 
 Post = tuple[int, tuple[int, ...]]
 MOST_NODES = 20000
 TINY = 1e-3
 MOST_COMBINATIONS = 2000
+ON_EARTH = (codes.OP_WGS_DISPLACE, codes.OP_WGS_DISPLACEMENT)
 OF_DOMAINS = (codes.OP_TEST_SINGLETON, codes.OP_TEST_SPECIFIED)  # they speak of what is known, not of values
 
 
@@ -105,6 +106,10 @@ def draw(chance: random.Random) -> Problem:
             arguments[-1] = arguments[chance.randrange(len(arguments) - 1)]
             if not signature.fits(letters[-1], problem.kinds[arguments[-1]]):
                 continue
+        if op in ON_EARTH and any(abs(x) > 80 for v in arguments for x in problem.values[v]):
+            continue  # near the poles all longitudes are near
+        if op in TURNING and any(0 < abs(x) < 20 for x in problem.values[arguments[1]]):
+            continue  # the sine of a small angle is near to the angle
         problem.posts.append((op, tuple(arguments)))
     return problem
 

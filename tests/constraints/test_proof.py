@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from tests.constraints import random_networks, random_sets
+from tests.constraints import random_networks, random_reals, random_sets
 from tests.constraints.reference import BATCHES, seeds
 from tests.constraints.signatures import SIGNATURES
 
@@ -39,3 +39,11 @@ def test_explanations_are_inconsistent_and_nearly_minimal() -> None:
 def test_every_operation_is_drawn() -> None:
     drawn = {op for seed in range(3000) for op, _ in random_sets.draw(random.Random(seed)).posts}
     assert drawn == set(SIGNATURES)
+
+
+@pytest.mark.parametrize("batch", BATCHES)
+def test_no_solution_in_reals_is_ever_lost(batch: int) -> None:
+    tally = random_reals.Tally()
+    for seed in seeds(batch):
+        random_reals.judge_reals(seed, tally)
+    assert tally.narrowed > 0

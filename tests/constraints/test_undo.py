@@ -212,3 +212,39 @@ def test_bounds_that_a_retraction_pulled_are_explained_later() -> None:
     engine.restrict_base(a, 0, float("inf"), 5, -1)
     assert not engine.restrict_base(b, 11, float("inf"), 6, -1)
     assert {cause.span for cause in engine.explain()} >= {2, 3, 6}
+
+
+def test_taking_a_relation_out_of_a_long_chain_touches_its_cone_only() -> None:
+    engine = Engine()
+    length, station = 10_000, 100
+    points = [engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), 0, -1) for _ in range(length)]
+    edges = []
+    for k, v in enumerate(points):
+        if k % station == 0:
+            engine.restrict_base(v, 5 * k, 5 * k + 300, 1, -1)  # here the chain is held by its own dates
+        if k:
+            assert engine.add_edge(v, points[k - 1], -2, 2, -1)
+            edges.append(engine.newest_edge)
+    assert engine.propagate()
+    engine.commit()
+    before = [(engine.lower(v), engine.upper(v)) for v in points]
+    visits, updates, runs = engine.visits, engine.updates, engine.runs
+    middle = length // 2 + station // 2
+    assert engine.retract(edges=[edges[middle - 1]])
+    for k, v in enumerate(points):
+        low, high = before[k]
+        if 0 < middle - k < station // 2:
+            high = float("inf")
+        if 0 <= k - middle < station // 2:
+            low = float("-inf")
+        assert (engine.lower(v), engine.upper(v)) == (low, high)
+    assert engine.visits - visits <= 4 * station
+    assert engine.updates - updates <= station and engine.runs == runs
+    engine.commit()
+    visits, updates = engine.visits, engine.updates
+    mark = engine.mark()
+    assert engine.restrict_base(points[middle + 3], 5 * middle, 10**6, 3, -1) and engine.propagate()
+    assert engine.updates > updates
+    visits, updates = engine.visits, engine.updates
+    engine.rewind(mark)
+    assert (engine.visits, engine.updates) == (visits, updates)  # going back propagates nothing

@@ -132,3 +132,69 @@ def test_z3_names_what_it_was_not_told_and_believes_terms(tmp_path: Path) -> Non
     assert told is not None
     assert confirm(told).untranslated == ("twice",)
     assert "twice(y, x)" in [cause.because for cause in told.causes]
+
+
+@pytest.mark.parametrize(
+    ("kind", "body"),
+    [
+        ("int", "return view.raise_to(0, view.lower(0) + 1)"),
+        ("float", "return view.raise_to(0, view.lower(0) + 0.001)"),
+        ("float", "return view.reduce_to(0, view.lower(0) + (view.upper(0) - view.lower(0)) * 0.999)"),
+    ],
+)
+def test_one_that_narrows_without_end_is_left_alone(kind: str, body: str, tmp_path: Path) -> None:
+    text = f"""
+class Creeping(Constraint):
+    name = "creeping"
+    signature = "x:number"
+    meaning = "it never is content"
+    runs = 0
+    def propagate(self, view):
+        Creeping.runs += 1
+        assert Creeping.runs < 20000
+        {body}
+CONSTRAINTS = [Creeping()]
+"""
+    own = library(tmp_path, text.lstrip())
+    end = "1000000000" if kind == "int" else "1000000000.0"
+    database(f"{kind} x = [{end[:0]}0{'' if kind == 'int' else '.0'} {end}]; creeping(x);", own)
+
+
+def test_one_that_widens_changes_nothing(tmp_path: Path) -> None:
+    text = """
+class Wide(Constraint):
+    name = "wide"
+    signature = "x:number"
+    meaning = "it asks for less than is known"
+    def propagate(self, view):
+        return view.raise_to(0, -100) and view.reduce_to(0, 100) and view.keep(0, range(-50, 50))
+CONSTRAINTS = [Wide()]
+"""
+    assert domains("int x = [2 7]; wide(x);", library(tmp_path, text.lstrip())) == {"x": "[2, 7] int"}
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("return view.raise_to(0, 'high')", "ValueError"),
+        ("return view.raise_to(0, None)", "TypeError"),
+        ("return view.fix(0, 'high')", "TypeError"),
+        ("return self.propagate(view)", "RecursionError"),
+        ("view.count = 9; return view.lower(5) > 0", "IndexError"),
+        ("raise KeyboardInterrupt('no')", "KeyboardInterrupt"),
+    ],
+)
+def test_nonsense_becomes_one_message(body: str, said: str, tmp_path: Path) -> None:
+    text = f"""
+class Bad(Constraint):
+    name = "bad"
+    signature = "x:number"
+    meaning = "it answers nonsense"
+    def propagate(self, view):
+        {body}
+CONSTRAINTS = [Bad()]
+"""
+    own = library(tmp_path, text.lstrip())
+    with pytest.raises((UserCodeError, KeyboardInterrupt)) as caught:
+        database("int x = [0 9]; bad(x);", own)
+    assert said in f"{type(caught.value).__name__}: {caught.value}"
