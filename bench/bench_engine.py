@@ -12,7 +12,9 @@ import random
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
+from pathlib import Path
 
 from runtime.build_form import build_form
 from runtime.constraints import codes
@@ -31,7 +33,15 @@ class Figures:
     sum_run_ns: float  # per run of an addition that narrows its result
     rule_us: float  # a token with its five variables, its distance and two relations, made and undone
     retract_us: float  # one relation taken out of a chain of tokens and put back
-    edge_bytes: float
+    chain_ns: float  # per bound changed, trail and support and undo included, as of all figures of this kind: a chain
+    insert_ns: float  # ... whose relations come one by one, each of which moves all of it
+    fan_ns: float  # ... one point before a thousand others
+    grid_ns: float  # ... points in a square, each before its two neighbours
+    decide_ns: float  # ... a sparse network in which points are decided one by one
+    edge_bytes: float  # of all arrays, with the room that doubling leaves empty at worst
+    edges_5_bytes: float  # at 10^5 edges
+    edges_6_bytes: float  # at 10^6 edges (10^5 uncompiled)
+    edges_6_process_bytes: float  # what the process grew by meanwhile, points and all, per edge
 
 
 def measure(scale: int) -> Figures:
@@ -44,7 +54,9 @@ def measure(scale: int) -> Figures:
         measure_sums(scale),
         measure_tokens(scale),
         measure_retraction(scale),
+        *measure_shapes(scale),
         edge_bytes(),
+        *many_edges(),
     )
 
 
@@ -148,9 +160,84 @@ def measure_retraction(scale: int) -> float:
     return (time.process_time() - begun) / (20 * scale) * 1e6
 
 
-def edge_bytes() -> float:
-    """Give the bytes that one edge takes, with the room that doubling leaves empty at worst."""
+def measure_shapes(scale: int) -> Iterator[float]:
+    """Push the first point of networks of some shapes about; give the nanoseconds per bound changed of each."""
+    chance = random.Random(4)
+    size = 30 if scale > 1 else 10
+    chain = [(k, k + 1) for k in range(size**2 - 1)]
+    fan = [(0, k) for k in range(1, size**2)]
+    grid = [(k, k + 1) for k in range(size**2) if (k + 1) % size]
+    grid += [(k, k + size) for k in range(size**2 - size)]
+    sparse = sorted((min(a, b), max(a, b)) for a, b in (chance.sample(range(size**2), 2) for _ in range(2 * size**2)))
+    yield measure_shape(size**2, chain, 20 * scale, push)
+    yield measure_shape(size**2, [], scale, lambda engine, points, _: insert(engine, points))
+    yield measure_shape(size**2, fan, 20 * scale, push)
+    yield measure_shape(size**2, grid, 10 * scale, push)
+    plans = [sorted((chance.randrange(size**2), chance.randint(0, 40)) for _ in range(10)) for _ in range(50)]
+    yield measure_shape(size**2, sparse, 20 * scale, lambda engine, points, k: decide(engine, points, plans[k % 50]))
+
+
+def measure_shape(
+    count: int, relations: list[tuple[int, int]], turns: int, turn: Callable[[Engine, list[int], int], None]
+) -> float:
+    """Lay out points, each relation's first at least 1 before its second; take turns and undo each."""
     engine = Engine()
+    points = [engine.new_interval(codes.KIND_INT, 0, 10**7, 0, -1) for _ in range(count)]
+    for before, after in relations:
+        engine.add_edge(points[after], points[before], -1, 0, -1)
+    engine.propagate()
+    engine.commit()
+    updates = engine.updates
+    begun = time.process_time()
+    for k in range(turns):
+        mark = engine.mark()
+        turn(engine, points, k)
+        engine.rewind(mark)
+    return (time.process_time() - begun) / (engine.updates - updates) * NANO
+
+
+def push(engine: Engine, points: list[int], k: int) -> None:
+    """Have the first point be later."""
+    engine.restrict_base(points[0], k % 50 + 1, 10**7, 0, -1)
+    engine.propagate()
+
+
+def insert(engine: Engine, points: list[int]) -> None:
+    """Chain all points, the last relation first."""
+    for k in range(len(points) - 1, 0, -1):
+        engine.add_edge(points[k], points[k - 1], -1, 0, -1)
+
+
+def decide(engine: Engine, points: list[int], plan: list[tuple[int, int]]) -> None:
+    """Decide some points somewhat later than they might be."""
+    for k, later in plan:
+        if not (engine.decide(points[k], engine.lower(points[k]) + later, 0, -1) and engine.propagate()):
+            return
+
+
+def many_edges() -> Iterator[float]:
+    """Give bytes per edge with 10^5 and with 10^6 edges, then those of the process."""
+    for count in (10**5, 10**6 if build_form() == "compiled" else 10**5):
+        before = resident()
+        engine = Engine()
+        points = [engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), 0, -1) for _ in range(count // 10)]
+        for k in range(count):
+            engine.add_edge(points[k % len(points)], points[k * 7 % len(points)], 1000, 0, -1)
+            if k % 1000 == 0:
+                engine.commit()
+        grown = resident() - before
+        yield row_bytes(engine) / count
+    yield grown / count
+
+
+def resident() -> int:
+    """Give the bytes of memory that this process has; 0 where the system does not tell."""
+    table = Path("/proc/self/statm")
+    return int(table.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") if table.exists() else 0
+
+
+def row_bytes(engine: Engine) -> int:
+    """Add up the rows of all edges."""
     rows = (
         engine.edge_source,
         engine.edge_target,
@@ -163,7 +250,13 @@ def edge_bytes() -> float:
         engine.edge_owner,
         engine.edge_link,
     )
-    return 2.0 * sum(memoryview(row).nbytes for row in rows) / len(memoryview(engine.edge_weight))
+    return sum(memoryview(row).nbytes for row in rows)
+
+
+def edge_bytes() -> float:
+    """Give the bytes that one edge takes, with the room that doubling leaves empty at worst."""
+    engine = Engine()
+    return 2.0 * row_bytes(engine) / len(memoryview(engine.edge_weight))
 
 
 def main() -> None:
@@ -185,9 +278,9 @@ def main() -> None:
         other = json.loads(answer.stdout)
     for name, value in here.items():
         if isinstance(value, str):
-            print(f"{name:12} {value:>12}" + (f" {other[name]:>12} {'ratio':>8}" if other else ""))
+            print(f"{name:21} {value:>12}" + (f" {other[name]:>12} {'ratio':>8}" if other else ""))
         else:
-            print(f"{name:12} {value:12.2f}" + (f" {other[name]:12.2f} {other[name] / value:8.1f}" if other else ""))
+            print(f"{name:21} {value:12.2f}" + (f" {other[name]:12.2f} {other[name] / value:8.1f}" if other else ""))
 
 
 if __name__ == "__main__":
