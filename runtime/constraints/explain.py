@@ -5,6 +5,8 @@ support acted counts, as the trail remembers it. What was committed is known in 
 as tight; the walk then still ends, since each change is visited once, and `minimise` checks the result.
 """
 
+from collections.abc import Sequence
+
 from runtime.constraints.cause import Cause, CauseKind, Link
 from runtime.constraints.codes import (
     CONFLICT_CYCLE,
@@ -12,6 +14,7 @@ from runtime.constraints.codes import (
     FLAG_VALUES,
     KIND_BOOL,
     KIND_FLOAT,
+    OP_EXTERNAL,
     SIDE_HOLES,
     SIDE_LOWER,
     SIDE_UPPER,
@@ -66,6 +69,8 @@ def explain_conflict(s: Store) -> list[Cause]:
         else:
             collect_all(s, support >> 2, -1, SIDE_HOLES)
             waiting = read_reasons(s, now)
+            if s.op[support >> 2] == OP_EXTERNAL:
+                waiting += read_edges(s, found, s.externals[support >> 2].edges, now)
     walk_back(s, found, waiting, [])
     return list(found)
 
@@ -88,6 +93,17 @@ def add_cause(s: Store, found: dict[Cause, None], support: int) -> Cause | None:
 def read_reasons(s: Store, time: int) -> list[Bound]:
     """Turn the collected reasons into bounds as they were before a time."""
     return [(s.reasons[i] >> 2, s.reasons[i] & 3, time) for i in range(s.reason_count)]
+
+
+def read_edges(s: Store, found: dict[Cause, None], edges: Sequence[int], time: int) -> list[Bound]:
+    """Collect edges that a constraint read; what is left to explain are the distances that their weights follow."""
+    waiting: list[Bound] = []
+    for e in edges:
+        add_cause(s, found, e * 4 + SUPPORT_EDGE)
+        s.reason_count = 0
+        collect_weight(s, e)
+        waiting.extend(read_reasons(s, time))
+    return waiting
 
 
 def walk_cycle(s: Store, found: dict[Cause, None], now: int) -> list[Bound]:

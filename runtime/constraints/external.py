@@ -1,5 +1,7 @@
 """What a constraint written outside the engine looks like: resources, and users' relations in Python."""
 
+from collections.abc import Sequence
+
 from runtime.constraints.codes import CONFLICT_CONSTRAINT, SUPPORT_CONSTRAINT
 from runtime.constraints.narrow import raise_to, reduce_to, remove_value
 from runtime.constraints.store import Store
@@ -18,6 +20,8 @@ class External:
 
     # Whether it may be run in a scratch engine, on copies of its arguments, to check and shrink explanations.
     is_repeatable = True
+    # Temporal edges that it read beside the bounds of its arguments.
+    edges: Sequence[int] = ()
 
     def propagate(self, s: Store, c: int) -> bool:
         """Narrow the arguments of constraint `c`; False on a conflict."""

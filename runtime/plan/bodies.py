@@ -16,6 +16,8 @@ from runtime.plan.codes import (
     DO_SAMPLE,
     DO_USE,
     DO_VARIABLE,
+    DURATION,
+    END,
     FLAG_CONDITION,
     FLAG_EFFECT,
     HOLDS_USE,
@@ -26,6 +28,7 @@ from runtime.plan.codes import (
     OBJECT_OWN,
     ROLE_INTERNAL,
     ROLE_LOCAL,
+    START,
 )
 from runtime.plan.guards import wait
 from runtime.plan.holding import between, constraint, copy_variable, equate, post_two, restrict
@@ -213,7 +216,10 @@ def use(plan: Plan, scope: int, at: int, span: int) -> int:
     start = plan.operands[first + 2]
     end = plan.operands[first + 3]
     plan.operands_used = first
-    u = plan.resources.add_use(owner, -1, holder, quantity, start, end, plan.rows.level)
+    duration = NONE
+    if owner >= 0 and start == plan.rows.var0[owner] + START and end == plan.rows.var0[owner] + END:
+        duration = plan.rows.var0[owner] + DURATION
+    u = plan.resources.add_use(owner, -1, holder, quantity, start, end, duration, plan.rows.level)
     if owner >= 0:
         plan.rows.hold(scope, HOLDS_USE, u, 1)
     return 10

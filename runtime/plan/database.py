@@ -52,7 +52,7 @@ class PlanDatabase:
         self.script = Script(self.plan, program, self.prototypes, self.code, predicates, self.objects)
         load_code(self.plan, self.code)
         self.plan.services = self
-        self.plan.envelope = Flaws(self.plan)
+        self.plan.envelope = Flaws(self.plan.engine, self.plan.resources)
         self.plan.resources.grounded_text = self.prototypes.texts.number(GROUNDED)
         self.environment = environment
         self.ranges = {

@@ -1,17 +1,24 @@
 """A constraint that refuses a resource certainly exceeded: it finds the excess again from the bounds it stands on."""
 
+from collections.abc import Callable
 from math import inf
+from typing import Any
 
 from runtime.constraints.codes import KIND_FLOAT
 from runtime.constraints.external import External, argument, refuse
 from runtime.constraints.store import Store
+from runtime.plan.codes import LIMITS, TOO_HIGH, TOO_LOW, TOO_TIGHT
 from runtime.plan.levels import Levels
 
 Step = tuple[int, float, float]  # set_capacity: from when on, between what
 
 
 class Excess(External):
-    """The limits of a resource first, then holder, quantity, start and end (if any) of each use, are its arguments."""
+    """The limits of a resource, then holder, quantity, start, end and duration (if any) of each use, are its arguments.
+
+    `read` are the bounds (`v * 4 + side`) that make it certain, each with what would be `enough`; `uses` the rows that
+    count; `edges` the order between them that does. `helper` is the sign of what would help if it were there, or 0.
+    """
 
     def __init__(
         self, resource: int, wrong: int, at: int, amount: float, steps: list[tuple[int, float, float]]
@@ -22,10 +29,36 @@ class Excess(External):
         self.amount = amount
         self.steps = steps
         self.limits: list[int] = []  # which limits of the row are among the arguments
-        self.signs: list[int] = []  # -1 consumes, 1 produces; doubled where the use has an end
+        self.signs: list[int] = []  # -1 consumes, 1 produces; doubled where the use has an end, tripled with a duration
+        self.read: list[int] = []
+        self.enough: list[int | None] = []
+        self.uses: list[int] = []
+        self.edges: list[int] = []
+        self.helper = 0
+        self.table: Callable[[Any], Any] | None = None
+        self.judge: Callable[[Any, Any], Any] | None = None
+
+    def note(self, key: int) -> None:
+        """A bound counts as it is."""
+        self.read.append(key)
+        self.enough.append(None)
+
+    def note_enough(self, key: int, enough: int) -> None:
+        """A bound counts that is as tight as `enough`."""
+        self.read.append(key)
+        self.enough.append(enough)
+
+    def by_order(self, is_low: bool, at: int, table: Callable[[Any], Any], judge: Callable[[Any, Any], Any]) -> None:
+        """Say that the order of uses makes it certain, which `judge` finds again from a new table of uses."""
+        self.wrong = TOO_LOW if is_low else TOO_HIGH
+        self.at = at
+        self.table = table
+        self.judge = judge
 
     def propagate(self, s: Store, c: int) -> bool:
         """Refuse if the level is certainly out of bounds."""
+        if self.table is not None and self.judge is not None:
+            return not self.is_out_by_order(s, c) or refuse(s, c)
         levels = Levels()
         place = 0
         bounds = [(0.0, 0.0), (-inf, -inf), (inf, inf), (inf, inf), (inf, inf), (inf, inf), (inf, inf)]
@@ -37,19 +70,40 @@ class Excess(External):
         levels.set_limits(initial[0], initial[1], minimum[0], maximum[1])
         levels.set_flows(rate[1], total[1], production_rate[1], production_total[1])
         for sign in self.signs:
-            holder, quantity, start = (argument(s, c, place + k) for k in range(3))
-            place += 3
-            has_end = sign in (-2, 2)
-            end = argument(s, c, place) if has_end else start
-            place += has_end
+            parts = [argument(s, c, place + k) for k in range(2 + abs(sign))]
+            place += len(parts)
+            holder, quantity, start = parts[:3]
+            end = parts[3] if len(parts) > 3 else start
             if s.lb[holder] != self.resource or s.ub[holder] != self.resource or s.kind[quantity] != KIND_FLOAT:
                 continue
-            i = levels.add(-1, -1 if sign < 0 else 1, not has_end)
+            i = levels.add(-1, -1 if sign < 0 else 1, len(parts) == 3)
             levels.start_low[i], levels.start_high[i] = s.lb[start], s.ub[start]
             levels.end_low[i], levels.end_high[i] = s.lb[end], s.ub[end]
             levels.least[i], levels.most[i] = s.flo[quantity], s.fhi[quantity]
+            levels.length[i] = max(0, s.lb[end] - s.ub[start], s.lb[parts[4]] if len(parts) > 4 else 0)
         low, high = initial
         for at, lower, upper in self.steps:
             levels.add_step(at, low - upper, high - lower)
             low, high = lower, upper
-        return refuse(s, c) if levels.violation() else True
+        found = levels.overload() if self.wrong == TOO_TIGHT else levels.violation()
+        return refuse(s, c) if found else True
+
+    def is_out_by_order(self, s: Store, c: int) -> bool:
+        """Whether the order of the uses in `s` makes certain that the level is out of bounds."""
+        assert self.table is not None and self.judge is not None
+        table = self.table(s)
+        limits = [-1] * LIMITS
+        place = 0
+        for k in self.limits:
+            limits[k] = argument(s, c, place)
+            place += 1
+        table.add_resource(self.resource, limits, -1)
+        for at, lower, upper in self.steps:
+            table.set_capacity(self.resource, at, lower, upper)
+        for sign in self.signs:
+            parts = [argument(s, c, place + k) for k in range(2 + abs(sign))]
+            place += len(parts)
+            end = parts[3] if len(parts) > 3 else -1
+            table.add_use(-1, 1 if sign > 0 else -1, parts[0], parts[1], parts[2], end, -1, 1)
+        table.is_quiet()
+        return bool(self.judge(s, table).find_certain(self.resource))

@@ -3,10 +3,9 @@
 cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.levels cimport Levels
-from runtime.plan.plan cimport Plan
 from runtime.plan.resources cimport Resources
 
-cdef long long NONE, ROOM
+cdef long long NONE, ROOM, SIDE_LOWER, SIDE_UPPER
 cdef double FLOAT_TOLERANCE
 
 
@@ -19,7 +18,7 @@ cdef class Flaws:
     cdef public bint grounded
     cdef public double excess
     cdef public long long[::1] pair_before, pair_after, use_before, use_after
-    cdef public long long[::1] marks, stack, takes, gives
+    cdef public long long[::1] marks, stack, via, takes, gives
     cdef public long long[::1] instants, from_taker, from_giver, queue
     cdef public long long[::1] ordered
     cdef public double[::1] supply, demand, flow
@@ -67,6 +66,9 @@ cdef class Flaws:
 
     @cython.locals(amount=double, i="long long", j="long long")
     cpdef double push(self, long long source, long long giver) except? -1.0
+
+    @cython.locals(e="long long", i="long long", is_marked=bint, j="long long", n="long long", v="long long")
+    cpdef int note_orders(self, list edges, list read) except -1
 
     @cython.locals(i="long long", j="long long", levels=Levels, n="long long", v="long long")
     cpdef long long find_pairs(self) except? -1

@@ -6,11 +6,12 @@ happened (Muscettola's resource envelope); as known orders are transitive, it is
 have given back before. Order is read off the network: paths of edges whose weights are not positive, and bounds.
 """
 
-from runtime.constraints.codes import FLOAT_TOLERANCE
+from runtime.constraints.codes import FLOAT_TOLERANCE, SIDE_LOWER, SIDE_UPPER
+from runtime.constraints.engine import Engine
 from runtime.plan.arrays import blank, blank_reals, grown
 from runtime.plan.codes import NONE
 from runtime.plan.levels import Levels
-from runtime.plan.plan import Plan
+from runtime.plan.resources import Resources
 
 ROOM = 64
 
@@ -22,9 +23,9 @@ class Flaws:
     which could be put before the second to mend it.
     """
 
-    def __init__(self, plan: Plan) -> None:
-        self.engine = plan.engine
-        self.resources = plan.resources
+    def __init__(self, engine: Engine, resources: Resources) -> None:
+        self.engine = engine
+        self.resources = resources
         self.levels = Levels()
         self.resource = NONE
         self.at = 0
@@ -41,6 +42,7 @@ class Flaws:
         self.marks = blank(ROOM)
         self.mark = 0
         self.stack = blank(ROOM)
+        self.via = blank(ROOM)
         self.use_room = ROOM
         self.takes = blank(ROOM)  # the timepoint at which use i takes from the level, or gives to it
         self.gives = blank(ROOM)
@@ -193,6 +195,7 @@ class Flaws:
                 self.variable_room *= 2
             self.marks = grown(self.marks, self.variable_room)
             self.stack = blank(self.variable_room)
+            self.via = blank(self.variable_room)
 
     def walk_back(self, v: int) -> None:
         """Mark all timepoints that are known to be no later than `v`."""
@@ -208,6 +211,7 @@ class Flaws:
                 u = engine.edge_target[e]
                 if engine.edge_weight[e] <= 0 and self.marks[u] != self.mark:
                     self.marks[u] = self.mark
+                    self.via[u] = e
                     self.stack[top] = u
                     top += 1
                 e = engine.out_next[e]
@@ -292,6 +296,29 @@ class Flaws:
             j = self.from_taker[i]
             self.flow[j * self.use_room + i] += amount
         return amount
+
+    # ---- reasons ----
+
+    def note_orders(self, edges: list[int], read: list[int]) -> None:
+        """After `find_certain`: add the edges that order what the flow joins, or the bounds (`4 * v + side`)."""
+        n = self.levels.count
+        for j in range(n):
+            is_marked = False
+            for i in range(n):
+                if self.flow[j * self.use_room + i] <= FLOAT_TOLERANCE:
+                    continue
+                if not is_marked:
+                    self.walk_back(self.takes[j])
+                    is_marked = True
+                v = self.gives[i]
+                if self.marks[v] != self.mark:
+                    read.append(v * 4 + SIDE_UPPER)
+                    read.append(self.takes[j] * 4 + SIDE_LOWER)
+                    continue
+                while v != self.takes[j]:
+                    e = self.via[v]
+                    edges.append(e)
+                    v = self.engine.edge_source[e]
 
     # ---- mending ----
 

@@ -2,14 +2,14 @@
 
 cimport cython
 
-cdef long long ROOM, TOO_FAST, TOO_HIGH, TOO_LOW, TOO_MUCH
+cdef long long ROOM, TOO_FAST, TOO_HIGH, TOO_LOW, TOO_MUCH, TOO_TIGHT, HALF_INF, MOST_WINDOWS
 cdef double FLOAT_TOLERANCE, inf
 
 
 cdef class Levels:
-    cdef public long long room, count, wrong, at
+    cdef public long long room, count, wrong, at, until
     cdef public long long[::1] use, sign, lasting, start_low
-    cdef public long long[::1] start_high, end_low, end_high
+    cdef public long long[::1] start_high, end_low, end_high, length
     cdef public double[::1] least, most
     cdef public double excess, initial_low, initial_high, minimum
     cdef public double maximum, rate, total, production_rate
@@ -49,3 +49,11 @@ cdef class Levels:
 
     @cython.locals(flow=double, j="long long", same=bint)
     cpdef double together(self, long long i) except? -1.0
+
+    @cython.locals(
+        end="long long", first="long long", i="long long", j="long long", k="long long", room=double, start="long long"
+    )
+    cpdef long long overload(self) except? -1
+
+    @cython.locals(early="long long", late="long long")
+    cpdef long long share(self, long long k, long long start, long long end) except? -1

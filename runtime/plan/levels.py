@@ -5,11 +5,12 @@ Bounds of times alone are looked at; `flaws` knows the order of uses as well.
 
 from math import inf
 
-from runtime.constraints.codes import FLOAT_TOLERANCE
+from runtime.constraints.codes import FLOAT_TOLERANCE, HALF_INF
 from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
+from runtime.plan.codes import TOO_FAST, TOO_HIGH, TOO_LOW, TOO_MUCH, TOO_TIGHT
 
 ROOM = 16
-TOO_LOW, TOO_HIGH, TOO_FAST, TOO_MUCH = range(1, 5)
+MOST_WINDOWS = 64  # above so many uses only windows from the earliest start on are looked at
 
 
 class Levels:
@@ -29,12 +30,14 @@ class Levels:
         self.start_high = blank(ROOM)
         self.end_low = blank(ROOM)
         self.end_high = blank(ROOM)
+        self.length = blank(ROOM)  # how long a use lasts at least
         self.least = blank_reals(ROOM)
         self.most = blank_reals(ROOM)
         self.set_limits(0.0, 0.0, -inf, inf)
         self.set_flows(inf, inf, inf, inf)
         self.wrong = 0
         self.at = 0
+        self.until = 0
         self.excess = 0.0
 
     def set_limits(self, initial_low: float, initial_high: float, minimum: float, maximum: float) -> None:
@@ -61,6 +64,7 @@ class Levels:
         self.use[i] = use
         self.sign[i] = sign
         self.lasting[i] = lasting
+        self.length[i] = 0
         return i
 
     def add_step(self, start: int, least: float, most: float) -> None:
@@ -82,6 +86,7 @@ class Levels:
         self.start_high = grown(self.start_high, self.room)
         self.end_low = grown(self.end_low, self.room)
         self.end_high = grown(self.end_high, self.room)
+        self.length = grown(self.length, self.room)
         self.least = grown_reals(self.least, self.room)
         self.most = grown_reals(self.most, self.room)
 
@@ -189,3 +194,44 @@ class Levels:
             if same and self.sign[j] == self.sign[i]:
                 flow += self.least[j]
         return flow
+
+    # ---- what cannot fit ----
+
+    def overload(self) -> int:
+        """Whether some window cannot hold what must lie in it: more use times time than its length allows.
+
+        Energetic reasoning (Baptiste, Le Pape, Nuijten 2001) over windows from an earliest start to a latest end;
+        `at` and `until` tell which. Only for uses that give back; O(n^3), O(n^2) above MOST_WINDOWS uses.
+        """
+        room = self.initial_high - self.minimum
+        if room == inf:
+            return 0
+        first = HALF_INF
+        for i in range(self.count):
+            if self.lasting[i] or self.sign[i] > 0:
+                return 0
+            first = min(first, self.start_low[i])
+        for i in range(self.count):
+            start = self.start_low[i]
+            if start <= -HALF_INF or (self.count > MOST_WINDOWS and start > first):
+                continue
+            for j in range(self.count):
+                end = self.end_high[j]
+                if start < end < HALF_INF:
+                    self.excess = -room * (end - start)
+                    for k in range(self.count):
+                        self.excess += self.least[k] * self.share(k, start, end)
+                    if self.excess > FLOAT_TOLERANCE:
+                        self.at = start
+                        self.until = end
+                        self.wrong = TOO_TIGHT
+                        return TOO_TIGHT
+            if self.count > MOST_WINDOWS:
+                break
+        return 0
+
+    def share(self, k: int, start: int, end: int) -> int:
+        """How much time of use `k` lies in a window, however it is shifted."""
+        early = self.start_low[k] + self.length[k] - start
+        late = end - self.end_high[k] + self.length[k]
+        return max(0, min(self.length[k], end - start, early, late))

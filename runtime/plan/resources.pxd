@@ -4,7 +4,8 @@ cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.levels cimport Levels
 
-cdef long long INITIAL, LIMITS, MAXIMUM, MINIMUM, NONE, PRODUCTION_RATE, PRODUCTION_TOTAL, RATE, ROOM, TOTAL
+cdef long long INITIAL, LIMITS, MAXIMUM, MINIMUM, NONE, PRODUCTION_RATE, PRODUCTION_TOTAL, RATE, ROOM, SIDE_LOWER
+cdef long long SIDE_UPPER, TOO_HIGH, TOO_LOW, TOO_TIGHT, TOTAL
 cdef double inf
 
 
@@ -13,9 +14,10 @@ cdef class Resources:
     cdef public Levels levels
     cdef public long long room, count, object_room, grounded_text
     cdef public long long pending
+    cdef public bint is_energetic
     cdef public list free, refusals
     cdef public long long[::1] token, sign, holder, quantity
-    cdef public long long[::1] start, end, on, start_low
+    cdef public long long[::1] start, end, duration, on, start_low
     cdef public long long[::1] start_high, end_low, end_high, is_resource
     cdef public long long[::1] profile, changed, limits
     cdef public double[::1] least, most
@@ -28,7 +30,8 @@ cdef class Resources:
     cpdef bint is_grounded(self, long long o) except -1
 
     cpdef long long add_use(
-        self, long long token, long long sign, long long holder, long long quantity, long long start, long long end, long long level
+        self, long long token, long long sign, long long holder, long long quantity, long long start, long long end,
+        long long duration, long long level
     ) except? -1
 
     cpdef int remove_use(self, long long u) except -1
@@ -48,7 +51,7 @@ cdef class Resources:
     )
     cpdef bint is_quiet(self) except -1
 
-    @cython.locals(o="long long")
+    @cython.locals(by_order=bint, is_tight=bint, o="long long")
     cpdef bint check(self, envelope, long long level) except -1
 
     @cython.locals(taken=list)
@@ -61,5 +64,17 @@ cdef class Resources:
 
     cpdef double upper(self, long long place, double otherwise) except? -1.0
 
-    @cython.locals(c="long long", i="long long", k="long long", span_owner="long long", u="long long", variables=list)
-    cpdef bint refuse(self, long long o, long long level, bint by_order) except -1
+    @cython.locals(o="long long")
+    cpdef int stir(self) except -1
+
+    @cython.locals(
+        c="long long", i="long long", k="long long", levels=Levels, sign="long long", span_owner="long long",
+        u="long long", variables=list
+    )
+    cpdef bint refuse(self, long long o, long long level, envelope) except -1
+
+    @cython.locals(
+        end="long long", harms="long long", is_certain=bint, levels=Levels, quantity="long long", start="long long",
+        t="long long"
+    )
+    cpdef bint note_read(self, excess, long long i, long long u, bint by_order) except -1

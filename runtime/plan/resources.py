@@ -7,6 +7,7 @@ are compared with those of the last check, so that going back in time needs no n
 from math import inf
 from typing import Protocol
 
+from runtime.constraints.codes import SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
 from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
 from runtime.plan.codes import (
@@ -18,6 +19,9 @@ from runtime.plan.codes import (
     PRODUCTION_RATE,
     PRODUCTION_TOTAL,
     RATE,
+    TOO_HIGH,
+    TOO_LOW,
+    TOO_TIGHT,
     TOTAL,
 )
 from runtime.plan.excess import Excess
@@ -29,8 +33,14 @@ ROOM = 32
 class Envelope(Protocol):
     """What knows the order of uses."""
 
+    is_low: int
+    at: int
+
     def find_certain(self, o: int) -> bool:
         """Whether the order of uses makes certain what their times alone leave open."""
+
+    def note_orders(self, edges: list[int], read: list[int]) -> None:
+        """Add the edges and bounds by which it is certain."""
 
 
 class Resources:
@@ -48,6 +58,7 @@ class Resources:
         self.quantity = blank(ROOM)
         self.start = blank(ROOM)
         self.end = blank(ROOM)
+        self.duration = blank(ROOM)
         self.on = blank(ROOM)
         self.start_low = blank(ROOM)
         self.start_high = blank(ROOM)
@@ -65,6 +76,7 @@ class Resources:
         self.steps: dict[int, list[tuple[int, float, float]]] = {}  # set_capacity: from when on, between what
         self.pending = 0
         self.refusals: list[int] = []
+        self.is_energetic = False  # also refuse what cannot fit into a window
 
     # ---- resources and uses ----
 
@@ -86,8 +98,13 @@ class Resources:
         v = self.profile[o]
         return v >= 0 and self.engine.lb[v] == self.grounded_text and self.engine.ub[v] == self.grounded_text
 
-    def add_use(self, token: int, sign: int, holder: int, quantity: int, start: int, end: int, level: int) -> int:
-        """Charge a resource from now on; what has no end (NONE) changes the level for good. The number of the use."""
+    def add_use(
+        self, token: int, sign: int, holder: int, quantity: int, start: int, end: int, duration: int, level: int
+    ) -> int:
+        """Charge a resource from now on; what has no end (NONE) changes the level for good. The number of the use.
+
+        `duration` is the variable between start and end, NONE where there is none.
+        """
         if self.free and level == 0:
             u = self.free.pop()
         else:
@@ -101,6 +118,7 @@ class Resources:
         self.quantity[u] = quantity
         self.start[u] = start
         self.end[u] = end
+        self.duration[u] = duration
         self.on[u] = NONE
         return u
 
@@ -131,6 +149,7 @@ class Resources:
         self.quantity = grown(self.quantity, self.room)
         self.start = grown(self.start, self.room)
         self.end = grown(self.end, self.room)
+        self.duration = grown(self.duration, self.room)
         self.on = grown(self.on, self.room)
         self.start_low = grown(self.start_low, self.room)
         self.start_high = grown(self.start_high, self.room)
@@ -191,10 +210,12 @@ class Resources:
                 by_order = False
                 if not self.levels.violation():
                     by_order = self.levels.flows_both_ways() and envelope.find_certain(o)
-                    if not by_order:
+                    is_tight = not by_order and self.is_energetic and o not in self.steps
+                    is_tight = is_tight and self.levels.overload() != 0
+                    if not by_order and not is_tight:
                         continue
                 self.changed[o] = 1
-                return self.refuse(o, level, by_order)
+                return self.refuse(o, level, envelope if by_order else None)
         return True
 
     def take_refusals(self) -> list[int]:
@@ -224,6 +245,10 @@ class Resources:
                 levels.end_high[i] = self.end_high[u]
                 levels.least[i] = self.least[u]
                 levels.most[i] = self.most[u]
+                if self.end[u] >= 0:
+                    levels.length[i] = max(0, self.end_low[u] - self.start_high[u])
+                if self.duration[u] >= 0:
+                    levels.length[i] = max(levels.length[i], self.engine.lb[self.duration[u]])
         for start, lower, upper in self.steps.get(o, ()):
             levels.add_step(start, low - upper, high - lower)
             low, high = lower, upper
@@ -236,28 +261,91 @@ class Resources:
         """The upper bound of a limit."""
         return otherwise if self.limits[place] < 0 else self.engine.fhi[self.limits[place]]
 
-    def refuse(self, o: int, level: int, by_order: bool) -> bool:
-        """Post a constraint on all uses of a resource that finds the same, so that the engine can explain it.
+    def stir(self) -> None:
+        """Have every resource checked again."""
+        for o in range(self.object_room):
+            self.changed[o] = self.is_resource[o]
+        self.pending = 1
 
-        What follows from the order of uses is not found again from bounds: such a constraint refuses in any case.
+    def refuse(self, o: int, level: int, envelope: "Envelope | None") -> bool:
+        """Post a constraint on the uses that exceed a resource: it finds the same, so that the engine can explain it.
+
+        With an envelope the order of uses made it certain.
         """
-        excess = Excess(o, self.levels.wrong, self.levels.at, self.levels.excess, list(self.steps.get(o, ())))
-        excess.is_repeatable = not by_order
+        levels = self.levels
+        excess = Excess(o, levels.wrong, levels.at, levels.excess, list(self.steps.get(o, ())))
+        if envelope is not None:
+            excess.by_order(envelope.is_low == 0, envelope.at, Resources, type(envelope))
+            bounds: list[int] = []
+            envelope.note_orders(excess.edges, bounds)
+            for key in bounds:
+                excess.note(key)
         variables: list[int] = []
         for k in range(LIMITS):
             if self.limits[o * LIMITS + k] >= 0:
                 excess.limits.append(k)
                 variables.append(self.limits[o * LIMITS + k])
+        for v in variables:
+            excess.note(4 * v + SIDE_LOWER)
+            excess.note(4 * v + SIDE_UPPER)
         span_owner = NONE
-        for i in range(self.levels.count):
-            u = self.levels.use[i]
-            if u >= 0:
-                excess.signs.append(self.sign[u] * (2 if self.end[u] >= 0 else 1))
+        for i in range(levels.count):
+            u = levels.use[i]
+            if u >= 0 and self.note_read(excess, i, u, envelope is not None):
+                excess.uses.append(u)
+                sign = self.sign[u] * (1 if self.end[u] < 0 else 2 if self.duration[u] < 0 else 3)
+                excess.signs.append(sign)
                 variables += [self.holder[u], self.quantity[u], self.start[u]]
                 if self.end[u] >= 0:
                     variables.append(self.end[u])
+                    if self.duration[u] >= 0:
+                        variables.append(self.duration[u])
                 span_owner = self.token[u]
         c = self.engine.post_external(excess, variables, NONE, span_owner)
         if level == 0:
             self.refusals.append(c)
         return self.engine.propagate()
+
+    def note_read(self, excess: Excess, i: int, u: int, by_order: bool) -> bool:
+        """Note which bounds of use `u`, row `i` of the levels, count for an excess; False if it has no part in it."""
+        levels = self.levels
+        start = 4 * self.start[u]
+        end = 4 * self.end[u]
+        quantity = 4 * self.quantity[u]
+        t = excess.at
+        if excess.wrong == TOO_TIGHT:
+            if levels.share(i, levels.at, levels.until) == 0:
+                return False
+            excess.note(start + SIDE_LOWER)
+            excess.note(end + SIDE_UPPER)
+            excess.note(quantity + SIDE_LOWER)
+            if self.duration[u] >= 0:
+                excess.note(4 * self.duration[u] + SIDE_LOWER)
+            else:
+                excess.note(start + SIDE_UPPER)
+                excess.note(end + SIDE_LOWER)
+        elif excess.wrong == TOO_LOW or excess.wrong == TOO_HIGH:
+            harms = -1 if excess.wrong == TOO_LOW else 1
+            if self.end[u] < 0:
+                excess.helper = -harms
+            if self.sign[u] == harms:
+                is_certain = levels.start_high[i] <= t and (self.end[u] < 0 or levels.end_low[i] > t)
+                if is_certain:
+                    excess.note_enough(start + SIDE_UPPER, t)
+                    if self.end[u] >= 0:
+                        excess.note_enough(end + SIDE_LOWER, t + 1)
+                elif not by_order:
+                    return False
+                excess.note(quantity + SIDE_LOWER)
+            elif levels.start_low[i] > t:
+                excess.note_enough(start + SIDE_LOWER, t + 1)
+            elif self.end[u] >= 0 and levels.end_high[i] <= t:
+                excess.note_enough(end + SIDE_UPPER, t)
+            else:
+                excess.note(quantity + SIDE_UPPER)
+        else:
+            for key in (start, end, quantity):
+                if key >= 0:
+                    excess.note(key + SIDE_LOWER)
+                    excess.note(key + SIDE_UPPER)
+        return True

@@ -26,7 +26,7 @@ cpdef long long make_token(
 
 @cython.locals(
     _="long long", block="long long", end="long long", first="long long", holds=bint, index="long long",
-    kind="long long", made="long long", predicate="long long", rows=Rows, rule="long long", s="long long",
-    sign="long long", slots="long long"
+    kind="long long", lasting="long long", made="long long", predicate="long long", quantity="long long", rows=Rows,
+    rule="long long", s="long long", sign="long long", slots="long long"
 )
 cpdef bint activation(Plan plan, long long t, long long span) except -1

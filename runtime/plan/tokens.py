@@ -103,7 +103,9 @@ def activation(plan: Plan, t: int, span: int) -> bool:
         first = rows.var0[t]
         sign = 1 if kind == RESOURCE_PRODUCES else -1
         end = first + END if kind == RESOURCE_HOLDS else NONE
-        plan.resources.add_use(t, sign, first + OBJECT, first + FIRST_PARAMETER, first + START, end, rows.level)
+        quantity = first + FIRST_PARAMETER
+        lasting = first + DURATION if end >= 0 else NONE
+        plan.resources.add_use(t, sign, first + OBJECT, quantity, first + START, end, lasting, rows.level)
     holds = plan.engine.decide(rows.var0[t] + STATE, SYMBOL_ACTIVE, span, t)
     made = 0
     for index in range(plan.first_rule[predicate], plan.first_rule[predicate + 1]):

@@ -3,22 +3,22 @@
 cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.constraints.reasons cimport collect_reasons, collect_weight
-from runtime.plan.kinds cimport first_active, next_active
-from runtime.plan.rows cimport Rows
+from runtime.plan.resources cimport Resources
 from runtime.solver.decisions cimport Decisions
 from runtime.solver.distances cimport Distances
 from runtime.solver.queues cimport Queues
 
-cdef long long CONFLICT_DOMAIN, DURATION, END, EVERYTHING, LISTS, LIST_ORDER, NONE, NOW, OBJECT, OPEN_CONDITION
-cdef long long ROLE_TOKEN, SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, START, STATE, SUPPORT_CONSTRAINT, SUPPORT_EDGE
-cdef long long THREAT, UNBOUND_VARIABLE
+cdef long long ACTIVE, CUSTOM, UNBOUND_VARIABLE, CONFLICT_DOMAIN, EVERYTHING, HEAD_OPEN, LISTS, LIST_OPEN, NONE, NOW, OPEN_CONDITION, OP_EXTERNAL
+cdef long long RESOURCE_CONSUMES, RESOURCE_PRODUCES, SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_CONSTRAINT
+cdef long long SUPPORT_EDGE
 
 
 cdef class Blame:
     cdef public Queues queues
     cdef public Decisions stack
     cdef public Engine engine
-    cdef public long long stamp, met_count, work_count, origin
+    cdef public long long stamp, met_count, work_count, origin, opened
+    cdef public bint is_local
     cdef public long long[::1] marked, met, seen, work_key, work_before
 
     cpdef long long begin(self) except? -1
@@ -26,6 +26,9 @@ cdef class Blame:
     cpdef long long meet(self, long long level) except? -1
 
     cpdef long long ask(self, long long v, long long side, long long before) except? -1
+
+    @cython.locals(at="long long", before="long long", engine=Engine, old="long long", when="long long")
+    cpdef long long ask_enough(self, long long v, long long side, long long enough) except? -1
 
     cpdef long long ask_domain(self, long long v) except? -1
 
@@ -55,26 +58,29 @@ cdef class Blame:
     @cython.locals(heir="long long", latest="long long", reason="long long", stack=Decisions)
     cpdef long long target(self, long long d) except? -1
 
-    @cython.locals(item="long long", kind="long long", q=Queues, stack=Decisions)
-    cpdef long long complete(self, long long d) except? -1
-
-    @cython.locals(candidate="long long", other="long long", predicate="long long", q=Queues, rows=Rows)
-    cpdef long long blame_partners(self, long long d, long long t) except? -1
-
-    @cython.locals(k="long long")
-    cpdef long long blame_difference(self, long long mine, long long theirs, long long width) except? -1
-
     @cython.locals(distances=Distances, e="long long", v="long long")
     cpdef bint blame_edge(self, long long source, long long target, long long weight) except -1
 
     @cython.locals(c="long long", k="long long")
     cpdef long long ask_weight(self, long long e) except? -1
 
-    @cython.locals(item="long long", kind="long long", q=Queues, t="long long")
+    @cython.locals(is_new=bint, item="long long", kind="long long", mine="long long", q=Queues)
     cpdef bint may_bring(self, long long d, long long predicate) except -1
 
-    @cython.locals(after="long long", o="long long", other="long long", q=Queues, v="long long")
-    cpdef long long blame_neighbours(self, long long t) except? -1
+    @cython.locals(k="long long", q=Queues, s="long long", t="long long")
+    cpdef long long ask_guards(self, long long level) except? -1
 
-    @cython.locals(lb="long long[::1]", ub="long long[::1]", var0="long long[::1]")
-    cpdef long long blame_times(self, long long t, long long other, long long after) except? -1
+    @cython.locals(engine=Engine, k="long long", r="long long", v="long long")
+    cpdef long long ask_arguments(self, long long c) except? -1
+
+    @cython.locals(other="long long", q=Queues, t="long long")
+    cpdef long long blame_absence(self, long long d, long long predicate) except? -1
+
+    @cython.locals(q=Queues, t="long long")
+    cpdef long long blame_use(self, long long u, long long d) except? -1
+
+    @cython.locals(kind="long long", predicate="long long", q=Queues, u="long long", uses=Resources)
+    cpdef bint blame_helpers(self, long long o, long long sign, long long d) except -1
+
+    @cython.locals(e="long long", key="long long", u="long long")
+    cpdef bint blame_excess(self, long long c, long long d) except -1

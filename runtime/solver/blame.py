@@ -1,15 +1,17 @@
 """Find which decisions a conflict rests on, so that the search goes back to the latest of them and no farther.
 
 Decision `d` is level d + 1; level 0 is what held before the search. A failed choice adds to the decision's reasons the
-levels of all edges, constraints and restrictions that its conflict was derived from. When no choice is left, what took
-the other choices away completes the reasons; the latest of them is where another choice may help (conflict-directed
-backjumping, Prosser 1993). More levels than needed do no harm: the search then goes back less far.
+levels of all edges, constraints and restrictions that its conflict was derived from, and of what let the guards fire
+that posted them. When no choice is left, what took the other choices away (shortage.py) completes the reasons; the
+latest of them is where another choice may help (conflict-directed backjumping, Prosser 1993). More levels than needed
+do no harm: the search then goes back less far.
 """
 
 from array import array
 
 from runtime.constraints.codes import (
     CONFLICT_DOMAIN,
+    OP_EXTERNAL,
     SIDE_HOLES,
     SIDE_LOWER,
     SIDE_UPPER,
@@ -17,29 +19,12 @@ from runtime.constraints.codes import (
     SUPPORT_EDGE,
 )
 from runtime.constraints.reasons import collect_reasons, collect_weight
-from runtime.plan.codes import (
-    DURATION,
-    END,
-    LIST_ORDER,
-    LISTS,
-    OBJECT,
-    ROLE_TOKEN,
-    START,
-    STATE,
-)
-from runtime.plan.kinds import first_active, next_active
-from runtime.solver.codes import (
-    EVERYTHING,
-    NONE,
-    OPEN_CONDITION,
-    THREAT,
-    UNBOUND_VARIABLE,
-)
+from runtime.plan.codes import ACTIVE, HEAD_OPEN, LIST_OPEN, LISTS, RESOURCE_CONSUMES, RESOURCE_PRODUCES
+from runtime.plan.excess import Excess
+from runtime.solver.codes import CUSTOM, EVERYTHING, NONE, NOW, OPEN_CONDITION, UNBOUND_VARIABLE
 from runtime.solver.decisions import Decisions
 from runtime.solver.queues import Queues
 from runtime.solver.widening import widened
-
-NOW = 2**62
 
 
 class Blame:
@@ -58,6 +43,8 @@ class Blame:
         self.work_before = array("q", [0]) * 256
         self.work_count = 0
         self.origin = 0
+        self.opened = 0
+        self.is_local = False  # what was met counts only as long as nothing else is decided before
 
     # ---- walking ----
 
@@ -65,7 +52,9 @@ class Blame:
         """Forget what was met; all that is older than the first decision needs no reason."""
         self.stamp += 1
         self.met_count = 0
+        self.opened = 0
         self.work_count = 0
+        self.is_local = False
         if len(self.marked) < self.stack.room + 1:
             self.marked = widened(self.marked, self.stack.room + 1, 0)
             self.met = widened(self.met, self.stack.room + 1, 0)
@@ -92,6 +81,20 @@ class Blame:
         self.work_count += 1
         return 0
 
+    def ask_enough(self, v: int, side: int, enough: int) -> int:
+        """Ask why a bound of `v`, no real, is as tight as `enough`: when that was reached first."""
+        engine = self.engine
+        before = NOW
+        when = engine.lower_when[v] if side == SIDE_LOWER else engine.upper_when[v]
+        while when >= self.origin:
+            at = when - engine.trail_base
+            old = engine.trail_value[at]
+            if (old < enough) if side == SIDE_LOWER else (old > enough):
+                break
+            before = when
+            when = engine.trail_when[at]
+        return self.ask(v, side, before)
+
     def ask_domain(self, v: int) -> int:
         """Ask for all sides of a domain as it is now."""
         self.ask(v, SIDE_LOWER, NOW)
@@ -103,7 +106,11 @@ class Blame:
     def walk(self) -> int:
         """Answer all that was asked, and what that asks in turn."""
         engine = self.engine
-        while self.work_count:
+        while self.work_count or self.opened < self.met_count:
+            if self.work_count == 0:
+                self.opened += 1
+                self.ask_guards(self.met[self.opened - 1])
+                continue
             self.work_count -= 1
             key = self.work_key[self.work_count]
             before = self.work_before[self.work_count]
@@ -130,6 +137,32 @@ class Blame:
                 support = engine.trail_support[at]
                 when = engine.trail_when[at]
             self.expand(support, v, side, when)
+        return 0
+
+    def ask_guards(self, level: int) -> int:
+        """Ask why the guards held that fired at a level: what followed rests on all that decided them."""
+        q = self.queues
+        for k in range(q.fired_end[level - 1], q.fired_end[level]):
+            s = q.fired_scope[k]
+            t = q.rows.scope_token[s]
+            if t >= 0:
+                self.meet(q.active_level[t])
+            while s >= 0:
+                if q.rows.scope_watch[s] >= 0:
+                    self.ask_arguments(q.rows.scope_watch[s])
+                s = q.rows.scope_parent[s]
+        return 0
+
+    def ask_arguments(self, c: int) -> int:
+        """Ask for the domains of all arguments of a constraint, and who decided them."""
+        engine = self.engine
+        for k in range(engine.first[c], engine.first[c] + engine.arity[c]):
+            v = engine.slot_variable[k]
+            self.ask_domain(v)
+            r = engine.restriction_head[v]
+            while r >= 0:
+                self.meet(self.queues.restriction_level[r])
+                r = engine.restriction_next[r]
         return 0
 
     def expand(self, support: int, v: int, side: int, when: int) -> int:
@@ -183,6 +216,10 @@ class Blame:
             self.ask_reasons(support, v, side, NOW)
             if engine.conflict_kind == CONFLICT_DOMAIN:
                 self.ask_domain(v)
+        elif engine.op[support >> 2] == OP_EXTERNAL and isinstance(engine.externals[support >> 2], Excess):
+            if not self.blame_excess(support >> 2, d):
+                self.stack.reasons[d] = EVERYTHING
+                return 0
         else:
             first = engine.first[support >> 2]
             for k in range(first, first + engine.arity[support >> 2]):
@@ -194,6 +231,8 @@ class Blame:
     def keep(self, d: int) -> int:
         """Add the levels met to the reasons of decision `d`: those before its own."""
         stack = self.stack
+        if self.is_local:
+            stack.is_local[d] = 1
         reason = stack.reasons[d]
         while reason >= 0:
             self.marked[stack.reason_level[reason]] = NONE
@@ -209,8 +248,6 @@ class Blame:
     def target(self, d: int) -> int:
         """The decision to go back to when `d` has no choice left, -1 if there is none; it inherits the reasons."""
         stack = self.stack
-        if stack.reasons[d] != EVERYTHING:
-            self.complete(d)
         if stack.reasons[d] == EVERYTHING:
             if d > 0:
                 stack.reasons[d - 1] = EVERYTHING
@@ -225,6 +262,7 @@ class Blame:
         heir = latest - 1
         if stack.reasons[heir] != EVERYTHING:
             self.begin()
+            self.is_local = stack.is_local[d] != 0
             reason = stack.reasons[d]
             while reason >= 0:
                 self.meet(stack.reason_level[reason])
@@ -232,60 +270,7 @@ class Blame:
             self.keep(heir)
         return heir
 
-    def complete(self, d: int) -> int:
-        """Add what took choices away from decision `d` before they were tried."""
-        q = self.queues
-        stack = self.stack
-        item = stack.item[d]
-        if stack.handler[d] < 0 or q.treatments.handler_most[stack.handler[d]] != 0:
-            stack.reasons[d] = EVERYTHING
-            return 0
-        self.begin()
-        kind = stack.kind[d]
-        if kind == UNBOUND_VARIABLE:
-            self.meet(q.variable_level[item])
-            if q.plan.variable_role[item] == ROLE_TOKEN:
-                self.meet(q.active_level[q.plan.variable_owner[item]])
-            self.ask_domain(item)
-        elif kind == OPEN_CONDITION:
-            self.blame_partners(d, item)
-        elif kind == THREAT:
-            self.blame_neighbours(item)
-        else:
-            stack.reasons[d] = EVERYTHING
-            return 0
-        self.walk()
-        self.keep(d)
-        return 0
-
-    def blame_partners(self, d: int, t: int) -> int:
-        """Why a token had no more to merge with: what it and each candidate are, and who else might have come."""
-        q = self.queues
-        rows = q.rows
-        self.meet(q.token_level[t])
-        self.ask_domain(rows.var0[t] + STATE)
-        predicate = rows.predicate[t]
-        candidate = first_active(q.plan, predicate)
-        while candidate >= 0:
-            self.meet(q.active_level[candidate])
-            self.blame_difference(rows.var0[t], rows.var0[candidate], rows.width[t])
-            candidate = next_active(q.plan, candidate, predicate)
-        for other in range(d):
-            if self.may_bring(other, predicate):
-                self.meet(other + 1)
-        return 0
-
-    def blame_difference(self, mine: int, theirs: int, width: int) -> int:
-        """Why two tokens are incompatible, if they are: variables without a common value, times that differ."""
-        for k in range(OBJECT, width):
-            if not self.engine.intersects(mine + k, theirs + k):
-                self.ask_domain(mine + k)
-                self.ask_domain(theirs + k)
-                return 0
-        for k in range(START, END + 1):
-            if self.blame_edge(mine + k, theirs + k, 0) or self.blame_edge(theirs + k, mine + k, 0):
-                return 0
-        return 0
+    # ---- what is not there ----
 
     def blame_edge(self, source: int, target: int, weight: int) -> bool:
         """Why `target - source <= weight` is impossible, if it is: two bounds, or a path of edges."""
@@ -316,42 +301,77 @@ class Blame:
         return 0
 
     def may_bring(self, d: int, predicate: int) -> bool:
-        """Whether another choice of decision `d` might lead to an active token of a predicate."""
+        """Whether another choice of decision `d` might lead to an active token of a predicate.
+
+        Guards wait for decided variables: one that is given a value may let them fire, and one that a merge decides.
+        """
         q = self.queues
         item = self.stack.item[d]
         kind = self.stack.kind[d]
         if kind == OPEN_CONDITION:
-            return q.supports.leads_to(q.rows.predicate[item], predicate)
-        if kind != UNBOUND_VARIABLE or q.plan.variable_guards[item] == 0:
-            return False
-        t = q.filters.token_of(item)
-        return t < 0 or q.supports.leads_to(q.rows.predicate[t], predicate)
+            mine = q.rows.predicate[item]
+            is_new = q.rows.status[item] != ACTIVE or q.supports.first[mine + 1] > q.supports.first[mine]
+            if is_new and q.supports.leads_to(mine, predicate):
+                return True
+            return q.waiting_guards[d] > 0 and q.supports.is_guarded(predicate)
+        if kind == UNBOUND_VARIABLE:
+            return q.plan.variable_guards[item] > 0 and q.supports.is_guarded(predicate)
+        return kind == CUSTOM
 
-    def blame_neighbours(self, t: int) -> int:
-        """Why a token had no more places: its objects, all who have a place there, and where it could not fit."""
+    def blame_absence(self, d: int, predicate: int) -> int:
+        """Note the decisions before `d` that might have brought a token of a predicate, and whether any still may."""
         q = self.queues
-        v = q.rows.var0[t] + OBJECT
-        self.meet(q.active_level[t])
-        self.ask_domain(v)
-        for o in range(self.engine.lb[v], self.engine.ub[v] + 1):
-            if q.plan.object_timeline[o] and self.engine.contains(v, o):
-                other = q.rows.head_first[q.plan.object_head[o]]
-                while other >= 0:
-                    self.meet(q.order_level[other])
-                    after = q.rows.link_after[LISTS * other + LIST_ORDER]
-                    self.blame_times(t, other, after)
-                    other = after
+        for other in range(d):
+            if self.may_bring(other, predicate):
+                self.meet(other + 1)
+                self.is_local = True
+        t = q.rows.head_first[HEAD_OPEN]
+        while t >= 0 and not self.is_local:
+            self.is_local = q.supports.leads_to(q.rows.predicate[t], predicate)
+            t = q.rows.link_after[LISTS * t + LIST_OPEN]
+        if q.supports.is_guarded(predicate):
+            self.is_local = True
         return 0
 
-    def blame_times(self, t: int, other: int, after: int) -> int:
-        """Why a token fits neither before another one, nor behind it, nor between it and the one after (NONE: none)."""
-        var0 = self.queues.rows.var0
-        lb = self.engine.lb
-        ub = self.engine.ub
-        self.blame_edge(var0[other] + START, var0[t] + END, 0)
-        self.blame_edge(var0[t] + START, var0[other] + END, 0)
-        if after >= 0 and ub[var0[after] + START] - lb[var0[other] + END] < lb[var0[t] + DURATION]:
-            self.ask(var0[other] + END, SIDE_LOWER, NOW)
-            self.ask(var0[after] + START, SIDE_UPPER, NOW)
-            self.ask(var0[t] + DURATION, SIDE_LOWER, NOW)
+    def blame_use(self, u: int, d: int) -> int:
+        """Why use `u` of a resource exists, and is on that resource."""
+        q = self.queues
+        self.ask_domain(q.plan.resources.holder[u])
+        t = q.plan.resources.token[u]
+        if t >= 0:
+            self.meet(q.token_level[t])
+        while d >= 0 and q.plan.mark_uses[self.stack.mark[d]] > u:
+            d -= 1
+        self.meet(d + 1)
         return 0
+
+    def blame_helpers(self, o: int, sign: int, d: int) -> bool:
+        """Why nothing else gives to (takes from) resource `o` what would help; False if that has no simple reason."""
+        q = self.queues
+        uses = q.plan.resources
+        for u in range(uses.count):
+            if uses.sign[u] == sign and uses.end[u] < 0 and uses.on[u] != o:
+                if not self.engine.is_singleton(uses.holder[u]):
+                    return False
+                self.ask_domain(uses.holder[u])
+        kind = RESOURCE_PRODUCES if sign > 0 else RESOURCE_CONSUMES
+        for predicate in range(len(q.plan.predicate_resource)):
+            if q.plan.predicate_resource[predicate] == kind:
+                self.blame_absence(d, predicate)
+        self.is_local = True  # in another order it may come before what it would have helped
+        return True
+
+    def blame_excess(self, c: int, d: int) -> bool:
+        """Why constraint `c` says that a resource is exceeded; False if that has no simple reason."""
+        excess = self.engine.externals[c]
+        for key, enough in zip(excess.read, excess.enough, strict=True):
+            if enough is None:
+                self.ask(key >> 2, key & 3, NOW)
+            else:
+                self.ask_enough(key >> 2, key & 3, enough)
+        for u in excess.uses:
+            self.blame_use(u, d)
+        for e in excess.edges:
+            self.meet(self.queues.edge_level[e])
+            self.ask_weight(e)
+        return excess.helper == 0 or self.blame_helpers(excess.resource, excess.helper, d)

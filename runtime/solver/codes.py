@@ -78,3 +78,6 @@ PHASE_MERGE, PHASE_ACTIVATE, PHASE_REJECT, PHASE_DONE = range(4)
 
 # ---- the reasons of a decision: all that came before ----
 EVERYTHING = -2
+
+# ---- after all that has happened ----
+NOW = 2**62

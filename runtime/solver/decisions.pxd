@@ -10,7 +10,7 @@ cdef class Decisions:
     cdef public long long depth, pool_used, reason_used, reason_free
     cdef public long long[::1] kind, manager, item, handler, tries, phase, cursor, other, mark, rows_seen
     cdef public long long[::1] engine_seen, dropped, loose, pool_first, pool_count, pool_object, pool_before
-    cdef public long long[::1] pool_after, reasons, reason_level, reason_next
+    cdef public long long[::1] pool_after, reasons, is_local, reason_level, reason_next
     cdef public dict lists
 
     @cython.locals(d="long long")

@@ -39,6 +39,7 @@ class Decisions:
         self.pool_after = array("q", [0]) * room
         # Why choices failed: per decision a list of earlier ones.
         self.reasons = array("q", [NONE]) * room
+        self.is_local = array("q", [0]) * room  # whether they hold only where decisions were made in this order
         self.reason_used = 0
         self.reason_free = NONE
         self.reason_level = array("q", [0]) * room
@@ -60,6 +61,7 @@ class Decisions:
         self.pool_first[d] = self.pool_used
         self.pool_count[d] = NONE
         self.reasons[d] = NONE
+        self.is_local[d] = 0
         return d
 
     def close(self, d: int) -> int:
@@ -96,6 +98,7 @@ class Decisions:
         self.pool_first = widened(self.pool_first, room, 0)
         self.pool_count = widened(self.pool_count, room, 0)
         self.reasons = widened(self.reasons, room, NONE)
+        self.is_local = widened(self.is_local, room, 0)
         self.room = room
         return 0
 

@@ -14,7 +14,7 @@ from runtime.solver.treatments cimport Treatments
 from runtime.solver.uses cimport Uses
 
 cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FREED, LISTS, LIST_ORDER, NONE, NO_KEY, OBJECT, ROLE_TOKEN
-cdef long long START, UNBOUND_VARIABLE
+cdef long long START, UNBOUND_VARIABLE, UNDO_BRANCH, UNDO_INPUTS
 
 
 cdef class Queues:
@@ -38,12 +38,16 @@ cdef class Queues:
     cdef public long long[::1] token_level, active_level, order_level, variable_row, variable_key, variable_parked
     cdef public long long[::1] variable_level, waits_for, waiting_next, waiting_before, edge_level, constraint_level
     cdef public long long[::1] restriction_level, loose_slot, loose_is_variable, dropped_slot, dropped_what
+    cdef public long long[::1] fired_scope, fired_end, waiting_guards
     cdef public double found_priority
 
     cpdef int make_tables(self) except -1
 
     @cython.locals(room="long long")
     cpdef long long reserve(self) except? -1
+
+    @cython.locals(at="long long", count="long long", waiting="long long")
+    cpdef long long note_fired(self, long long level) except? -1
 
     @cython.locals(objects="long long", t="long long")
     cpdef bint is_decided(self, long long v) except -1

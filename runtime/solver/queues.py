@@ -6,7 +6,7 @@ key that a slot has now is in `token_key` or `variable_key`, NO_KEY if it is in 
 
 from array import array
 
-from runtime.plan.codes import END, FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN, START
+from runtime.plan.codes import END, FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
 from runtime.plan.plan import Plan
 from runtime.solver.codes import (
     DROPPED_TOKEN,
@@ -100,6 +100,9 @@ class Queues:
         self.dropped_what = array("q", [0]) * 256
         self.rows_seen = 0
         self.engine_seen = 0
+        self.fired_scope = array("q", [NONE]) * 64  # guards that fired, by level: those of a level end at `fired_end`
+        self.fired_end = array("q", [0]) * 64
+        self.waiting_guards = array("q", [0]) * 64  # by level: how many have not fired
 
     def reserve(self) -> int:
         """Make the tables as long as those of the plan and the engine."""
@@ -132,6 +135,26 @@ class Queues:
         if self.restriction_room < len(self.engine.restriction_span):
             self.restriction_room = len(self.engine.restriction_span)
             self.restriction_level = widened(self.restriction_level, self.restriction_room, 0)
+        return 0
+
+    def note_fired(self, level: int) -> int:
+        """Read which guards have fired since the last time, and put them down for a level above 0."""
+        if level >= len(self.fired_end):
+            self.fired_end = widened(self.fired_end, 2 * level, 0)
+            self.waiting_guards = widened(self.waiting_guards, 2 * level, 0)
+        count = self.fired_end[level - 1]
+        waiting = self.waiting_guards[level - 1]
+        for at in range(self.rows_seen, self.rows.trail_length):
+            if self.rows.trail_code[at] == UNDO_BRANCH:
+                if count == len(self.fired_scope):
+                    self.fired_scope = widened(self.fired_scope, 2 * count, NONE)
+                self.fired_scope[count] = self.rows.trail_index[at]
+                count += 1
+                waiting -= 1
+            elif self.rows.trail_code[at] == UNDO_INPUTS:
+                waiting += 1
+        self.fired_end[level] = count
+        self.waiting_guards[level] = waiting
         return 0
 
     def is_decided(self, v: int) -> bool:

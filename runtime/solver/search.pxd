@@ -11,6 +11,7 @@ from runtime.solver.decisions cimport Decisions
 from runtime.solver.filters cimport Filters
 from runtime.solver.queues cimport Queues
 from runtime.solver.selection cimport select
+from runtime.solver.shortage cimport complete
 from runtime.solver.watching cimport catch_up, fill, note_levels
 
 cdef long long APPLIED, EXHAUSTED, FAILED, MOVED, NO_CHOICE, NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
@@ -45,6 +46,8 @@ cdef class Solver:
 
     @cython.locals(d="long long", most="long long", outcome="long long", q=Queues, stack=Decisions)
     cpdef long long step(self) except? -1
+
+    cpdef int look_closer(self) except -1
 
     @cython.locals(d="long long", q=Queues, stack=Decisions)
     cpdef long long enter(self) except? -1

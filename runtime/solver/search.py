@@ -27,6 +27,7 @@ from runtime.solver.filters import Filters, Scope
 from runtime.solver.matching import Matching
 from runtime.solver.queues import Queues
 from runtime.solver.selection import select
+from runtime.solver.shortage import complete
 from runtime.solver.supports import Supports
 from runtime.solver.treatments import Treatments
 from runtime.solver.uses import Uses
@@ -92,6 +93,7 @@ class Solver:
         assert self.stack.depth == 0
         self.is_started = True
         self.has_active = False
+        self.plan.resources.is_energetic = False
         self.is_exhausted = not settle(self.plan)
         fill(self.queues)
 
@@ -166,8 +168,16 @@ class Solver:
                 note_levels(q, d + 1)
                 self.blame.learn(d)
             rewind(self.plan, stack.mark[d])
+            self.look_closer()
             return FAILED
         return EXHAUSTED
+
+    def look_closer(self) -> int:
+        """Check from now on whether the uses of resources fit at all: worth its time only where choices fail."""
+        if not self.europa and not self.plan.resources.is_energetic:
+            self.plan.resources.is_energetic = True
+            self.plan.resources.stir()
+        return 0
 
     def enter(self) -> int:
         """Begin a decision about the flaw that was found."""
@@ -197,7 +207,11 @@ class Solver:
 
     def give_up(self, d: int) -> int:
         """Drop a decision without choices, and go back to the one that may be at fault."""
-        target = d - 1 if self.europa else self.blame.target(d)
+        target = d - 1
+        self.look_closer()
+        if not self.europa:
+            complete(self.blame, d)
+            target = self.blame.target(d)
         if self.account is not None:
             self.account.given_up(d, target)
         self.leave(d)

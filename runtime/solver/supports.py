@@ -30,10 +30,19 @@ class Supports:
         self.action = array("q", [action for rows in ways for action, _ in rows])
         self.effect = array("q", [effect for rows in ways for _, effect in rows])
         self.reach = reachable(program, index, ways)
+        self.guarded = 0  # the set, as bits, of what branches of guards may bring
+        for code in program.predicates:
+            for rule in code.rules:
+                for name in guarded_children(program.rules[rule].body, code.class_name, index):
+                    self.guarded |= self.reach[index[name]]
 
     def leads_to(self, predicate: int, other: int) -> bool:
         """Whether a token of one predicate, once active, may bring about a token of the other."""
         return (self.reach[predicate] >> other) & 1 != 0
+
+    def is_guarded(self, predicate: int) -> bool:
+        """Whether a branch of some guard, once it fires, may bring about a token of a predicate."""
+        return (self.guarded >> predicate) & 1 != 0
 
 
 def reachable(program: Program, index: dict[str, int], ways: list[list[tuple[int, int]]]) -> list[int]:
@@ -66,3 +75,12 @@ def children(body: Iterable[Instruction], owner: str, index: dict[str, int]) -> 
             yield from children((*instruction.then, *instruction.otherwise), owner, index)
         elif isinstance(instruction, Foreach):
             yield from children(instruction.body, owner, index)
+
+
+def guarded_children(body: Iterable[Instruction], owner: str, index: dict[str, int]) -> Iterator[str]:
+    """The predicates that branches of the guards of a body ask for."""
+    for instruction in body:
+        if isinstance(instruction, Guard):
+            yield from children((*instruction.then, *instruction.otherwise), owner, index)
+        elif isinstance(instruction, Foreach):
+            yield from guarded_children(instruction.body, owner, index)

@@ -27,7 +27,7 @@ class Uses:
         self.resources = plan.resources
         self.distances = distances
         self.grounded = grounded  # per object: whether its level is that of everything happening early
-        self.flaws = Flaws(plan)
+        self.flaws = Flaws(plan.engine, plan.resources)
         self.agenda = Heap()
         self.found_at = 0
         self.found_low = 0

@@ -10,6 +10,7 @@ from runtime.constraints.codes import (
 )
 from runtime.plan.codes import (
     ACTIVE,
+    BRANCH_WAITING,
     END,
     FLAG_EFFECT,
     INACTIVE,
@@ -41,6 +42,9 @@ def fill(q: Queues) -> int:
     for v in range(q.engine.variables):
         if q.engine.kind[v] >= 0 and not q.engine.constant[v]:
             add_variable(q, v)
+    for s in range(q.rows.scope_count):
+        if q.rows.scope_watch[s] >= 0 and q.rows.scope_branch[s] == BRANCH_WAITING:
+            q.waiting_guards[0] += 1
     q.rows_seen = q.rows.trail_length if q.rows.level else 0  # the first mark empties that trail
     q.engine_seen = q.engine.trail_size
     return 0
@@ -68,6 +72,7 @@ def catch_up(q: Queues, level: int) -> int:
         elif code == TRAIL_RESTRICTION:
             q.restriction_level[name] = level
         at += 1
+    q.note_fired(level)
     at = q.rows_seen
     while at < rows.trail_length:
         if rows.trail_code[at] == UNDO_STATUS:
@@ -96,8 +101,9 @@ def catch_up(q: Queues, level: int) -> int:
 
 
 def note_levels(q: Queues, level: int) -> int:
-    """Read of a failed attempt only which edges, constraints and restrictions it posted."""
+    """Read of a failed attempt only which guards fired, and which edges, constraints and restrictions it posted."""
     q.reserve()
+    q.note_fired(level)
     engine = q.engine
     at = q.engine_seen
     while at < engine.trail_size:

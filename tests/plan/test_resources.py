@@ -17,7 +17,7 @@ def consistent(text: str) -> bool:
 
 def flaw(database: PlanDatabase) -> Flaws | None:
     """The first flaw of the only resource."""
-    flaws = Flaws(database.plan)
+    flaws = Flaws(database.plan.engine, database.plan.resources)
     return flaws if flaws.find(0) else None
 
 

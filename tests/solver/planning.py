@@ -3,10 +3,42 @@
 from pathlib import Path
 
 from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.text.source import Source
 from nddlc.loading import Loaded, load
 from runtime.solver.codes import RESULT_NAMES
 from runtime.solver.configuration import Configuration, default_configuration
+from runtime.solver.read import read_configuration
 from runtime.solver.search import Solver
+
+RESOURCES = """
+[[filter]]
+component = "HorizonFilter"
+[[manager]]
+component = "ResourceThreatManager"
+default_priority = 2
+order = "most,earliest,lower"
+[[manager]]
+component = "ThreatManager"
+default_priority = 1
+filter = [{ class = "Reusable" }]
+[[manager]]
+component = "OpenConditionManager"
+default_priority = 1
+[[manager]]
+component = "UnboundVariableManager"
+default_priority = 2
+filter = [
+  { component = "InfiniteDynamicFilter" },
+  { variable = "start" }, { variable = "end" }, { variable = "duration" }, { variable = "time" },
+]
+"""
+
+
+def resources_configuration() -> Configuration:
+    """A configuration that mends resources too, after the order of tokens."""
+    found, complaints = read_configuration(Source("resources.toml", RESOURCES))
+    assert found is not None and not complaints
+    return found
 
 
 def loaded(folder: Path, text: str) -> Loaded:

@@ -147,3 +147,69 @@ def rules_model(seed: int) -> str:
         if random.random() < 0.3:
             lines.append(f"eq(g{i}.x, {random.randint(0, 2)});")
     return "\n".join(lines) + "\n"
+
+
+def guards_model(seed: int) -> str:
+    """Rules whose guards compare two parameters, so that a branch rests on more than one decision; no known verdict."""
+    random = Random(seed)
+    count = random.randint(2, 3)
+    predicates = [f"p{i}" for i in range(random.randint(2, 3))]
+    lines = ["int g0 = [0 2]; int g1 = [0 1];" + (" neq(g0, g1);" if random.random() < 0.5 else "")]
+    lines.append("class T extends Timeline {")
+    lines += [f"    predicate {name} {{ int x; int y; }}" for name in predicates]
+    lines += ["}"]
+    effects = ("neq(x, 0);", "neq(y, 1);", "eq(k, 0);", "lt(x, y);", "leq(k, 0);", "eq(s, 1);", "leq(end, 5);")
+    for i, name in enumerate(predicates):
+        body = [f"duration >= 1; duration <= {random.randint(1, 3)}; int k = [0 2]; int s = [0 4]; addEq(x, k, s);"]
+        body.append(f"leq(0, x); leq(x, {random.randint(1, 2)}); leq(0, y); leq(y, {random.randint(1, 2)});")
+        for number in range(random.randint(1, 2)):
+            then = [random.choice((*effects, "eq(g1, x);", "neq(g0, y);"))]
+            if i + 1 < len(predicates) and random.random() < 0.5:
+                relation = random.choice(("meets", "before", "met_by", "contains"))
+                child = random.choice(predicates[i + 1 :])
+                then.append(f"{relation}(object.{child} c{number}); {random.choice(('eq', 'neq'))}(c{number}.x, y);")
+            body.append(
+                f"if ({random.choice(('x == y', 'x != y', 'x == 1', 'k == x', 'k == s'))}) {{ {' '.join(then)} }}"
+            )
+            if random.random() < 0.4:
+                body.append(f"else {{ {random.choice(('neq(y, 0);', 'leq(k, 1);', 'neq(x, 2);'))} }}")
+        if random.random() < 0.3:
+            body.append(random.choice(("neq(k, y);", "neq(s, g0);")))
+        lines.append(f"T::{name} {{ {' '.join(body)} }}")
+    lines += [f"T t{i} = new T();" for i in range(random.randint(1, 2))] + ["close();"]
+    for i in range(count):
+        kind = random.choice(("goal", "goal", "rejectable"))
+        lines.append(f"{kind}({random.choice(('t0', 'T'))}.{random.choice(predicates)} a{i});")
+        lines.append(f"a{i}.start = [0 {random.randint(1, 8)}];")
+        if i and random.random() < 0.5:
+            lines.append(f"{random.choice(('eq', 'neq', 'leq'))}(a{i}.x, a{i - 1}.y);")
+    return "\n".join(lines) + "\n"
+
+
+def uses_model(seed: int) -> str:
+    """Tasks that share machines and a tank, some only in one mode; nobody knows the verdict."""
+    random = Random(seed)
+    end, most = random.randint(5, 10), random.randint(1, 3)
+    lines = ["class L extends Timeline { predicate run { int m; } }"]
+    body = [f"leq(0, m); leq(m, {random.randint(0, 2)}); duration >= 1; duration <= 4; leq(end, {end});"]
+    body.append(f"if (m == 0) {{ equals(Reusable.uses u); eq(u.quantity, {random.randint(1, most)}.0); }}")
+    if random.random() < 0.7:
+        body.append(
+            f"if (m == 1) {{ starts(Reusable.uses u); eq(u.quantity, 1.0); u.duration == {random.randint(1, 4)}; }}"
+        )
+    if random.random() < 0.6:
+        body.append(f"if (m != {random.randint(0, 2)}) {{ starts(Reservoir.consume c); c.quantity == 1.0; }}")
+        body.append("else { ends(Reservoir.produce c); c.quantity == 1.0; }")
+    lines.append(f"L::run {{ {' '.join(body)} }}")
+    lines += [f"Reusable r{i} = new Reusable({random.randint(1, most)}.0, 0.0);" for i in range(2)]
+    lines += [f"Reservoir v = new Reservoir({random.randint(0, 2)}.0, 0.0, {random.randint(2, 4)}.0);"]
+    lines += [f"L l{i} = new L();" for i in range(3)] + ["close();"]
+    for i in range(random.randint(2, 3)):
+        low = random.randint(0, 3)
+        lines.append(f"{random.choice(('goal', 'goal', 'rejectable'))}({random.choice((f'l{i}', 'L'))}.run a{i});")
+        lines.append(
+            f"a{i}.start = [{low} {random.randint(low + 1, end)}]; a{i}.duration = [1 {random.randint(3, 4)}];"
+        )
+        if i and random.random() < 0.4:
+            lines.append(f"{random.choice(('eq', 'neq', 'leq'))}(a{i}.m, a{i - 1}.m);")
+    return "\n".join(lines) + "\n"

@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.solver.planning import verdict
-from tests.solver.random_models import rules_model, timelines_puzzle, variables_puzzle
+from runtime.solver.codes import EXHAUSTED, PLAN, RESULT_NAMES
+from tests.solver.planning import resources_configuration, solver_for, verdict
+from tests.solver.random_models import guards_model, rules_model, timelines_puzzle, uses_model, variables_puzzle
 
 
 @pytest.mark.parametrize("seed", range(60))
@@ -28,3 +29,70 @@ def test_backjumping_changes_no_verdict(tmp_path: Path, seed: int) -> None:
     plain = verdict(tmp_path, text, europa=True)
     learned = verdict(tmp_path, text)
     assert plain == "timeout" or learned == plain, text
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_backjumping_over_guards_changes_no_verdict(tmp_path: Path, seed: int) -> None:
+    text = guards_model(seed)
+    plain = verdict(tmp_path, text, europa=True, most=3000)
+    learned = verdict(tmp_path, text)
+    assert plain == "timeout" or learned == plain, text
+
+
+def test_what_a_guard_of_two_variables_asks_for_rests_on_both(tmp_path: Path) -> None:
+    text = """
+    class T extends Timeline { predicate p { int x; int y; } }
+    T::p {
+        leq(0, x); leq(x, 1); leq(0, y); leq(y, 1);
+        int k = [0 1];
+        if (x == y) { lt(k, 0); }
+        if (y == 1) { lt(k, 0); }
+    }
+    T t = new T();
+    close();
+    goal(t.p g);
+    g.start = [0 9];
+    """
+    assert verdict(tmp_path, text, europa=True) == "plan"
+    assert verdict(tmp_path, text) == "plan"
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_backjumping_over_resources_changes_no_verdict(tmp_path: Path, seed: int) -> None:
+    text = uses_model(seed)
+    results = []
+    for europa in (True, False):
+        solver = solver_for(tmp_path, text, europa=europa, horizon=(0, 30), how=resources_configuration())
+        results.append(RESULT_NAMES[solver.solve(3000, 2**60)])
+    assert results[0] == "timeout" or results[0] == results[1], text
+
+
+@pytest.mark.parametrize("kind", ["Unary", "Reusable"])
+def test_a_total_that_does_not_fit_is_proved_after_the_first_failure(tmp_path: Path, kind: str) -> None:
+    count = 8
+    room = count * 3
+    name, made = ("use", "new Unary()") if kind == "Unary" else ("uses", "new Reusable(1.0, 0.0)")
+    text = f"{kind} r = {made}; close();"
+    for i in range(count):
+        text += f"goal(r.{name} u{i}); eq(u{i}.duration, 3); leq(0, u{i}.start); leq(u{i}.end, {{}});"
+        text += f"eq(u{i}.quantity, 1.0);" if kind == "Reusable" else ""
+    for limit, wanted in ((room, PLAN), (room - 1, EXHAUSTED)):
+        bounded = text.replace("{}", str(limit))
+        solver = solver_for(tmp_path, bounded, horizon=(0, 100), how=resources_configuration())
+        assert solver.solve(20000, 2**60) == wanted
+        assert wanted == PLAN or solver.failures < 5 * count
+
+
+def test_a_conflict_over_a_resource_goes_back_past_what_has_no_part_in_it(tmp_path: Path) -> None:
+    text = "Unary r = new Unary(); close();"
+    for i in range(3):
+        text += f"goal(r.use u{i}); eq(u{i}.duration, 3); leq(0, u{i}.start); leq(u{i}.end, 8);"
+    free = "class F extends Timeline { predicate p { int x; } } F f = new F(); "
+    text = (
+        free + text + "".join(f"goal(f.p g{i}); leq(1, g{i}.x); leq(g{i}.x, 3); g{i}.start = [1 5];" for i in range(4))
+    )
+    steps = [solver_for(tmp_path, text, europa=europa, how=resources_configuration()) for europa in (False, True)]
+    assert steps[0].solve(2000, 2**60) == EXHAUSTED
+    assert steps[0].steps < 60
+    steps[1].solve(500, 2**60)
+    assert steps[1].steps == 500
