@@ -60,6 +60,7 @@ ROLE_INTERNAL, ROLE_GLOBAL, ROLE_MEMBER, ROLE_TOKEN, ROLE_LOCAL = range(5)
 RESOURCE_HOLDS, RESOURCE_PRODUCES, RESOURCE_CONSUMES = range(1, 4)
 
 # ---- what is certainly wrong with a level ----
+AS_IT_IS = 2**62  # a bound that counts as tight as it is
 TOO_LOW, TOO_HIGH, TOO_FAST, TOO_MUCH, TOO_TIGHT = range(1, 6)
 
 # ---- trail entries: a field's old value, or something to take back ----

@@ -7,7 +7,7 @@ from typing import Any
 from runtime.constraints.codes import KIND_FLOAT
 from runtime.constraints.external import External, argument, refuse
 from runtime.constraints.store import Store
-from runtime.plan.codes import LIMITS, TOO_HIGH, TOO_LOW, TOO_TIGHT
+from runtime.plan.codes import AS_IT_IS, LIMITS, TOO_HIGH, TOO_LOW, TOO_TIGHT
 from runtime.plan.levels import Levels
 
 Step = tuple[int, float, float]  # set_capacity: from when on, between what
@@ -31,17 +31,23 @@ class Excess(External):
         self.limits: list[int] = []  # which limits of the row are among the arguments
         self.signs: list[int] = []  # -1 consumes, 1 produces; doubled where the use has an end, tripled with a duration
         self.read: list[int] = []
-        self.enough: list[int | None] = []
+        self.enough: list[int] = []
         self.uses: list[int] = []
         self.edges: list[int] = []
         self.helper = 0
+        self.until = at  # where the window ends that is too tight, and what must lie in it in part:
+        self.parts: list[tuple[int, int, int, float]] = []  # start, end, least duration, least quantity
         self.table: Callable[[Any], Any] | None = None
         self.judge: Callable[[Any, Any], Any] | None = None
+
+    def share(self, low: int, high: int, length: int) -> int:
+        """How much time lies in the window of a use that may last from `low` to `high`."""
+        return max(0, min(length, self.until - self.at, low + length - self.at, self.until - high + length))
 
     def note(self, key: int) -> None:
         """A bound counts as it is."""
         self.read.append(key)
-        self.enough.append(None)
+        self.enough.append(AS_IT_IS)
 
     def note_enough(self, key: int, enough: int) -> None:
         """A bound counts that is as tight as `enough`."""

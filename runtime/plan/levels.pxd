@@ -51,9 +51,13 @@ cdef class Levels:
     cpdef double together(self, long long i) except? -1.0
 
     @cython.locals(
-        end="long long", first="long long", i="long long", j="long long", k="long long", room=double, start="long long"
+        end="long long", first="long long", i="long long", j="long long", last="long long", room=double,
+        start="long long"
     )
     cpdef long long overload(self) except? -1
+
+    @cython.locals(excess=double, k="long long")
+    cpdef bint is_overloaded(self, long long start, long long end, double room) except -1
 
     @cython.locals(early="long long", late="long long")
     cpdef long long share(self, long long k, long long start, long long end) except? -1

@@ -207,28 +207,40 @@ class Levels:
         if room == inf:
             return 0
         first = HALF_INF
+        last = -HALF_INF
         for i in range(self.count):
             if self.lasting[i] or self.sign[i] > 0:
                 return 0
             first = min(first, self.start_low[i])
+            last = max(last, self.end_high[i])
+        if self.is_overloaded(first, last, room):  # the widest window has the simplest reasons
+            return TOO_TIGHT
         for i in range(self.count):
             start = self.start_low[i]
             if start <= -HALF_INF or (self.count > MOST_WINDOWS and start > first):
                 continue
             for j in range(self.count):
                 end = self.end_high[j]
-                if start < end < HALF_INF:
-                    self.excess = -room * (end - start)
-                    for k in range(self.count):
-                        self.excess += self.least[k] * self.share(k, start, end)
-                    if self.excess > FLOAT_TOLERANCE:
-                        self.at = start
-                        self.until = end
-                        self.wrong = TOO_TIGHT
-                        return TOO_TIGHT
+                if self.is_overloaded(start, end, room):
+                    return TOO_TIGHT
             if self.count > MOST_WINDOWS:
                 break
         return 0
+
+    def is_overloaded(self, start: int, end: int, room: float) -> bool:
+        """Whether more must lie in a window than it holds."""
+        if start <= -HALF_INF or end >= HALF_INF or start >= end:
+            return False
+        excess = -room * (end - start)
+        for k in range(self.count):
+            excess += self.least[k] * self.share(k, start, end)
+        if excess <= FLOAT_TOLERANCE:
+            return False
+        self.at = start
+        self.until = end
+        self.wrong = TOO_TIGHT
+        self.excess = excess
+        return True
 
     def share(self, k: int, start: int, end: int) -> int:
         """How much time of use `k` lies in a window, however it is shifted."""

@@ -74,7 +74,7 @@ cdef class Resources:
     cpdef bint refuse(self, long long o, long long level, envelope) except -1
 
     @cython.locals(
-        end="long long", harms="long long", is_certain=bint, levels=Levels, quantity="long long", start="long long",
-        t="long long"
+        end="long long", harms="long long", is_certain=bint, levels=Levels, quantity="long long", side="long long",
+        start="long long", t="long long"
     )
     cpdef bint note_read(self, excess, long long i, long long u, bint by_order) except -1

@@ -316,14 +316,15 @@ class Resources:
         if excess.wrong == TOO_TIGHT:
             if levels.share(i, levels.at, levels.until) == 0:
                 return False
-            excess.note(start + SIDE_LOWER)
-            excess.note(end + SIDE_UPPER)
+            excess.until = levels.until
             excess.note(quantity + SIDE_LOWER)
             if self.duration[u] >= 0:
                 excess.note(4 * self.duration[u] + SIDE_LOWER)
+                excess.parts.append((self.start[u], self.end[u], levels.length[i], levels.least[i]))
             else:
-                excess.note(start + SIDE_UPPER)
-                excess.note(end + SIDE_LOWER)
+                for side in (SIDE_LOWER, SIDE_UPPER):
+                    excess.note(start + side)
+                    excess.note(end + side)
         elif excess.wrong == TOO_LOW or excess.wrong == TOO_HIGH:
             harms = -1 if excess.wrong == TOO_LOW else 1
             if self.end[u] < 0:

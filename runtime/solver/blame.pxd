@@ -8,9 +8,10 @@ from runtime.solver.decisions cimport Decisions
 from runtime.solver.distances cimport Distances
 from runtime.solver.queues cimport Queues
 
-cdef long long ACTIVE, CUSTOM, UNBOUND_VARIABLE, CONFLICT_DOMAIN, EVERYTHING, HEAD_OPEN, LISTS, LIST_OPEN, NONE, NOW, OPEN_CONDITION, OP_EXTERNAL
+cdef long long ACTIVE, AS_IT_IS, CUSTOM, UNBOUND_VARIABLE, CONFLICT_DOMAIN, EVERYTHING, HEAD_OPEN, LISTS, LIST_OPEN, NONE, NOW, OPEN_CONDITION, OP_EXTERNAL
 cdef long long RESOURCE_CONSUMES, RESOURCE_PRODUCES, SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_CONSTRAINT
 cdef long long SUPPORT_EDGE
+cdef double FLOAT_TOLERANCE
 
 
 cdef class Blame:
@@ -30,6 +31,9 @@ cdef class Blame:
     @cython.locals(at="long long", before="long long", engine=Engine, old="long long", when="long long")
     cpdef long long ask_enough(self, long long v, long long side, long long enough) except? -1
 
+    @cython.locals(bound="long long", engine=Engine, when="long long")
+    cpdef long long first(self, long long v, long long side) except? -1
+
     cpdef long long ask_domain(self, long long v) except? -1
 
     @cython.locals(
@@ -48,9 +52,9 @@ cdef class Blame:
     cpdef long long level_of(self, long long support) except? -1
 
     @cython.locals(
-        engine=Engine, first="long long", k="long long", side="long long", support="long long", v="long long"
+        engine=Engine, first="long long", is_all=bint, k="long long", side="long long", support="long long", v="long long"
     )
-    cpdef long long learn(self, long long d) except? -1
+    cpdef bint learn(self, long long d) except -1
 
     @cython.locals(k="long long", level="long long", reason="long long", stack=Decisions)
     cpdef long long keep(self, long long d) except? -1
@@ -82,5 +86,8 @@ cdef class Blame:
     @cython.locals(kind="long long", predicate="long long", q=Queues, u="long long", uses=Resources)
     cpdef bint blame_helpers(self, long long o, long long sign, long long d) except -1
 
-    @cython.locals(e="long long", key="long long", u="long long")
+    @cython.locals(
+        e="long long", end="long long", key="long long", least=double, length="long long", loss=double,
+        slack=double, start="long long", u="long long"
+    )
     cpdef bint blame_excess(self, long long c, long long d) except -1

@@ -11,6 +11,7 @@ from array import array
 
 from runtime.constraints.codes import (
     CONFLICT_DOMAIN,
+    FLOAT_TOLERANCE,
     OP_EXTERNAL,
     SIDE_HOLES,
     SIDE_LOWER,
@@ -19,7 +20,7 @@ from runtime.constraints.codes import (
     SUPPORT_EDGE,
 )
 from runtime.constraints.reasons import collect_reasons, collect_weight
-from runtime.plan.codes import ACTIVE, HEAD_OPEN, LIST_OPEN, LISTS, RESOURCE_CONSUMES, RESOURCE_PRODUCES
+from runtime.plan.codes import ACTIVE, AS_IT_IS, HEAD_OPEN, LIST_OPEN, LISTS, RESOURCE_CONSUMES, RESOURCE_PRODUCES
 from runtime.plan.excess import Excess
 from runtime.solver.codes import CUSTOM, EVERYTHING, NONE, NOW, OPEN_CONDITION, UNBOUND_VARIABLE
 from runtime.solver.decisions import Decisions
@@ -51,9 +52,7 @@ class Blame:
     def begin(self) -> int:
         """Forget what was met; all that is older than the first decision needs no reason."""
         self.stamp += 1
-        self.met_count = 0
-        self.opened = 0
-        self.work_count = 0
+        self.met_count = self.opened = self.work_count = 0
         self.is_local = False
         if len(self.marked) < self.stack.room + 1:
             self.marked = widened(self.marked, self.stack.room + 1, 0)
@@ -84,6 +83,8 @@ class Blame:
     def ask_enough(self, v: int, side: int, enough: int) -> int:
         """Ask why a bound of `v`, no real, is as tight as `enough`: when that was reached first."""
         engine = self.engine
+        if enough == AS_IT_IS:
+            return self.ask(v, side, NOW)
         before = NOW
         when = engine.lower_when[v] if side == SIDE_LOWER else engine.upper_when[v]
         while when >= self.origin:
@@ -94,6 +95,16 @@ class Blame:
             before = when
             when = engine.trail_when[at]
         return self.ask(v, side, before)
+
+    def first(self, v: int, side: int) -> int:
+        """A bound of `v`, no real, as it was before the search."""
+        engine = self.engine
+        when = engine.lower_when[v] if side == SIDE_LOWER else engine.upper_when[v]
+        bound = engine.lb[v] if side == SIDE_LOWER else engine.ub[v]
+        while when >= self.origin:
+            bound = engine.trail_value[when - engine.trail_base]
+            when = engine.trail_when[when - engine.trail_base]
+        return bound
 
     def ask_domain(self, v: int) -> int:
         """Ask for all sides of a domain as it is now."""
@@ -199,34 +210,41 @@ class Blame:
 
     # ---- failed choices ----
 
-    def learn(self, d: int) -> int:
-        """Add to the reasons of decision `d` what the present conflict rests on."""
+    def learn(self, d: int) -> bool:
+        """Add to the reasons of decision `d` what the present conflict rests on.
+
+        True if that is nothing of what was chosen just now: then these are all its reasons, and it has no choice left.
+        """
         engine = self.engine
-        if self.stack.reasons[d] == EVERYTHING:
-            return 0
         support = engine.conflict_support
         if engine.consistent or support < 0:
             self.stack.reasons[d] = EVERYTHING
-            return 0
+            return False
         self.begin()
         v = engine.conflict_variable
         side = engine.conflict_side
-        self.meet(self.level_of(support))
         if v >= 0:
+            self.meet(self.level_of(support))
             self.ask_reasons(support, v, side, NOW)
             if engine.conflict_kind == CONFLICT_DOMAIN:
                 self.ask_domain(v)
         elif engine.op[support >> 2] == OP_EXTERNAL and isinstance(engine.externals[support >> 2], Excess):
             if not self.blame_excess(support >> 2, d):
                 self.stack.reasons[d] = EVERYTHING
-                return 0
+                return False
         else:
+            self.meet(self.level_of(support))
             first = engine.first[support >> 2]
             for k in range(first, first + engine.arity[support >> 2]):
                 self.ask_domain(engine.slot_variable[k])
         self.walk()
-        self.keep(d)
-        return 0
+        is_all = self.marked[d + 1] != self.stamp
+        if is_all:
+            self.stack.drop_reasons(d)
+            self.stack.is_local[d] = 0
+        if self.stack.reasons[d] != EVERYTHING:
+            self.keep(d)
+        return is_all
 
     def keep(self, d: int) -> int:
         """Add the levels met to the reasons of decision `d`: those before its own."""
@@ -269,8 +287,6 @@ class Blame:
                 reason = stack.reason_next[reason]
             self.keep(heir)
         return heir
-
-    # ---- what is not there ----
 
     def blame_edge(self, source: int, target: int, weight: int) -> bool:
         """Why `target - source <= weight` is impossible, if it is: two bounds, or a path of edges."""
@@ -321,7 +337,7 @@ class Blame:
     def blame_absence(self, d: int, predicate: int) -> int:
         """Note the decisions before `d` that might have brought a token of a predicate, and whether any still may."""
         q = self.queues
-        for other in range(d):
+        for other in range(d + 1):
             if self.may_bring(other, predicate):
                 self.meet(other + 1)
                 self.is_local = True
@@ -365,10 +381,16 @@ class Blame:
         """Why constraint `c` says that a resource is exceeded; False if that has no simple reason."""
         excess = self.engine.externals[c]
         for key, enough in zip(excess.read, excess.enough, strict=True):
-            if enough is None:
-                self.ask(key >> 2, key & 3, NOW)
-            else:
-                self.ask_enough(key >> 2, key & 3, enough)
+            self.ask_enough(key >> 2, key & 3, enough)
+        slack = excess.amount - FLOAT_TOLERANCE
+        for start, end, length, least in excess.parts:
+            share = excess.share(self.engine.lb[start], self.engine.ub[end], length)
+            loss = least * (share - excess.share(self.first(start, SIDE_LOWER), self.first(end, SIDE_UPPER), length))
+            if loss < slack:
+                slack -= loss  # it is too tight also with the times that it had before the search
+                continue
+            self.ask(start, SIDE_LOWER, NOW)
+            self.ask(end, SIDE_UPPER, NOW)
         for u in excess.uses:
             self.blame_use(u, d)
         for e in excess.edges:

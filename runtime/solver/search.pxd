@@ -44,7 +44,7 @@ cdef class Solver:
     @cython.locals(count="long long", outcome="long long")
     cpdef long long solve(self, long long max_steps, long long max_depth, object is_late=*) except? -1
 
-    @cython.locals(d="long long", most="long long", outcome="long long", q=Queues, stack=Decisions)
+    @cython.locals(d="long long", is_hopeless=bint, most="long long", outcome="long long", q=Queues, stack=Decisions)
     cpdef long long step(self) except? -1
 
     cpdef int look_closer(self) except -1
@@ -56,7 +56,7 @@ cdef class Solver:
     cpdef long long leave(self, long long d) except? -1
 
     @cython.locals(stack=Decisions, target="long long")
-    cpdef long long give_up(self, long long d) except? -1
+    cpdef long long give_up(self, long long d, bint is_explained) except? -1
 
 
 cpdef bint is_rejection(Queues q, Decisions stack, long long d) except -1

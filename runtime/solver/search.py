@@ -133,6 +133,7 @@ class Solver:
             self.refresh()
         stack = self.stack
         q = self.queues
+        is_hopeless = False
         while not self.is_exhausted:
             d = stack.depth
             if not self.has_active:
@@ -149,7 +150,7 @@ class Solver:
             if most == 0 or stack.tries[d] < most:
                 outcome = mend(q, stack, d)
             if outcome == NO_CHOICE:
-                self.give_up(d)
+                self.give_up(d, False)
                 continue
             if q.probing:
                 return TIMEOUT
@@ -166,9 +167,11 @@ class Solver:
                 self.account.failed(d)
             if not self.europa:
                 note_levels(q, d + 1)
-                self.blame.learn(d)
+                is_hopeless = self.blame.learn(d)
             rewind(self.plan, stack.mark[d])
             self.look_closer()
+            if is_hopeless:
+                self.give_up(d, True)
             return FAILED
         return EXHAUSTED
 
@@ -205,12 +208,13 @@ class Solver:
         self.has_active = False
         return 0
 
-    def give_up(self, d: int) -> int:
+    def give_up(self, d: int, is_explained: bool) -> int:
         """Drop a decision without choices, and go back to the one that may be at fault."""
         target = d - 1
         self.look_closer()
         if not self.europa:
-            complete(self.blame, d)
+            if not is_explained:
+                complete(self.blame, d)
             target = self.blame.target(d)
         if self.account is not None:
             self.account.given_up(d, target)

@@ -12,7 +12,7 @@ from runtime.solver.queues cimport Queues
 from runtime.solver.treatments cimport Treatments
 
 cdef long long DURATION, END, EVERYTHING, FILTER_GUARD, FILTER_HORIZON, FILTER_HORIZON_VARIABLE, FILTER_MASTER_LOOSE
-cdef long long FILTER_NOT_GUARD, FILTER_TOKEN_LOOSE, HANDLER_HSTS, INITIAL, LIMITS, LISTS, LIST_ORDER, MAXIMUM, MINIMUM
+cdef long long FILTER_NOT_GUARD, FILTER_TOKEN_LOOSE, HANDLER_HSTS, INITIAL, LIMITS, LISTS, LIST_ORDER, MAXIMUM, MINIMUM, MOST_SEEDS
 cdef long long NONE, NOW, OBJECT, OPEN_CONDITION, POLICY_PARTIAL, PRECEDES_ONLY, RESOURCE_THREAT, SIDE_HOLES
 cdef long long SIDE_LOWER, SIDE_UPPER, START, STATE, THREAT, UNBOUND_VARIABLE
 cdef double FLOAT_TOLERANCE
@@ -47,7 +47,7 @@ cpdef long long blame_neighbours(Blame b, long long t) except? -1
 cpdef long long blame_times(Blame b, long long t, long long other, long long after) except? -1
 
 @cython.locals(
-    at="long long", charged=list, dropped=list, engine=Engine, givers=list, handler="long long", k="long long",
+    at="long long", charged=list, engine=Engine, givers=list, handler="long long", k="long long",
     lasts=bint, latest="long long[::1]", level=double, limit=double, owners=list, place="long long", q=Queues,
     side="long long", sign="long long", stack=Decisions, takers=list, u="long long", uses=Resources, v="long long"
 )
@@ -55,3 +55,6 @@ cpdef bint blame_instant(Blame b, long long d, long long o) except -1
 
 @cython.locals(engine=Engine, k="long long", v="long long")
 cpdef bint is_behind(Blame b, long long point, long long u, list givers, list owners) except -1
+
+@cython.locals(ends=list, found=list, is_free=bint, u="long long", uses=Resources, w="long long")
+cpdef list unordered(Blame b, list takers, long long first)

@@ -34,6 +34,8 @@ from runtime.solver.codes import (
     UNBOUND_VARIABLE,
 )
 
+MOST_SEEDS = 8
+
 
 def complete(b: Blame, d: int) -> int:
     """Add what took choices away from decision `d` before they were tried, and why there is something to decide."""
@@ -241,14 +243,17 @@ def blame_instant(b: Blame, d: int, o: int) -> bool:
                 level += uses.sign[u] * uses.most[u]
                 b.blame_use(u, d)
                 b.ask(uses.quantity[u], SIDE_UPPER, NOW)
-    dropped = [u for u in takers if is_behind(b, uses.start[u], u, givers, owners)]
-    charged = [u for u in takers if u not in dropped]
+    side = MINIMUM if sign < 0 else MAXIMUM
+    limit = q.uses.limit(o, side, 0 if sign < 0 else 1)
+    charged = [u for u in takers if not is_behind(b, uses.start[u], u, givers, owners)] if lasts else []
+    for k in range(0 if lasts else min(len(takers), MOST_SEEDS)):
+        charged = unordered(b, takers, takers[k])
+        if limit - level + sum([uses.least[u] for u in charged]) > FLOAT_TOLERANCE:
+            break
     for u in charged:
         level += uses.sign[u] * uses.least[u]
         b.blame_use(u, d)
         b.ask(uses.quantity[u], SIDE_LOWER, NOW)
-    side = MINIMUM if sign < 0 else MAXIMUM
-    limit = q.uses.limit(o, side, 0 if sign < 0 else 1)
     if (limit - level if sign < 0 else level - limit) <= FLOAT_TOLERANCE:
         return False
     for place in (INITIAL, side):
@@ -256,12 +261,27 @@ def blame_instant(b: Blame, d: int, o: int) -> bool:
         if v >= 0:
             b.ask_domain(v)
     for k in range(len(givers)):
-        if owners[k] in dropped:
+        if owners[k] in takers and owners[k] not in charged:
             continue
         for u in charged:
             if owners[k] != u:
                 b.blame_edge(uses.start[u], givers[k], 0)
     return not lasts or b.blame_helpers(o, -sign, d)
+
+
+def unordered(b: Blame, takers: list[int], first: int) -> list[int]:
+    """Uses that hold a resource for a while, `first` among them, of which none is known to come after another."""
+    uses = b.queues.plan.resources
+    found = [first]
+    for u in takers:
+        if u != first:
+            ends = [uses.end[w] for w in found]
+            is_free = not is_behind(b, uses.start[u], u, ends, found)
+            for w in found:
+                is_free = is_free and not is_behind(b, uses.start[w], w, [uses.end[u]], [u])
+            if is_free:
+                found.append(u)
+    return found
 
 
 def is_behind(b: Blame, point: int, u: int, givers: list[int], owners: list[int]) -> bool:
