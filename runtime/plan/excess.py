@@ -4,9 +4,11 @@ from collections.abc import Callable
 from math import inf
 from typing import Any
 
+from runtime.constraints.bits import has_value
 from runtime.constraints.codes import KIND_FLOAT
 from runtime.constraints.external import External, argument, refuse
 from runtime.constraints.store import Store
+from runtime.plan import codes
 from runtime.plan.codes import AS_IT_IS, LIMITS, TOO_HIGH, TOO_LOW, TOO_TIGHT
 from runtime.plan.levels import Levels
 
@@ -39,6 +41,20 @@ class Excess(External):
         self.parts: list[tuple[int, int, int, float]] = []  # start, end, least duration, least quantity
         self.table: Callable[[Any], Any] | None = None
         self.judge: Callable[[Any, Any], Any] | None = None
+
+    def words(self, name: str) -> str:
+        """What is wrong with the resource of that name."""
+        by = f"by {self.amount:g}"
+        match self.wrong:
+            case codes.TOO_LOW:
+                return f"the level of {name} is below its least {by} at {self.at}"
+            case codes.TOO_HIGH:
+                return f"the level of {name} is above its greatest {by} at {self.at}"
+            case codes.TOO_TIGHT:
+                return f"what {name} must hold from {self.at} to {self.until} exceeds what it can {by} (use times time)"
+            case codes.TOO_FAST:
+                return f"too much of {name} flows at {self.at}, {by}"
+        return f"too much of {name} is used altogether, {by}"
 
     def share(self, low: int, high: int, length: int) -> int:
         """How much time lies in the window of a use that may last from `low` to `high`."""
@@ -80,7 +96,9 @@ class Excess(External):
             place += len(parts)
             holder, quantity, start = parts[:3]
             end = parts[3] if len(parts) > 3 else start
-            if s.lb[holder] != self.resource or s.ub[holder] != self.resource or s.kind[quantity] != KIND_FLOAT:
+            is_there = s.lb[holder] == self.resource == s.ub[holder]
+            helps = sign > 0 if self.wrong == TOO_LOW else sign < 0 and self.wrong == TOO_HIGH
+            if s.kind[quantity] != KIND_FLOAT or not (is_there or (helps and has_value(s, holder, self.resource))):
                 continue
             i = levels.add(-1, -1 if sign < 0 else 1, len(parts) == 3)
             levels.start_low[i], levels.start_high[i] = s.lb[start], s.ub[start]

@@ -233,7 +233,8 @@ class Levels:
             return False
         excess = -room * (end - start)
         for k in range(self.count):
-            excess += self.least[k] * self.share(k, start, end)
+            if self.least[k] > 0.0:  # in a scratch engine it may be without a bound
+                excess += self.least[k] * self.share(k, start, end)
         if excess <= FLOAT_TOLERANCE:
             return False
         self.at = start

@@ -101,7 +101,8 @@ class Recorder:
     def lines(self, wording: Wording) -> tuple[Line, ...]:
         """The lines of the present conflict, as few as it needs; those that have no place in the model come last."""
         engine = self.database.engine
-        causes: list[Cause] = minimise(engine, engine.explain())
+        found = sorted(engine.explain(), key=lambda cause: cause.span < 0)  # what the model says is kept rather
+        causes: list[Cause] = minimise(engine, found)
         lines = dict.fromkeys(wording.line(cause) for cause in causes)
         return tuple(sorted(lines, key=place_of))
 

@@ -14,12 +14,12 @@ from runtime.solver.selection cimport select
 from runtime.solver.shortage cimport complete
 from runtime.solver.watching cimport catch_up, fill, note_levels
 
-cdef long long APPLIED, EXHAUSTED, FAILED, MOVED, NO_CHOICE, NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
+cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
 cdef long long RESOURCE_THREAT, TIMEOUT
 
 
 cdef class Solver:
-    cdef public object database, account
+    cdef public object database, account, nogoods
     cdef public Plan plan
     cdef public Engine engine
     cdef public bint europa, has_active, is_exhausted, is_started
@@ -46,6 +46,12 @@ cdef class Solver:
 
     @cython.locals(d="long long", is_hopeless=bint, most="long long", outcome="long long", q=Queues, stack=Decisions)
     cpdef long long step(self) except? -1
+
+    @cython.locals(level="long long", stack=Decisions)
+    cpdef bint is_known_in_vain(self, long long d) except -1
+
+    @cython.locals(stack=Decisions)
+    cpdef long long go_to(self, long long d) except? -1
 
     cpdef int look_closer(self) except -1
 

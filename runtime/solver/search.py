@@ -11,6 +11,7 @@ from runtime.solver.blame import Blame
 from runtime.solver.choices import mend
 from runtime.solver.codes import (
     APPLIED,
+    EVERYTHING,
     EXHAUSTED,
     FAILED,
     MOVED,
@@ -25,6 +26,7 @@ from runtime.solver.custom import CustomManager
 from runtime.solver.decisions import Decisions
 from runtime.solver.filters import Filters, Scope
 from runtime.solver.matching import Matching
+from runtime.solver.nogoods import Nogoods
 from runtime.solver.queues import Queues
 from runtime.solver.selection import select
 from runtime.solver.shortage import complete
@@ -55,6 +57,7 @@ class Solver:
         self.queues.uses = Uses(self.plan, self.queues.distances, grounded(database))
         self.stack = Decisions()
         self.blame = Blame(self.queues, self.stack)
+        self.nogoods = Nogoods(database.program, self.queues, self.stack)
         self.steps = 0
         self.failures = 0
         self.steps_floor = 0
@@ -94,6 +97,7 @@ class Solver:
         self.is_started = True
         self.has_active = False
         self.plan.resources.is_energetic = False
+        self.nogoods.clear()
         self.is_exhausted = not settle(self.plan)
         fill(self.queues)
 
@@ -161,7 +165,7 @@ class Solver:
                 catch_up(q, d + 1)
                 stack.depth = d + 1
                 self.has_active = False
-                return MOVED
+                return FAILED if self.nogoods.is_awake and self.is_known_in_vain(d) else MOVED
             self.failures += 1
             if self.account is not None:
                 self.account.failed(d)
@@ -174,6 +178,21 @@ class Solver:
                 self.give_up(d, True)
             return FAILED
         return EXHAUSTED
+
+    def is_known_in_vain(self, d: int) -> bool:
+        """Whether a nogood says that the choice just made at `d` leads nowhere; then it is taken back."""
+        levels = self.nogoods.refuted(d)
+        if levels is None:
+            return False
+        stack = self.stack
+        if stack.reasons[d] != EVERYTHING:
+            self.blame.begin()
+            for level in levels:
+                self.blame.meet(level)
+            self.blame.keep(d)
+        self.failures += 1
+        self.go_to(d)
+        return True
 
     def look_closer(self) -> int:
         """Check from now on whether the uses of resources fit at all: worth its time only where choices fail."""
@@ -216,6 +235,9 @@ class Solver:
             if not is_explained:
                 complete(self.blame, d)
             target = self.blame.target(d)
+            if self.account is None:  # which wants to be told why each choice fails
+                self.nogoods.wake()
+                self.nogoods.record(d)
         if self.account is not None:
             self.account.given_up(d, target)
         self.leave(d)
@@ -224,12 +246,15 @@ class Solver:
         if target < 0:
             self.is_exhausted = True
             return 0
+        self.go_to(target)
+        return 0
+
+    def go_to(self, d: int) -> int:
+        """Go back to where decision `d` was begun, to make its next choice."""
         stack = self.stack
-        rewind(self.plan, stack.mark[target])
-        self.queues.go_back(
-            stack.dropped[target], stack.loose[target], stack.rows_seen[target], stack.engine_seen[target]
-        )
-        stack.depth = target
+        rewind(self.plan, stack.mark[d])
+        self.queues.go_back(stack.dropped[d], stack.loose[d], stack.rows_seen[d], stack.engine_seen[d])
+        stack.depth = d
         self.has_active = True
         return 0
 

@@ -8,6 +8,7 @@ from runtime.constraints.codes import FLAG_DECISION, FLAG_VALUES, HALF_INF, KIND
 from runtime.constraints.operations import OPERATIONS
 from runtime.plan.codes import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
 from runtime.plan.database import PlanDatabase
+from runtime.plan.excess import Excess
 from runtime.plan.readout import live_tokens, token_names
 from runtime.plan.texts import base_text, domain_text
 from runtime.plan.why import span_of
@@ -21,7 +22,7 @@ NAMES = {code: name for name, code in reversed(OPERATIONS.items())} | {OP_PLUS: 
 class Line:
     """One thing that holds: where the model says it, for which token's rule (empty: in the script), what it comes to.
 
-    What has no place was `declared` with a variable, or `decided` by the search.
+    What has no place was `declared` with a variable, or `decided` by the search, or is `so` because of the others.
     """
 
     span: Span | None
@@ -80,6 +81,8 @@ class Wording:
                 text = self.restriction(cause.id)
             case CauseKind.CONSTRAINT:
                 text = self.constraint(cause.id)
+        if cause.kind is CauseKind.CONSTRAINT and isinstance(self.engine.externals.get(cause.id), Excess):
+            return Line(None, "", text, "so")
         is_declared = cause.kind is CauseKind.RESTRICTION and not self.is_decision(cause.id)
         return Line(span_of(self.database, cause.span), owner, text, "declared" if is_declared else "decided")
 
@@ -123,6 +126,8 @@ class Wording:
             names = [self.variable(v) for v in arguments]
             return f"{names[0]} + {names[1]} = {names[2]}, {names[1]} is {self.value(arguments[1])}"
         external = engine.externals.get(c)
+        if isinstance(external, Excess):
+            return external.words(self.database.objects.names[external.resource])
         name = external.name if isinstance(external, Written) else NAMES.get(engine.op[c], "constraint")
         return f"{name}({', '.join(self.variable(v) for v in arguments)})"
 
