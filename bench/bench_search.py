@@ -70,14 +70,14 @@ def main() -> None:
     print(
         f"{platform.machine()}, {os.cpu_count()} cores, engine {build_form()}, {options.strategy}, limit {LIMIT:.0f} s"
     )
-    print(f"{'family':<12}{'N':>4} {'variant':<10}{'verdict':<10}{'steps':>9}{'failed':>9}{'ms':>11}")
+    print(f"{'family':<12}{'N':>4} {'variant':<12}{'verdict':<11}{'steps':>9}{'failed':>9}{'ms':>11}")
     for one in options.families:
         family, _, sizes = one.partition(":")
         for feasible in (True, False):
             for n in [int(each) for each in sizes.split(",")] if sizes else SIZES[family]:
                 verdict, steps, failures, ms = run(model(family, n, feasible), options.strategy)
                 variant = "feasible" if feasible else "infeasible"
-                print(f"{family:<12}{n:>4} {variant:<10}{verdict:<10}{steps:>9}{failures:>9}{ms:>11.1f}", flush=True)
+                print(f"{family:<12}{n:>4} {variant:<12}{verdict:<11}{steps:>9}{failures:>9}{ms:>11.1f}", flush=True)
                 if verdict == "timeout":
                     break
 

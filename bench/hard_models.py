@@ -39,15 +39,12 @@ def unary(n: int, feasible: bool) -> Iterable[str]:
 
 
 def reservoir(n: int, feasible: bool) -> Iterable[str]:
-    """Refills and drains that must alternate within narrow bounds, at times that are free; one drain has no room."""
-    yield "Reservoir tank = new Reservoir(2.0, 0.0, 4.0); close();"
+    """Refills and drains that must alternate, at times that are free; in the bad variant neither can come first."""
+    yield f"Reservoir tank = new Reservoir({2.0 if feasible else 1.0}, 0.0, {4.0 if feasible else 2.0}); close();"
     for i in range(n):
-        yield f"goal(tank.produce p{i}); p{i}.quantity = 2.0; leq(0, p{i}.time); leq(p{i}.time, {4 * n});"
-        yield f"goal(tank.consume c{i}); c{i}.quantity = 2.0; leq(0, c{i}.time); leq(c{i}.time, {4 * n});"
-    if not feasible:
-        for k in range(3):
-            yield f"goal(tank.consume x{k}); x{k}.quantity = 2.0; leq(0, x{k}.time); leq(x{k}.time, {4 * n});"
-        yield f"goal(tank.produce y); y.quantity = 2.0; eq(y.time, {4 * n + 1});"
+        for name, kind in (("p", "produce"), ("c", "consume")):
+            yield f"goal(tank.{kind} {name}{i}); {name}{i}.quantity = 2.0;"
+            yield f"leq(0, {name}{i}.time); leq({name}{i}.time, {4 * n});"
 
 
 def pigeons(n: int, feasible: bool) -> Iterable[str]:
@@ -81,7 +78,7 @@ def survey(n: int, feasible: bool) -> Iterable[str]:
 
 def instrument(n: int, feasible: bool) -> Iterable[str]:
     """Two rovers whose samples share one instrument; each sample also chooses a mode that changes how long it lasts."""
-    yield "class Rover extends Timeline { predicate sample { int mode; } }"
+    yield "class Rover extends Timeline { predicate sample { int mode; int number; } }"
     yield "Unary lens = new Unary();"
     yield "Rover::sample { leq(1, mode); leq(mode, 2); if (mode == 1) { eq(duration, 2); } else { eq(duration, 3); }"
     yield "  equals(Unary.use u); }"
@@ -89,7 +86,9 @@ def instrument(n: int, feasible: bool) -> Iterable[str]:
     room = 2 * 2 * n - (0 if feasible else 1)
     for name in "ab":
         for i in range(n):
-            yield f"goal({name}.sample {name}{i}); leq(0, {name}{i}.start); leq({name}{i}.end, {room});"
+            goal = f"{name}{i}"
+            yield f"goal({name}.sample {goal}); eq({goal}.number, {i});"
+            yield f"leq(0, {goal}.start); leq({goal}.end, {room});"
 
 
 def merging(n: int, feasible: bool) -> Iterable[str]:
@@ -110,13 +109,14 @@ def merging(n: int, feasible: bool) -> Iterable[str]:
 
 
 def rejecting(n: int, feasible: bool) -> Iterable[str]:
-    """Rejectable wishes on one timeline with little room, and a goal that needs a third of it."""
+    """Rejectable wishes on one timeline, and two goals that need all of it; one tick too little in the bad variant."""
     yield LANE
     yield "Lane lane = new Lane(); close();"
     for i in range(n):
         yield f"rejectable(lane.run r{i}); eq(r{i}.duration, 3); leq(0, r{i}.start); leq(r{i}.end, {2 * n});"
-    end = 2 * n if feasible else n - 1
-    yield f"goal(lane.run must); eq(must.duration, {n}); leq(0, must.start); leq(must.end, {end});"
+    for name, length in (("one", n), ("other", n + 1)):
+        yield f"goal(lane.run {name}); eq({name}.duration, {length}); leq(0, {name}.start);"
+        yield f"leq({name}.end, {2 * n + (1 if feasible else 0)});"
 
 
 def thrashing(n: int, feasible: bool) -> Iterable[str]:
