@@ -4,7 +4,7 @@ Prints one row per problem: verdict, steps, milliseconds in the solver and of lo
 runs, so that other work on the machine counts little), the ratio to EUROPA, and how time grew since the size before
 (the exponent); after each family the exponent that fits all its sizes best.
 
-Families and EUROPA's figures (measured on a quiet machine of another kind) are those of the conformance suite, whose
+Families and EUROPA's figures (medians of its runs, not taken here) are those of the conformance suite, whose
 folder is found by CONFORMANCE or --suite; without it only the problems of `bench/problems` are timed. These are held
 against EUROPA itself if EUROPA_PROBE names a program that answers `load FILE` and `plan FILE CONFIG FROM TO STEPS
 DEPTH`: the processor time of the second less that of the first.
