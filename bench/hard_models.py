@@ -39,7 +39,7 @@ def unary(n: int, feasible: bool) -> Iterable[str]:
 
 
 def reservoir(n: int, feasible: bool) -> Iterable[str]:
-    """Refills and drains that must alternate, at times that are free; both variants have a plan: refill and drain at once."""
+    """Refills and drains that must alternate, at times that are free; each variant has a plan, one at once."""
     yield f"Reservoir tank = new Reservoir({2.0 if feasible else 1.0}, 0.0, {4.0 if feasible else 2.0}); close();"
     for i in range(n):
         for name, kind in (("p", "produce"), ("c", "consume")):
