@@ -25,8 +25,8 @@ cpdef bint is_better(
 
 
 @cython.locals(
-    at="long long", count="long long", first="long long", handler="long long", kinds="long long", pair="long long",
-    rounds="long long", second="long long", step="long long", together=bint, turn="long long"
+    at="long long", by_default=bint, count="long long", first="long long", handler="long long", kinds="long long",
+    pair="long long", rounds="long long", second="long long", step="long long", together=bint, turn="long long"
 )
 cpdef long long mend_instant(Queues q, Decisions stack, long long d) except? -1
 
@@ -39,7 +39,7 @@ cpdef long long mend_in_order_of_ids(Queues q, Decisions stack, long long d) exc
 
 
 @cython.locals(
-    at="long long", engine=Engine, giver="long long", grounded="long long", k="long long", taker="long long",
-    uses=Uses, v="long long"
+    at="long long", engine=Engine, giver="long long", grounded="long long", is_left=bint, k="long long",
+    last="long long", lower="long long", taker="long long", uses=Uses, v="long long"
 )
-cpdef long long useful_pairs(Queues q, Decisions stack, long long d) except? -1
+cpdef bint add_useful_pairs(Queues q, Decisions stack, long long d) except -1

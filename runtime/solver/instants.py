@@ -96,19 +96,26 @@ def is_better(q: Queues, manager: int, other_at: int, other_low: int, other_exce
 def mend_instant(q: Queues, stack: Decisions, d: int) -> int:
     """Order the next pair of uses; `cursor` counts pairs (and kinds of order), row by row of the pool."""
     handler = stack.handler[d]
-    if q.exact and q.treatments.pairs_by_default[handler]:
+    by_default = q.treatments.pairs_by_default[handler]
+    if q.exact and by_default:
         return mend_in_order_of_ids(q, stack, d)
-    if stack.pool_count[d] < 0:
-        stack.pool_count[d] = 0
-        if q.treatments.pairs_by_default[handler]:
-            useful_pairs(q, stack, d)
-        else:
-            sorted_pairs(q, stack, d)
     kinds = q.treatments.handler_constraint[handler]
     rounds = 2 if kinds == PRECEDES_FIRST or kinds == CONCURRENT_FIRST else 1
+    if stack.pool_count[d] < 0:
+        stack.pool_count[d] = 0
+        if not by_default:
+            sorted_pairs(q, stack, d)
+        elif rounds > 1:
+            while add_useful_pairs(q, stack, d):
+                pass
     count = stack.pool_count[d]
     step = stack.cursor[d] + 1
-    while step < count * rounds:
+    while True:
+        if step >= count * rounds:
+            # Mostly the first giver serves, so that the pairs of the others are listed when their turn comes.
+            if rounds > 1 or not by_default or not add_useful_pairs(q, stack, d):
+                return NO_CHOICE
+            count = stack.pool_count[d]
         if q.treatments.handler_iterate[handler] == CONSTRAINT_FIRST:
             pair = step // rounds
             turn = step % rounds
@@ -127,7 +134,6 @@ def mend_instant(q: Queues, stack: Decisions, d: int) -> int:
             together = together or (kinds == PRECEDES_FIRST and turn == 1)
             return APPLIED if q.uses.order(first, second, 1 if together else 0) else FAILED_CHOICE
         step += 1
-    return NO_CHOICE
 
 
 def mend_in_order_of_ids(q: Queues, stack: Decisions, d: int) -> int:
@@ -162,11 +168,11 @@ def mend_in_order_of_ids(q: Queues, stack: Decisions, d: int) -> int:
     return NO_CHOICE
 
 
-def useful_pairs(q: Queues, stack: Decisions, d: int) -> int:
-    """Pairs that can change the level at the instant: what may give later, before what may take by then.
+def add_useful_pairs(q: Queues, stack: Decisions, d: int) -> bool:
+    """Pair the next giver with all takers: what may give later, before what may take by then; false if none is left.
 
-    No schedule within bounds lacks all of them: at the last of the takers by then, one of the givers has given. The
-    giver that may be first comes first, then the taker that has most time left.
+    No schedule within bounds lacks all pairs: at the last of the takers by then, one of the givers has given. The giver
+    that may be first comes first, then the taker that has most time left.
     """
     uses = q.uses
     engine = q.engine
@@ -174,20 +180,24 @@ def useful_pairs(q: Queues, stack: Decisions, d: int) -> int:
     grounded = uses.grounded[stack.item[d]]
     uses.gather(stack.item[d])
     taker = 1 if stack.phase[d] else 0
-    uses.agenda.clear()
+    last = NONE
+    if stack.pool_count[d] > 0:
+        last = stack.pool_before[stack.pool_used - 1]
+    giver = NONE
+    q.takers.clear()
     for k in range(uses.count):
         v = uses.point[k]
-        if uses.takes[k] != taker and (engine.lb[v] > at if grounded else engine.ub[v] > at):
-            uses.agenda.push(engine.lb[v], v, v)
-    while uses.agenda.length:
-        giver = uses.agenda.top_item()
-        uses.agenda.pop()
-        q.takers.clear()
-        for k in range(uses.count):
-            v = uses.point[k]
-            if uses.takes[k] == taker and engine.lb[v] <= at:
+        lower = engine.lb[v]
+        if uses.takes[k] == taker:
+            if lower <= at:
                 q.takers.push(-engine.ub[v], -v, v)
-        while q.takers.length:
-            stack.add_to_pool(d, 0, giver, q.takers.top_item())
-            q.takers.pop()
-    return 0
+        elif lower > at if grounded else engine.ub[v] > at:
+            is_left = last < 0 or lower > engine.lb[last] or (lower == engine.lb[last] and v > last)
+            if is_left and (giver < 0 or lower < engine.lb[giver] or (lower == engine.lb[giver] and v < giver)):
+                giver = v
+    if giver < 0 or q.takers.length == 0:
+        return False
+    while q.takers.length:
+        stack.add_to_pool(d, 0, giver, q.takers.top_item())
+        q.takers.pop()
+    return True
