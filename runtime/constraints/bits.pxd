@@ -8,7 +8,6 @@ cdef double FLOAT_TOLERANCE
 cdef unsigned long long ALL_BITS, EVERY_SECOND_BIT, FOUR_OF_EIGHT_BITS, ONE_BIT, TWO_OF_FOUR_BITS
 
 
-@cython.locals(n="long long")
 cpdef long long lowest_bit(unsigned long long x) except? -1
 
 cpdef long long bits_in(unsigned long long x) except? -1

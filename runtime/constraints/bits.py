@@ -18,26 +18,8 @@ from runtime.constraints.store import Store
 
 
 def lowest_bit(x: int) -> int:
-    """Give the place of the lowest set bit; x is not 0."""
-    n = 0
-    if x & 0xFFFFFFFF == 0:
-        n += 32
-        x >>= 32
-    if x & 0xFFFF == 0:
-        n += 16
-        x >>= 16
-    if x & 0xFF == 0:
-        n += 8
-        x >>= 8
-    if x & 0xF == 0:
-        n += 4
-        x >>= 4
-    if x & 0x3 == 0:
-        n += 2
-        x >>= 2
-    if x & 0x1 == 0:
-        n += 1
-    return n
+    """Give the place of the lowest set bit, which is how many zeros stand behind it; x is not 0."""
+    return bits_in((x & -x) - 1)
 
 
 def bits_in(x: int) -> int:

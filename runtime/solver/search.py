@@ -117,7 +117,7 @@ class Solver:
         self.is_exhausted = False
 
     def solve(self, max_steps: int, max_depth: int, is_late: Callable[[], bool] | None = None) -> int:
-        """Step until there is a plan, none, or no more time; `is_late` is asked every 64 steps."""
+        """Step until there is a plan, none, or no more time; `is_late` is asked every fourth step."""
         self.steps_floor = self.steps
         self.depth_floor = self.stack.depth
         self.max_steps = max_steps
@@ -127,7 +127,7 @@ class Solver:
         while outcome == MOVED or outcome == FAILED:
             outcome = self.step()
             count += 1
-            if count & 63 == 0 and is_late is not None and is_late():
+            if count & 3 == 0 and is_late is not None and is_late():
                 return TIMEOUT
         return outcome
 
