@@ -197,6 +197,10 @@ def loop(plan: Plan, scope: int, at: int, span: int) -> int:
         return 6
     block = plan.code[at + 5]
     objects = plan.engine.values_of(v)
+    if plan.rows.level > 0:
+        base = plan.engine.base_values(v)
+        if base is None or len(base) != len(objects):
+            plan.loops_read_choices = True
     if not objects:
         return 6
     frozen = plan.engine.new_constant_values(plan.engine.kind[v], objects)

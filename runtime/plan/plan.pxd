@@ -35,6 +35,7 @@ cdef class Plan:
     cdef public long long watch_capacity, stack_capacity, stack_length, queue_capacity
     cdef public long long queue_length, operand_capacity, operands_used, mark_capacity
     cdef public long long statement, self_object
+    cdef public bint loops_read_choices
     cdef public double[::1] form_lower, form_upper
     cdef public list unions
     cdef public object services, envelope

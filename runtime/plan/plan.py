@@ -115,6 +115,8 @@ class Plan:
         # Global variables, and what every engine variable is.
         self.globals = blank(1)
         self.clock = NONE  # the global that reads "now or later" during execution: a guard does not wait for its value
+        # Whether a search has run a `foreach` over a domain that was narrowed: nobody noted by whom.
+        self.loops_read_choices = False
         self.variable_capacity = 256
         self.variable_role = blank(256)
         self.variable_owner = blank(256)

@@ -217,7 +217,7 @@ class Blame:
         """
         engine = self.engine
         support = engine.conflict_support
-        if engine.consistent or support < 0:
+        if engine.consistent or support < 0 or self.queues.plan.loops_read_choices:
             self.stack.reasons[d] = EVERYTHING
             return False
         self.begin()

@@ -45,7 +45,7 @@ def complete(b: Blame, d: int) -> int:
     kind = stack.kind[d]
     if stack.reasons[d] == EVERYTHING:
         return 0
-    if stack.handler[d] < 0 or q.treatments.handler_most[stack.handler[d]] != 0:
+    if q.plan.loops_read_choices or stack.handler[d] < 0 or q.treatments.handler_most[stack.handler[d]] != 0:
         stack.reasons[d] = EVERYTHING
         return 0
     b.begin()

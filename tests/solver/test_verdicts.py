@@ -57,6 +57,29 @@ def test_what_a_guard_of_two_variables_asks_for_rests_on_both(tmp_path: Path) ->
     assert verdict(tmp_path, text) == "plan"
 
 
+def test_what_a_loop_asks_for_rests_on_what_narrowed_its_domain(tmp_path: Path) -> None:
+    text = """
+        class A extends Timeline { int k; A(int v) { k = v; } predicate work { } }
+        class S extends Timeline { predicate q { } }
+        class T extends Timeline { predicate p { int w; } }
+        A::work { object.k == 1; }
+        T t = new T();
+        S s = new S();
+        A a1 = new A(0);
+        A a2 = new A(1);
+        close();
+        A v;
+        T::p { int z; if (w == 1) { contains(s.q x); } else { z == 2; z == 1; } }
+        S::q { foreach (o in v) { contains(o.work y); } }
+        goal(t.p g);
+        g.w = {0, 1};
+        g.start = 0;
+        g.end = 10;
+    """
+    assert verdict(tmp_path, text, europa=True) == "plan"
+    assert verdict(tmp_path, text) == "plan"
+
+
 @pytest.mark.parametrize("seed", range(40))
 def test_backjumping_over_resources_changes_no_verdict(tmp_path: Path, seed: int) -> None:
     text = uses_model(seed)
