@@ -26,7 +26,8 @@ class Nogoods:
     def __init__(self, program: Program, queues: Queues, stack: Decisions) -> None:
         self.queues = queues
         self.stack = stack
-        self.is_usable = not any(names_change(rule.body) for rule in program.rules)
+        # One name means many things in a loop, and where objects are made.
+        self.is_usable = not any(has_any(rule.body, (Foreach, NewObject)) for rule in program.rules)
         self.clear()
 
     def clear(self) -> None:
@@ -164,11 +165,11 @@ class Nogoods:
         self.uses = [self.uses[k] // 2 for k in kept]
 
 
-def names_change(body: tuple[Instruction, ...]) -> bool:
-    """Whether a body runs a statement for each of some objects, or makes objects: one name then means many things."""
+def has_any(body: tuple[Instruction, ...], kinds: tuple[type, ...]) -> bool:
+    """Whether a body, or a branch in it, has an instruction of one of these kinds."""
     for instruction in body:
-        if isinstance(instruction, (Foreach, NewObject)):
+        if isinstance(instruction, kinds):
             return True
-        if isinstance(instruction, Guard) and names_change((*instruction.then, *instruction.otherwise)):
+        if isinstance(instruction, Guard) and has_any((*instruction.then, *instruction.otherwise), kinds):
             return True
     return False

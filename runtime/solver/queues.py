@@ -30,7 +30,15 @@ from runtime.solver.widening import widened
 class Queues:
     """The heaps, the loose slots that are looked at in every step, the parked ones, and the levels of everything."""
 
-    def __init__(self, plan: Plan, treatments: Treatments, filters: Filters, supports: Supports, exact: bool) -> None:
+    def __init__(
+        self,
+        plan: Plan,
+        treatments: Treatments,
+        filters: Filters,
+        supports: Supports,
+        exact: bool,
+        in_order: bool,
+    ) -> None:
         self.plan = plan
         self.rows = plan.rows
         self.engine = plan.engine
@@ -58,7 +66,7 @@ class Queues:
             if treatments.manager_kind[manager] == UNBOUND_VARIABLE:
                 first = treatments.manager_heap[manager]
                 for heap in range(first, first + treatments.manager_heaps[manager]):
-                    self.sorted_by_size[heap] = 1 if not exact or treatments.heap_priority[heap] != 0.0 else 0
+                    self.sorted_by_size[heap] = 1 if not in_order or treatments.heap_priority[heap] != 0.0 else 0
         self.sequence = array("q", [0]) * 64
         self.level = 0
         self.found_manager = NONE

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from compiler.program import Foreach
 from runtime.plan.codes import REJECTED
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import settle
@@ -26,7 +27,7 @@ from runtime.solver.custom import CustomManager
 from runtime.solver.decisions import Decisions
 from runtime.solver.filters import Filters, Scope
 from runtime.solver.matching import Matching
-from runtime.solver.nogoods import Nogoods
+from runtime.solver.nogoods import Nogoods, has_any
 from runtime.solver.queues import Queues
 from runtime.solver.selection import select
 from runtime.solver.shortage import complete
@@ -53,7 +54,9 @@ class Solver:
         matching = Matching(configuration, database.program)
         treatments = Treatments(matching, Texts(database), len(database.program.predicates))
         self.filters = Filters(self.plan, treatments, lower, upper)
-        self.queues = Queues(self.plan, treatments, self.filters, Supports(database.program, europa), europa)
+        # A loop in a rule settles what its variable may be: whether there is a plan hangs on what is decided before.
+        in_order = europa or any(has_any(rule.body, (Foreach,)) for rule in database.program.rules)
+        self.queues = Queues(self.plan, treatments, self.filters, Supports(database.program, europa), europa, in_order)
         self.queues.uses = Uses(self.plan, self.queues.distances, grounded(database))
         self.stack = Decisions()
         self.blame = Blame(self.queues, self.stack)

@@ -213,3 +213,33 @@ def uses_model(seed: int) -> str:
         if i and random.random() < 0.4:
             lines.append(f"{random.choice(('eq', 'neq', 'leq'))}(a{i}.m, a{i - 1}.m);")
     return "\n".join(lines) + "\n"
+
+
+def loops_model(seed: int) -> str:
+    """Rules with a `foreach` over variables that are decided, or not yet, when it runs; no known verdict."""
+    random = Random(seed)
+    globals_ = random.randint(1, 3)
+
+    def one() -> str:
+        return f"v{random.randrange(globals_)}"
+
+    lines = ["class A extends Timeline { int k; A(int v) { k = v; } predicate work { int z; } }"]
+    lines.append("class S extends Timeline { predicate q { A o; int c; } predicate r { int c; } }")
+    lines.append("class T extends Timeline { predicate p { int w; int u; } }")
+    of_z = random.choice(("", "z == object.k;", "z != object.k;"))
+    lines.append(f"A::work {{ object.k {random.choice(('==', '!=', '<='))} {random.randint(0, 2)}; {of_z} }}")
+    lines.append("T t = new T(); S s1 = new S(); S s2 = new S();")
+    lines += [f"A a{i} = new A({random.randint(0, 2)});" for i in range(random.randint(2, 4))]
+    lines += ["close();", *(f"A v{i};" for i in range(globals_))]
+    if globals_ > 1 and random.random() < 0.5:
+        lines.append("neq(v0, v1);")
+    otherwise = random.choice(("u == 1;", "u == 0; u == 1;", "contains(s2.r y);"))
+    then = f"contains(s1.q x); {random.choice(('x.c == u;', ''))}"
+    also = "if (u == 1) { contains(s2.r more); }" if random.random() < 0.4 else ""
+    lines.append(f"T::p {{ if (w == {random.randint(0, 1)}) {{ {then} }} else {{ {otherwise} }} {also} }}")
+    inner = random.choice(("contains(e.work y);", "any(e.work y); y.z == c;", "e.k == c;"))
+    last = random.choice(("", "eq(o, v0);", "c == 1;"))
+    lines.append(f"S::q {{ foreach (e in {random.choice((one(), 'o'))}) {{ {inner} }} {last} }}")
+    lines.append(f"S::r {{ foreach (e in {one()}) {{ {random.choice(('contains(e.work y);', 'e.k != c;'))} }} }}")
+    lines.append("goal(t.p g); g.w = {0, 1}; g.u = {0, 1}; g.start = 0; g.end = 12;")
+    return "\n".join(lines)

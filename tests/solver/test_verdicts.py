@@ -6,7 +6,14 @@ import pytest
 
 from runtime.solver.codes import EXHAUSTED, PLAN, RESULT_NAMES
 from tests.solver.planning import resources_configuration, solver_for, verdict
-from tests.solver.random_models import guards_model, rules_model, timelines_puzzle, uses_model, variables_puzzle
+from tests.solver.random_models import (
+    guards_model,
+    loops_model,
+    rules_model,
+    timelines_puzzle,
+    uses_model,
+    variables_puzzle,
+)
 
 
 @pytest.mark.parametrize("seed", range(60))
@@ -37,6 +44,13 @@ def test_backjumping_over_guards_changes_no_verdict(tmp_path: Path, seed: int) -
     plain = verdict(tmp_path, text, europa=True, most=3000)
     learned = verdict(tmp_path, text)
     assert plain == "timeout" or learned == plain, text
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_loops_over_what_is_decided_have_one_verdict(tmp_path: Path, seed: int) -> None:
+    text = loops_model(seed)
+    plain = verdict(tmp_path, text, europa=True, most=3000)
+    assert plain == "timeout" or verdict(tmp_path, text) == plain, text
 
 
 def test_what_a_guard_of_two_variables_asks_for_rests_on_both(tmp_path: Path) -> None:
