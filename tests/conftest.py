@@ -1,6 +1,7 @@
 """Settle, before any test imports the engine, in which form it is tested, and make chance reproducible."""
 
 import os
+import signal
 from pathlib import Path
 
 import pytest
@@ -8,6 +9,10 @@ from hypothesis import settings
 
 from runtime.build_form import build_form, interpreting_is_asked, load_interpreted
 from freshness import unfit_binaries
+
+# Who is started in the background ignores Ctrl-C and hands that on: tests that send it would wait for ever.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 COMPILED_IS_PROMISED = os.environ.get("NDDLC_REQUIRE_COMPILED", "") not in ("", "0") and not interpreting_is_asked()
 # A binary that is older than its source is never tested; the source is, uncompiled.
