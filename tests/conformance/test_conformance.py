@@ -13,7 +13,6 @@ HERE = Path(__file__).parent
 CASES = HERE / "cases"
 FOLDERS = {path.stem: folder for folder in (CASES, HERE / "own") for path in folder.glob("*.json")}
 NAMES = sorted(FOLDERS)
-KNOWN_FAILURES = set((HERE / "known_failures.txt").read_text(encoding="utf-8").split())
 MOST_STEPS = 2000
 
 
@@ -38,15 +37,8 @@ def test_case(name: str, capsys: pytest.CaptureFixture[str]) -> None:
         found = differences(want, json.loads(told.out), set(re.findall(r"\benum\s+(\w+)", text)))
     else:
         found = [f"exit code {code}: {told.err}"]
-    if name in KNOWN_FAILURES:
-        assert found, f"{name} passes now: take it from known_failures.txt"
-        pytest.xfail(found[0])
     assert not found, "\n".join(found)
 
 
 def test_no_case_of_our_own_hides_a_public_one() -> None:
     assert not {path.stem for path in CASES.glob("*.json")} & {path.stem for path in (HERE / "own").glob("*.json")}
-
-
-def test_every_known_failure_is_a_case() -> None:
-    assert set(NAMES) >= KNOWN_FAILURES
