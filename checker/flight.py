@@ -1,6 +1,8 @@
 """Fly real missions: load the models of an agent once, then run the executive from a seed."""
 
 import re
+import sys
+from contextlib import redirect_stdout
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -25,18 +27,19 @@ def load(agent: AgentConfiguration) -> Fly:
     """Compile the models of `agent`; the result flies one mission per call."""
     root = Path(agent.root)
     reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    programs = load_programs(root, reactors, agent.constraints)
+    programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
 
     def fly(seed: int) -> Outcome:
-        return _relative(run_mission(agent, programs, seed), root)
+        with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
+            return _relative(run_mission(agent, programs, seed), root)
 
     return fly
 
 
 @lru_cache(maxsize=4)
-def load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...]) -> MissionPrograms:
+def load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...], seconds: float) -> MissionPrograms:
     """The compiled models and the flaw handling of some reactors; kept, for flights that differ in parameters only."""
-    library = load_library(root, constraints)
+    library = load_library(root, constraints, seconds=seconds)
     models = {
         model: compile_model(analyse_file(root / model, callables=library.callables))
         for model in dict.fromkeys(model for model, _ in reactors)

@@ -27,6 +27,7 @@ from runtime.executive.configuration import (
     ReactorConfiguration,
     Value,
 )
+from runtime.user.limit import USUAL
 
 LARGEST_SEED = (1 << 53) - 1  # what JSON readers agree on
 
@@ -73,7 +74,7 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
     head = top.table("mission", "[mission]", needed=True)
     reactors = _read_reactors(top.tables("reactor", needed=True), root)
     goals = _read_goals(top.tables("goal"), reactors, text)
-    constraints = _read_constraints(top.table("constraints", "[constraints]"), root)
+    constraints, seconds = _read_constraints(top.table("constraints", "[constraints]"), root)
     parameters, unranged = _read_parameters(top.table("parameters", "[parameters]"))
     agent = AgentConfiguration(
         name=head.string("name"),
@@ -85,6 +86,7 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
         tick=head.number("tick", 1.0, 1e-9),
         on_failure=cast("OnFailure", head.choice("on_failure", ("abort_agent", "kill_reactor"), "abort_agent")),
         constraints=constraints,
+        constraint_seconds=seconds,
     )
     check = _read_check(top.table("check", "[check]"))
     head.close()
@@ -120,14 +122,15 @@ def _read_check(table: Table) -> CheckConfiguration:
     return check
 
 
-def _read_constraints(table: Table, root: Path) -> tuple[str, ...]:
+def _read_constraints(table: Table, root: Path) -> tuple[tuple[str, ...], float]:
     modules = table.strings("modules")
+    seconds = table.number("time_limit", USUAL, 0.001)
     table.close()
     for index, file in enumerate(modules):
         if not (root / file).is_file():
             span = table.text.value_span((*table.path, "modules", index))
             table.text.diagnostics.append(NO_FILE.at(span, path=file, help=_suggest_file(root, file)))
-    return modules
+    return modules, seconds
 
 
 def _read_reactors(tables: list[Table], root: Path) -> tuple[ReactorConfiguration, ...]:

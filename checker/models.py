@@ -43,7 +43,7 @@ def load_models(mission: Mission) -> ModelSet:
     """
     agent = mission.agent
     root = Path(agent.root)
-    library = load_library(root, agent.constraints)
+    library = load_library(root, agent.constraints, seconds=agent.constraint_seconds)
     analyses = analyse_models(agent, library.callables)
     texts = library.texts | {
         relative_name(source.name, root): source.text

@@ -19,6 +19,7 @@ from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source
 from runtime.user.fault import UserCodeError
 from runtime.user.library import load_library
+from runtime.user.limit import USUAL
 
 OpenText = Callable[[Path], str | None]
 _Place = tuple[str, Dialect, bool]
@@ -112,7 +113,8 @@ def _configuration(root: Path) -> Configuration:
     path = find_configuration(root.parent) if root.is_absolute() else None
     configuration = Configuration() if path is None else read_configuration(path)[0]
     try:
-        library = load_library(Path(), [module.as_posix() for module in configuration.modules])
+        modules = [module.as_posix() for module in configuration.modules]
+        library = load_library(Path(), modules, seconds=configuration.seconds or USUAL)
     except UserCodeError as mistake:
         print(f"nddlc: {mistake}", file=sys.stderr)  # editors keep what a server says there
         return configuration

@@ -1,8 +1,9 @@
 """Load one model and tell what became of it: as a value, and as the object that the conformance suite reads."""
 
 import gc
+import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -58,7 +59,8 @@ def load(path: Path, directories: tuple[str, ...], dialect: Dialect | None, name
         return Loaded(file, found, None, None)
     program = compile_model(analysis)
     database = PlanDatabase(program, constraints=library.constraints)
-    fault = database.run_script()
+    with redirect_stdout(sys.stderr):  # what constraints print there would be read by programs
+        fault = database.run_script()
     return Loaded(file, found if fault is None else (*found, fault), program, database)
 
 

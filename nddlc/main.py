@@ -93,7 +93,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
         return UNUSABLE
     except UserCodeError as mistake:
         click.echo(f"nddlc: {mistake}", err=True)
-        click.echo("  help: this is in a constraint of the project, see docs/constraints.md", err=True)
+        click.echo(f"  help: {mistake.advice}", err=True)
         return UNUSABLE
     except (click.Abort, KeyboardInterrupt):
         click.echo("nddlc: interrupted", err=True)

@@ -4,6 +4,7 @@ import json
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import redirect_stdout
 from pathlib import Path
 
 import click
@@ -81,7 +82,8 @@ def command(
     recorder = Recorder(loaded.database, solver.queues, solver.stack) if explain else None
     solver.account = recorder
     clock = _Clock(solver, max_seconds)
-    result = solver.solve(limits.steps, limits.depth, clock)
+    with redirect_stdout(sys.stderr):  # what constraints print there would be read by programs
+        result = solver.solve(limits.steps, limits.depth, clock)
     clock.wipe()
     reasons = _reasons(recorder, told, result)
     told |= read(loaded.database) | {"consistent": told["consistent"]}

@@ -17,8 +17,8 @@ def model_digest(sources: Mapping[str, str]) -> str:
 
 
 def run_id(agent: AgentConfiguration, models: str, seed: int, missions: int, version: str) -> str:
-    """Eight hexadecimal digits; where the checkout lies and how many workers fly make no difference."""
+    """Eight hexadecimal digits; where the checkout lies, how fast it is and how many fly make no difference."""
     content = asdict(agent)
-    del content["root"]
+    del content["root"], content["constraint_seconds"]
     text = json.dumps([content, models, seed, missions, version], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:ID_LENGTH]

@@ -17,8 +17,10 @@ from multiprocessing.process import BaseProcess
 from types import FrameType
 
 from checker.batch.result import MissionResult
-from checker.batch.worker import READY, Load, LoadFailure, Task, error_result, work
+from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result, work
+from checker.oracle import USER_CODE
 from runtime.executive.configuration import AgentConfiguration
+from runtime.user.fault import UserCodeError
 
 LARGEST_CHUNK = 16
 START_LIMIT = 120.0  # seconds for a worker to load the models
@@ -71,13 +73,15 @@ class Flyer:
                 return self._lost(task, "the process did not start")
             message = self._heard()
             if isinstance(message, LoadFailure):
-                raise WorkerError(message.detail)
+                raise _unloaded(message)
             if message != READY:
                 return self._lost(task, "the process did not start")
         self._worker.give([task], self._time_limit)
         if not self._worker.connection.poll(self._time_limit):
             return self._lost(task, f"took longer than {self._time_limit:g} s")
         result = self._heard()
+        if isinstance(result, LastWords):
+            return self._lost(task, result.reason, USER_CODE)
         return result if isinstance(result, MissionResult) else self._lost(task, "the process died")
 
     def _heard(self) -> object:
@@ -87,11 +91,11 @@ class Flyer:
         except (EOFError, OSError):
             return None
 
-    def _lost(self, task: Task, reason: str) -> MissionResult:
+    def _lost(self, task: Task, reason: str, code: str = "") -> MissionResult:
         assert self._worker is not None
         self._worker.kill()
         self._worker = None
-        return error_result(task, reason)
+        return error_result(task, reason, code=code)
 
 
 class _Worker:
@@ -165,7 +169,10 @@ class _Pool:
             while worker.connection.poll():
                 message = worker.connection.recv()
                 if isinstance(message, LoadFailure):
-                    raise WorkerError(message.detail)
+                    raise _unloaded(message)
+                if isinstance(message, LastWords):
+                    self._lose(worker, message.reason, USER_CODE)
+                    return
                 if message == READY:
                     worker.is_ready = True
                     self.failed_starts = 0
@@ -185,12 +192,12 @@ class _Pool:
         if chunk:
             worker.give(chunk, self.time_limit)
 
-    def _lose(self, worker: _Worker, reason: str) -> None:
+    def _lose(self, worker: _Worker, reason: str, code: str = "") -> None:
         """Give up a worker and the mission in flight, and start another one for the rest."""
         worker.kill()
         if worker.owed:
             self.missing -= 1
-            self.take(error_result(worker.owed.popleft(), reason))
+            self.take(error_result(worker.owed.popleft(), reason, code=code))
         elif not worker.is_ready:
             self.failed_starts += 1
             if self.failed_starts >= FAILED_STARTS:
@@ -199,6 +206,13 @@ class _Pool:
         self.workers.remove(worker)
         if self.missing:
             self.workers.append(_Worker(self.load, self.agent))
+
+
+def _unloaded(failure: LoadFailure) -> Exception:
+    """Who is to blame for models that a worker cannot load."""
+    if failure.blame:
+        return UserCodeError(failure.blame, failure.detail, failure.advice)
+    return WorkerError(failure.detail)
 
 
 def _fate(exit_code: int | None) -> str:

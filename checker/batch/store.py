@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from checker.batch.result import MissionResult, read_result, write_result
+from checker.oracle import Verdict
 
 LATEST = "latest"
 FOLDER = ".nddlc"
@@ -51,8 +52,12 @@ class Store:
         self._pending: list[tuple[str, int, str, str]] = []
 
     def begin(self, run: Run, *, keep: bool) -> dict[int, MissionResult]:
-        """Register `run` as the latest; return what it has finished before if `keep`, else forget that."""
-        kept = {result.number: result for result in self.results(run.id)} if keep else {}
+        """Register `run` as the latest; return what it has finished before if `keep`, else forget that.
+
+        A mission that ended in an ERROR was not finished.
+        """
+        found = self.results(run.id) if keep else ()
+        kept = {result.number: result for result in found if result.verdict is not Verdict.ERROR}
         with self._connection:
             if not keep:
                 self._connection.execute("DELETE FROM missions WHERE run = ?", (run.id,))

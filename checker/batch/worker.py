@@ -4,6 +4,7 @@ import signal
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing.connection import Connection
 
 import runtime.build_form
@@ -11,7 +12,8 @@ from checker.batch.result import MissionResult, condense
 from checker.oracle import USER_CODE, Judgement, Verdict, judge
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Outcome
-from runtime.user.fault import UserCodeError
+from runtime.user.fault import HELP, UserCodeError
+from runtime.user.limit import WATCH
 
 Fly = Callable[[int], Outcome]  # a seed in, an outcome out
 Load = Callable[[AgentConfiguration], Fly]  # importable by name, so that a fresh process can have it
@@ -30,17 +32,33 @@ class Task:
 
 @dataclass(frozen=True, slots=True)
 class LoadFailure:
-    """What a worker says when it cannot load the models: a bug of ours, for they were checked before."""
+    """What a worker says when it cannot load the models: a bug of ours, for they were checked before.
+
+    Unless code of the project is to blame, which was not checked in this process; then that is said in `blame`.
+    """
 
     detail: str
+    blame: str = ""
+    advice: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class LastWords:
+    """What a worker says when code of the project does not come back and nothing else can end it."""
+
+    reason: str
 
 
 def work(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
     """Serve missions until None comes or the other end is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the whole group; the parent decides what it means
+    WATCH.last_words = partial(_send_last_words, connection)
     try:
         try:
             fly = load(agent)
+        except UserCodeError as problem:
+            connection.send(LoadFailure(problem.detail, str(problem), problem.advice))
+            return
         except Exception:
             connection.send(LoadFailure(traceback.format_exc()))
             return
@@ -52,12 +70,20 @@ def work(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
         return  # the parent is gone
 
 
+def _send_last_words(connection: Connection, problem: UserCodeError) -> None:
+    connection.send(LastWords(_reason(problem)))
+
+
+def _reason(problem: UserCodeError) -> str:
+    return str(problem) if problem.advice == HELP else f"{problem}; {problem.advice}"
+
+
 def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
     """Fly one mission and judge it; an exception is the tool's failure, not the model's."""
     try:
         outcome = fly(task.seed)
     except UserCodeError as problem:
-        return error_result(task, str(problem), problem.detail, USER_CODE)
+        return error_result(task, _reason(problem), problem.detail, USER_CODE)
     except Exception as problem:
         return error_result(task, f"{type(problem).__name__}: {problem}", traceback.format_exc())
     judgement = judge(outcome)

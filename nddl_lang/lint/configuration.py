@@ -80,7 +80,7 @@ class _Reader:
             "include": lambda key, value: {"directories": tuple(self._directories(key, value))},
             "dialect": lambda key, value: {"dialect": self._one_of(key, value, _DIALECTS)},
             "fail-on": lambda key, value: {"fail_on": self._one_of(key, value, _FAIL_ON, Severity.WARNING)},
-            "constraints": lambda key, value: {"modules": tuple(self._modules(key, value))},
+            "constraints": self._constraints,
             "severity": lambda key, value: {"severities": tuple(self._weights(key, value))},
         }
         settings = Settings()
@@ -108,19 +108,31 @@ class _Reader:
             else:
                 self._wrong((*key, index), item, "a directory, seen from this file")
 
-    def _modules(self, key: Key, value: Any) -> Iterator[Path]:
+    def _constraints(self, key: Key, value: Any) -> dict[str, Any]:
         if not isinstance(value, dict):
             self._wrong(key, key[-1], "a table, as in `[constraints]` with `modules`")
-            return
-        for name in value:
-            if name != "modules":
-                self._unknown((*key, name), name, {"modules": None})
-        for index, item in enumerate(self._texts((*key, "modules"), value.get("modules", []))):
+            return {}
+        found: dict[str, Any] = {}
+        for name, item in value.items():
+            place = (*key, name)
+            match name:
+                case "modules":
+                    found["modules"] = tuple(self._modules(place, item))
+                case "time_limit" if isinstance(item, int | float) and not isinstance(item, bool) and item > 0:
+                    found["seconds"] = float(item)
+                case "time_limit":
+                    self._wrong(place, name, "a number of seconds above 0")
+                case _:
+                    self._unknown(place, name, {"modules": None, "time_limit": None})
+        return found
+
+    def _modules(self, key: Key, value: Any) -> Iterator[Path]:
+        for index, item in enumerate(self._texts(key, value)):
             path = self._directory / item
             if path.is_file():
                 yield path
             else:
-                self._wrong((*key, "modules", index), item, "a Python file, seen from this file")
+                self._wrong((*key, index), item, "a Python file, seen from this file")
 
     def _weights(self, key: Key, value: Any) -> Iterator[tuple[str, Severity | None]]:
         if not isinstance(value, dict):

@@ -15,7 +15,8 @@ class Settings:
 
     Codes may be cut short: `NDDL5` means all that begin so. `severities` maps codes to what they weigh, None meaning
     not at all. `fail_on` None: findings never make the command fail. `modules` are the Python files with the project's
-    own constraints; `callables` is what models may call once they are loaded, which is not done here.
+    own constraints, and `seconds` how long one call of theirs may take, None for the usual limit; `callables` is what
+    models may call once they are loaded, which is not done here.
     """
 
     select: tuple[str, ...] = ()
@@ -25,6 +26,7 @@ class Settings:
     dialect: Dialect | None = None
     fail_on: Severity | None = Severity.WARNING
     modules: tuple[Path, ...] = ()
+    seconds: float | None = None
     callables: Callables = NATIVE_CALLABLES
 
     def choose(self, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:

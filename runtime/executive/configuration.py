@@ -81,3 +81,4 @@ class AgentConfiguration:
     tick: float = 1.0  # seconds per tick: the model's TICK_DURATION
     on_failure: OnFailure = "abort_agent"
     constraints: tuple[str, ...] = ()  # Python files with constraints that the models call, relative to the root
+    constraint_seconds: float = 5.0  # that one call of these may take

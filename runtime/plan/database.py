@@ -43,6 +43,7 @@ class PlanDatabase:
         self.written = WrittenConstraints(self.engine, self.prototypes, constraints)
         written = {constraint.name: number for number, constraint in enumerate(constraints)}
         self.code = Code(self.prototypes, self.names, predicates, relations, written)
+        self.written.spans = self.code.spans
         load_prototypes(self.plan, program, self.prototypes)
         load_relations(self.plan)
         load_predicates(self.plan, program, self.prototypes, self.code)

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from nddl_lang.text.source import Span
 from runtime.constraints.codes import KIND_OBJECT, KIND_STRING
 from runtime.constraints.engine import Engine
 from runtime.plan.names import Names
@@ -18,6 +19,7 @@ class WrittenConstraints:
         self.texts: Names = prototypes.texts
         self.symbols: Names = prototypes.symbols
         self.objects: list[str] = []
+        self.spans: list[Span] = []
         self.externals = [Written(each, self) for each in constraints]
 
     def post(self, number: int, arguments: list[int], span: int, owner: int) -> int:
@@ -40,3 +42,7 @@ class WrittenConstraints:
         if text not in self.symbols.numbers:
             raise ValueError(f"no enum has a value `{text}`")
         return self.symbols.number(text)
+
+    def place(self, span: int) -> str | None:
+        """File and line of what was posted from the program's stretch `span`."""
+        return f"{self.spans[span].source.name}:{self.spans[span].line}" if 0 <= span < len(self.spans) else None

@@ -1,31 +1,56 @@
 """The one exception for what goes wrong in a modeler's Python code: it names the file and the line."""
 
 import traceback
+from collections.abc import Sequence
 from pathlib import Path
-from types import TracebackType
+
+HELP = "this is in a constraint of the project, see docs/constraints.md"
 
 
 class UserCodeError(Exception):
-    """Code that a modeler wrote failed, or is not what nddlc asked for; `detail` is the traceback, if there is one."""
+    """Code that a modeler wrote failed, or is not what nddlc asked for.
 
-    def __init__(self, message: str, detail: str = "") -> None:
+    `detail` is the traceback, if there is one; `advice` says what to do about it.
+    """
+
+    def __init__(self, message: str, detail: str = "", advice: str = HELP) -> None:
         super().__init__(message)
         self.detail = detail
+        self.advice = advice
 
 
-def failed(what: str, problem: BaseException, files: tuple[str, ...]) -> UserCodeError:
-    """Blame the deepest line in one of `files` (else the deepest one at all) for an exception."""
-    place = _place(problem.__traceback__, files)
+class StoppedError(BaseException):
+    """Raised inside code that was away for longer than `seconds`; not to be caught by it."""
+
+    def __init__(self, seconds: float) -> None:
+        super().__init__(f"stopped after {seconds:g} s")
+        self.seconds = seconds
+
+
+def failed(
+    what: str, problem: BaseException, files: tuple[str, ...], line: int = 1, verb: str = "failed"
+) -> UserCodeError:
+    """Blame the deepest line in one of `files`, or `line` in the first of them, for an exception."""
+    frames = [(frame.f_code.co_filename, line) for frame, line in traceback.walk_tb(problem.__traceback__)]
+    place = place_in(frames, files, line)
+    if isinstance(problem, StoppedError):
+        return stopped(place, what, problem.seconds)
     if isinstance(problem, SyntaxError) and problem.filename in files:
         place = f"{problem.filename}:{problem.lineno}"
     kind = type(problem).__name__
     said = problem.msg if isinstance(problem, SyntaxError) else str(problem)
     text = f"{kind}: {said}" if said else kind
     detail = "".join(traceback.format_exception(problem))
-    return UserCodeError(f"{place}: {what}: {text.splitlines()[0]}", detail)
+    return UserCodeError(f"{place}: {what} {verb}: {text.splitlines()[0]}", detail)
 
 
-def _place(trace: TracebackType | None, files: tuple[str, ...]) -> str:
-    frames = [(frame.f_code.co_filename, line) for frame, line in traceback.walk_tb(trace)]
-    own = [each for each in frames if each[0] in files] or frames
-    return f"{own[-1][0]}:{own[-1][1]}" if own else Path(files[0]).as_posix() if files else "?"
+def stopped(place: str, what: str, seconds: float) -> UserCodeError:
+    """Say that `what` was at `place` when it was stopped."""
+    advice = f"`time_limit = {2 * seconds:g}` under [constraints] lets it run longer, see docs/constraints.md"
+    return UserCodeError(f"{place}: {what} did not come back within {seconds:g} s and was stopped", advice=advice)
+
+
+def place_in(calls: Sequence[tuple[str, int]], files: tuple[str, ...], line: int = 1) -> str:
+    """The deepest of `calls`, each a file and a line, in one of `files`, else `line` there; else the deepest one."""
+    own = [each for each in calls if each[0] in files] or [(file, line) for file in files] or [*calls]
+    return f"{Path(own[-1][0]).as_posix()}:{own[-1][1]}" if own else "?"

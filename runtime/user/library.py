@@ -2,7 +2,6 @@
 
 import sys
 from collections.abc import Iterable, Sequence
-from contextlib import redirect_stdout
 from dataclasses import dataclass, field
 from hashlib import sha256
 from importlib.metadata import EntryPoint, entry_points
@@ -15,9 +14,11 @@ from nddl_lang.semantics.functions import FunctionRow, ResultKind
 from nddl_lang.semantics.signature import Argument, ArgumentKind, Signature, signature
 from runtime.user.constraint import Constraint
 from runtime.user.fault import UserCodeError, failed
+from runtime.user.limit import USUAL, WATCH, watched
 from runtime.user.written import has_test
 
 LIST = "CONSTRAINTS"
+NOT_LOADED = "cannot be loaded"
 KINDS = (
     ArgumentKind.NUMBER,
     ArgumentKind.BOOL,
@@ -41,11 +42,15 @@ class Library:
 NO_LIBRARY = Library()
 
 
-def load_library(root: Path, files: Sequence[str], packages: Iterable[EntryPoint] | None = None) -> Library:
+def load_library(
+    root: Path, files: Sequence[str], packages: Iterable[EntryPoint] | None = None, seconds: float = USUAL
+) -> Library:
     """Load the modules at `files`, relative to `root`, and those of installed packages; raises UserCodeError.
 
-    Every process that loads the same files has the same library, whichever way it was started.
+    Every process that loads the same files has the same library, whichever way it was started. From here on one call
+    of their code may take `seconds`, loading a module included.
     """
+    WATCH.seconds = seconds
     if packages is None:
         packages = entry_points(group=ENTRY_POINTS)
     found: list[tuple[str, Constraint]] = []
@@ -59,9 +64,12 @@ def load_library(root: Path, files: Sequence[str], packages: Iterable[EntryPoint
     for point in sorted(packages, key=lambda each: (each.name, each.value)):
         place = f"entry point `{point.name}` ({point.value})"
         try:
-            loaded = point.load()
-        except (Exception, SystemExit) as problem:
-            raise failed(f"the {place} cannot be loaded", problem, ()) from problem
+            with watched(f"the {place}"):
+                loaded = point.load()
+        except KeyboardInterrupt:
+            raise
+        except BaseException as problem:
+            raise failed(f"the {place}", problem, (), verb=NOT_LOADED) from problem
         own = list_of(place, getattr(loaded, LIST, None) if isinstance(loaded, ModuleType) else loaded)
         found += [(place, each) for each in own]
         for each in own:
@@ -79,13 +87,15 @@ def load_module(path: Path) -> ModuleType:
     sys.modules[name] = module  # dataclasses and the like look themselves up there
     try:
         # Compiled afresh each time: what lies in a cache is told from the text by its time only.
-        with redirect_stdout(sys.stderr):  # what is printed there is read by programs
+        with watched("the module", (str(path),)):
             exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)
-    except (Exception, SystemExit) as problem:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as problem:
         del sys.modules[name]
         if isinstance(problem, OSError) and problem.filename == str(path):
             raise UserCodeError(f"cannot read the module `{path}`: {problem.strerror}") from None
-        raise failed("the module cannot be loaded", problem, (str(path),)) from problem
+        raise failed("the module", problem, (str(path),), verb=NOT_LOADED) from problem
     return module
 
 

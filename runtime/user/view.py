@@ -33,6 +33,9 @@ class Words(Protocol):
     def number(self, kind: int, text: str) -> int | None:
         """The number of a name; None if nothing of that kind has it."""
 
+    def place(self, span: int) -> str | None:
+        """File and line of a stretch of the model; None where there is no model."""
+
 
 class View:
     """The arguments of one constraint, by their places from 0 on; of no use after `propagate` has returned.

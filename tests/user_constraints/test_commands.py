@@ -79,7 +79,10 @@ def test_an_exception_is_told_with_its_line_in_both_forms(form: str, project: Pa
     environment = os.environ | paths | ({"NDDLC_INTERPRETED": "1"} if form == "1" else {})
     done = subprocess.run(words, env=environment, capture_output=True, text=True, check=False)
     assert done.returncode == 2
-    assert "nddlc: own.py:10: `propagate` of the constraint `twice` failed: AssertionError: too much" in done.stderr
+    assert (
+        "own.py:10: `propagate` of the constraint `twice`, called at model.nddl:3, failed: AssertionError: too much"
+        in done.stderr
+    )
     assert "bug" not in done.stderr
 
 
@@ -108,7 +111,7 @@ def test_code_that_fails_in_flight_makes_errors_not_failures(mission: Path, caps
     chart.write_text(text.replace(line, f"            raise RuntimeError('no ink')\n{line}"), encoding="utf-8")
     assert check(mission, "--workers", "1", "--missions", "2") == 2
     told = capsys.readouterr().out
-    assert "chart.py" in told and "`chart_depth` failed: RuntimeError: no ink" in told
+    assert "chart.py" in told and "planner.nddl:18, failed: RuntimeError: no ink" in told
     assert "2 not flown to the end because of an error in a constraint of the project" in told
 
 
@@ -141,3 +144,30 @@ def test_a_mission_names_a_missing_module_with_its_place(mission: Path, capsys: 
     told = capsys.readouterr().out
     assert "there is no file `chrat.py`" in told
     assert "chart.py" in told
+
+
+@pytest.mark.parametrize("swallows", [False, True])
+def test_code_that_does_not_come_back_in_flight_makes_errors(swallows: bool, mission: Path, capsys: Captured) -> None:
+    chart = mission.with_name("chart.py")
+    text = chart.read_text(encoding="utf-8")
+    line = "            return view.fix(0,"
+    deaf = "            __import__('signal').signal(14, lambda *_: None)\n" if swallows else ""
+    chart.write_text(text.replace(line, f"{deaf}            while True: pass\n{line}"), encoding="utf-8")
+    toml = mission.read_text(encoding="utf-8")
+    mission.write_text(toml.replace("modules =", "time_limit = 0.5\nmodules ="), encoding="utf-8")
+    assert check(mission, "--workers", "1", "--missions", "2") == 2
+    told = capsys.readouterr().out
+    assert told.count("did not come back within 0.5 s and was stopped; `time_limit = 1` under [constraints]") == 2
+    assert "2 not flown to the end because of an error in a constraint of the project" in told
+
+
+def test_a_mission_that_ended_in_an_error_is_flown_again(mission: Path, capsys: Captured) -> None:
+    chart = mission.with_name("chart.py")
+    text = chart.read_text(encoding="utf-8")
+    line = "            return view.fix(0,"
+    fragile = f"            if not Path('mended').exists(): raise RuntimeError\n{line}"
+    chart.write_text(text.replace(line, fragile), encoding="utf-8")
+    assert run(["check", str(mission), "--missions", "3", "--workers", "1"]) == 2
+    Path("mended").touch()
+    assert run(["check", str(mission), "--missions", "3", "--workers", "1", "--resume"]) == 0
+    assert "3 missions, 0 failed\n" in capsys.readouterr().out

@@ -95,14 +95,20 @@ def test_a_rule_posts_it_for_each_token_and_a_conflict_names_its_line(tmp_path: 
 @pytest.mark.parametrize(
     ("body", "said"),
     [
-        ("return 1 / 0 > view.lower(0)", "own.py:7: `propagate` of the constraint `bad` failed: ZeroDivisionError"),
+        (
+            "return 1 / 0 > view.lower(0)",
+            "own.py:7: `propagate` of the constraint `bad`, called at model.nddl:1, failed: ZeroDivisionError",
+        ),
         ("view.raise_to(0, 1)", "it returned None instead of True or False"),
         (
             "return view.raise_to(0, float('nan'))",
-            "own.py:7: `propagate` of the constraint `bad` failed: ValueError: nan",
+            "own.py:7: `propagate` of the constraint `bad`, called at model.nddl:1, failed: ValueError: nan",
         ),
         ("return view.raise_to(3, 0)", "IndexError: there is no argument 3; there are 1"),
-        ("raise SystemExit", "own.py:7: `propagate` of the constraint `bad` failed: SystemExit"),
+        (
+            "raise SystemExit",
+            "own.py:7: `propagate` of the constraint `bad`, called at model.nddl:1, failed: SystemExit",
+        ),
     ],
 )
 def test_what_goes_wrong_in_it_names_file_and_line(body: str, said: str, tmp_path: Path) -> None:
