@@ -8,6 +8,7 @@ from compiler.expressions import SAMPLED, define, enforce, is_compound, sample, 
 from compiler.program import (
     Assign,
     Child,
+    Constant,
     DomainConstant,
     Foreach,
     Guard,
@@ -20,8 +21,8 @@ from compiler.program import (
     Relate,
     TypeCode,
 )
+from nddl_lang.semantics.schema import Kind, Variable
 from nddl_lang.semantics.schema import TokenVariable as TokenVariableReference
-from nddl_lang.semantics.schema import Variable
 from nddl_lang.syntax import nodes
 from nddl_lang.syntax.nodes import (
     BrokenStatement,
@@ -41,6 +42,9 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 from nddl_lang.text.source import Span
+
+USES = "uses"
+CHARGED = ((1, Kind.FLOAT), (2, Kind.INT), (3, Kind.INT))  # quantity, start, end
 
 
 def statement(node: RuleStatement, body: Body) -> None:
@@ -75,11 +79,29 @@ def constraint(node: CallConstraint | ExprConstraint, body: Body) -> None:
         case CallConstraint(name=name, arguments=arguments, span=span):
             operands = tuple(value(argument, body) for argument in arguments)
             row = body.model.callables.constraints[name.name]
+            if row.name == USES:
+                operands = _charge(node, operands, message, body)
             body.emit(Post(row.alias_of or row.name, operands, message, span))
         case ExprConstraint(expression=expression):
             enforce(expression, message, body)
         case _:
             assert_never(node)
+
+
+def _charge(
+    node: CallConstraint, operands: tuple[Operand, ...], message: str | None, body: Body
+) -> tuple[Operand, ...]:
+    """The operands of `uses` with a real quantity and whole times: a number of the other type is equated with one."""
+    charged = list(operands)
+    for place, kind in CHARGED:
+        argument = node.arguments[place]
+        type_ = constants.basic(kind)
+        if (domain := body.model.constant(argument)) is not None and kind is Kind.FLOAT:
+            charged[place] = Constant(constants.converted(domain, type_))
+        elif body.model.type_of(argument).kind is not kind:
+            charged[place] = body.implicit(type_, node.span)
+            body.emit(Post("eq", (charged[place], operands[place]), message, node.span))
+    return tuple(charged)
 
 
 # ---- variables ----
