@@ -136,6 +136,7 @@ OP_LOCK = 99  # a, d: a becomes exactly d
 OP_ELEMENT = 100  # result, index, v1, ...: with the table of `post_element`, result = the v of index' value
 OP_HAS_ANCESTOR = 101  # x, p: the object x lies inside p
 OP_COMMON_ANCESTOR = 102  # a, b, p: a and b lie inside one object out of p
+OP_FREEZE = 103  # a, d: a keeps the values of d, and once it is closed no others
 
 OP_ABS = 128  # result, x; functions act forward only, once their arguments are known
 OP_SQRT = 129

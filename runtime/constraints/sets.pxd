@@ -10,7 +10,7 @@ from runtime.constraints.narrow cimport set_lower, set_upper
 from runtime.constraints.store cimport Store
 
 cdef long long HALF_INF, KIND_FLOAT, MOST_VALUES, NEVER, OP_COMMON_ANCESTOR, OP_ELEMENT
-cdef long long OP_EQ_UNION, OP_HAS_ANCESTOR, OP_LOCK, OP_MEMBER_IMPLY, OP_SUBSET_OF, SIDE_HOLES, SUPPORT_CONSTRAINT
+cdef long long OP_EQ_UNION, OP_FREEZE, OP_HAS_ANCESTOR, OP_LOCK, OP_MEMBER_IMPLY, OP_SUBSET_OF, SIDE_HOLES, SUPPORT_CONSTRAINT
 cdef unsigned long long ONE_BIT
 cdef double FLOAT_TOLERANCE, inf
 

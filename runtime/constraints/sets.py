@@ -13,6 +13,7 @@ from runtime.constraints.codes import (
     OP_COMMON_ANCESTOR,
     OP_ELEMENT,
     OP_EQ_UNION,
+    OP_FREEZE,
     OP_HAS_ANCESTOR,
     OP_LOCK,
     OP_MEMBER_IMPLY,
@@ -56,6 +57,10 @@ def run_sets(s: Store, c: int) -> bool:
         return keep_inside(s, a, s.slot_variable[first + 3], support)
     if op == OP_LOCK:
         return (is_subset(s, b, a) or s.fail(a, SIDE_HOLES, support)) and keep_inside(s, a, b, support)
+    if op == OP_FREEZE:
+        if not is_subset(s, b, a):
+            return s.fail(a, SIDE_HOLES, support)
+        return s.is_open[a] != 0 or keep_inside(s, a, b, support)
     if op == OP_HAS_ANCESTOR:
         return lie_inside(s, a, b, support)
     assert op == OP_COMMON_ANCESTOR

@@ -11,6 +11,7 @@ from runtime.constraints.codes import (
     KIND_INT,
     KIND_OBJECT,
     KIND_STRING,
+    OP_FREEZE,
     OP_PLUS,
     OP_SAMPLE,
     OP_TEMPORAL_DISTANCE,
@@ -24,7 +25,8 @@ from runtime.executive.workbench import Workbench
 from runtime.plan.codes import DURATION, END, FIRST_PARAMETER, OBJECT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_TOKEN, START, STATE
 from runtime.user.written import Written
 
-NAMES = {code: name for name, code in reversed(OPERATIONS.items())} | {OP_PLUS: "addEq", OP_SAMPLE: "sampledParameter"}
+NAMES = {code: name for name, code in reversed(OPERATIONS.items())}
+NAMES |= {OP_FREEZE: "foreach", OP_PLUS: "addEq", OP_SAMPLE: "sampledParameter"}
 BUILT_IN = {STATE: "state", OBJECT: "object", DURATION: "duration", START: "start", END: "end"}
 KINDS = {KIND_INT: "int", KIND_FLOAT: "float", KIND_BOOL: "bool", KIND_OBJECT: "object", KIND_STRING: "string"}
 REASONS = {

@@ -13,7 +13,7 @@ from runtime.plan.tokens cimport make_token
 
 cdef long long DO_ASSIGN, DO_BETWEEN, DO_CHILD, DO_FOREACH, DO_GUARD, DO_POST, DO_RELATE, DO_SAMPLE, DO_USE
 cdef long long DO_VARIABLE, FLAG_CONDITION, FLAG_EFFECT, HOLDS_USE, IN_NONE, KIND_INT, NONE, OBJECT, OBJECT_GIVEN
-cdef long long OBJECT_OWN, OP_LOCK, OP_SAMPLE, OP_SUBSET_OF, ROLE_INTERNAL, ROLE_LOCAL, START, DURATION, END
+cdef long long OBJECT_OWN, OP_FREEZE, OP_SAMPLE, ROLE_INTERNAL, ROLE_LOCAL, START, DURATION, END
 
 
 @cython.locals(at="long long", rows=Rows, scope="long long", top="long long")

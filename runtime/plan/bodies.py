@@ -4,7 +4,7 @@ Bodies run from a stack of (position, end, scope), so that a child's own body ru
 it without recursion. Nothing is propagated here, except that edges reach the network at once.
 """
 
-from runtime.constraints.codes import KIND_INT, OP_LOCK, OP_SAMPLE, OP_SUBSET_OF
+from runtime.constraints.codes import KIND_INT, OP_FREEZE, OP_SAMPLE
 from runtime.plan.codes import (
     DO_ASSIGN,
     DO_BETWEEN,
@@ -190,7 +190,7 @@ def sample(plan: Plan, scope: int, at: int, span: int) -> int:
 def loop(plan: Plan, scope: int, at: int, span: int) -> int:
     """Run a block once per object of a domain, in the order of their making, and freeze the domain.
 
-    What stands above the loop counts, so it is propagated first. An open domain may grow, but loses none of them.
+    What stands above the loop counts, so it is propagated first. An open domain stays open.
     """
     v = operand(plan, scope, plan.code[at + 3], plan.code[at + 4], span)
     if not plan.engine.propagate():
@@ -204,10 +204,7 @@ def loop(plan: Plan, scope: int, at: int, span: int) -> int:
     if not objects:
         return 6
     frozen = plan.engine.new_constant_values(plan.engine.kind[v], objects)
-    if plan.engine.is_open[v]:
-        post_two(plan, scope, OP_SUBSET_OF, frozen, v, span)
-    else:
-        post_two(plan, scope, OP_LOCK, v, frozen, span)
+    post_two(plan, scope, OP_FREEZE, v, frozen, span)
     for o in reversed(objects):
         held = plan.object_constant[int(o)]
         plan.push(plan.block_start[block], plan.block_end[block], scope, plan.code[at + 2], held)

@@ -141,7 +141,7 @@ class Nogoods:
         """Learn from decision `d`, which has no choice left, what it rests on; the latest of that is undone next."""
         stack = self.stack
         reason = stack.reasons[d]
-        if reason == EVERYTHING or stack.is_local[d]:
+        if not self.is_awake or reason == EVERYTHING or stack.is_local[d]:
             return
         levels: list[int] = []
         while reason >= 0:

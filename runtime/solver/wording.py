@@ -4,7 +4,15 @@ from dataclasses import dataclass
 
 from nddl_lang.text.source import Span
 from runtime.constraints.cause import Cause, CauseKind
-from runtime.constraints.codes import FLAG_DECISION, FLAG_VALUES, HALF_INF, KIND_FLOAT, OP_PLUS, OP_TEMPORAL_DISTANCE
+from runtime.constraints.codes import (
+    FLAG_DECISION,
+    FLAG_VALUES,
+    HALF_INF,
+    KIND_FLOAT,
+    OP_FREEZE,
+    OP_PLUS,
+    OP_TEMPORAL_DISTANCE,
+)
 from runtime.constraints.operations import OPERATIONS
 from runtime.plan.codes import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
 from runtime.plan.database import PlanDatabase
@@ -15,7 +23,7 @@ from runtime.plan.why import span_of
 from runtime.solver.matching import BUILT_IN
 from runtime.user.written import Written
 
-NAMES = {code: name for name, code in reversed(OPERATIONS.items())} | {OP_PLUS: "addEq"}
+NAMES = {code: name for name, code in reversed(OPERATIONS.items())} | {OP_PLUS: "addEq", OP_FREEZE: "foreach"}
 
 
 @dataclass(frozen=True, slots=True)
