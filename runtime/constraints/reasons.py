@@ -102,7 +102,7 @@ def collect_sum(s: Store, v: int, side: int, total: int, first: int, last: int) 
 
 
 def collect_all(s: Store, c: int, v: int, side: int) -> None:
-    """Put every bound of the other arguments, and those of `v` itself where the operation reads them."""
+    """Put every bound of all arguments but `v`, which may be -1, and those of `v` where the operation reads them."""
     first = s.first[c]
     for k in range(first, first + s.arity[c]):
         u = s.slot_variable[k]
@@ -111,7 +111,7 @@ def collect_all(s: Store, c: int, v: int, side: int) -> None:
             add_reason(s, u, SIDE_UPPER)
             if s.word[u] >= 0:
                 add_reason(s, u, SIDE_HOLES)
-    if reads_itself(s, s.op[c], v, side):
+    if v >= 0 and reads_itself(s, s.op[c], v, side):
         add_reason(s, v, SIDE_LOWER)
         add_reason(s, v, SIDE_UPPER)
 

@@ -60,5 +60,8 @@ cpdef int schedule_all(Store s) except -1
 @cython.locals(e="long long")
 cpdef bint follow_again(Store s, list edges) except -1
 
+@cython.locals(r="long long")
+cpdef bint has_decision(Store s, long long v) except -1
+
 @cython.locals(found=list, r="long long")
 cpdef list decisions_of(Store s, long long v)

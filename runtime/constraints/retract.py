@@ -76,7 +76,11 @@ def retract(
     for c in doomed:
         release_constraint(s, c)
     for r in restrictions:
+        v = s.restriction_variable[r]
+        is_decision = s.restriction_flags[r] & FLAG_DECISION
         drop_restriction(s, r)
+        if is_decision:
+            s.set_decided(v, 1 if has_decision(s, v) else 0)
     reset_cone(s)
     for v in variables:
         while s.restriction_head[v] >= 0:
@@ -299,6 +303,14 @@ def follow_again(s: Store, edges: list[int]) -> bool:
         if not (s.consistent and follow_edge(s, e)):
             s.suspects.append(e)
     return s.consistent
+
+
+def has_decision(s: Store, v: int) -> bool:
+    """Tell whether any restriction of a variable is a decision."""
+    r = s.restriction_head[v]
+    while r >= 0 and not s.restriction_flags[r] & FLAG_DECISION:
+        r = s.restriction_next[r]
+    return r >= 0
 
 
 def decisions_of(s: Store, v: int) -> list[int]:

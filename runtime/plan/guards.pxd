@@ -8,7 +8,7 @@ from runtime.plan.operands cimport member
 from runtime.plan.plan cimport Plan
 from runtime.plan.rows cimport Rows
 
-cdef long long BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, NONE, KIND_OBJECT, OP_WATCH, SCOPE_GUARD
+cdef long long BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, NONE, KIND_OBJECT, MERGED, OP_WATCH, ROLE_TOKEN, SCOPE_GUARD, STATE
 
 
 @cython.locals(
@@ -22,6 +22,18 @@ cpdef int wait(
 
 @cython.locals(x="long long")
 cpdef int listen(Plan plan, long long v) except -1
+
+
+@cython.locals(t="long long")
+cpdef long long standing(Plan plan, long long v) except? -1
+
+
+@cython.locals(c="long long")
+cpdef void follow(Plan plan, long long scope, long long v, long long other, long long span) except *
+
+
+@cython.locals(found=list, v="long long")
+cpdef list deciders(Plan plan, long long c)
 
 
 @cython.locals(x="long long")

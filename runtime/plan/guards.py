@@ -2,7 +2,7 @@
 
 from runtime.constraints.bases import is_growing
 from runtime.constraints.codes import KIND_OBJECT, OP_WATCH
-from runtime.plan.codes import BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, NONE, SCOPE_GUARD
+from runtime.plan.codes import BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, MERGED, NONE, ROLE_TOKEN, SCOPE_GUARD, STATE
 from runtime.plan.holding import constraint
 from runtime.plan.operands import member
 from runtime.plan.plan import Plan
@@ -43,16 +43,50 @@ def listen(plan: Plan, v: int) -> None:
                 plan.add_operand(member(plan, int(o), plan.proxy_member[v]))
             v = x
         plan.add_operand(v)
+        if standing(plan, v) != v:
+            plan.add_operand(standing(plan, v))
+
+
+def standing(plan: Plan, v: int) -> int:
+    """The variable that stands for `v`: another one if its token is merged."""
+    if plan.variable_role[v] == ROLE_TOKEN:
+        t = plan.variable_owner[v]
+        if plan.rows.status[t] == MERGED:
+            return plan.rows.var0[plan.rows.merged_into[t]] + v - plan.rows.var0[t]
+    return v
+
+
+def follow(plan: Plan, scope: int, v: int, other: int, span: int) -> None:
+    """Have the guards that wait for `v` wait for `other` as well: `v` was merged into it."""
+    for c in plan.engine.constraints_of(v):
+        if plan.engine.op[c] == OP_WATCH:
+            plan.await_variable(other)
+            plan.add_operand(other)
+            plan.note_watch(constraint(plan, scope, OP_WATCH, plan.operands_used - 1, span), plan.guard_of[c])
+
+
+def deciders(plan: Plan, c: int) -> list[int]:
+    """What decides the guard that waits with `c`; for a merged token also what stands for it, and its state."""
+    found: list[int] = []
+    for v in plan.engine.arguments(c):
+        found.append(v)
+        if standing(plan, v) != v:
+            found.append(standing(plan, v))
+            found.append(plan.rows.var0[plan.variable_owner[v]] + STATE)
+    return found
 
 
 def is_settled(plan: Plan, v: int) -> bool:
     """Whether `v` is decided; a proxy is once its object and the member it then stands for are.
 
     It also is while all objects agree: their members have the same single value. Recursion is as deep as the path.
+    A variable of a merged token is as that which stands for it.
     The clock of an agent counts as decided: what has come to be true of "now or later" stays true.
     """
     if plan.engine.constant[v]:
         return plan.engine.is_decided(v)
+    if standing(plan, v) != v:
+        return plan.engine.is_decided(standing(plan, v))
     x = plan.proxy_index[v]
     if x < 0:
         return v == plan.clock or plan.engine.is_decided(v)

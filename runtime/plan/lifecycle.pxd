@@ -3,7 +3,7 @@
 cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.bodies cimport run
-from runtime.plan.guards cimport choice
+from runtime.plan.guards cimport choice, follow
 from runtime.plan.holding cimport between, decide, equate
 from runtime.plan.links cimport unlink
 from runtime.plan.plan cimport Plan

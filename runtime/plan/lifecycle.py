@@ -18,7 +18,7 @@ from runtime.plan.codes import (
     SYMBOL_MERGED,
     SYMBOL_REJECTED,
 )
-from runtime.plan.guards import choice
+from runtime.plan.guards import choice, follow
 from runtime.plan.holding import between, decide, equate
 from runtime.plan.links import unlink
 from runtime.plan.plan import Plan
@@ -97,6 +97,8 @@ def merge(plan: Plan, t: int, other: int, span: int) -> bool:
             equate(plan, scope, a, b, span)
         if engine.is_decided(a) and not engine.is_decided(b) and engine.is_singleton(a):
             decide(plan, scope, b, engine.lower(a), span)
+        if plan.variable_guards[a]:
+            follow(plan, scope, a, b, span)
         if rows.level and not engine.consistent:
             return False
     return settle(plan)

@@ -8,7 +8,8 @@ from runtime.plan.timelines cimport await_order, drop_pair, has_any_pair, unplac
 
 cdef long long ACTIVE, BRANCH_WAITING, FLAG_DECISION, FREED, HEAD_OPEN, HOLDS_CONSTRAINT, HOLDS_EDGE
 cdef long long HOLDS_RESTRICTION, HOLDS_USE, HOLDS_VARIABLES, INACTIVE, LISTS, LIST_OPEN, LIST_ORDER
-cdef long long LIST_PREDICATE, LIST_THREAT, MERGED, NONE, SCOPE_BODY, SCOPE_PLACE, STATE
+cdef long long LIST_PREDICATE, LIST_THREAT, MERGED, NONE, OP_WATCH, SCOPE_BODY, SCOPE_MERGE, SCOPE_PLACE
+cdef long long STATE
 
 
 cpdef bint cancel(Plan plan, long long t) except -1
@@ -32,20 +33,24 @@ cpdef bint free(Plan plan, long long first, long long second, long long span) ex
 cpdef list scopes_of(Plan plan, long long t)
 
 
-@cython.locals(rows=Rows, status="long long")
+@cython.locals(rows=Rows, status="long long", v="long long")
 cpdef void deactivate(Plan plan, long long t, sweep) except *
+
+
+@cython.locals(c="long long")
+cpdef void wake_guards(Plan plan, long long v) except *
 
 
 @cython.locals(child="long long", following="long long", last="long long", rows=Rows, s="long long")
 cpdef void drop_scopes(Plan plan, long long t, set doomed, sweep) except *
 
 
-@cython.locals(h="long long", kind="long long", rows=Rows)
+@cython.locals(c="long long", h="long long", kind="long long", rows=Rows)
 cpdef int collect_holds(Plan plan, long long s, sweep) except -1
 
 
 cpdef list decisions_of(Plan plan, long long v)
 
 
-@cython.locals(done="long long", freed=list, gone=set, restrictions=list, rows=Rows)
+@cython.locals(done="long long", freed=list, gone=set, r="long long", restrictions=list, rows=Rows)
 cpdef bint finish(Plan plan, sweep) except -1

@@ -1,6 +1,6 @@
 """Take back at level 0 what scopes made: constraints, edges, variables, children and their children, in one sweep."""
 
-from runtime.constraints.codes import FLAG_DECISION
+from runtime.constraints.codes import FLAG_DECISION, OP_WATCH
 from runtime.plan.codes import (
     ACTIVE,
     BRANCH_WAITING,
@@ -20,6 +20,7 @@ from runtime.plan.codes import (
     MERGED,
     NONE,
     SCOPE_BODY,
+    SCOPE_MERGE,
     SCOPE_PLACE,
     STATE,
 )
@@ -132,10 +133,20 @@ def deactivate(plan: Plan, t: int, sweep: Sweep) -> None:
             plan.resources.remove_token(t)
     elif status == MERGED:
         rows.unset_merged(t)
+        for v in range(rows.var0[t], rows.var0[t] + rows.width[t]):
+            wake_guards(plan, v)
     rows.set_status(t, INACTIVE)
     sweep.undecided.append(rows.var0[t] + STATE)
     sweep.reopened.append(t)
     drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] != SCOPE_BODY}, sweep)
+
+
+def wake_guards(plan: Plan, v: int) -> None:
+    """Have the guards looked at that wait for `v`: it may be decided no more, even if its values stay as they are."""
+    if plan.variable_guards[v]:
+        for c in plan.engine.constraints_of(v):
+            if plan.engine.op[c] == OP_WATCH:
+                plan.enqueue(plan.guard_of[c])
 
 
 def drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: Sweep) -> None:
@@ -176,7 +187,10 @@ def collect_holds(plan: Plan, s: int, sweep: Sweep) -> None:
         if kind == HOLDS_EDGE:
             sweep.edges.append(rows.hold_id[h])
         elif kind == HOLDS_CONSTRAINT:
-            sweep.constraints.append(rows.hold_id[h])
+            c = rows.hold_id[h]
+            if rows.scope_kind[s] == SCOPE_MERGE and plan.engine.op[c] == OP_WATCH:
+                plan.variable_guards[plan.engine.arguments(c)[0]] -= 1
+            sweep.constraints.append(c)
         elif kind == HOLDS_RESTRICTION:
             sweep.restrictions.append(rows.hold_id[h])
         elif kind == HOLDS_VARIABLES:
@@ -211,6 +225,8 @@ def finish(plan: Plan, sweep: Sweep) -> bool:
     for v in sweep.undecided:
         sweep.restrictions += decisions_of(plan, v)
     restrictions = [r for r in dict.fromkeys(sweep.restrictions) if plan.engine.restriction_variable[r] not in gone]
+    for r in restrictions:
+        wake_guards(plan, plan.engine.restriction_variable[r])
     sweep.constraints += plan.resources.take_refusals()
     plan.engine.retract(sweep.constraints, sweep.edges, restrictions, sweep.variables)
     for s in sweep.scopes:

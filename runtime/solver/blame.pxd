@@ -3,6 +3,7 @@
 cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.constraints.reasons cimport collect_reasons, collect_weight
+from runtime.plan.guards cimport deciders
 from runtime.plan.resources cimport Resources
 from runtime.solver.decisions cimport Decisions
 from runtime.solver.distances cimport Distances
@@ -74,7 +75,7 @@ cdef class Blame:
     @cython.locals(k="long long", q=Queues, s="long long", t="long long")
     cpdef long long ask_guards(self, long long level) except? -1
 
-    @cython.locals(engine=Engine, k="long long", r="long long", v="long long")
+    @cython.locals(engine=Engine, r="long long", v="long long")
     cpdef long long ask_arguments(self, long long c) except? -1
 
     @cython.locals(other="long long", q=Queues, t="long long")

@@ -22,6 +22,7 @@ from runtime.constraints.codes import (
 from runtime.constraints.reasons import collect_reasons, collect_weight
 from runtime.plan.codes import ACTIVE, AS_IT_IS, HEAD_OPEN, LIST_OPEN, LISTS, RESOURCE_CONSUMES, RESOURCE_PRODUCES
 from runtime.plan.excess import Excess
+from runtime.plan.guards import deciders
 from runtime.solver.codes import CUSTOM, EVERYTHING, NONE, NOW, OPEN_CONDITION, UNBOUND_VARIABLE
 from runtime.solver.decisions import Decisions
 from runtime.solver.queues import Queues
@@ -165,10 +166,9 @@ class Blame:
         return 0
 
     def ask_arguments(self, c: int) -> int:
-        """Ask for the domains of all arguments of a constraint, and who decided them."""
+        """Ask for the domains of all that decides a guard which waits with a constraint, and who decided it."""
         engine = self.engine
-        for k in range(engine.first[c], engine.first[c] + engine.arity[c]):
-            v = engine.slot_variable[k]
+        for v in deciders(self.queues.plan, c):
             self.ask_domain(v)
             r = engine.restriction_head[v]
             while r >= 0:

@@ -121,6 +121,20 @@ def test_a_decision_can_be_taken_back_and_leaves_the_base_domain() -> None:
     assert (engine.lower(b), engine.upper(b), engine.is_decided(a)) == (2, 10, False)
 
 
+def test_a_variable_stays_decided_until_the_last_decision_goes() -> None:
+    engine = Engine()
+    a = engine.new_interval(codes.KIND_INT, 1, 9, 0, -1)
+    decisions = []
+    for _ in range(2):
+        assert engine.decide(a, 5, 0, -1) and engine.propagate()
+        decisions.append(engine.newest_restriction)
+    engine.commit()
+    assert engine.retract(restrictions=decisions[:1])
+    assert (engine.lower(a), engine.is_decided(a)) == (5, True)
+    assert engine.retract(restrictions=decisions[1:])
+    assert (engine.lower(a), engine.is_decided(a)) == (1, False)
+
+
 def test_rows_of_what_was_undone_are_used_again() -> None:
     engine = Engine()
     base = [engine.new_interval(codes.KIND_INT, 0, 50, 0, -1) for _ in range(4)]

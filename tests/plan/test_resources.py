@@ -7,7 +7,7 @@ import pytest
 
 from runtime.plan.database import PlanDatabase
 from runtime.plan.flaws import Flaws
-from tests.plan.models import loaded
+from tests.plan.models import loaded, token
 
 
 def consistent(text: str) -> bool:
@@ -137,3 +137,13 @@ def test_the_envelope_is_what_trying_every_order_gives(seed: int) -> None:
     assert database.is_consistent or not any(fits)
     if schedules and database.is_consistent:
         assert (flaw(database) is not None) == (not all(fits))
+
+
+def test_why_a_resource_refuses_can_be_asked_in_a_search() -> None:
+    text = "class T extends Timeline { predicate p { } } T t = new T(); Reservoir r = new Reservoir(2.0, 0.0, 2.0);"
+    text += "close();"
+    text += "T::p { contains(r.produce c); c.quantity == 2.0; leq(c.time, 50); } goal(t.p g); g.start = [0 5];"
+    database = loaded(text)
+    database.mark()
+    assert not database.activate(token(database, "g"))
+    assert any(cause.owner == token(database, "g") for cause in database.engine.explain())

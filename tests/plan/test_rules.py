@@ -1,5 +1,8 @@
 """Rules and guards: what fires when, and what is taken back."""
 
+from runtime.plan.codes import FIRST_PARAMETER
+from runtime.plan.database import PlanDatabase
+from runtime.plan.readout import live_tokens, token_names
 from tests.plan.models import OBJECTS, TIMELINES, domains, loaded, token, tokens
 
 SCENE = TIMELINES + OBJECTS
@@ -31,6 +34,7 @@ def test_a_guard_follows_its_variable_when_that_is_decided_anew() -> None:
     assert set(tokens(loaded(start + "g.x.reset();"))) == {"g"}
     assert set(tokens(loaded(start + "g.x.reset(); g.x.specify(2);"))) == {"g", "T.r#1"}
     assert set(tokens(loaded(start + "g.x.reset(); g.x.specify(1);"))) == {"g", "T.q#1"}
+    assert set(tokens(loaded(start + "eq(g.x, 1); g.x.reset();"))) == {"g"}
 
 
 def test_a_guard_on_a_field_is_decided_with_its_object() -> None:
@@ -90,6 +94,50 @@ def test_a_merged_token_decides_for_the_one_that_stands_for_it() -> None:
     text = TIMELINES + GUARDED + OBJECTS + "goal(t.p g); goal(t.p h); h.x = 1; g.activate();"
     assert states(text + "h.merge(g);") == {"g": "ACTIVE", "h": "MERGED", "T.q#1": "INACTIVE"}
     assert states(text + "h.merge(g); h.cancel();") == {"g": "ACTIVE", "h": "INACTIVE"}
+
+
+WITH_CHILD = TIMELINES + "T::p { equals(object.q c); if (c.x == 3) { meets(object.r s); } }" + OBJECTS
+
+
+def with_merged_child(text: str) -> PlanDatabase:
+    """The child of `g` is merged with `h`."""
+    database = loaded(WITH_CHILD + "goal(t.p g); goal(t.q h); h.activate(); g.activate();" + text)
+    child = next(t for t, name in token_names(database, live_tokens(database)).items() if name == "T.q#1")
+    assert database.merge(child, token(database, "h"), -1)
+    return database
+
+
+def test_a_guard_on_a_merged_child_is_decided_by_the_token_that_stands_for_it() -> None:
+    assert set(tokens(with_merged_child("h.x = 3;"))) == {"g", "h", "T.q#1", "T.r#1"}
+    assert set(tokens(with_merged_child("h.x = 4;"))) == {"g", "h", "T.q#1"}
+    database = with_merged_child("eq(h.x, 3);")
+    assert set(tokens(database)) == {"g", "h", "T.q#1"}
+    x = database.plan.rows.var0[token(database, "h")] + FIRST_PARAMETER
+    assert database.specify(x, 3, -1)
+    assert set(tokens(database)) == {"g", "h", "T.q#1", "T.r#1"}
+    assert database.reset(x)
+    assert set(tokens(database)) == {"g", "h", "T.q#1"}
+
+
+def test_a_guard_on_a_child_that_is_merged_no_more_waits_again() -> None:
+    database = with_merged_child("h.x = 3;")
+    x = database.plan.rows.var0[token(database, "h")] + FIRST_PARAMETER
+    assert database.plan.variable_guards[x] == 1
+    child = next(t for t, name in token_names(database, live_tokens(database)).items() if name == "T.q#1")
+    assert database.cancel(child)
+    assert set(tokens(database)) == {"g", "h", "T.q#1"}
+    assert database.plan.variable_guards[x] == 0
+
+
+def test_going_back_undoes_what_a_merge_let_a_guard_do() -> None:
+    database = loaded(WITH_CHILD + "goal(t.p g); goal(t.q h); h.x = 3; h.activate(); g.activate();")
+    child = next(t for t, name in token_names(database, live_tokens(database)).items() if name == "T.q#1")
+    mark = database.mark()
+    for _ in range(2):
+        assert database.merge(child, token(database, "h"), -1)
+        assert set(tokens(database)) == {"g", "h", "T.q#1", "T.r#1"}
+        database.rewind(mark)
+        assert set(tokens(database)) == {"g", "h", "T.q#1"}
 
 
 def test_cancelling_a_token_splits_those_merged_into_it() -> None:
