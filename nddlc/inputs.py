@@ -1,6 +1,7 @@
 """What subcommands that read models share: their options, files checked before any work, and when to colour."""
 
 import os
+import shutil
 import sys
 from collections.abc import Callable
 from functools import cache
@@ -137,6 +138,13 @@ def _alike(path: Path) -> str | None:
     for candidate in (path.with_suffix(".nddl"), Path(f"{path}.nddl")):
         if candidate != path and candidate.is_file():
             return f"there is `{candidate}`"
+    return None
+
+
+def columns() -> int | None:
+    """How wide the terminal is; None where nobody looks, and lines may be as long as they are."""
+    if sys.stdout.isatty() or os.environ.get("COLUMNS", "").isdigit():
+        return shutil.get_terminal_size((100, 24)).columns
     return None
 
 

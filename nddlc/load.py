@@ -6,10 +6,12 @@ from collections.abc import Iterable, Iterator, Sequence
 import click
 
 from nddl_lang.text.render import render
-from nddlc.inputs import chosen_dialect, colours, model_files, readable
+from nddlc.gantt import shortened
+from nddlc.inputs import chosen_dialect, colours, columns, model_files, readable
 from nddlc.loading import Facts, Loaded, facts, load
 
 TOKEN_HEAD = ("token", "predicate", "state", "object", "start", "duration", "end", "parameters")
+LEAST = 6  # characters of a cell that are shown in any case
 
 
 @click.command()
@@ -48,12 +50,12 @@ def _page(loaded: Loaded, told: Facts, with_name: bool) -> Iterator[str]:
         return
     tokens = [token_row(token) for token in told["tokens"]]
     if tokens:
-        yield from table(TOKEN_HEAD, tokens)
+        yield from table(TOKEN_HEAD, tokens, columns())
         yield ""
     shown = {token["id"] for token in told["tokens"]}
     variables = [(name, domain) for name, domain in told["domains"].items() if name.partition(".")[0] not in shown]
     if variables:
-        yield from table(("variable", "domain"), variables)
+        yield from table(("variable", "domain"), variables, columns())
         yield ""
     for timeline, order in told["order"].items():
         if order:
@@ -76,11 +78,16 @@ def _bounds(pair: Sequence[object] | None) -> str:
     return str(lower) if lower == upper else f"[{lower}, {upper}]"
 
 
-def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]]) -> Iterator[str]:
-    """Rows under a head, in columns as wide as they need to be."""
+def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]], room: int | None = None) -> Iterator[str]:
+    """Rows under a head, in columns as wide as they need to be, or as `room` lets them be: the widest give way."""
     lines = [head, *rows]
     widths = [max(len(line[column]) for line in lines) for column in range(len(head))]
+    least = [min(width, LEAST) for width in widths]
+    while room is not None and sum(widths) + 2 * (len(head) - 1) > room and widths != least:
+        widest = max(range(len(head)), key=lambda column: widths[column] - least[column])
+        widths[widest] -= 1
     for number, line in enumerate(lines):
-        yield "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()
+        cells = (shortened(cell, width).ljust(width) for cell, width in zip(line, widths, strict=True))
+        yield "  ".join(cells).rstrip()
         if number == 0:
             yield "  ".join("-" * width for width in widths)

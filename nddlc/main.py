@@ -3,9 +3,13 @@
 0 holds · 1 findings · 2 the command or its configuration is unusable · 3 a bug of nddlc · 130 interrupted.
 """
 
+import errno
+import os
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import click
@@ -26,6 +30,7 @@ COMMANDS = {
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 UNUSABLE, BUG, INTERRUPTED = 2, 3, 130
+MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
 
 
 class Subcommands(click.Group):
@@ -84,24 +89,48 @@ def nddlc(ctx: click.Context, dialect: str | None) -> None:
 
 def run(arguments: Sequence[str] | None = None) -> int:
     """Carry out a command line; its exit code."""
+    _open_streams()
     try:
         code = nddlc.main(args=arguments, prog_name="nddlc", standalone_mode=False)
     except click.exceptions.Exit as end:
         return end.exit_code
     except click.ClickException as mistake:
-        mistake.show()
+        with suppress(OSError):
+            mistake.show()
         return UNUSABLE
     except UserCodeError as mistake:
-        click.echo(f"nddlc: {mistake}", err=True)
-        click.echo(f"  help: {mistake.advice}", err=True)
+        _complain(f"nddlc: {mistake}\n  help: {mistake.advice}")
         return UNUSABLE
     except (click.Abort, KeyboardInterrupt):
-        click.echo("nddlc: interrupted", err=True)
+        _complain("nddlc: interrupted")
         return INTERRUPTED
+    except OSError as problem:
+        if problem.errno not in MACHINE:
+            return _report(problem, arguments)
+        where = "the output" if problem.filename is None else f"`{problem.filename}`"
+        _complain(f"nddlc: cannot write {where}: {problem.strerror}")
+        return UNUSABLE
     except Exception as bug:  # the one place where our own mistakes are caught: to tell the user whose they are
-        named("nddlc.crash:report")(bug, sys.argv[1:] if arguments is None else list(arguments))
-        return BUG
+        return _report(bug, arguments)
     return code if isinstance(code, int) else 0
+
+
+def _report(bug: Exception, arguments: Sequence[str] | None) -> int:
+    named("nddlc.crash:report")(bug, sys.argv[1:] if arguments is None else list(arguments))
+    return BUG
+
+
+def _complain(text: str) -> None:
+    """Write to standard error; where that cannot be written to, the exit code must do."""
+    with suppress(OSError):
+        click.echo(text, err=True)
+
+
+def _open_streams() -> None:
+    """Where a stream was closed before the start, let what is written there vanish."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, Path(os.devnull).open("w", encoding="utf-8"))  # noqa: SIM115 it stays
 
 
 def main() -> None:

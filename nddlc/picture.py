@@ -1,69 +1,128 @@
 """Draw a plan as an SVG picture or as a page that holds it: no scripts, nothing from outside."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from html import escape
+from math import inf
 
-from nddlc.gantt import Bar, Facts, bars, lanes
-from nddlc.load import TOKEN_HEAD, token_row
+from nddlc.gantt import Bar, Drawing, Facts, lanes, shortened
+from nddlc.levels import Run, level_text
+from nddlc.plan_text import HEAD as COLUMNS
+from nddlc.plan_text import VARIABLES, hidden_text, token_cells
 
-WIDTH = 900
+NARROW, WIDE = 900, 12000  # pixels for the time that is drawn
+ROOMY = 60  # pixels that a token is given where that is possible
 LINE = 26
+TALL = 56  # the height of a level's row
 HEAD = 30
+LETTER = 7  # pixels, as wide as most are
+LONGEST = 32  # letters of an object's name
 PALETTE = ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#997700", "#555555")
 LIGHT = {"#ee6677", "#ccbb44", "#66ccee"}  # dark letters are read better on these
-STYLE = "text{font:12px sans-serif;fill:#222}.t{font-size:11px}.w{fill:#fff}.a{stroke:#ccc}.r{stroke:#eee}"
+STYLE = (
+    "text{font:12px sans-serif;fill:#222}.t{font-size:11px}.w{fill:#fff}.a{stroke:#ccc}.r{stroke:#eee}"
+    ".m{stroke:#222}.l{fill:#4477aa;fill-opacity:.25;stroke:#4477aa}.s{font-size:10px}"
+    ".b{stroke:#cc3311;stroke-dasharray:5 3}"
+    "@media(prefers-color-scheme:dark){text{fill:#ddd}.k{fill:#222}.a{stroke:#444}.r{stroke:#333}.m{stroke:#ddd}}"
+)
 LOOK = (
-    "body{font:14px sans-serif;margin:2em}.p{overflow-x:auto}table{border-collapse:collapse;margin-top:1em}"
-    "td,th{padding:2px 10px;text-align:left;white-space:nowrap;border-bottom:1px solid #ddd}"
+    ":root{color-scheme:light dark}body{font:14px sans-serif;margin:2em}.p{overflow-x:auto}"
+    "table{border-collapse:collapse;margin-top:1em}"
+    "td,th{padding:2px 10px;text-align:left;white-space:nowrap;border-bottom:1px solid #8884;max-width:40em;"
+    "overflow:hidden;text-overflow:ellipsis}p{color:#777}"
 )
 
 
-def svg(facts: Facts, horizon: tuple[int, int]) -> str:
+def svg(drawn: Drawing) -> str:
     """The plan as one SVG element; bars that may move have a dashed outline."""
-    rows, found, first, last = bars(facts, horizon)
-    margin = 20 + 7 * max([len(row) for row in rows], default=0)
-    scale = WIDTH / (last - first)
-    colours = {name: PALETTE[n % len(PALETTE)] for n, name in enumerate(dict.fromkeys(bar.predicate for bar in found))}
+    margin = 20 + LETTER * max([min(len(row), LONGEST) for row in drawn.rows], default=0)
+    most = max([len(own) for own in drawn.bars.values()], default=0)
+    width = min(max(NARROW, ROOMY * most), WIDE)
+    scale = width / (drawn.last - drawn.first)
+    names = dict.fromkeys(bar.predicate for row in drawn.rows for bar in drawn.bars.get(row, ()))
+    colours = {name: PALETTE[n % len(PALETTE)] for n, name in enumerate(names)}
     body: list[str] = []
     y = HEAD
-    for row in rows:
-        body.append(f'<text x="4" y="{y + 17}">{escape(row)}</text>')
-        for lane in lanes([bar for bar in found if bar.row == row]):
-            for bar in lane:
-                body += _bar(bar, margin + (bar.start - first) * scale, (bar.end - bar.start) * scale, y, colours)
-            y += LINE
-        body.append(f'<line class="r" x1="0" y1="{y}" x2="{margin + WIDTH + 20}" y2="{y}"/>')
+    for row in drawn.rows:
+        caption = f"<title>{escape(row)}</title>" if len(row) > LONGEST else ""
+        body.append(f'<text x="4" y="{y + 17}">{escape(shortened(row, LONGEST))}{caption}</text>')
+        if row in drawn.runs:
+            body += _level(row, drawn.runs[row], drawn, margin, y, scale)
+            y += TALL
+        else:
+            own = lanes(drawn.bars[row])
+            for lane in own:
+                for bar in lane:
+                    start = margin + (bar.start - drawn.first) * scale
+                    body += _bar(bar, start, (bar.end - bar.start) * scale, y, colours)
+                y += LINE
+            y += 0 if own else LINE
+        body.append(f'<line class="r" x1="0" y1="{y}" x2="{margin + width + 20}" y2="{y}"/>')
     axis: list[str] = []
-    step = _step(last - first)
-    moment = -(-first // step) * step
-    while moment <= last:
-        x = margin + (moment - first) * scale
+    step = _step((drawn.last - drawn.first) * NARROW / width * max(1.0, len(str(drawn.last)) / 7))
+    moment = -(-drawn.first // step) * step
+    while moment <= drawn.last:
+        x = margin + (moment - drawn.first) * scale
         axis.append(f'<line class="a" x1="{x:.1f}" y1="{HEAD - 8}" x2="{x:.1f}" y2="{y}"/>')
         axis.append(f'<text x="{x:.1f}" y="{HEAD - 12}" text-anchor="middle">{moment}</text>')
         moment += step
-    size = f'width="{margin + WIDTH + 20}" height="{y + 10}"'
+    size = f'width="{margin + width + 30}" height="{y + 10}"'
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img" aria-label="plan">'
         f"<style>{STYLE}</style>{''.join(axis)}{''.join(body)}</svg>\n"
     )
 
 
-def _bar(bar: Bar, x: float, width: float, y: int, colours: dict[str, str]) -> list[str]:
+def _bar(bar: Bar, x: float, width: float, y: int, colours: dict[str, str]) -> Iterator[str]:
     """One token: a box with its name and, for the pointer, all that is known of it."""
     wide = max(width, 3.0)
-    outline = "" if bar.is_fixed else ' stroke="#222" stroke-dasharray="3 2"'
+    outline = "" if bar.is_fixed else ' class="m" stroke-dasharray="3 2"'
     box = f'<rect x="{x:.1f}" y="{y + 3}" width="{wide:.1f}" height="{LINE - 6}" rx="3" fill="{colours[bar.predicate]}"'
-    parts = [f"<g><title>{escape(bar.tip)}</title>{box}{outline}/>"]
+    yield f"<g><title>{escape(bar.tip)}</title>{box}{outline}/>"
+    if bar.is_open:
+        end = x + wide
+        yield f'<path class="m" fill="none" d="M{end + 2:.1f} {y + 9}l5 4l-5 4"/>'
     room = int((wide - 6) / 6.5)
     if room >= 2:
         name = bar.predicate if len(bar.predicate) <= room else bar.predicate[: room - 1] + "…"
-        letters = "t" if colours[bar.predicate] in LIGHT else "t w"
-        parts.append(f'<text class="{letters}" x="{x + 4:.1f}" y="{y + 17}">{escape(name)}</text>')
-    parts.append("</g>")
-    return parts
+        letters = "t k" if colours[bar.predicate] in LIGHT else "t w"
+        yield f'<text class="{letters}" x="{x + 4:.1f}" y="{y + 17}">{escape(name)}</text>'
+    yield "</g>"
 
 
-def _step(length: int) -> int:
+def _level(name: str, run: Run, drawn: Drawing, margin: int, y: int, scale: float) -> Iterator[str]:
+    """The level of a resource as a band, with its limits, and for the pointer each step."""
+    limits = [each for each in (run.lower, run.upper) if abs(each) < inf]
+    seen = [*limits, *(level for step in run.steps for level in step[1:] if abs(level) < inf)]
+    low, high = min(seen, default=0.0), max(seen, default=1.0)
+    tall = (TALL - 14) / ((high - low) or 1.0)
+
+    def height(level: float) -> float:
+        return y + TALL - 7 - (min(max(level, low), high) - low) * tall
+
+    def across(at: int) -> float:
+        return margin + (max(at, drawn.first) - drawn.first) * scale
+
+    right = across(drawn.last)
+    ends = [across(step[0]) for step in run.steps[1:]] + [right]
+    for (at, least, most), end in zip(run.steps, ends, strict=True):
+        x, top, foot = across(at), height(most), height(low)
+        text = f"{name}: {level_text(least, most)} from {at}"
+        yield f"<g><title>{escape(text)}</title>"
+        size = f'width="{max(end - x, 1.0):.1f}" height="{foot - top + 0.5:.1f}"'
+        yield f'<rect class="l" x="{x:.1f}" y="{top:.1f}" {size}/>'
+        if least != most:
+            yield f'<line class="m" x1="{x:.1f}" y1="{height(least):.1f}" x2="{end:.1f}" y2="{height(least):.1f}"/>'
+        if end - x > LETTER * len(level_text(least, most)):
+            base = top - 3 if top > y + 16 else top + 10
+            yield f'<text class="s" x="{x + 3:.1f}" y="{base:.1f}">{level_text(least, most)}</text>'
+        yield "</g>"
+    for limit in dict.fromkeys(limits):
+        line = height(limit)
+        yield f'<line class="b" x1="{margin}" y1="{line:.1f}" x2="{right:.1f}" y2="{line:.1f}"/>'
+        yield f'<text class="s" x="{right + 3:.1f}" y="{line + 3:.1f}">{level_text(limit, limit)}</text>'
+
+
+def _step(length: float) -> int:
     """A round distance between two numbers on the axis: 1, 2 or 5 times a power of ten."""
     power = 1
     while True:
@@ -73,16 +132,31 @@ def _step(length: int) -> int:
         power *= 10
 
 
-def page(facts: Facts, horizon: tuple[int, int], title: str, said: Sequence[str]) -> str:
-    """The plan as an HTML page: the picture, a table of all tokens, and what else is `said` of it, line by line."""
-    cells = [
-        "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in token_row(token)) + "</tr>" for token in facts["tokens"]
-    ]
-    names = "".join(f"<th>{name}</th>" for name in TOKEN_HEAD)
-    picture = f'<div class="p">{svg(facts, horizon)}</div>' if facts["solve"]["result"] == "plan" else ""
+def page(
+    told: Facts,
+    drawn: Drawing,
+    tokens: Sequence[Facts],
+    found: Sequence[tuple[str, str]],
+    title: str,
+    said: Sequence[str],
+) -> str:
+    """The plan as an HTML page: what is `said` of it, the picture, and tables of `tokens` and of values `found`."""
+    picture = f'<div class="p">{svg(drawn)}</div>' if drawn and told["solve"]["result"] != "exhausted" else ""
+    tables = _table(COLUMNS, [token_cells(token) for token in tokens]) + _table(VARIABLES, found)
+    hidden = f"<p>{escape(hidden)}</p>" if (hidden := hidden_text(told, tokens)) else ""
     return (
         f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
-        f"<style>{LOOK}</style></head><body><h1>{escape(title)}</h1>{picture}"
-        f'<div class="p"><table><tr>{names}</tr>{"".join(cells)}</table></div>'
-        f"<pre>{escape(chr(10).join(said))}</pre></body></html>\n"
+        f"<style>{LOOK}</style></head><body><h1>{escape(title)}</h1><pre>{escape(chr(10).join(said))}</pre>"
+        f"{picture}{tables}{hidden}</body></html>\n"
     )
+
+
+def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """Rows under a head; nothing where there are none."""
+    if not rows:
+        return ""
+    names = "".join(f"<th>{name}</th>" for name in head)
+    lines = [
+        "<tr>" + "".join(f'<td title="{escape(cell)}">{escape(cell)}</td>' for cell in row) + "</tr>" for row in rows
+    ]
+    return f'<div class="p"><table><tr>{names}</tr>{"".join(lines)}</table></div>'

@@ -2,8 +2,7 @@
 
 import json
 import sys
-import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import redirect_stdout
 from pathlib import Path
 
@@ -12,11 +11,14 @@ import click
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
 from nddlc.because import as_data, shortened, story
-from nddlc.gantt import chart
-from nddlc.inputs import Unusable, chosen_dialect, colours, readable
-from nddlc.load import TOKEN_HEAD, table, token_row
+from nddlc.gantt import drawing
+from nddlc.inputs import Unusable, chosen_dialect, colours, columns, readable
+from nddlc.levels import Run, runs
 from nddlc.loading import Facts, Loaded, facts, load
+from nddlc.patience import Clock
 from nddlc.picture import page, svg
+from nddlc.plan_text import INTERRUPTED, found_values, lines, tokens_shown, verdict
+from runtime.constraints.codes import HALF_INF, INF
 from runtime.plan.codes import REJECTED
 from runtime.plan.readout import live_tokens, read, token_names
 from runtime.solver.account import Failure, Recorder
@@ -27,7 +29,19 @@ from runtime.solver.read import read_configuration
 from runtime.solver.search import Solver
 
 DEFAULT_HORIZON = (0, 1000)
-PATIENCE = 0.5  # seconds until progress is told, and between two tellings
+
+
+def tick(text: str) -> int:
+    """A whole number, or `inf` and `-inf` for no end and no beginning, which lie beyond all ticks."""
+    if text.lower().lstrip("+") in ("inf", "-inf"):
+        return -INF if text.startswith("-") else INF
+    try:
+        number = int(text)
+    except ValueError:
+        raise click.BadParameter(f"`{text}` is no whole number, nor inf or -inf") from None
+    if abs(number) >= HALF_INF:
+        raise click.BadParameter(f"`{text}` is too far away; write inf or -inf")
+    return number
 
 
 @click.command()
@@ -35,7 +49,7 @@ PATIENCE = 0.5  # seconds until progress is told, and between two tellings
 @click.option("-I", "--include", "directories", multiple=True, metavar="DIR", help="Look for included files here too.")
 @click.option("--dialect", type=click.Choice(["nddl3", "nddlc"]), help="The same option as before the command.")
 @click.option("--config", "config", metavar="FILE", help="What to mend and how, in EUROPA's XML or in TOML.")
-@click.option("--horizon", nargs=2, type=int, metavar="LO HI", help="Plan what lies between these ticks.")
+@click.option("--horizon", nargs=2, type=tick, metavar="LO HI", help="Plan what lies between these ticks (or inf).")
 @click.option("--max-steps", type=click.IntRange(0), help="Stop after so many steps.")
 @click.option("--max-depth", type=click.IntRange(0), help="Stop when so many decisions are in force.")
 @click.option("--max-seconds", type=click.FloatRange(0, min_open=True), help="Stop after so many seconds.")
@@ -81,29 +95,53 @@ def command(
     solver = Solver(loaded.database, configuration, limits.start, limits.end, strategy == "europa")
     recorder = Recorder(loaded.database, solver.queues, solver.stack) if explain else None
     solver.account = recorder
-    clock = _Clock(solver, max_seconds)
-    with redirect_stdout(sys.stderr):  # what constraints print there would be read by programs
+    clock = Clock(solver, max_seconds)
+    with clock, redirect_stdout(sys.stderr):  # what constraints print there would be read by programs
         result = solver.solve(limits.steps, limits.depth, clock)
-    clock.wipe()
     reasons = _reasons(recorder, told, result)
+    before = told["domains"]
     told |= read(loaded.database) | {"consistent": told["consistent"]}
-    told["solve"] = {"result": RESULT_NAMES[result], "steps": solver.steps, "depth": solver.depth}
+    ended = INTERRUPTED if clock.is_interrupted and result != PLAN else RESULT_NAMES[result]
+    told["solve"] = {"result": ended, "steps": solver.steps, "depth": solver.depth}
+    levels = runs(loaded.database, limits.start)
     if explain:
         told["explanation"] = {name: as_data(failure) for name, failure in reasons.items()}
+    told["levels"] = {name: each.as_data() for name, each in levels.items()}
+    found = found_values(told, before) if ended != "exhausted" else []
+    _show(loaded, told, levels, found, reasons, limits, as_json, style)
+    if ended == INTERRUPTED:
+        return 130
+    return 0 if result == PLAN else 1
+
+
+def _show(
+    loaded: Loaded,
+    told: Facts,
+    levels: Mapping[str, Run],
+    found: list[tuple[str, str]],
+    reasons: dict[str, Failure],
+    limits: Limits,
+    as_json: bool,
+    style: str,
+) -> None:
+    """Print what was found in the form that was asked for."""
+    assert loaded.database is not None
+    named = [name for t in live_tokens(loaded.database) if (name := loaded.database.token_label(t)) is not None]
+    drawn = drawing(told, (limits.start, limits.end), levels)
     if as_json:
         click.echo(json.dumps(told, ensure_ascii=False))
     elif style == "svg":
-        click.echo(svg(told, (limits.start, limits.end)), nl=False)
+        click.echo(svg(drawn), nl=False)
     elif style == "html":
-        said = [_verdict(told), *(line for name, failure in reasons.items() for line in _why(name, failure))]
-        click.echo(page(told, (limits.start, limits.end), Path(file).name, said), nl=False)
+        reason = [line for name, failure in reasons.items() for line in _why(name, failure)]
+        said = [*verdict(told, limits, named), *reason]
+        click.echo(page(told, drawn, tokens_shown(told, named), found, Path(loaded.file).name, said), nl=False)
     else:
         for each in loaded.diagnostics:
             click.echo(render(each, colour=colours()))
-        click.echo("\n".join(_lines(told, limits)))
+        click.echo("\n".join(lines(told, drawn, limits, named, found, columns())))
         for name, failure in reasons.items():
             click.echo("\n".join(_why(name, failure)))
-    return 0 if result == PLAN else 1
 
 
 def _configuration(name: str | None) -> Configuration:
@@ -161,57 +199,3 @@ def _is_out(recorder: Recorder, name: str) -> bool:
     """Whether the token of that name is rejected now."""
     tokens = token_names(recorder.database, live_tokens(recorder.database))
     return any(tokens[t] == name and recorder.plan.rows.status[t] == REJECTED for t in tokens)
-
-
-class _Clock:
-    """Tell whether time is over; on a terminal, show how far a long search has come."""
-
-    def __init__(self, solver: Solver, seconds: float | None) -> None:
-        self.solver = solver
-        self.seconds = seconds
-        self.begun = self.told = time.monotonic()
-        self.is_terminal = sys.stderr.isatty()
-
-    def __call__(self) -> bool:
-        now = time.monotonic()
-        if self.is_terminal and now - self.told >= PATIENCE:
-            self.told = now
-            solver = self.solver
-            self.write(
-                f"{now - self.begun:.0f} s, {solver.steps} steps, {solver.failures} failed, depth {solver.depth}"
-            )
-        return self.seconds is not None and now - self.begun >= self.seconds
-
-    def write(self, line: str) -> None:
-        """Put a line where the last one stood."""
-        click.echo(f"\r{line:<70}\r", err=True, nl=False)
-
-    def wipe(self) -> None:
-        """Take the line away, if there is one."""
-        if self.told > self.begun:
-            self.write("")
-
-
-def _lines(told: Facts, limits: Limits) -> Iterator[str]:
-    """What a modeler wants to see."""
-    result = told["solve"]["result"]
-    if result == "plan":
-        yield from chart(told, (limits.start, limits.end), 100)
-        yield ""
-    tokens = [token_row(token) for token in told["tokens"]]
-    if tokens:
-        yield from table(TOKEN_HEAD, tokens)
-        yield ""
-    yield _verdict(told)
-
-
-def _verdict(told: Facts) -> str:
-    solve = told["solve"]
-    count = f"{solve['steps']} steps"
-    if solve["result"] == "plan":
-        return f"plan found after {count}, {solve['depth']} decisions in force"
-    if solve["result"] == "timeout":
-        return f"no plan found yet: stopped after {count}"
-    if told["consistent"] is False:
-        return "no plan exists: the model contradicts itself before any decision"
-    return f"no plan exists: all choices fail, after {count}"

@@ -14,6 +14,9 @@ from freshness import unfit_binaries
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
+# What is printed is as wide as the terminal; pytest-xdist hands on how wide that of the tests is.
+os.environ.pop("COLUMNS", None)
+
 COMPILED_IS_PROMISED = os.environ.get("NDDLC_REQUIRE_COMPILED", "") not in ("", "0") and not interpreting_is_asked()
 # A binary that is older than its source is never tested; the source is, uncompiled.
 STALE = [] if interpreting_is_asked() else unfit_binaries(Path(__file__).resolve().parent.parent)

@@ -145,9 +145,12 @@ def token_facts(database: PlanDatabase, t: int, names: dict[int, str]) -> dict[s
 def bounds(database: PlanDatabase, v: int) -> list[Bound]:
     """The bounds of a time."""
     engine = database.plan.engine
-    lower: Bound = engine.lb[v] if engine.lb[v] > -HALF_INF else "-inf"
-    upper: Bound = engine.ub[v] if engine.ub[v] < HALF_INF else "+inf"
-    return [lower, upper]
+    return [bound(engine.lb[v]), bound(engine.ub[v])]
+
+
+def bound(moment: int) -> Bound:
+    """A moment, or that there is none."""
+    return moment if abs(moment) < HALF_INF else "+inf" if moment > 0 else "-inf"
 
 
 def orders(database: PlanDatabase, names: dict[int, str]) -> dict[str, list[str]]:

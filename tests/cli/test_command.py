@@ -272,3 +272,20 @@ def test_fmt_does_not_touch_what_is_no_text(tmp_path: Path, capsys: Captured) ->
     path.write_bytes(b"int a = 1;\n// caf\xe9\n")
     assert run(["fmt", str(path)]) == 2
     assert "is not UTF-8 text (line 2)" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
+@pytest.mark.parametrize("words", [["load"], ["plan"], ["lint"], ["plan", "--json"]])
+def test_a_full_disk_is_no_bug_of_nddlc(words: list[str], lamp: str) -> None:
+    command = [sys.executable, "-m", "nddlc.main", *words, lamp]
+    with Path("/dev/full").open("w", encoding="ascii") as full:
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert done.stderr == "nddlc: cannot write the output: No space left on device\n"
+    assert done.returncode == 2
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a shell that closes streams")
+@pytest.mark.parametrize("closed", [">&-", ">&- 2>&-", "<&-"])
+def test_a_closed_stream_changes_no_verdict(closed: str, lamp: str) -> None:
+    command = f"'{sys.executable}' -m nddlc.main plan '{lamp}' {closed}"
+    assert subprocess.run(["sh", "-c", command], check=False).returncode == 0

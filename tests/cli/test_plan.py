@@ -1,7 +1,10 @@
 """`nddlc plan` as a user sees it: chart, table and verdict, as text, picture and page; reasons; limits."""
 
 import io
+import json
 import re
+import signal
+import subprocess
 import sys
 from pathlib import Path
 from xml.etree import ElementTree
@@ -32,9 +35,29 @@ goal(lamp.Off b);
 a.start = 0;
 b.start = 0;
 """
-LONG = "\n".join(
-    f"int v{i} = [1 9];\n" + "\n".join(f"neq(v{j}, v{i});" for j in range(i)) for i in range(10)
-)  # ten that differ, nine values: no bound tells
+TANK = """\
+class Tank extends Reservoir { Tank(float first, float least, float most) { super(first, least, most); } }
+class Lamp extends Timeline { predicate On { } }
+Lamp::On { starts(Tank.consume c); c.quantity == 3.5; }
+Tank tank = new Tank(10.0, 0.0, 20.0);
+Lamp lamp = new Lamp();
+close();
+goal(lamp.On a);
+a.start = 20;
+a.end = 30;
+goal(lamp.On b);
+b.start = 40;
+b.end = 60;
+"""
+
+
+def pigeons(count: int) -> str:
+    """That many variables which differ, and one value too few: no bound tells."""
+    lines = [f"int v{i} = [1 {count - 1}];\n" + "\n".join(f"neq(v{j}, v{i});" for j in range(i)) for i in range(count)]
+    return "\n".join(lines)
+
+
+LONG = pigeons(10)
 
 
 class Terminal(io.StringIO):
@@ -70,7 +93,7 @@ def test_a_page_says_what_the_text_says(tmp_path: Path, capsys: pytest.CaptureFi
     text = capsys.readouterr().out
     assert planned(tmp_path, TWO, "--format", "html") == 0
     page = capsys.readouterr().out
-    cells = re.findall(r"<td>(.*?)</td>", page)
+    cells = re.findall(r"<td[^>]*>(.*?)</td>", page)
     assert "MERGED a" in cells
     assert all(cell in text for cell in cells)
     assert text.splitlines()[-1] in page
@@ -101,7 +124,7 @@ def test_a_search_stops_when_time_is_over(tmp_path: Path, capsys: pytest.Capture
 def test_progress_is_told_on_a_terminal_and_wiped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setattr("nddlc.plan.PATIENCE", 0.0)
+    monkeypatch.setattr("nddlc.patience.PATIENCE", 0.0)
     planned(tmp_path, LONG, "--strategy", "europa", "--max-steps", "3000")
     told = terminal.getvalue()
     assert re.search(r"\r0 s, \d+ steps, \d+ failed, depth \d+ +\r", told)
@@ -113,3 +136,75 @@ def test_an_empty_horizon_is_a_wrong_use(tmp_path: Path, capsys: pytest.CaptureF
     path.write_text(TWO)
     assert run(["plan", "--horizon", "5", "5", str(path)]) == 2
     assert "the horizon from 5 to 5 is empty" in capsys.readouterr().err
+
+
+def test_the_level_of_a_resource_is_drawn_from_step_to_step(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert planned(tmp_path, TANK) == 0
+    told = capsys.readouterr().out
+    assert re.search(r"^tank +\|10-+\|6\.5-+\|3-+$", told, re.M)
+    assert planned(tmp_path, TANK, "--json") == 0
+    levels = json.loads(capsys.readouterr().out)["levels"]
+    assert levels == {"tank": {"limits": [0.0, 20.0], "steps": [[0, 10.0, 10.0], [20, 6.5, 6.5], [40, 3.0, 3.0]]}}
+    assert planned(tmp_path, TANK, "--format", "svg") == 0
+    picture = ElementTree.fromstring(capsys.readouterr().out)
+    titles = [each.text for each in picture.iter("{http://www.w3.org/2000/svg}title")]
+    assert titles[-3:] == ["tank: 10 from 0", "tank: 6.5 from 20", "tank: 3 from 40"]
+
+
+def test_goals_that_are_not_planned_are_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert planned(tmp_path, TWO, "--horizon", "0", "12") == 0
+    assert "the horizon from 0 to 12, see --horizon: c\n" in capsys.readouterr().out
+
+
+def test_an_infinite_horizon_holds_what_never_ends(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = TWO.replace("c.duration = 5;", "c.duration = [5 +inf];")
+    assert planned(tmp_path, text, "--horizon", "-inf", "inf", "--json") == 0
+    last = json.loads(capsys.readouterr().out)["tokens"][-1]
+    assert (last["state"], last["end"]) == ("ACTIVE", [15, "+inf"])
+    assert planned(tmp_path, text, "--horizon", "-inf", "inf") == 0
+    assert re.search(r"^lamp +\|On=+\|Off=+>$", capsys.readouterr().out, re.M)
+
+
+def test_values_that_the_search_found_are_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert planned(tmp_path, "int x = [1 3];\nint y = [1 3];\nint z = 5;\nneq(x, y);\n") == 0
+    assert "x         1\ny         2\n\nplan found" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("width", [40, 60, 80, 200])
+def test_lines_are_no_wider_than_the_terminal(
+    width: int, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", str(width))
+    long = "lantern_that_bears_a_name_which_nobody_would_want_to_type"
+    assert planned(tmp_path, TWO.replace("lamp.", f"{long}.").replace("Lamp lamp", f"Lamp {long}")) == 0
+    assert all(len(line) <= width for line in capsys.readouterr().out.splitlines()[:-1])  # but for the verdict
+
+
+def test_a_thousand_tokens_are_drawn_on_their_rows(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    goals = "".join(f"goal(lamp.On g{i});\ng{i}.start = {10 * i};\ng{i}.end = {10 * i + 9};\n" for i in range(1000))
+    assert planned(tmp_path, TWO.partition("goal")[0] + goals, "--horizon", "0", "10000") == 0
+    told = capsys.readouterr().out
+    assert re.match(r"lamp +[|#=]{80,}\n", told)
+    assert "`#` several tokens" in told
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGINT") or sys.platform == "win32", reason="Ctrl-C is no signal there")
+def test_an_interrupted_search_shows_how_far_it_came(tmp_path: Path) -> None:
+    path = tmp_path / "model.nddl"
+    path.write_text(pigeons(12))
+    code = (
+        "import os, signal, sys, threading, time\n"
+        "from nddlc.main import run\n"
+        "import nddlc.patience as patience\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "enter = patience.Clock.__enter__\n"
+        "def entered(clock):\n"
+        "    threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
+        "    return enter(clock)\n"
+        "patience.Clock.__enter__ = entered\n"
+        f"sys.exit(run(['plan', '--strategy', 'europa', {str(path)!r}]))\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=60)
+    assert re.search(r"^v0 +1\n", done.stdout, re.M)
+    assert re.search(r"no plan found yet: interrupted after \d+ steps, \d+ decisions in force\n$", done.stdout)
+    assert done.returncode == 130

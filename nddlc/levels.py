@@ -1,0 +1,68 @@
+"""How the level of each resource runs in a plan, each of its uses as early as it can be."""
+
+from dataclasses import dataclass
+from math import inf
+
+from runtime.constraints.codes import HALF_INF
+from runtime.plan.codes import INITIAL, LIMITS, MAXIMUM, MINIMUM
+from runtime.plan.database import PlanDatabase
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """The level of a resource: from each instant on between two numbers, and between what it must stay (inf: free)."""
+
+    lower: float
+    upper: float
+    steps: tuple[tuple[int, float, float], ...]  # the first one is how it begins
+
+    def as_data(self) -> dict[str, object]:
+        """The same for programs; null where there is no limit."""
+        limits = [None if abs(each) == inf else each for each in (self.lower, self.upper)]
+        return {"limits": limits, "steps": [list(step) for step in self.steps]}
+
+
+def runs(database: PlanDatabase, begin: int) -> dict[str, Run]:
+    """The runs of all resources by name, from `begin` or from the first use on."""
+    resources = database.plan.resources
+    return {
+        name: _run(database, o, begin)
+        for o, name in enumerate(database.objects.names)
+        if o < resources.object_room and resources.is_resource[o]
+    }
+
+
+def _run(database: PlanDatabase, o: int, begin: int) -> Run:
+    resources = database.plan.resources
+    place = o * LIMITS
+    low, high = resources.lower(place + INITIAL, 0.0), resources.upper(place + INITIAL, 0.0)
+    changes: dict[int, tuple[float, float]] = {}
+
+    def change(at: int, least: float, most: float) -> None:
+        if abs(at) < HALF_INF:
+            before = changes.get(at, (0.0, 0.0))
+            changes[at] = (before[0] + least, before[1] + most)
+
+    for u in range(resources.count):
+        if resources.sign[u] and resources.on[u] == o:
+            least, most = resources.least[u], resources.most[u]
+            added = (least, most) if resources.sign[u] > 0 else (-most, -least)
+            change(resources.start_low[u], *added)
+            if resources.end[u] >= 0:
+                change(resources.end_low[u], -added[0], -added[1])
+    before = (low, high)
+    for start, least, most in resources.steps.get(o, ()):
+        change(start, least - before[0], most - before[1])
+        before = (least, most)
+    steps = [(min([begin, *changes]), low, high)]
+    for at in sorted(changes):
+        low, high = low + changes[at][0], high + changes[at][1]
+        if at == steps[-1][0]:
+            steps.pop()
+        steps.append((at, low, high))
+    return Run(resources.lower(place + MINIMUM, -inf), resources.upper(place + MAXIMUM, inf), tuple(steps))
+
+
+def level_text(low: float, high: float) -> str:
+    """A level as people read it."""
+    return f"{low:.6g}" if low == high else f"{low:.6g}..{high:.6g}"

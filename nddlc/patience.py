@@ -1,0 +1,60 @@
+"""End a long search when time is over or somebody presses Ctrl-C, and tell meanwhile how far it has come."""
+
+import shutil
+import signal
+import sys
+import threading
+import time
+from types import FrameType
+
+import click
+
+from runtime.solver.search import Solver
+from runtime.user.limit import WATCH
+
+PATIENCE = 0.5  # seconds until progress is told, and between two tellings
+
+
+class Clock:
+    """Asked again and again whether to stop; while it is entered, the first Ctrl-C only makes it say so."""
+
+    def __init__(self, solver: Solver, seconds: float | None) -> None:
+        self.solver = solver
+        self.seconds = seconds
+        self.is_interrupted = False
+        self._begun = self._told = time.monotonic()
+        self._is_terminal = sys.stderr.isatty()
+        self._before: object = None
+
+    def __enter__(self) -> "Clock":
+        if threading.current_thread() is threading.main_thread():
+            self._before = signal.getsignal(signal.SIGINT)
+            if self._before is signal.default_int_handler:
+                signal.signal(signal.SIGINT, self._note)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._before is signal.default_int_handler:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+        if self._told > self._begun:
+            self._write("")
+
+    def __call__(self) -> bool:
+        now = time.monotonic()
+        if self._is_terminal and now - self._told >= PATIENCE:
+            self._told = now
+            solver = self.solver
+            self._write(
+                f"{now - self._begun:.0f} s, {solver.steps} steps, {solver.failures} failed, depth {solver.depth}"
+            )
+        return self.is_interrupted or (self.seconds is not None and now - self._begun >= self.seconds)
+
+    def _note(self, number: int, frame: FrameType | None) -> None:
+        if self.is_interrupted or WATCH.call is not None:
+            raise KeyboardInterrupt
+        self.is_interrupted = True
+
+    def _write(self, line: str) -> None:
+        """Put a line where the last one stood."""
+        room = max(shutil.get_terminal_size((80, 24)).columns - 1, 1)
+        click.echo(f"\r{line[:room]:<{min(room, 70)}}\r", err=True, nl=False)
