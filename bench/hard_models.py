@@ -16,6 +16,7 @@ SIZES = {
     "merging": (4, 6, 8),
     "rejecting": (6, 9, 12),
     "thrashing": (4, 8, 16),
+    "knot": (6, 10, 20),
 }
 LANE = "class Lane extends Timeline { predicate run { } }"
 
@@ -131,6 +132,31 @@ def thrashing(n: int, feasible: bool) -> Iterable[str]:
     yield from (f"neq(hole{i}, hole{j});" for i in range(size) for j in range(i + 1, size))
 
 
+def knot(n: int, feasible: bool) -> Iterable[str]:
+    """A map that three colours do not suffice for, hidden behind countries that touch few others; or all but a border.
+
+    Hajós puts maps of four countries together so that each border is needed for that (Mizuno, Nishihara 2008).
+    """
+    random = Random(n)
+    borders = {(i, j) for j in range(4) for i in range(j)}
+    count = 4
+    for _ in range(n - 1):
+        a, b = random.choice(sorted(borders))
+        one, two, three = range(count, count + 3)
+        borders = (borders - {(a, b)}) | {(a, two), (a, three), (one, two), (one, three), (two, three), (b, one)}
+        count += 3
+    kept = sorted(borders)
+    if feasible:
+        kept.pop(random.randrange(len(kept)))
+    names = [f"hard{i}" for i in range(count)]
+    random.shuffle(names)
+    yield "typedef int [1 3] Colour;"
+    yield "".join(f"Colour easy{i};" for i in range(4 * n)) + "".join(f"Colour hard{i};" for i in range(count))
+    yield from (f"neq({names[i]}, {names[j]});" for i, j in kept)
+    yield from (f"neq(easy{i}, easy{random.randrange(i)});" for i in range(1, 4 * n))
+    yield from (f"neq(easy{i}, hard{random.randrange(count)});" for i in range(4 * n) if random.random() < 0.4)
+
+
 FAMILIES: dict[str, Callable[[int, bool], Iterable[str]]] = {
     "capacity": capacity,
     "unary": unary,
@@ -141,6 +167,7 @@ FAMILIES: dict[str, Callable[[int, bool], Iterable[str]]] = {
     "merging": merging,
     "rejecting": rejecting,
     "thrashing": thrashing,
+    "knot": knot,
 }
 
 

@@ -14,11 +14,10 @@ cdef class Resources:
     cdef public Levels levels
     cdef public long long room, count, object_room, grounded_text
     cdef public long long pending
-    cdef public bint is_energetic
     cdef public list free, refusals
     cdef public long long[::1] token, sign, holder, quantity
     cdef public long long[::1] start, end, duration, on, start_low
-    cdef public long long[::1] start_high, end_low, end_high, is_resource
+    cdef public long long[::1] start_high, end_low, end_high, is_resource, is_energetic
     cdef public long long[::1] profile, changed, limits
     cdef public double[::1] least, most
     cdef public dict steps
@@ -65,7 +64,7 @@ cdef class Resources:
     cpdef double upper(self, long long place, double otherwise) except? -1.0
 
     @cython.locals(o="long long")
-    cpdef int stir(self) except -1
+    cpdef int set_energetic(self, long long o, bint is_energetic) except -1
 
     @cython.locals(
         c="long long", i="long long", k="long long", levels=Levels, sign="long long", span_owner="long long",

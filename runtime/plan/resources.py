@@ -69,6 +69,7 @@ class Resources:
         # Resources: the variables of their limits, and whether one of their uses has changed.
         self.object_room = ROOM
         self.is_resource = blank(ROOM)
+        self.is_energetic = blank(ROOM)  # also refuse what cannot fit into a window
         self.profile = blank(ROOM)  # the variable that chooses how levels are computed
         self.grounded_text = NONE
         self.changed = blank(ROOM)
@@ -76,7 +77,6 @@ class Resources:
         self.steps: dict[int, list[tuple[int, float, float]]] = {}  # set_capacity: from when on, between what
         self.pending = 0
         self.refusals: list[int] = []
-        self.is_energetic = False  # also refuse what cannot fit into a window
 
     # ---- resources and uses ----
 
@@ -85,6 +85,7 @@ class Resources:
         while o >= self.object_room:
             self.object_room *= 2
             self.is_resource = grown(self.is_resource, self.object_room)
+            self.is_energetic = grown(self.is_energetic, self.object_room)
             self.profile = grown(self.profile, self.object_room)
             self.changed = grown(self.changed, self.object_room)
             self.limits = grown(self.limits, self.object_room * LIMITS)
@@ -210,7 +211,7 @@ class Resources:
                 by_order = False
                 if not self.levels.violation():
                     by_order = self.levels.flows_both_ways() and envelope.find_certain(o)
-                    is_tight = not by_order and self.is_energetic and o not in self.steps
+                    is_tight = not by_order and self.is_energetic[o] != 0 and o not in self.steps
                     is_tight = is_tight and self.levels.overload() != 0
                     if not by_order and not is_tight:
                         continue
@@ -261,11 +262,12 @@ class Resources:
         """The upper bound of a limit."""
         return otherwise if self.limits[place] < 0 else self.engine.fhi[self.limits[place]]
 
-    def stir(self) -> None:
-        """Have every resource checked again."""
-        for o in range(self.object_room):
-            self.changed[o] = self.is_resource[o]
-        self.pending = 1
+    def set_energetic(self, o: int, is_energetic: bool) -> None:
+        """Have resource `o` refuse what cannot fit into a window, or no longer."""
+        if o < self.object_room and self.is_energetic[o] != is_energetic:
+            self.is_energetic[o] = is_energetic
+            self.changed[o] = 1
+            self.pending = 1
 
     def refuse(self, o: int, level: int, envelope: "Envelope | None") -> bool:
         """Post a constraint on the uses that exceed a resource: it finds the same, so that the engine can explain it.

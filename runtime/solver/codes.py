@@ -81,3 +81,8 @@ EVERYTHING = -2
 
 # ---- after all that has happened ----
 NOW = 2**62
+
+# ---- restarts: failures before the first one, sizes that are told apart, and how finely weights divide them ----
+FEW_FAILURES = 250
+LARGEST_SIZE = 2**44
+WEIGHT_SCALE = 2**16

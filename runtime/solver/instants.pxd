@@ -8,7 +8,12 @@ from runtime.solver.uses cimport Uses
 
 cdef long long APPLIED, CONCURRENT_FIRST, CONCURRENT_ONLY, CONSTRAINT_FIRST, FAILED_CHOICE, NONE, NO_CHOICE
 cdef long long PRECEDES_FIRST, PREFER_EARLIEST, PREFER_LATEST, PREFER_LEAST, PREFER_LOWER, PREFER_MOST, PREFER_UPPER
+cdef long long RESOURCE_THREAT
 cdef double BEST_PRIORITY
+
+
+@cython.locals(manager="long long")
+cpdef bint is_mended(Queues q, long long o) except -1
 
 
 @cython.locals(

@@ -16,10 +16,22 @@ from runtime.solver.codes import (
     PREFER_LOWER,
     PREFER_MOST,
     PREFER_UPPER,
+    RESOURCE_THREAT,
 )
 from runtime.solver.decisions import Decisions
 from runtime.solver.pairs import sorted_pairs
 from runtime.solver.queues import Queues
+
+
+def is_mended(q: Queues, o: int) -> bool:
+    """Whether object `o` is a resource, and some manager sees to it that it is never used too much."""
+    if o >= q.plan.resources.object_room or not q.plan.resources.is_resource[o]:
+        return False
+    for manager in range(q.treatments.managers):
+        if q.treatments.manager_kind[manager] == RESOURCE_THREAT:
+            if q.treatments.instant_row(manager, q.plan.object_class[o]) >= 0:
+                return True
+    return False
 
 
 def select_instant(q: Queues, manager: int) -> int:

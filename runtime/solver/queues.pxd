@@ -12,6 +12,7 @@ from runtime.solver.reach cimport Reach
 from runtime.solver.supports cimport Supports
 from runtime.solver.treatments cimport Treatments
 from runtime.solver.uses cimport Uses
+from runtime.solver.weights cimport Weights
 
 cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FREED, LISTS, LIST_ORDER, NONE, NO_KEY, OBJECT, ROLE_TOKEN
 cdef long long START, UNBOUND_VARIABLE, UNDO_BRANCH, UNDO_INPUTS
@@ -29,6 +30,7 @@ cdef class Queues:
     cdef public Reach from_start, to_start, from_end, to_end
     cdef public Uses uses
     cdef public Heap takers
+    cdef public Weights weights
     cdef public CustomManager custom
     cdef public long long found_at, found_low, managers, level, found_manager, found_kind, found_item, found_handler
     cdef public long long token_room, variable_room, edge_room, constraint_room, restriction_room, loose_count
@@ -72,6 +74,8 @@ cdef class Queues:
 
     @cython.locals(heap="long long", key="long long", queue=Heap, v="long long")
     cpdef long long offer_variable(self, long long slot) except? -1
+
+    cpdef long long rank(self, long long v) except? -1
 
     @cython.locals(heap="long long", slot="long long")
     cpdef long long resize(self, long long v) except? -1

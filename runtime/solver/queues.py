@@ -24,6 +24,7 @@ from runtime.solver.reach import Reach
 from runtime.solver.supports import Supports
 from runtime.solver.treatments import Treatments
 from runtime.solver.uses import Uses
+from runtime.solver.weights import Weights
 from runtime.solver.widening import widened
 
 
@@ -53,6 +54,7 @@ class Queues:
         self.to_end = Reach(plan.engine, exact)
         self.uses = Uses(plan, self.distances, array("q", [0]))
         self.takers = Heap()
+        self.weights = Weights(plan.engine)
         self.has_custom = False
         self.custom = CustomManager()
         self.found_at = 0
@@ -259,12 +261,16 @@ class Queues:
                 self.variable_key[slot] = 0
                 self.add_loose(slot, 1)
             return 0
-        key = self.filters.size(v) if self.sorted_by_size[heap] else 0
+        key = self.rank(v) if self.sorted_by_size[heap] else 0
         if self.variable_key[slot] == NO_KEY or key < self.variable_key[slot]:
             self.variable_key[slot] = key
             queue = self.heaps[heap]
             queue.push(key, v, slot)
         return 0
+
+    def rank(self, v: int) -> int:
+        """What sorts variables of equal priority: smaller first."""
+        return self.weights.rank(v, self.filters.size(v))
 
     def resize(self, v: int) -> int:
         """Move a variable whose domain has become smaller to the front."""

@@ -9,20 +9,21 @@ from runtime.solver.blame cimport Blame
 from runtime.solver.choices cimport mend
 from runtime.solver.decisions cimport Decisions
 from runtime.solver.filters cimport Filters
+from runtime.solver.instants cimport is_mended
 from runtime.solver.queues cimport Queues
 from runtime.solver.selection cimport select
 from runtime.solver.shortage cimport complete
 from runtime.solver.watching cimport catch_up, fill, note_levels
 
 cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
-cdef long long RESOURCE_THREAT, TIMEOUT
+cdef long long RESOURCE_THREAT, TIMEOUT, UNBOUND_VARIABLE
 
 
 cdef class Solver:
     cdef public object database, account, nogoods
     cdef public Plan plan
     cdef public Engine engine
-    cdef public bint europa, has_active, is_exhausted, is_started
+    cdef public bint europa, has_active, is_exhausted, is_started, is_close, may_restart
     cdef public Filters filters
     cdef public Queues queues
     cdef public Decisions stack
@@ -35,6 +36,7 @@ cdef class Solver:
 
     cpdef int set_custom(self, object manager) except -1
 
+    @cython.locals(o="long long")
     cpdef int refresh(self) except -1
 
     cpdef int keep(self) except -1
@@ -53,6 +55,12 @@ cdef class Solver:
     @cython.locals(stack=Decisions)
     cpdef long long go_to(self, long long d) except? -1
 
+    @cython.locals(heap="long long", q=Queues)
+    cpdef bint is_reordered(self, long long d) except -1
+
+    cpdef long long begin_anew(self) except? -1
+
+    @cython.locals(o="long long")
     cpdef int look_closer(self) except -1
 
     @cython.locals(d="long long", q=Queues, stack=Decisions)

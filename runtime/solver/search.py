@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 
-from compiler.program import Foreach
 from runtime.plan.codes import REJECTED
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import settle
@@ -21,13 +20,16 @@ from runtime.solver.codes import (
     PLAN,
     RESOURCE_THREAT,
     TIMEOUT,
+    UNBOUND_VARIABLE,
 )
 from runtime.solver.configuration import Configuration
 from runtime.solver.custom import CustomManager
 from runtime.solver.decisions import Decisions
 from runtime.solver.filters import Filters, Scope
+from runtime.solver.freedom import has_loops, is_any_order_right
+from runtime.solver.instants import is_mended
 from runtime.solver.matching import Matching
-from runtime.solver.nogoods import Nogoods, has_any
+from runtime.solver.nogoods import Nogoods
 from runtime.solver.queues import Queues
 from runtime.solver.selection import select
 from runtime.solver.shortage import complete
@@ -54,13 +56,15 @@ class Solver:
         matching = Matching(configuration, database.program)
         treatments = Treatments(matching, Texts(database), len(database.program.predicates))
         self.filters = Filters(self.plan, treatments, lower, upper)
-        # A loop in a rule settles what its variable may be: whether there is a plan hangs on what is decided before.
-        in_order = europa or any(has_any(rule.body, (Foreach,)) for rule in database.program.rules)
-        self.queues = Queues(self.plan, treatments, self.filters, Supports(database.program, europa), europa, in_order)
+        program = database.program
+        supports = Supports(program, europa)
+        in_order = europa or has_loops(program)
+        self.may_restart = not europa and is_any_order_right(program, self.plan, treatments, supports)
+        self.queues = Queues(self.plan, treatments, self.filters, supports, europa, in_order)
         self.queues.uses = Uses(self.plan, self.queues.distances, grounded(database))
         self.stack = Decisions()
         self.blame = Blame(self.queues, self.stack)
-        self.nogoods = Nogoods(database.program, self.queues, self.stack)
+        self.nogoods = Nogoods(program, self.queues, self.stack)
         self.steps = 0
         self.failures = 0
         self.steps_floor = 0
@@ -70,6 +74,7 @@ class Solver:
         self.has_active = False
         self.is_exhausted = False
         self.is_started = False
+        self.is_close = False  # it looks whether uses fit at all
         self.account: Account | None = None  # who is told of failures
 
     @property
@@ -99,8 +104,11 @@ class Solver:
         assert self.stack.depth == 0
         self.is_started = True
         self.has_active = False
-        self.plan.resources.is_energetic = False
+        self.is_close = False
+        for o in range(self.plan.object_count):
+            self.plan.resources.set_energetic(o, False)
         self.nogoods.clear()
+        self.queues.weights.clear()
         self.is_exhausted = not settle(self.plan)
         fill(self.queues)
 
@@ -142,6 +150,8 @@ class Solver:
         q = self.queues
         is_hopeless = False
         while not self.is_exhausted:
+            if q.weights.is_due():
+                self.begin_anew()
             d = stack.depth
             if not self.has_active:
                 if d == 0:
@@ -175,6 +185,8 @@ class Solver:
             if not self.europa:
                 note_levels(q, d + 1)
                 is_hopeless = self.blame.learn(d)
+                if self.may_restart and self.is_reordered(d):
+                    q.weights.note_failure()
             rewind(self.plan, stack.mark[d])
             self.look_closer()
             if is_hopeless:
@@ -197,11 +209,30 @@ class Solver:
         self.go_to(d)
         return True
 
+    def is_reordered(self, d: int) -> bool:
+        """Whether decision `d` may come at another time in another run, so that its failures count for a restart.
+
+        An account wants to be told why each choice fails, and of one run.
+        """
+        q = self.queues
+        if self.stack.kind[d] != UNBOUND_VARIABLE or q.has_custom or self.account is not None:
+            return False
+        heap = q.treatments.heap_of[q.variable_row[self.stack.item[d] * q.managers + self.stack.manager[d]]]
+        return heap >= 0 and q.sorted_by_size[heap] != 0
+
+    def begin_anew(self) -> int:
+        """Go back to the root; nogoods stay, and in every second run variables that were in conflicts come first."""
+        self.take_back()
+        self.queues.weights.begin_anew()
+        fill(self.queues)
+        return 0
+
     def look_closer(self) -> int:
-        """Check from now on whether the uses of resources fit at all: worth its time only where choices fail."""
-        if not self.europa and not self.plan.resources.is_energetic:
-            self.plan.resources.is_energetic = True
-            self.plan.resources.stir()
+        """Check from now on whether uses fit at all where they must in the end: worth its time where choices fail."""
+        if not self.europa and not self.is_close:
+            self.is_close = True
+            for o in range(self.plan.object_count):
+                self.plan.resources.set_energetic(o, is_mended(self.queues, o))
         return 0
 
     def enter(self) -> int:

@@ -132,9 +132,9 @@ def first_variable(q: Queues, number: int) -> int:
         elif q.filters.keeps_variable(row, v):
             heap.pop()
             q.park_variable(slot, q.filters.token_of(v) if q.filters.waits_for_times(row) else NONE)
-        elif q.sorted_by_size[number] and q.filters.size(v) != heap.top_key():
+        elif q.sorted_by_size[number] and q.rank(v) != heap.top_key():
             heap.pop()
-            q.variable_key[slot] = q.filters.size(v)
+            q.variable_key[slot] = q.rank(v)
             heap.push(q.variable_key[slot], v, slot)
         else:
             return slot
