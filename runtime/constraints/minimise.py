@@ -1,12 +1,20 @@
-"""Check that a set of causes is itself inconsistent, and shrink it, by propagating subsets in a scratch engine."""
+"""Check that a set of causes is itself inconsistent, and shrink it, by propagating subsets in a scratch engine.
+
+What propagation finds hangs on what is known: a function that waits for its arguments says nothing before, so all that
+makes them known seems needed. Therefore a second pass leaves out what is not needed by what the constraints mean: there
+functions narrow intervals at once (`foresight`), and a few values are tried (`cases`).
+"""
 
 from collections.abc import Sequence
 
+from runtime.constraints import codes
 from runtime.constraints.bases import is_listing
+from runtime.constraints.cases import Patience, fails_in_all_cases
 from runtime.constraints.cause import Cause, CauseKind
 from runtime.constraints.codes import (
     FLAG_VALUES,
     KIND_BOOL,
+    MODE_EDGES,
     OP_ELEMENT,
     OP_EXTERNAL,
     OP_RAND,
@@ -18,8 +26,20 @@ from runtime.constraints.codes import (
 from runtime.constraints.engine import Engine
 from runtime.constraints.explain import cause_of
 from runtime.constraints.external import External
+from runtime.constraints.foresight import foresee
 
 MOST_ROUNDS = 50
+MOST_STEPS = 3000  # causes carried out while looking for what can be left out; a case counts as several
+# What these say hangs on what is known of domains: trying values would tell nothing.
+OF_DOMAINS = (
+    codes.OP_TEST_SINGLETON,
+    codes.OP_TEST_SPECIFIED,
+    codes.OP_SUBSET_OF,
+    codes.OP_EQ_UNION,
+    codes.OP_MEMBER_IMPLY,
+    codes.OP_LOCK,
+    codes.OP_BIND,
+)
 
 
 def sufficient(engine: Engine) -> list[Cause]:
@@ -35,14 +55,30 @@ def minimise(engine: Engine, causes: Sequence[Cause]) -> list[Cause]:
     scratch = Scratch(engine)
     if not scratch.refutes(causes):
         return list(causes)
-    return scratch.shrunk([], list(causes), False)
+    return without_spare(engine, scratch.shrunk([], list(causes), False))
+
+
+def without_spare(engine: Engine, causes: list[Cause]) -> list[Cause]:
+    """Leave out, the last first, each cause without which the others still contradict each other by what they mean."""
+    if all(cause.kind is not CauseKind.CONSTRAINT or engine.mode[cause.id] == MODE_EDGES for cause in causes):
+        return causes  # of differences and bounds propagation sees all
+    scratch = Scratch(engine, Patience(MOST_STEPS))
+    for cause in reversed(causes):
+        others = [other for other in causes if other is not cause]
+        if scratch.refutes(others):
+            causes = others
+    return causes
 
 
 class Scratch:
-    """An empty engine with copies of another one's variables, into which subsets of its causes are posted."""
+    """An empty engine with copies of another one's variables, into which subsets of its causes are posted.
 
-    def __init__(self, engine: Engine) -> None:
+    With `patience` it goes by what constraints mean for values, whatever is known, as far as the patience lasts.
+    """
+
+    def __init__(self, engine: Engine, patience: Patience | None = None) -> None:
         self.engine = engine
+        self.patience = patience
         self.copy = Engine()
         self.copy.holes = engine.holes
         self.copy.object_parent = engine.object_parent
@@ -71,17 +107,18 @@ class Scratch:
         return w
 
     def refutes(self, causes: Sequence[Cause]) -> bool:
-        """Tell whether propagation finds a set of causes inconsistent."""
-        for cause in causes:
-            for v in self.arguments(cause):
-                self.variable(v)
+        """Tell whether propagation, or with patience looking ahead too, finds a set of causes inconsistent."""
+        if self.patience is not None and self.patience.is_over(len(causes)):
+            return False
+        variables = list(dict.fromkeys(self.variable(v) for cause in causes for v in self.arguments(cause)))
         mark = self.copy.mark()
         holds = True
         for cause in causes:
             holds = holds and self.carry_out(cause)
         holds = holds and self.copy.propagate()
+        fails = not holds or (self.patience is not None and fails_in_all_cases(self.copy, variables, self.patience))
         self.copy.rewind(mark)
-        return not holds
+        return fails
 
     def arguments(self, cause: Cause) -> list[int]:
         """List the variables of a cause."""
@@ -106,7 +143,7 @@ class Scratch:
             lo, hi = engine.restriction_lo[k], engine.restriction_hi[k]
             return copy.restrict_base(variables[0], lo, hi, cause.span, cause.owner)
         op = engine.op[k]
-        if op == OP_WATCH:
+        if op == OP_WATCH or (self.patience is not None and op in OF_DOMAINS):
             return True
         if op == OP_ELEMENT:
             keys = engine.keys(k)
@@ -117,6 +154,8 @@ class Scratch:
             if external.is_repeatable:
                 copy.post_external(external, variables, cause.span, cause.owner)
         else:
+            if self.patience is not None and foresee(copy, op, variables, cause.span, cause.owner):
+                return True
             c = copy.post(op, variables, cause.span, cause.owner)
             if op == OP_RAND:
                 copy.aux[c] = engine.aux[k]

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Callable, Sequence
-from datetime import UTC, datetime, timedelta
 
 from runtime.constraints import codes
 
@@ -63,12 +62,21 @@ def angle(x: float) -> float:
     return x - 360.0 * math.floor((x + 180.0) / 360.0)
 
 
+def days_before(year: int) -> int:
+    """Count the days from the start of 1970 to that of another year, in the calendar of Gregory."""
+    leaps = [y // 4 - y // 100 + y // 400 for y in (year - 1, 1969)]
+    return 365 * (year - 1970) + leaps[0] - leaps[1]
+
+
 def is_date(tick: float, seconds: float, day: float, year: float) -> bool:
     """Tell whether a tick of one second, counted from the start of 1970, is that of a date."""
-    if abs(tick) > 3e10:
+    if (
+        year != int(year)
+        or not 0 <= seconds < 86400
+        or not 1 <= day <= days_before(int(year) + 1) - days_before(int(year))
+    ):
         return False
-    at = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(seconds=tick)
-    return (seconds, day, year) == (at.hour * 3600 + at.minute * 60 + at.second, at.timetuple().tm_yday, at.year)
+    return tick == (days_before(int(year)) + day - 1) * 86400 + seconds
 
 
 def sphere_distance(lat1: float, lon1: float, lat2: float, lon2: float) -> float:
@@ -102,7 +110,11 @@ def displacement(lat: float, lon: float, other_lat: float, other_lon: float) -> 
 
 
 def is_displaced(lat: float, lon: float, north: float, east: float, to_lat: float, to_lon: float) -> bool:
-    """Tell whether a position lies north and east of another, within the tolerance of positions."""
+    """Tell whether a position lies north and east of another on its side of the earth, within the tolerance."""
+    if abs(to_lat) > 90 or abs(to_lon - lon) > 180:
+        return False
+    if sum(x * y for x, y in zip(unit(lat, lon), unit(to_lat, to_lon), strict=True)) < 0:
+        return False
     n, e = displacement(lat, lon, to_lat, to_lon)
     metres = 111_700.0 * (DEGREES + TOLERANCE)
     return abs(n - north) <= metres and abs(e - east) <= metres

@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable
 
 from runtime.build_form import build_form
-from tests.constraints import random_networks, random_reals, random_sets
+from tests.constraints import random_conflicts, random_networks, random_reals, random_sets
 from tests.constraints.signatures import SIGNATURES
 from tests.constraints.test_explanations import explain_and_shrink
 from tests.constraints.test_propagation import compare_with_naive_fixpoint
@@ -69,9 +69,10 @@ def main() -> None:
     wrong += judged("constraint sets, solutions", count, lambda seed: random_sets.judge_search(seed, sets))
     print(f"  {sets.solutions} solutions, {sets.refuted} sets without any, {sets.nodes} decisions tried")
     print(f"  {len(sets.posts)} of {len(SIGNATURES)} operations, each at least {min(sets.posts.values())} times")
-    wrong += judged("constraint sets, conflicts", count, lambda seed: random_sets.judge_conflict(seed, sets))
-    print(f"  {sets.conflicts} conflicts, {share(sets.spare, sets.elements)}")
-    print(f"  with functions that wait for their arguments: {share(sets.far_spare, sets.far_elements)}")
+    wrong += judged("constraint sets, conflicts", count, lambda seed: random_conflicts.judge_conflict(seed, sets))
+    print(f"  {sets.conflicts} conflicts, {share(sets.spare + sets.far_spare, sets.elements + sets.far_elements)}")
+    print(f"  without functions that wait for their arguments: {share(sets.spare, sets.elements)}")
+    print(f"  with such functions: {share(sets.far_spare, sets.far_elements)}")
     reals = random_reals.Tally()
     wrong += judged("solutions in reals", count, lambda seed: random_reals.judge_reals(seed, reals))
     print(f"  {reals.narrowed} bounds narrowed around them, {len(reals.posts)} operations")

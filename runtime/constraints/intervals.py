@@ -1,0 +1,66 @@
+"""Add, multiply and turn intervals of reals: pairs of bounds in, the bounds of all results out, rounded outward."""
+
+import math
+from math import inf
+
+Interval = tuple[float, float]
+
+ROUGH = 1e-9  # more than sums, products, powers and sines of doubles are wrong by, relatively
+
+
+def outward(lo: float, hi: float) -> Interval:
+    """Widen by what computing may have cost."""
+    return lo - abs(lo) * ROUGH - ROUGH if lo > -inf else lo, hi + abs(hi) * ROUGH + ROUGH if hi < inf else hi
+
+
+def added(x: Interval, y: Interval) -> Interval:
+    """Give the interval of x + y."""
+    return outward(x[0] + y[0], x[1] + y[1])
+
+
+def taken(x: Interval, y: Interval) -> Interval:
+    """Give the interval of x - y."""
+    return outward(x[0] - y[1], x[1] - y[0])
+
+
+def times(x: float, y: float) -> float:
+    """Multiply; infinity times 0 is 0, as the limit of a finite bound."""
+    return 0.0 if x == 0.0 or y == 0.0 else x * y
+
+
+def multiplied(x: Interval, y: Interval) -> Interval:
+    """Give the interval of x * y."""
+    corners = [times(a, b) for a in x for b in y]
+    return outward(min(corners), max(corners))
+
+
+def magnitude(x: Interval) -> Interval:
+    """Give the interval of |x|."""
+    return max(0.0, x[0], -x[1]), max(-x[0], x[1])
+
+
+def sine(x: Interval) -> Interval:
+    """Give the interval of the sine of degrees."""
+    lo, hi = x
+    if not hi - lo < 360.0:
+        return -1.0, 1.0
+    ends = [math.sin(math.radians(math.fmod(a, 360.0))) for a in x]
+    has_peak = 90.0 + 360.0 * math.ceil((lo - 90.0 - ROUGH) / 360.0) <= hi + ROUGH
+    has_trough = -90.0 + 360.0 * math.ceil((lo + 90.0 - ROUGH) / 360.0) <= hi + ROUGH
+    least, most = outward(min(ends), max(ends))
+    return -1.0 if has_trough else max(-1.0, least), 1.0 if has_peak else min(1.0, most)
+
+
+def cosine(x: Interval) -> Interval:
+    """Give the interval of the cosine of degrees."""
+    return sine((x[0] + 90.0, x[1] + 90.0))
+
+
+def raised(x: float, y: float) -> float:
+    """Raise a number that is not negative to a power; infinity where doubles end."""
+    if x == 0.0:
+        return inf if y < 0.0 else 1.0 if y == 0.0 else 0.0
+    if x == inf:
+        return inf if y > 0.0 else 1.0 if y == 0.0 else 0.0
+    exponent = times(y, math.log(x))
+    return math.exp(exponent) if exponent < 709.0 else inf
