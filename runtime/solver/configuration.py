@@ -1,6 +1,6 @@
 """Hold what a solver is told: which flaws it mends, in which order, and how; as frozen data."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from runtime.solver.codes import WORST_PRIORITY
 
@@ -71,12 +71,16 @@ class FlawHandler:
 
 @dataclass(frozen=True, slots=True)
 class FlawManager:
-    """One kind of flaw, what is left out of it, and how it is mended; `order` sorts flaws of resources."""
+    """One kind of flaw, what is left out of it, and how it is mended; `order` sorts flaws of resources.
+
+    A manager of resources leaves nothing out, unless it stands `for_tokens`: see `with_resources`.
+    """
 
     component: str
     filters: tuple[FlawFilter, ...] = ()
     handlers: tuple[FlawHandler, ...] = ()
     order: tuple[str, ...] = ()
+    for_tokens: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +90,23 @@ class Configuration:
     name: str
     filters: tuple[FlawFilter, ...]
     managers: tuple[FlawManager, ...]
+
+
+def with_resources(configuration: Configuration) -> Configuration:
+    """The configuration as a model with resources reads it, EUROPA's way.
+
+    Where no manager of resources is named, one of timelines also orders the tokens that use a resource too much, unless
+    its filters exclude them.
+    """
+    if any(manager.component == "ResourceThreatManager" for manager in configuration.managers):
+        return configuration
+    managers: list[FlawManager] = []
+    for manager in configuration.managers:
+        managers.append(manager)
+        if manager.component == "ThreatManager":
+            handlers = tuple(replace(one, component="ResourceThreatHandler", order=()) for one in manager.handlers)
+            managers.append(FlawManager("ResourceThreatManager", manager.filters, handlers, for_tokens=True))
+    return replace(configuration, managers=tuple(managers))
 
 
 def default_configuration() -> Configuration:

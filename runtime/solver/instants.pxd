@@ -2,6 +2,7 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
+from runtime.plan.resources cimport Resources
 from runtime.solver.decisions cimport Decisions
 from runtime.solver.queues cimport Queues
 from runtime.solver.uses cimport Uses
@@ -21,6 +22,10 @@ cpdef bint is_mended(Queues q, long long o) except -1
     o="long long", priority="double", row="long long", takes_first=bint, uses=Uses
 )
 cpdef long long select_instant(Queues q, long long manager) except? -1
+
+
+@cython.locals(u="long long", uses=Resources)
+cpdef bint is_in_scope(Queues q, long long row, long long o) except -1
 
 
 @cython.locals(at="long long", code="long long", difference="double", excess="double", k="long long", low="long long")

@@ -49,7 +49,7 @@ def select_instant(q: Queues, manager: int) -> int:
         if o >= q.plan.resources.object_room or not q.plan.resources.is_resource[o]:
             continue
         row = q.treatments.instant_row(manager, q.plan.object_class[o])
-        if row < 0:
+        if row < 0 or (q.treatments.filter_count[row] and not is_in_scope(q, row, o)):
             continue
         handler = q.handler_now(row, NONE)
         priority = q.treatments.handler_priority[handler]
@@ -76,6 +76,15 @@ def select_instant(q: Queues, manager: int) -> int:
         q.found_at = at
         q.found_low = low
     return 0
+
+
+def is_in_scope(q: Queues, row: int, o: int) -> bool:
+    """Whether the filters of `row` let through some token that uses resource `o`."""
+    uses = q.plan.resources
+    for u in range(uses.count):
+        if uses.sign[u] and uses.on[u] == o and uses.token[u] >= 0 and not q.filters.keeps_token(row, uses.token[u]):
+            return True
+    return False
 
 
 def is_better(q: Queues, manager: int, other_at: int, other_low: int, other_excess: float) -> bool:

@@ -113,6 +113,7 @@ STANDARD = {
     UNBOUND_VARIABLE: "StandardVariableHandler",
     RESOURCE_THREAT: "ResourceThreatHandler",
 }
+COUNTED = "CBReusable"  # is used without tokens
 BUILT_IN = ("state", "object", "duration", "start", "end")  # variables of every token, in order
 SIMILAR_RELATIONS = {"before": ("before", "meets"), "after": ("after", "met_by")}
 
@@ -214,7 +215,11 @@ class Matching:
         return self.treat(manager, None, None, variable, VARIABLE_FILTERS)
 
     def instant(self, manager: int, resource: str) -> Treatment | None:
-        """What manager number `manager` does about a resource of class `resource`; filters do not concern it."""
+        """What manager number `manager` does about a resource of class `resource`; mostly filters do not concern it."""
+        if self.managers[manager].for_tokens:
+            return (
+                None if COUNTED in self.ancestry(resource) else self.treat(manager, None, resource, None, TOKEN_FILTERS)
+            )
         fitting = [h for h in self.handlers_of[manager] if self.fits(self.handlers[h].match, None, resource, None)]
         return Treatment((), self.sorted(fitting))
 

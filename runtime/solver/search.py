@@ -22,7 +22,7 @@ from runtime.solver.codes import (
     TIMEOUT,
     UNBOUND_VARIABLE,
 )
-from runtime.solver.configuration import Configuration
+from runtime.solver.configuration import Configuration, with_resources
 from runtime.solver.custom import CustomManager
 from runtime.solver.decisions import Decisions
 from runtime.solver.filters import Filters, Scope
@@ -53,6 +53,8 @@ class Solver:
         self.engine = database.plan.engine
         self.europa = europa
         self.engine.holes = not europa  # EUROPA keeps an int that is an interval without holes
+        if any(self.plan.resources.is_resource[o] for o in range(self.plan.object_count)):
+            configuration = with_resources(configuration)
         matching = Matching(configuration, database.program)
         treatments = Treatments(matching, Texts(database), len(database.program.predicates))
         self.filters = Filters(self.plan, treatments, lower, upper)
