@@ -15,7 +15,9 @@ cdef long long UNDO_NEW_TOKEN, UNDO_STATUS
 cpdef long long fill(Queues q) except? -1
 
 
-@cython.locals(at="long long", code="long long", engine=Engine, name="long long", rows=Rows, t="long long")
+@cython.locals(
+    at="long long", code="long long", engine=Engine, name="long long", rows=Rows, slot="long long", t="long long"
+)
 cpdef long long catch_up(Queues q, long long level) except? -1
 
 

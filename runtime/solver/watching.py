@@ -81,6 +81,9 @@ def catch_up(q: Queues, level: int) -> int:
             t = rows.trail_index[at]
             q.token_level[t] = level
             q.token_parked[t] = 0
+            for slot in range(t * q.managers, t * q.managers + q.managers):
+                q.token_row[slot] = NONE  # a token that was undone may have had its number
+                q.token_key[slot] = NO_KEY
             if rows.status[t] == INACTIVE:
                 add_open(q, t)
         elif rows.trail_code[at] == UNDO_LINK and rows.trail_index[at] % LISTS == LIST_ORDER:

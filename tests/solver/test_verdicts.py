@@ -133,3 +133,22 @@ def test_a_conflict_over_a_resource_goes_back_past_what_has_no_part_in_it(tmp_pa
     assert steps[0].steps < 60
     steps[1].solve(500, 2**60)
     assert steps[1].steps == 500
+
+
+@pytest.mark.parametrize("europa", [False, True])
+def test_what_was_known_of_a_token_that_was_undone_is_forgotten(tmp_path: Path, europa: bool) -> None:
+    text = """
+    class T extends Timeline { predicate p { leq(0, start); leq(end, 6); } predicate q { leq(0, start); leq(end, 6); } }
+    T t0 = new T();
+    T t1 = new T();
+    Unary r = new Unary();
+    close();
+    T::p { duration <= 1; starts_during(t1.q c); contains(Unary.use u); }
+    T::q { meets(Unary.use u); }
+    goal(T.p a);
+    goal(t0.q b);
+    goal(T.q c);
+    c.start = [5 6];
+    """
+    solver = solver_for(tmp_path, text, europa=europa, horizon=(-10, 1000), how=resources_configuration())
+    assert solver.solve(2000, 2**60) == PLAN
