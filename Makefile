@@ -8,6 +8,7 @@
 #   make lint types   ruff; mypy
 #   make compiled     the tests with the engine compiled; `make interpreted` those it matters for, uncompiled
 #   make format       let ruff format and mend what it can
+#   make plan-proof   MODELS (20000) random whole models beside judges that know only the models
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
@@ -25,7 +26,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof conformance corpus rules bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof conformance corpus rules bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -100,6 +101,11 @@ EXAMPLES := 100000
 
 engine-proof: build
 	$(BIN)/python -m tests.constraints.proof $(EXAMPLES)
+
+MODELS := 20000
+
+plan-proof: build
+	$(BIN)/python -m tests.solver.whole.proof $(MODELS)
 
 conformance: build
 	$(PYTEST) tests/conformance
