@@ -4,19 +4,22 @@ import gc
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import takewhile
 from pathlib import Path
 from typing import Any
 
 from compiler.lower import compile_model
 from compiler.program import Program
-from nddl_lang.analysis import analyse_file
+from nddl_lang.analysis import Analysis, analyse, analyse_file
 from nddl_lang.syntax.dialect import Dialect
+from nddl_lang.syntax.nodes import Module
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import as_dict
 from nddlc.libraries import library_of
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout import read
+from runtime.user.library import Library
 
 Facts = dict[str, Any]
 
@@ -56,12 +59,35 @@ def load(path: Path, directories: tuple[str, ...], dialect: Dialect | None, name
     analysis = analyse_file(path, dialect, directories, library.callables)
     found = tuple(analysis.diagnostics)
     if any(each.severity is Severity.ERROR for each in found):
-        return Loaded(file, found, None, None)
+        fault = _fault_above(analysis, library)
+        return Loaded(file, found if fault is None else (fault, *found), None, None)
+    program, database, fault = _run(analysis, library)
+    return Loaded(file, found if fault is None else (*found, fault), program, database)
+
+
+def _run(analysis: Analysis, library: Library) -> tuple[Program, PlanDatabase, Diagnostic | None]:
+    """Compile a model without errors and run its script; what that stumbled over, if anything."""
     program = compile_model(analysis)
     database = PlanDatabase(program, constraints=library.constraints)
     with redirect_stdout(sys.stderr):  # what constraints print there would be read by programs
         fault = database.run_script()
-    return Loaded(file, found if fault is None else (*found, fault), program, database)
+    return program, database, fault
+
+
+def _fault_above(analysis: Analysis, library: Library) -> Diagnostic | None:
+    """What the script stumbles over before it comes to the first statement whose meaning is in error."""
+    errors = [each for each in analysis.diagnostics if each.severity is Severity.ERROR]
+    place = errors[0].span
+    if not all(_is_about_meaning(each) for each in errors):
+        return None
+    above = tuple(
+        takewhile(
+            lambda statement: statement.span.source is not place.source or statement.span.finish <= place.begin,
+            analysis.statements,
+        )
+    )
+    start = analyse(replace(analysis.loaded, module=Module(above)), library.callables)
+    return None if start.has_errors else _run(start, library)[2]
 
 
 def facts(loaded: Loaded) -> Facts:
