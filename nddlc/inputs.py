@@ -13,7 +13,7 @@ import click
 from nddl_lang.lint.configuration import find_configuration, read_configuration
 from nddl_lang.lint.settings import Settings
 from nddl_lang.syntax.dialect import Dialect
-from nddl_lang.syntax.roots import roots_among
+from nddl_lang.syntax.roots import parts_of, roots_among
 from nddl_lang.text.render import render
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -65,10 +65,15 @@ def models_in(names: tuple[str, ...], directories: tuple[str, ...]) -> list[Path
     return list(found)
 
 
-def parts_in(names: tuple[str, ...], models: list[Path]) -> frozenset[Path]:
-    """The files below directories that are no models of their own, resolved: they are known to be parts of these."""
+def parts_in(names: tuple[str, ...], models: list[Path], directories: tuple[str, ...]) -> frozenset[Path]:
+    """The files that are known to be parts of these models alone, resolved.
+
+    They are those below the directories that are named, and what no other file beside them includes.
+    """
     below = {path.resolve() for name in names if Path(name).is_dir() for path in Path(name).rglob("*.nddl")}
-    return frozenset(below - {path.resolve() for path in models})
+    named = [Path(name) for name in names if not Path(name).is_dir()]
+    alone = parts_of(models if named else [], [Path(directory) for directory in directories])
+    return frozenset((below | alone) - {path.resolve() for path in models})
 
 
 def _is_hidden(path: Path) -> bool:

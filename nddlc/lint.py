@@ -67,7 +67,7 @@ def command(
     gc.disable()
     ctx.call_on_close(gc.enable)
     codes = {name: tuple(_codes(given, name)) for name, given in (("select", select), ("ignore", ignore))}
-    parts = parts_in(files, paths)
+    parts = parts_in(files, paths, directories)
     checker = Checker(tuple(Path(directory) for directory in directories), chosen_dialect(ctx, dialect), parts)
     checked: list[tuple[Settings, tuple[Diagnostic, ...]]] = []
     found: list[Diagnostic] = []

@@ -135,13 +135,17 @@ def lint_structure(whole: Whole) -> Iterator[Diagnostic]:
         for instance in part.all(Instance)
         if (predicate := part.predicate_of(instance)) is not None
     ]
+    idle = list(_without_effect(graph))
     if roots:
-        yield from _unreachable(graph, roots)
+        yield from _unreachable(graph, roots, {predicate.full_name for _, predicate in idle})
     yield from _endless(graph)
-    yield from _without_effect(graph)
+    for node, predicate in idle:
+        help_ = "mark what it brings about, as in `meets(effect object.p q);`"
+        yield NO_EFFECT.at(node.name.span, help=help_, name=predicate.full_name)
 
 
-def _unreachable(graph: Graph, roots: list[Predicate]) -> Iterator[Diagnostic]:
+def _unreachable(graph: Graph, roots: list[Predicate], idle: set[str]) -> Iterator[Diagnostic]:
+    """What no goal leads to, but for the `idle`: of these it is said why."""
     whole, schema = graph.whole, graph.schema
     for owner in schema.classes.values():
         if AGENT_TIMELINE in schema.ancestry(owner.name) or owner.is_native:
@@ -157,7 +161,9 @@ def _unreachable(graph: Graph, roots: list[Predicate]) -> Iterator[Diagnostic]:
         dead = [
             (node, predicate)
             for node in part.all(PredicateDecl)
-            if (predicate := _declared(graph, part, node)) is not None and not _is_reached(graph, predicate, names)
+            if (predicate := _declared(graph, part, node)) is not None
+            and predicate.full_name not in idle
+            and not _is_reached(graph, predicate, names)
         ]
         if isinstance(part.node, ClassDecl) and len(dead) > 1 and len(dead) == len(part.all(PredicateDecl)):
             yield UNREACHABLE.at(part.node.name.span, what=f"any token of class `{part.node.name.name}`")
@@ -258,7 +264,7 @@ def _circle(name: str, followers: Followers) -> list[tuple[str, Request]]:
     return []
 
 
-def _without_effect(graph: Graph) -> Iterator[Diagnostic]:
+def _without_effect(graph: Graph) -> Iterator[tuple[PredicateDecl, Predicate]]:
     whole = graph.whole
     for part in whole.parts:
         for node in part.all(PredicateDecl):
@@ -276,5 +282,4 @@ def _without_effect(graph: Graph) -> Iterator[Diagnostic]:
                 for rule in graph.rules[name]
             ]
             if not any(request.is_effect for rule in rules + below for request in graph.requests[rule]):
-                help_ = "mark what it brings about, as in `meets(effect object.p q);`"
-                yield NO_EFFECT.at(node.name.span, help=help_, name=predicate.full_name)
+                yield node, predicate

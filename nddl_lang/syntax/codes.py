@@ -11,6 +11,7 @@ UNKNOWN_ESCAPE = Code("NDDL104", Severity.ERROR, "syntax", "`{text}` is no escap
 MALFORMED_NUMBER = Code("NDDL105", Severity.ERROR, "syntax", "`{text}` is no number")
 INTEGER_RANGE = Code("NDDL106", Severity.ERROR, "domain", "`{text}` does not fit in {bits} bits")
 UNDECODABLE = Code("NDDL107", Severity.WARNING, "syntax", "these bytes are not UTF-8 text")
+NOT_TEXT = Code("NDDL108", Severity.ERROR, "syntax", "this file is no text in UTF-8")
 
 # ---- statements ----
 

@@ -5,13 +5,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from nddl_lang.syntax.codes import INCLUDE_AGAIN, INCLUDE_CYCLE, MISSING_FILE, TOO_DEEP, UNREADABLE_FILE
+from nddl_lang.syntax.codes import INCLUDE_AGAIN, INCLUDE_CYCLE, MISSING_FILE, NOT_TEXT, TOO_DEEP, UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.syntax.nodes import ClassDecl, Include, Module, Statement
 from nddl_lang.syntax.parser import Parse, parse, parse_members
 from nddl_lang.text.diagnostic import Diagnostic, Note
-from nddl_lang.text.read import read_text
-from nddl_lang.text.source import Source
+from nddl_lang.text.read import is_text, read_text
+from nddl_lang.text.source import Anchor, Source, Span
 
 # The files that come with the package.
 LIBRARY = Path(__file__).parent.parent / "library"
@@ -102,7 +102,14 @@ class _Loader:
     def load(self, source: Source, path: Path, is_in_class: bool, include: Include | None = None) -> list[Any]:
         """The statements of `source` and, in their places, those of what it includes."""
         resolved = path.resolve()
-        parsed = self._parse_text(path, source, self._dialect, is_in_class)
+        if is_text(source.text):
+            parsed = self._parse_text(path, source, self._dialect, is_in_class)
+        else:
+            even, odd = source.text[2:42:2], source.text[3:43:2]
+            is_utf16 = ("\0" in even) != ("\0" in odd) and "\0" * len(odd) in (even, odd)
+            help_ = "it looks like UTF-16: save it as UTF-8" if is_utf16 else None
+            complaint = NOT_TEXT.at(Span(Anchor(source), 0, 0), help=help_)
+            parsed = Parse(source, self._dialect, Module(()), (complaint,), ())
         source = parsed.source
         self._read[resolved] = source
         self.paths[source] = path

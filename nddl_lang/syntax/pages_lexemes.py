@@ -6,6 +6,7 @@ from nddl_lang.syntax.codes import (
     INTEGER_RANGE,
     MALFORMED_NUMBER,
     MISSING_FILE,
+    NOT_TEXT,
     UNCLOSED_COMMENT,
     UNCLOSED_STRING,
     UNDECODABLE,
@@ -71,6 +72,14 @@ LEXEME_PAGES = (
         "printed is not the one that was meant.",
         "// Stra\ufffde\nint a = 1;\n",
         "// Straße\nint a = 1;\n",
+    ),
+    RulePage(
+        NOT_TEXT,
+        "The file is an image, a program, an archive, or a text in another encoding such as UTF-16: most of it cannot "
+        "be read as UTF-8.",
+        "Nothing in it is looked at, as each of its bytes would be another complaint.",
+        "\ufffdPNG\ufffd\ufffd\ufffd\ufffdIHDR\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\ufffd\n",
+        "int a = 1;\n",
     ),
     RulePage(
         MISSING_FILE,

@@ -1,7 +1,7 @@
 """Tell among files which are models of their own, and which are parts that others include."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from nddl_lang.text.read import read_text
@@ -12,26 +12,60 @@ _INCLUDE = re.compile(r'^[ \t]*#include[ \t]*"([^"\n]+)"', re.MULTILINE)
 def roots_among(files: Sequence[Path], directories: Sequence[Path] = ()) -> list[Path]:
     """The files that no other one includes; of files that include each other in a circle, the first."""
     by_key = {file.resolve(): file for file in files}
-    included: dict[Path, list[Path]] = {}
-    for key, file in by_key.items():
-        names = _INCLUDE.findall(_text(file))
-        places = [place / name for name in names for place in (file.parent, *directories)]
-        included[key] = [target for place in places if (target := place.resolve()) in by_key and target != key]
+    included = {key: [each for each in _included(file, directories) if each in by_key] for key, file in by_key.items()}
     parts = {target for targets in included.values() for target in targets}
     roots = [key for key in by_key if key not in parts]
     reached: set[Path] = set()
     for key in [*roots, *by_key]:
-        if key in reached:
-            continue
-        if key not in roots:
-            roots.append(key)
-        pending = [key]
-        while pending:
-            at = pending.pop()
-            if at not in reached:
-                reached.add(at)
-                pending += included[at]
+        if key not in reached:
+            if key not in roots:
+                roots.append(key)
+            reached |= _reached([key], included)
     return [by_key[key] for key in by_key if key in set(roots)]
+
+
+def parts_of(models: Sequence[Path], directories: Sequence[Path] = ()) -> frozenset[Path]:
+    """The files in the folders of models that these include, and no other file beside them; resolved."""
+    roots = [model.resolve() for model in models]
+    own = _closure(roots, directories)
+    beside = {path.resolve() for folder in {key.parent for key in own} for path in folder.glob("*.nddl")}
+    others = _closure([path for path in beside if path not in own], directories)
+    folders = {root.parent for root in roots}
+    return frozenset(key for key in own - others - set(roots) if not folders.isdisjoint(key.parents))
+
+
+def _closure(files: Sequence[Path], directories: Sequence[Path]) -> set[Path]:
+    """Files and all that they include, directly or not."""
+    included: dict[Path, list[Path]] = {}
+    pending = list(files)
+    while pending:
+        key = pending.pop()
+        if key not in included:
+            included[key] = _included(key, directories)
+            pending += included[key]
+    return set(included)
+
+
+def _reached(files: Sequence[Path], included: Mapping[Path, Sequence[Path]]) -> set[Path]:
+    reached: set[Path] = set()
+    pending = list(files)
+    while pending:
+        at = pending.pop()
+        if at not in reached:
+            reached.add(at)
+            pending += included[at]
+    return reached
+
+
+def _included(file: Path, directories: Sequence[Path]) -> list[Path]:
+    """The files that a file includes itself, resolved: of each name the first that exists."""
+    found = []
+    for name in _INCLUDE.findall(_text(file)):
+        places = (place / name for place in (file.parent, *directories) if "\0" not in name)
+        target = next((path.resolve() for path in places if path.is_file()), None)
+        if target is not None and target != file.resolve():
+            found.append(target)
+    return found
 
 
 def _text(file: Path) -> str:

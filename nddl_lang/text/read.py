@@ -4,6 +4,10 @@ from pathlib import Path
 
 from nddl_lang.text.source import Source
 
+LOOKED_AT = 4096
+MOST_ODD = 0.02  # of the characters of a text may be control characters
+MOST_UNREADABLE = 0.6  # and bytes that are not UTF-8: comments in another encoding may be long
+
 
 def decode(content: bytes) -> str:
     """`content` as text; bytes that are not UTF-8 become U+FFFD, which the parser reports.
@@ -11,6 +15,13 @@ def decode(content: bytes) -> str:
     A byte order mark stays, so that offsets agree with the file.
     """
     return content.decode("utf-8", errors="replace")
+
+
+def is_text(text: str) -> bool:
+    """Whether what was decoded is a text at all, with odd characters at most: looked at are the first ones."""
+    head = text[:LOOKED_AT]
+    odd = sum(sign < " " and sign not in "\t\n\v\f\r\x1b" for sign in head)
+    return odd <= MOST_ODD * len(head) + 1 and head.count("\ufffd") <= MOST_UNREADABLE * len(head)
 
 
 def read_text(path: Path) -> str | None:

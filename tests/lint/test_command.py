@@ -99,12 +99,23 @@ def codes_in(part: str, output: str) -> list[tuple[str, int]]:
 def test_of_a_directory_what_no_model_uses_of_a_part_is_told(tmp_path: Path, capsys: Captured) -> None:
     file(tmp_path, PART, "part.nddl")
     one = file(tmp_path, MODEL, "one.nddl")
-    assert run(["lint", one, "--format", "json"]) == 0  # another model may include the part too
-    assert codes_in("part.nddl", capsys.readouterr().out) == []
+    assert run(["lint", one, "--format", "json"]) == 1
+    assert codes_in("part.nddl", capsys.readouterr().out) == [("NDDL540", 1), ("NDDL504", 2), ("NDDL507", 3)]
     assert run(["lint", str(tmp_path), "--format", "json"]) == 1
     assert codes_in("part.nddl", capsys.readouterr().out) == [("NDDL540", 1), ("NDDL504", 2), ("NDDL507", 3)]
     file(tmp_path, MODEL + "int mine = [0 9];\nmine >= SPARE;\nColour c = red;\ngoal(lamp.dark h);\n", "two.nddl")
     run(["lint", str(tmp_path), "--format", "json"])
+    assert codes_in("part.nddl", capsys.readouterr().out) == []
+    assert run(["lint", one, "--format", "json"]) == 0  # another model includes the part too
+    assert codes_in("part.nddl", capsys.readouterr().out) == []
+
+
+def test_what_lies_elsewhere_may_be_used_elsewhere(tmp_path: Path, capsys: Captured) -> None:
+    (tmp_path / "shared").mkdir()
+    (tmp_path / "project").mkdir()
+    file(tmp_path / "shared", PART, "part.nddl")
+    one = file(tmp_path / "project", MODEL, "one.nddl")
+    assert run(["lint", one, "-I", str(tmp_path / "shared"), "--format", "json"]) == 0
     assert codes_in("part.nddl", capsys.readouterr().out) == []
 
 
@@ -211,3 +222,34 @@ def test_a_pipe_may_close(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "nddlc.main", "lint", file(tmp_path, ODD)]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (1, "")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        bytes(range(256)) * 8,
+        b"\x7fELF\x02\x01\x01" + b"\0" * 60,
+        UNUSED.encode("utf-16"),
+        UNUSED.encode("utf-16-be"),
+        b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x10\0\0",
+    ],
+    ids=["bytes", "program", "utf-16", "utf-16-be", "image"],
+)
+def test_what_is_no_text_costs_one_message(content: bytes, tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "model.nddl"
+    path.write_bytes(content)
+    assert run(["lint", str(path), "--format", "json"]) == 1
+    assert codes_in("model.nddl", capsys.readouterr().out) == [("NDDL108", 1)]
+    assert run(["lint", str(path)]) == 1
+    assert ("save it as UTF-8" in capsys.readouterr().out) == (b"c\0l\0a\0s" in content)
+
+
+@pytest.mark.parametrize("encoding", ["latin-1", "cp1251", "koi8-r", "shift-jis"])
+def test_a_text_in_another_encoding_is_a_text(encoding: str, tmp_path: Path, capsys: Captured) -> None:
+    comment = "Größe eines Körpers" if encoding == "latin-1" else "大きさ" if encoding == "shift-jis" else "размер тела"
+    path = tmp_path / "model.nddl"
+    path.write_bytes(f"// {comment}\n{UNUSED}".encode(encoding))
+    run(["lint", str(path), "--format", "json"])
+    found = codes_in("model.nddl", capsys.readouterr().out)
+    assert ("NDDL107", 1) in found
+    assert "NDDL108" not in dict(found)
