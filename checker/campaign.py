@@ -2,10 +2,9 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from checker.batch.identity import model_digest, run_id
+from checker.batch.identity import engine_digest, model_digest, run_id
 from checker.batch.pool import Flyer, fly_all
 from checker.batch.result import MissionResult
 from checker.batch.store import Run, Store
@@ -32,7 +31,7 @@ class Campaign:
         """The run that this campaign is: same content, same id."""
         check = self.mission.check
         digest = model_digest(self.models.texts)
-        identity = run_id(self.models.agent, digest, check.seed, check.missions, _version())
+        identity = run_id(self.models.agent, digest, check.seed, check.missions, engine_digest())
         path = Path(self.mission.source.name).resolve()
         return Run(identity, str(path), check.seed, check.missions)
 
@@ -103,10 +102,3 @@ class Campaign:
             self.story(by_number[fault.bucket.example], fault) if index < MOST_STORIES else None
             for index, fault in enumerate(findings.faults)
         ]
-
-
-def _version() -> str:
-    try:
-        return version("nddlc")
-    except PackageNotFoundError:
-        return "unknown"

@@ -58,7 +58,9 @@ def _explain(store: Store, name: str, number: int | None, style: str, events: bo
     fault = next((one for one in findings.faults if result.number in one.bucket.missions), None)
     excerpts = Excerpts(Path(campaign.models.agent.root))
     if not is_same and style == "text":
-        click.echo("the model or the mission file has changed since this run; the explanation is of what was flown\n")
+        click.echo(
+            "model, mission file or nddlc have changed since this run; the explanation is of what was flown\n"
+        )
     text, plain = _told(result, fault, campaign, findings, excerpts)
     if events and result.outcome is not None:
         trace = [
@@ -109,5 +111,5 @@ def _result(run: Run, number: int | None, campaign: Campaign, findings: Findings
     if stored is not None and (stored.has_trace or not is_same):
         return stored
     if not is_same:
-        raise Unusable(f"mission {number} of run {run.id} was not flown, and the model has changed since")
+        raise Unusable(f"mission {number} of run {run.id} was not flown, and the model or nddlc has changed since")
     return fly_one(load(campaign.models.agent), campaign.task(number), keep_trace=True)

@@ -29,6 +29,7 @@ COMMANDS = {
     "lsp": ("nddlc.lsp", "Serve an editor over standard input and output."),
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
+PLANNING = ("load", "plan", "check", "explain")  # what is slow where the engine is not compiled
 UNUSABLE, BUG, INTERRUPTED = 2, 3, 130
 MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
 
@@ -85,6 +86,8 @@ def nddlc(ctx: click.Context, dialect: str | None) -> None:
     nddl3 is the language that EUROPA accepts; nddlc, the default, adds to it.
     """
     ctx.obj = dialect
+    if ctx.invoked_subcommand in PLANNING and (notice := runtime.build_form.uncompiled_notice()) is not None:
+        click.echo(f"nddlc: {notice}", err=True)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

@@ -1,13 +1,17 @@
-"""Name a run by what determines its results: agent, models, batch seed, number of missions, version of the tool."""
+"""Name a run by what determines its results: agent, models, batch seed, number of missions, the engine as it is."""
 
 import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import asdict
+from functools import cache
+from pathlib import Path
 
 from runtime.executive.configuration import AgentConfiguration
 
 ID_LENGTH = 8
+ROOT = Path(__file__).resolve().parents[2]
+ENGINE = ("nddl_lang", "compiler", "runtime")
 
 
 def model_digest(sources: Mapping[str, str]) -> str:
@@ -16,9 +20,20 @@ def model_digest(sources: Mapping[str, str]) -> str:
     return hashlib.sha256(json.dumps(sorted(parts)).encode()).hexdigest()
 
 
-def run_id(agent: AgentConfiguration, models: str, seed: int, missions: int, version: str) -> str:
+@cache
+def engine_digest() -> str:
+    """The SHA-256 of the sources that models are read, compiled and run by; the same in whichever form they run."""
+    content = hashlib.sha256()
+    for folder in ENGINE:
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            content.update(path.relative_to(ROOT).as_posix().encode() + b"\0")
+            content.update(hashlib.sha256(path.read_bytes()).digest())
+    return content.hexdigest()
+
+
+def run_id(agent: AgentConfiguration, models: str, seed: int, missions: int, engine: str) -> str:
     """Eight hexadecimal digits; where the checkout lies, how fast it is and how many fly make no difference."""
     content = asdict(agent)
     del content["root"], content["constraint_seconds"]
-    text = json.dumps([content, models, seed, missions, version], sort_keys=True)
+    text = json.dumps([content, models, seed, missions, engine], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:ID_LENGTH]

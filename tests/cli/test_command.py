@@ -289,3 +289,12 @@ def test_a_full_disk_is_no_bug_of_nddlc(words: list[str], lamp: str) -> None:
 def test_a_closed_stream_changes_no_verdict(closed: str, lamp: str) -> None:
     command = f"'{sys.executable}' -m nddlc.main plan '{lamp}' {closed}"
     assert subprocess.run(["sh", "-c", command], check=False).returncode == 0
+
+
+@pytest.mark.parametrize("command", ["load", "plan", "lint"])
+def test_an_engine_that_is_not_compiled_says_so_once(
+    command: str, lamp: str, capsys: Captured, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("runtime.build_form.uncompiled_notice", lambda: "the engine runs uncompiled")
+    run([command, lamp])
+    assert capsys.readouterr().err == ("" if command == "lint" else "nddlc: the engine runs uncompiled\n")

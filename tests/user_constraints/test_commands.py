@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.identity import model_digest
+from checker.batch import identity
+from checker.batch.identity import engine_digest, model_digest
 from checker.campaign import Campaign
 from checker.flight import load
 from checker.mission import read_mission
@@ -122,20 +123,34 @@ def test_a_module_that_cannot_be_loaded_ends_the_check(mission: Path, capsys: Ca
 
 
 def test_the_identity_of_a_run_depends_on_module_and_data(mission: Path) -> None:
-    def identity() -> str:
+    def named() -> str:
         read, _ = read_mission(mission)
         assert read is not None
         return Campaign(read, load_models(read), load).run.id
 
-    first = identity()
-    assert identity() == first
+    first = named()
+    assert named() == first
     chart = mission.with_name("chart.csv")
     chart.write_text(chart.read_text(encoding="utf-8").replace("62", "63"), encoding="utf-8")
-    second = identity()
+    second = named()
     module = mission.with_name("chart.py")
     module.write_text(module.read_text(encoding="utf-8") + "# more\n", encoding="utf-8")
-    assert len({first, second, identity()}) == 3
+    assert len({first, second, named()}) == 3
     assert model_digest({}) != model_digest({"chart.py": ""})
+
+
+def test_the_identity_of_a_run_depends_on_the_engine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    before = engine_digest()
+    for folder in identity.ENGINE:
+        shutil.copytree(identity.ROOT / folder, tmp_path / folder, ignore=shutil.ignore_patterns("*.so", "__pycache__"))
+    monkeypatch.setattr(identity, "ROOT", tmp_path)
+    engine_digest.cache_clear()
+    assert engine_digest() == before
+    with (tmp_path / "runtime" / "solver" / "search.py").open("a", encoding="utf-8") as file:
+        file.write("# another\n")
+    engine_digest.cache_clear()
+    assert engine_digest() != before
+    engine_digest.cache_clear()
 
 
 def test_a_mission_names_a_missing_module_with_its_place(mission: Path, capsys: Captured) -> None:
