@@ -58,9 +58,7 @@ def _explain(store: Store, name: str, number: int | None, style: str, events: bo
     fault = next((one for one in findings.faults if result.number in one.bucket.missions), None)
     excerpts = Excerpts(Path(campaign.models.agent.root))
     if not is_same and style == "text":
-        click.echo(
-            "model, mission file or nddlc have changed since this run; the explanation is of what was flown\n"
-        )
+        click.echo("model, mission file or nddlc have changed since this run; the explanation is of what was flown\n")
     text, plain = _told(result, fault, campaign, findings, excerpts)
     if events and result.outcome is not None:
         trace = [
