@@ -39,22 +39,36 @@ class Excess(External):
         self.helper = 0
         self.until = at  # where the window ends that is too tight, and what must lie in it in part:
         self.parts: list[tuple[int, int, int, float]] = []  # start, end, least duration, least quantity
+        self.room = 0.0  # what there is of it, at once
+        self.limit = 0.0  # the level that it falls short of, or exceeds
+        self.charged: list[tuple[int, float]] = []  # tokens that use it there, and how much for certain
         self.table: Callable[[Any], Any] | None = None
         self.judge: Callable[[Any, Any], Any] | None = None
 
-    def words(self, name: str) -> str:
-        """What is wrong with the resource of that name."""
-        by = f"by {self.amount:g}"
+    def words(self, name: str, token: Callable[[int], str]) -> str:
+        """What is wrong with the resource of that name, and who uses it; `token` knows names."""
+        who = ", ".join(f"{token(t)} {amount:g}" for t, amount in self.charged if t >= 0)
+        who = f": {who}" if who else ""
+        if self.table is not None:
+            side = "falls below its least" if self.wrong == TOO_LOW else "rises above its greatest"
+            return f"the level of {name} {side}, {self.limit:g}, by {self.at} in any order{who}"
         match self.wrong:
+            case codes.TOO_LOW if self.helper:
+                level = self.limit - self.amount
+                return f"the level of {name} falls to {level:g} at {self.at}, its least is {self.limit:g}{who}"
             case codes.TOO_LOW:
-                return f"the level of {name} is below its least {by} at {self.at}"
+                return f"{name} needs {self.room + self.amount:g} of {self.room:g} available at {self.at}{who}"
             case codes.TOO_HIGH:
-                return f"the level of {name} is above its greatest {by} at {self.at}"
+                level = self.limit + self.amount
+                return f"the level of {name} rises to {level:g} at {self.at}, its greatest is {self.limit:g}{who}"
             case codes.TOO_TIGHT:
-                return f"what {name} must hold from {self.at} to {self.until} exceeds what it can {by} (use times time)"
+                have = self.room * (self.until - self.at)
+                unit = "ticks" if self.room == 1.0 else "amount times ticks"
+                window = f"[{self.at}, {self.until}]"
+                return f"{name} needs {have + self.amount:g} of {have:g} {unit} available in {window}{who}"
             case codes.TOO_FAST:
-                return f"too much of {name} flows at {self.at}, {by}"
-        return f"too much of {name} is used altogether, {by}"
+                return f"too much of {name} flows at {self.at}, by {self.amount:g}{who}"
+        return f"too much of {name} is used altogether, by {self.amount:g}{who}"
 
     def share(self, low: int, high: int, length: int) -> int:
         """How much time lies in the window of a use that may last from `low` to `high`."""

@@ -276,7 +276,10 @@ class Resources:
         """
         levels = self.levels
         excess = Excess(o, levels.wrong, levels.at, levels.excess, list(self.steps.get(o, ())))
+        excess.room = levels.initial_high - levels.minimum
+        excess.limit = levels.maximum if levels.wrong == TOO_HIGH else levels.minimum
         if envelope is not None:
+            excess.limit = levels.minimum if envelope.is_low == 0 else levels.maximum
             excess.by_order(envelope.is_low == 0, envelope.at, Resources, type(envelope))
             bounds: list[int] = []
             envelope.note_orders(excess.edges, bounds)
@@ -316,8 +319,10 @@ class Resources:
         quantity = 4 * self.quantity[u]
         t = excess.at
         if excess.wrong == TOO_TIGHT:
-            if levels.share(i, levels.at, levels.until) == 0:
+            share = levels.share(i, levels.at, levels.until)
+            if share == 0:
                 return False
+            excess.charged.append((self.token[u], levels.least[i] * share))
             excess.until = levels.until
             excess.note(quantity + SIDE_LOWER)
             if self.duration[u] >= 0:
@@ -339,6 +344,7 @@ class Resources:
                         excess.note_enough(end + SIDE_LOWER, t + 1)
                 elif not by_order:
                     return False
+                excess.charged.append((self.token[u], levels.least[i]))
                 excess.note(quantity + SIDE_LOWER)
             elif levels.start_low[i] > t:
                 excess.note_enough(start + SIDE_LOWER, t + 1)
@@ -347,6 +353,7 @@ class Resources:
             else:
                 excess.note(quantity + SIDE_UPPER)
         else:
+            excess.charged.append((self.token[u], levels.least[i]))
             for key in (start, end, quantity):
                 if key >= 0:
                     excess.note(key + SIDE_LOWER)

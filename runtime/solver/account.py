@@ -43,6 +43,7 @@ class Failure:
 class Account(Protocol):
     """What a search tells of its failures."""
 
+    def contradicted(self) -> None: ...
     def failed(self, d: int) -> None: ...
     def rejected(self, d: int) -> None: ...
     def given_up(self, d: int, heir: int) -> None: ...
@@ -65,6 +66,10 @@ class Recorder:
         """Why the model contradicts itself before any decision."""
         lines = self.lines(Wording(self.database))
         return Failure("the model contradicts itself", (Attempt("before any decision", lines),))
+
+    def contradicted(self) -> None:
+        """There is a conflict before any decision."""
+        self.end = self.contradiction()
 
     def failed(self, d: int) -> None:
         """The present choice of decision `d` has failed; the conflict is still there."""
@@ -104,6 +109,8 @@ class Recorder:
         found = sorted(engine.explain(), key=lambda cause: cause.span < 0)  # what the model says is kept rather
         causes: list[Cause] = minimise(engine, found)
         lines = dict.fromkeys(wording.line(cause) for cause in causes)
+        if any(line.how == "so" for line in lines):  # it says who uses what, and what there is
+            lines = dict.fromkeys(line for line in lines if line.span is not None or line.how != "declared")
         return tuple(sorted(lines, key=place_of))
 
     # ---- words ----
@@ -197,7 +204,7 @@ class Recorder:
 
 
 def place_of(line: Line) -> tuple[int, str, int, str]:
-    """What sorts lines: by place in the text, those without one at the end."""
+    """What sorts lines: what they come to, then by place in the text, then those without one."""
     if line.span is None:
-        return (1, "", 0, line.text)
-    return (0, line.span.source.name, line.span.begin, line.text)
+        return (0 if line.how == "so" else 2, "", 0, line.text)
+    return (1, line.span.source.name, line.span.begin, line.text)

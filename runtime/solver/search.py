@@ -109,9 +109,13 @@ class Solver:
         self.is_close = False
         for o in range(self.plan.object_count):
             self.plan.resources.set_energetic(o, False)
+        if self.account is not None:
+            self.look_closer()  # what does not fit at all needs no further reasons
         self.nogoods.clear()
         self.queues.weights.clear()
         self.is_exhausted = not settle(self.plan)
+        if self.is_exhausted and self.account is not None:
+            self.account.contradicted()
         fill(self.queues)
 
     def keep(self) -> None:

@@ -52,6 +52,11 @@ class Wording:
         """The name of a token."""
         return self.tokens.get(t, f"token {t}")
 
+    def user(self, t: int) -> str:
+        """The name of a token that uses something, with that of the token whose rule asks for it."""
+        master = self.plan.rows.master[t]
+        return f"{self.token(t)} of {self.token(master)}" if master >= 0 else self.token(t)
+
     def variable(self, v: int) -> str:
         """The name of a variable; a constant is its value."""
         plan, program = self.plan, self.database.program
@@ -135,7 +140,7 @@ class Wording:
             return f"{names[0]} + {names[1]} = {names[2]}, {names[1]} is {self.value(arguments[1])}"
         external = engine.externals.get(c)
         if isinstance(external, Excess):
-            return external.words(self.database.objects.names[external.resource])
+            return external.words(self.database.objects.names[external.resource], self.user)
         name = external.name if isinstance(external, Written) else NAMES.get(engine.op[c], "constraint")
         return f"{name}({', '.join(self.variable(v) for v in arguments)})"
 
