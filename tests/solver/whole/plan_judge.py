@@ -160,20 +160,15 @@ class Judge:
 
     def is_true(self, claim: Claim, frame: Frame) -> bool:
         """The truth of a guard, whose variables must be decided."""
-        keys: list[str] = []
-
-        def known(name: str) -> Formula:
-            term = self.term(frame, name)
-            keys.extend(key for key, other in self.told.terms.items() if other is term)
-            return term
-
-        said = claimed(claim, known)
+        said = claimed(claim, self.find(frame))
         values = []
-        for key in dict.fromkeys(keys):
+        for key, term in self.told.terms.items():
             is_interval, items = self.told.values_told(key)
-            expect(len(items) == 1 and not is_interval, key, "is tested and not decided")
-            values.append((self.told.terms[key], self.told.values.constant(items[0])))
-        return bool(z3.is_true(z3.simplify(z3.substitute(said, *values))))
+            if len(items) == 1 and not is_interval:
+                values.append((term, self.told.values.constant(items[0])))
+        truth = z3.simplify(z3.substitute(said, *values))
+        expect(z3.is_true(truth) or z3.is_false(truth), frame.token, "tests what is not decided:", claim)
+        return bool(z3.is_true(truth))
 
     # ---- rules ----
 

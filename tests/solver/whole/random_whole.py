@@ -1,13 +1,14 @@
 """Draw small models whose verdict does not hang on the order of decisions, so that a plan is found just if one exists.
 
 For that, what is never decided may only be bounded: times, by differences and decided values; floats with an interval,
-by equality and <=. Each token lies within the horizon from the start. A guard tests what will be decided. There are
-no loops over domains, no predicates in subclasses, and tokens that may be rejected are alone in what the script claims.
+by equality and <=. Each token lies within the horizon from the start. A guard tests what will be decided, so no
+member of the token's own object. There are no loops over domains, no predicates in subclasses, no actions; tokens that
+may be rejected are alone in what the script claims.
 A resource is refused as soon as what charges it *now* is too much, whatever may come to its help later (as in EUROPA):
 so what helps a reservoir is in the script, and rules only harm it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from random import Random
 
 from tests.solver.whole.model import (
@@ -48,6 +49,7 @@ class Draw:
     classes: list[Class]
     things: list[Thing]
     globals: list[Variable]
+    recursive: list[str] = field(default_factory=list)  # kinds that may ask for themselves, once each
     harm: str = "consume"  # what rules do to reservoirs
     labels: int = 0
 
@@ -164,16 +166,38 @@ def scope_of(draw: Draw, kind: str, path: str) -> Scope:
     scope = [(f"{path}start", "time"), (f"{path}end", "time"), (f"{path}duration", "span")]
     for each in draw.predicates[kind].parameters:
         scope.append((f"{path}{each.name}", "wide" if each.is_wide else each.type))
+        scope += fields(draw, f"{path}{each.name}", each.type)
     owned = next(each for each in draw.classes if each.name == owner)
     scope += [(f"{path}object.{name}", "field") for name in owned.members]
     return scope
+
+
+def fields(draw: Draw, path: str, type_: str) -> Scope:
+    """The members of an object that is decided."""
+    return [(f"{path}.{name}", "int") for each in draw.classes if each.name == type_ for name in each.members]
 
 
 def rule(draw: Draw, at: int, with_resources: bool) -> Body:
     """A rule of the kind at a place of the order."""
     kind = draw.kinds[at]
     scope = scope_of(draw, kind, "") + [(each.name, each.type) for each in draw.globals]
-    return block(draw, at, scope, 3, 0, with_resources)
+    scope += [pair for each in draw.globals for pair in fields(draw, each.name, each.type)]
+    body = block(draw, at, scope, 3, 0, with_resources)
+    counts = [each.name for each in draw.predicates[kind].parameters if each.type == "int"]
+    if counts and kind not in draw.recursive and draw.chance(0.15):
+        draw.recursive.append(kind)
+        body = (*body, again(draw, kind, draw.random.choice(counts)))
+    return body
+
+
+def again(draw: Draw, kind: str, name: str) -> If:
+    """Another token of the same kind, as long as a parameter can become smaller."""
+    label = draw.label()
+    relation = draw.random.choice(("meets", "before", "met_by", "any", "starts_before"))
+    owner = draw.random.choice(("object", kind.partition(".")[0]))
+    least = str(draw.random.randint(-1, 1))
+    smaller = Compare("<", f"{label}.{name}", name)
+    return If(Compare(">", name, least), (Child(label, relation, owner, kind), smaller), ())
 
 
 def block(draw: Draw, at: int, outer: Scope, most: int, depth: int, with_resources: bool) -> Body:
@@ -189,6 +213,7 @@ def block(draw: Draw, at: int, outer: Scope, most: int, depth: int, with_resourc
             variable = parameter(draw, f"v{draw.label()}")
             body.append(Local(variable))
             scope.append((variable.name, "wide" if variable.is_wide else variable.type))
+            scope += fields(draw, variable.name, variable.type)
         elif what < 0.7 and depth < 2:
             test = decided_claim(draw, scope)
             if test is not None:
