@@ -146,7 +146,7 @@ def mend_instant(q: Queues, stack: Decisions, d: int) -> int:
         at = stack.pool_first[d] + pair
         first = stack.pool_before[at]
         second = stack.pool_after[at]
-        if q.uses.may_order(first, second):
+        if q.uses.may_order(stack.item[d], first, second):
             if q.probing:
                 return APPLIED
             stack.cursor[d] = step
@@ -179,7 +179,7 @@ def mend_in_order_of_ids(q: Queues, stack: Decisions, d: int) -> int:
         first = stack.pool_before[base + step // count]
         second = stack.pool_before[base + step % count]
         is_here = lb[first] <= at <= ub[first] or lb[second] <= at <= ub[second]
-        if is_here and lb[second] <= ub[first] and uses.may_order(first, second):
+        if is_here and lb[second] <= ub[first] and uses.may_order(stack.item[d], first, second):
             if q.probing:
                 return APPLIED
             stack.cursor[d] = step

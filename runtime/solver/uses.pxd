@@ -46,6 +46,9 @@ cdef class Uses:
     cpdef bint sweep(self, long long o, long long whole) except -1
 
     @cython.locals(engine=Engine)
-    cpdef bint may_order(self, long long first, long long second) except -1
+    cpdef bint may_order(self, long long o, long long first, long long second) except -1
+
+    @cython.locals(v="long long")
+    cpdef bint is_seen(self, long long first, long long second) except -1
 
     cpdef bint order(self, long long first, long long second, long long together) except -1

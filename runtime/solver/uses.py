@@ -134,12 +134,25 @@ class Uses:
 
     # ---- what may be ordered ----
 
-    def may_order(self, first: int, second: int) -> bool:
-        """Whether one timepoint may still be put before another: it is neither impossible nor known already."""
+    def may_order(self, o: int, first: int, second: int) -> bool:
+        """Whether one timepoint of `o` may still be put before another: it is neither impossible nor seen already."""
         engine = self.engine
         if first == second or engine.lb[first] > engine.ub[second] or engine.ub[first] <= engine.lb[second]:
             return False
-        return self.distances.admits(second, first, 0) and self.distances.admits(first, second, -1)
+        if not self.distances.admits(second, first, 0):
+            return False
+        return self.distances.admits(first, second, -1) or not (self.grounded[o] or self.is_seen(first, second))
+
+    def is_seen(self, first: int, second: int) -> bool:
+        """Whether flaws see an order that the network knows: they do not follow edges with a positive weight."""
+        v = first
+        while v != second and self.engine.edge_weight[self.distances.via[v]] <= 0:
+            v = self.engine.edge_source[self.distances.via[v]]
+        if v == second:
+            return True
+        self.flaws.make_room(0)
+        self.flaws.walk_back(second)
+        return self.flaws.marks[first] == self.flaws.mark
 
     def order(self, first: int, second: int, together: int) -> bool:
         """Put one timepoint before another, or both at the same time."""

@@ -152,3 +152,20 @@ def test_what_was_known_of_a_token_that_was_undone_is_forgotten(tmp_path: Path, 
     """
     solver = solver_for(tmp_path, text, europa=europa, horizon=(-10, 1000), how=resources_configuration())
     assert solver.solve(2000, 2**60) == PLAN
+
+
+@pytest.mark.parametrize("europa", [False, True])
+def test_an_order_that_only_distances_imply_mends_a_flaw(tmp_path: Path, europa: bool) -> None:
+    text = """
+    class T extends Timeline { predicate p { leq(0, start); leq(end, 11); } }
+    T t = new T();
+    T s = new T();
+    Reusable r = new Reusable(1.0, 0.0);
+    close();
+    T::p { ends(Reusable.uses u); u.duration == 1; u.quantity == 1.0; }
+    goal(t.p a);
+    goal(s.p b);
+    a ends_after b;
+    """
+    solver = solver_for(tmp_path, text, europa=europa, how=resources_configuration())
+    assert solver.solve(2000, 2**60) == PLAN
