@@ -15,7 +15,7 @@ from checker.mission_table import MissionText, Table, nearest
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source, Span
-from nddl_lang.text.toml_places import find_places
+from nddl_lang.text.toml_places import find_places, toml_of
 from runtime.executive.configuration import (
     AgentConfiguration,
     Bounds,
@@ -66,7 +66,7 @@ def read_mission(path: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
 def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
     """Read a mission's text; paths in it are relative to `root`."""
     try:
-        values = tomllib.loads(source.text)
+        values = tomllib.loads(toml_of(source.text))
     except tomllib.TOMLDecodeError as problem:
         return None, (_not_toml(source, str(problem)),)
     text = MissionText(source, find_places(source.text))

@@ -53,12 +53,15 @@ class MissionText:
 class Table:
     """One table under reading; `close` reports the keys that nobody asked for."""
 
-    def __init__(self, text: MissionText, path: Path, values: TomlTable, caption: str) -> None:
+    def __init__(
+        self, text: MissionText, path: Path, values: TomlTable, caption: str, *, is_told: bool = False
+    ) -> None:
         self.text = text
         self.path = path
         self.values = values
         self.caption = caption
         self.asked: list[str] = []
+        self.is_told = is_told  # that it is missing as a whole
 
     def close(self) -> None:
         """Complain about each key that was not asked for, naming the one that it resembles."""
@@ -170,7 +173,7 @@ class Table:
         if isinstance(value, dict):
             return Table(self.text, (*self.path, key), value, caption)
         self._complain_of_type(key, value, f"a table, [{key}]")
-        return Table(self.text, (*self.path, key), {}, caption)
+        return Table(self.text, (*self.path, key), {}, caption, is_told=needed)
 
     def tables(self, key: str, *, needed: bool = False) -> list["Table"]:
         """The items of an array of tables."""
@@ -191,7 +194,7 @@ class Table:
 
     def _take(self, key: str, *, needed: bool = False) -> object:
         self.asked.append(key)
-        if key not in self.values and needed:
+        if key not in self.values and needed and not self.is_told:
             span = self.text.key_span(self.path)
             self.text.diagnostics.append(MISSING_KEY.at(span, table=self.caption, key=key))
         return self.values.get(key)

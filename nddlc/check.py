@@ -68,6 +68,8 @@ def command(
     if file.suffix == ".nddl":
         analysis = analyse_file(file, chosen_dialect(ctx, None), callables=library_of(file).callables)
         _tell(analysis.diagnostics, style)
+        if style == "text" and not analysis.has_errors:
+            click.echo(f"the text of `{path}` is in order; missions are flown from a mission file (.toml)")
         return UNUSABLE if analysis.has_errors else HOLDS
     campaign = _prepare(file, missions, seed, max_failure_rate, style)
     if campaign is None:

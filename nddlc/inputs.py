@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import stat
 import sys
 from collections.abc import Callable
 from functools import cache
@@ -14,7 +15,10 @@ from nddl_lang.lint.configuration import find_configuration, read_configuration
 from nddl_lang.lint.settings import Settings
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.roots import parts_of, roots_among
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
+
+LARGEST = 64 * 2**20  # bytes of a file
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -127,10 +131,10 @@ def readable(files: tuple[str, ...], directories: tuple[str, ...]) -> list[Path]
 def _readable(name: str) -> Path:
     path = Path(name)
     if path.is_dir():
-        raise Unusable(f"`{name}` is a directory", f"name the files in it, as in `{path / '*.nddl'}`")
+        raise Unusable(f"`{name}` is a directory", f"name {_in_directory(path)}")
     try:
-        with path.open("rb") as file:
-            file.read(1)
+        with path.open("rb", buffering=0) as file:
+            _check_kind(name, file.fileno())
     except FileNotFoundError:
         raise Unusable(f"no file `{name}`", _alike(path)) from None
     except OSError as problem:
@@ -138,12 +142,34 @@ def _readable(name: str) -> Path:
     return path
 
 
+def _in_directory(path: Path) -> str:
+    """What to name instead of a directory."""
+    missions = sorted(path.glob("*.toml"))
+    if len(missions) == 1:
+        return f"a file in it: `{missions[0]}` is a mission, models end in .nddl"
+    return f"the files in it, as in `{path / '*.nddl'}`"
+
+
+def _check_kind(name: str, file: int) -> None:
+    """Complain of what is no text of a model for certain; nothing is read, as a pipe is read only once."""
+    kind = os.fstat(file)
+    if stat.S_ISBLK(kind.st_mode) or (stat.S_ISCHR(kind.st_mode) and not os.isatty(file) and name != os.devnull):
+        raise Unusable(f"`{name}` is a device")
+    if kind.st_size > LARGEST:
+        raise Unusable(f"`{name}` is too large: {kind.st_size / 2**20:.0f} MiB, and {LARGEST / 2**20:.0f} are read")
+
+
 def _alike(path: Path) -> str | None:
     """A file that may have been meant."""
     for candidate in (path.with_suffix(".nddl"), Path(f"{path}.nddl")):
         if candidate != path and candidate.is_file():
             return f"there is `{candidate}`"
-    return None
+    try:
+        beside = sorted(each.name for each in path.parent.iterdir() if each.suffix in (".nddl", ".toml"))
+    except OSError:
+        return f"there is no directory `{path.parent}`"
+    meant = nearest(path.name, beside)
+    return None if meant is None else f"did you mean `{path.with_name(meant)}`?"
 
 
 def columns() -> int | None:

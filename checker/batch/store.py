@@ -117,7 +117,8 @@ def open_store(path: Path) -> Iterator[Store]:
         connection.execute("PRAGMA synchronous = NORMAL")
         connection.executescript(SCHEMA)
     except (OSError, sqlite3.Error) as problem:
-        raise StoreError(f"the store {path} cannot be opened: {problem}") from problem
+        reason = getattr(problem, "strerror", None) or problem
+        raise StoreError(f"the store `{path}` cannot be opened: {reason}") from problem
     store = Store(connection)
     try:
         yield store

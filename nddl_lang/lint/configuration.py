@@ -13,7 +13,7 @@ from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path as Key
-from nddl_lang.text.toml_places import find_places
+from nddl_lang.text.toml_places import find_places, toml_of
 
 NOT_TOML = Code("NDDL595", Severity.ERROR, "syntax", "this is not TOML: {reason}")
 UNKNOWN_KEY = Code("NDDL596", Severity.ERROR, "name", "there is no setting `{key}`")
@@ -42,7 +42,7 @@ def _has_section(path: Path) -> bool:
     if "nddlc" not in text:
         return False
     try:
-        return "nddlc" in tomllib.loads(text).get("tool", {})
+        return "nddlc" in tomllib.loads(toml_of(text)).get("tool", {})
     except tomllib.TOMLDecodeError:
         return False  # for the tools of Python to complain about
 
@@ -51,7 +51,7 @@ def read_configuration(path: Path) -> tuple[Settings, list[Diagnostic]]:
     """The settings in a file, and what is wrong with it."""
     source = Source(str(path), read_text(path) or "")
     try:
-        table = tomllib.loads(source.text)
+        table = tomllib.loads(toml_of(source.text))
     except tomllib.TOMLDecodeError as problem:
         reason = str(problem)
         return Settings(), [NOT_TOML.at(Span(Anchor(source), 0, 0), reason=reason[:1].lower() + reason[1:])]

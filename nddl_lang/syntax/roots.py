@@ -59,7 +59,9 @@ def _reached(files: Sequence[Path], included: Mapping[Path, Sequence[Path]]) -> 
 
 def _included(file: Path, directories: Sequence[Path]) -> list[Path]:
     """The files that a file includes itself, resolved: of each name the first that exists."""
-    found = []
+    found: list[Path] = []
+    if not file.is_file():
+        return found  # what comes through a pipe can be read only once
     for name in _INCLUDE.findall(_text(file)):
         places = (place / name for place in (file.parent, *directories) if "\0" not in name)
         target = next((path.resolve() for path in places if path.is_file()), None)

@@ -13,9 +13,14 @@ class Stretch:
     value: tuple[int, int]
 
 
+def toml_of(text: str) -> str:
+    """A text as readers of TOML want it: with a blank for the byte order mark that some editors write."""
+    return " " + text[1:] if text.startswith("\ufeff") else text
+
+
 def find_places(text: str) -> dict[Path, Stretch]:
     """Every key of `text` by its path; items of an array of tables are numbered. `text` must be well-formed TOML."""
-    scan = _Scan(text)
+    scan = _Scan(toml_of(text))
     scan.document()
     return scan.places
 

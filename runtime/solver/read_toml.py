@@ -20,6 +20,7 @@ from collections.abc import Iterator
 
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source, Span
+from nddl_lang.text.toml_places import toml_of
 from runtime.solver.complaints import NOT_READABLE, UNKNOWN_ELEMENT
 from runtime.solver.element import Attribute, Element, stretch
 
@@ -32,7 +33,7 @@ TABLES = {"filter": "FlawFilter", "handler": "FlawHandler"}
 def read_toml(source: Source) -> tuple[Element | None, list[Diagnostic]]:
     """The root element of `source`, or a diagnostic that says where the text is no TOML or no configuration."""
     try:
-        table = tomllib.loads(source.text)
+        table = tomllib.loads(toml_of(source.text))
     except tomllib.TOMLDecodeError as error:
         found = PLACE.search(str(error))
         at = source.line_starts[int(found[1]) - 1] + int(found[2]) - 1 if found else len(source.text)

@@ -183,3 +183,19 @@ def test_places_survive_every_way_to_write_toml() -> None:
     }
     assert text[slice(*places["a", "b"].value)] == "'''x\n]'''"
     assert text[slice(*places["h", 0, "i", "j"].value)] == '"a\\"b"'
+
+
+def test_a_byte_order_mark_is_no_mistake() -> None:
+    mission = (GPS / "mission.toml").read_text(encoding="utf-8")
+    plain, _ = parse_mission(Source("m.toml", mission), GPS)
+    marked, found = parse_mission(Source("m.toml", "\ufeff" + mission), GPS)
+    assert found == ()
+    assert plain is not None and marked is not None and plain.agent == marked.agent
+
+
+def test_an_empty_file_costs_a_message_for_each_table(tmp_path: Path) -> None:
+    _, found = parse_mission(Source("m.toml", ""), tmp_path)
+    assert [one.message for one in found] == [
+        "a mission file needs the key `mission`",
+        "a mission file needs the key `reactor`",
+    ]

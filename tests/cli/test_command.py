@@ -298,3 +298,35 @@ def test_an_engine_that_is_not_compiled_says_so_once(
     monkeypatch.setattr("runtime.build_form.uncompiled_notice", lambda: "the engine runs uncompiled")
     run([command, lamp])
     assert capsys.readouterr().err == ("" if command == "lint" else "nddlc: the engine runs uncompiled\n")
+
+
+@pytest.mark.skipif(not Path("/dev/stdin").exists(), reason="needs a file that is standard input")
+@pytest.mark.parametrize("command", ["lint", "load", "plan"])
+def test_a_model_may_come_through_a_pipe(command: str) -> None:
+    words = [sys.executable, "-m", "nddlc.main", command, "/dev/stdin"]
+    done = subprocess.run(words, input=BROKEN, capture_output=True, text=True, check=False)
+    assert done.returncode == 1
+    assert "Lmap" in done.stdout
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="needs a device without an end")
+def test_a_device_is_no_model(capsys: Captured) -> None:
+    assert run(["lint", "/dev/zero"]) == 2
+    assert "`/dev/zero` is a device" in capsys.readouterr().err
+
+
+def test_a_file_that_nobody_can_have_written_is_not_read(tmp_path: Path, capsys: Captured) -> None:
+    with (tmp_path / "huge.nddl").open("wb") as file:
+        file.truncate(1 << 40)
+    assert run(["load", str(tmp_path / "huge.nddl")]) == 2
+    assert "is too large: 1048576 MiB, and 64 are read" in capsys.readouterr().err
+
+
+def test_of_a_mistyped_file_the_one_that_was_meant_is_told(lamp: str, capsys: Captured) -> None:
+    assert run(["plan", lamp.replace("lamp.nddl", "lmap.nddl")]) == 2
+    assert f"did you mean `{lamp}`?" in capsys.readouterr().err
+    assert run(["check", str(Path(lamp).parent)]) == 2
+    (Path(lamp).parent / "sea.toml").write_text("", encoding="utf-8")
+    capsys.readouterr()
+    assert run(["check", str(Path(lamp).parent)]) == 2
+    assert "sea.toml` is a mission" in capsys.readouterr().err
