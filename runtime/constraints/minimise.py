@@ -85,6 +85,7 @@ class Scratch:
         self.copy.tick_seconds = engine.tick_seconds
         self.copy.tick_epoch = engine.tick_epoch
         self.variables: dict[int, int] = {}
+        self.rows: dict[int, tuple[Cause, list[int]]] = {}  # by identity: hashing a cause takes longer than posting it
 
     def variable(self, v: int) -> int:
         """Give the copy of a variable: the same constant, or the widest domain of its kind."""
@@ -110,15 +111,18 @@ class Scratch:
         """Tell whether propagation, or with patience looking ahead too, finds a set of causes inconsistent."""
         if self.patience is not None and self.patience.is_over(len(causes)):
             return False
-        variables = list(dict.fromkeys(self.variable(v) for cause in causes for v in self.arguments(cause)))
+        for cause in causes:
+            self.copies(cause)  # before the mark: they stay
         mark = self.copy.mark()
         holds = True
         for cause in causes:
             holds = holds and self.carry_out(cause)
         holds = holds and self.copy.propagate()
-        fails = not holds or (self.patience is not None and fails_in_all_cases(self.copy, variables, self.patience))
+        if holds and self.patience is not None:
+            variables = list(dict.fromkeys(v for cause in causes for v in self.copies(cause)))
+            holds = not fails_in_all_cases(self.copy, variables, self.patience)
         self.copy.rewind(mark)
-        return fails
+        return not holds
 
     def arguments(self, cause: Cause) -> list[int]:
         """List the variables of a cause."""
@@ -129,10 +133,17 @@ class Scratch:
             return [engine.restriction_variable[cause.id]]
         return engine.arguments(cause.id)
 
+    def copies(self, cause: Cause) -> list[int]:
+        """List the copies of a cause's variables."""
+        row = self.rows.get(id(cause))
+        if row is None:
+            row = self.rows[id(cause)] = (cause, [self.variable(v) for v in self.arguments(cause)])
+        return row[1]
+
     def carry_out(self, cause: Cause) -> bool:
         """Post one cause on the copies."""
         engine, copy, k = self.engine, self.copy, cause.id
-        variables = [self.variable(v) for v in self.arguments(cause)]
+        variables = self.copies(cause)
         if cause.kind is CauseKind.EDGE:
             return copy.add_edge(variables[0], variables[1], engine.edge_weight[k], cause.span, cause.owner)
         if cause.kind is CauseKind.RESTRICTION:
