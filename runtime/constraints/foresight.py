@@ -14,6 +14,7 @@ from runtime.constraints.engine import Engine
 from runtime.constraints.intervals import Interval, magnitude, outward, raised, times
 from runtime.constraints.places import (
     angle_bound,
+    arcs_apart,
     displacement_bounds,
     distance_bounds,
     tick_bounds,
@@ -306,8 +307,16 @@ def tell_date(row: Row) -> bool:
 
 def be_apart(row: Row) -> bool:
     """Narrow: the distance of two positions on the earth, given by latitude and longitude."""
-    lo, hi = distance_bounds(*(row.bounds(k) for k in range(1, 5)))
-    return row.keep(0, max(0.0, lo - METRES), hi + METRES)
+    place = [row.bounds(k) for k in range(1, 5)]
+    lo, hi = distance_bounds(*place)
+    if not row.keep(0, max(0.0, lo - METRES), hi + METRES):
+        return False
+    unknown = [k for k in range(4) if place[k][0] < place[k][1]]
+    if len(unknown) != 1:
+        return True
+    (k,) = unknown
+    lo, hi = tolerant(row.bounds(0))
+    return row.keep_in_turns(1 + k, arcs_apart([x for x, _ in place], k, lo - METRES, hi + METRES))
 
 
 def lie_apart(row: Row) -> bool:

@@ -7,6 +7,7 @@ from runtime.constraints.earth import ECCENTRICITY_2, EQUATOR, MEAN_RADIUS, date
 from runtime.constraints.intervals import ROUGH, Interval, added, cosine, magnitude, multiplied, outward, sine, taken
 
 LEAST_RADIUS = 6.33e6  # metres, somewhat less than the ellipsoid's least radius of curvature
+HAIR = 1e-12  # what cosines are wrong by
 FARTHEST = 1e12  # seconds; dates are looked at within some 30,000 years
 
 
@@ -28,6 +29,30 @@ def distance_bounds(lat1: Interval, lon1: Interval, lat2: Interval, lon2: Interv
     ways = magnitude(taken(lat2, lat1))[1] + magnitude(aside)[1]
     most = min(most, math.radians(ways))
     return outward(least * MEAN_RADIUS - 0.1, most * MEAN_RADIUS + 0.1)
+
+
+def arcs_apart(place: list[float], k: int, least: float, most: float) -> list[Interval]:
+    """Give the degrees, but for whole turns, that one of four coordinates may be, by the distance in metres.
+
+    `place` is lat1, lon1, lat2, lon2, of which number k is not known. The cosine of the angle between two directions
+    is a cos(y) + b sin(y) + c, so it lies between two bounds on at most two arcs of y.
+    """
+    lat1, lon1, lat2, lon2 = (math.radians(x) for x in (place if k < 2 else [*place[2:], *place[:2]]))
+    if k % 2 == 0:
+        a, b, c, start = math.cos(lat2) * math.cos(lon2 - lon1), math.sin(lat2), 0.0, 0.0
+    else:
+        a, b, c, start = math.cos(lat1) * math.cos(lat2), 0.0, math.sin(lat1) * math.sin(lat2), lon2
+    size = math.hypot(a, b)
+    if size < ROUGH:
+        return [(-180.0, 180.0)]
+    near, far = (math.cos(min(math.pi, max(0.0, x / MEAN_RADIUS))) for x in (least, most))
+    shares = [(far - c - HAIR) / size, (near - c + HAIR) / size]
+    if shares[0] > 1.0 or shares[1] < -1.0:
+        return []
+    first, last = (math.acos(min(1.0, max(-1.0, share))) for share in reversed(shares))
+    middle = start + math.atan2(b, a)
+    arcs = [(middle - last, middle - first), (middle + first, middle + last)]
+    return [(math.degrees(lo) - ROUGH, math.degrees(hi) + ROUGH) for lo, hi in arcs]
 
 
 def halved(x: Interval) -> Interval:

@@ -10,6 +10,8 @@ from runtime.constraints.intervals import Interval
 from runtime.constraints.narrow import high, low
 from runtime.constraints.store import Store
 
+MOST_TURNS = 3
+
 
 def tolerant(x: Interval) -> Interval:
     """Widen by the tolerance of values."""
@@ -53,6 +55,20 @@ class Row:
         if self.is_whole(k):
             return never(self.s, self.c, argument(self.s, self.c, k), 0)
         return self.bounds(k) != (0.0, 0.0) or self.refuse()
+
+    def keep_in_turns(self, k: int, arcs: list[Interval]) -> bool:
+        """Narrow an argument in degrees to some arcs, give or take whole turns."""
+        if self.is_whole(k):
+            arcs = [(math.ceil(lo), math.floor(hi)) for lo, hi in arcs if math.ceil(lo) <= math.floor(hi)]
+        if not arcs:
+            return self.refuse()
+        lo, hi = self.bounds(k)
+        if not hi - lo < 360.0 * MOST_TURNS:
+            return True
+        first, last = math.floor(lo / 360.0) - 2, math.ceil(hi / 360.0) + 2
+        moved = [(a + 360.0 * n, b + 360.0 * n) for a, b in arcs for n in range(first, last + 1)]
+        met = [(a, b) for a, b in moved if a <= hi + FLOAT_TOLERANCE and b >= lo - FLOAT_TOLERANCE]
+        return self.keep(k, min(a for a, _ in met), max(b for _, b in met)) if met else self.refuse()
 
     def keep_whole(self, k: int) -> bool:
         """Narrow an argument whose values are whole numbers, whatever its kind."""

@@ -96,6 +96,7 @@ INT, FLOAT = codes.KIND_INT, codes.KIND_FLOAT
             {0, 1, 3, 5},
         ),
         (codes.OP_TICK_DATE, [(INT, 0, 0), (INT, 0, 0), (INT, 5, 5), (INT, 1980, 1980)], {0, 3}),
+        (codes.OP_LL_DIST, [(FLOAT, 7e5, 7e5), *[(FLOAT, k, k) for k in range(3)], (INT, 4, 4)], {0, 1, 2, 3}),
         (codes.OP_LL_DIST, [(FLOAT, 3e7, 3e7), *[(FLOAT, k, k) for k in range(4)]], {0}),
     ],
 )
