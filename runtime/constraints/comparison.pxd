@@ -9,6 +9,7 @@ from runtime.constraints.narrow cimport (
 )
 from runtime.constraints.network cimport tighten_edge
 from runtime.constraints.posting cimport tie_edge, tie_edges
+from runtime.constraints.resting cimport rest
 from runtime.constraints.store cimport Store
 
 cdef long long HALF_INF, KIND_FLOAT, KIND_INT, MODE_EDGES, MOST_VALUES, NEVER, OP_ALL_DIFF, OP_EQ, OP_LEQ, OP_LT
@@ -46,7 +47,7 @@ cpdef bint differ_all(Store s, long long first, long long count, long long suppo
 @cython.locals(x="long long")
 cpdef bint keep_offset(Store s, long long c, long long a, long long k, long long b) except -1
 
-@cython.locals(longest="long long", shortest="long long", x="long long")
+@cython.locals(is_known=bint, longest="long long", shortest="long long", x="long long")
 cpdef bint keep_distance(
     Store s, long long c, long long start, long long distance, long long end, long long support
 ) except -1

@@ -46,6 +46,7 @@ from runtime.constraints.narrow import (
 )
 from runtime.constraints.network import tighten_edge
 from runtime.constraints.posting import tie_edge, tie_edges
+from runtime.constraints.resting import rest
 from runtime.constraints.store import Store
 
 
@@ -223,14 +224,21 @@ def keep_distance(s: Store, c: int, start: int, distance: int, end: int, support
             longest = s.ub[distance]
         if s.lb[distance] > -HALF_INF:
             shortest = s.lb[distance]
+    is_known = s.lb[distance] == s.ub[distance] and s.kind[distance] != KIND_FLOAT
     if s.link_a[c] < 0:
         if not tie_edges(s, c, start, end, longest, -shortest):
             return False
-    elif longest < s.edge_weight[s.link_a[c]] or -shortest < s.edge_weight[s.link_b[c]]:
-        if not (tighten_edge(s, s.link_a[c], longest) and tighten_edge(s, s.link_b[c], -shortest)):
-            return False
-    elif s.lb[distance] == s.ub[distance] and s.kind[distance] != KIND_FLOAT:
-        return True  # the edges say all that there is to say
+    else:
+        # A bound that comes from those of start and end tells them nothing.
+        if is_known or s.upper_support[distance] != support:
+            if not tighten_edge(s, s.link_a[c], longest):
+                return False
+        if is_known or s.lower_support[distance] != support:
+            if not tighten_edge(s, s.link_b[c], -shortest):
+                return False
+    if is_known:  # the edges say all that there is to say
+        rest(s, c)
+        return True
     if s.ub[end] < HALF_INF and s.lb[start] > -HALF_INF:
         x = s.ub[end] - s.lb[start]
         if (x < s.ub[distance] or s.kind[distance] == KIND_FLOAT) and not reduce_to(s, distance, x, support):

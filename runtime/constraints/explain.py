@@ -136,7 +136,7 @@ def state_before(s: Store, v: int, side: int, time: int) -> tuple[int, int, floa
     while when >= time and when >= s.trail_base:
         i = when - s.trail_base
         code = s.trail_key[i] & 15
-        value = s.trail_number[i] if code in (TRAIL_REAL_LOWER, TRAIL_REAL_UPPER) else s.trail_value[i]
+        value = s.real_bounds[s.trail_value[i]] if code in (TRAIL_REAL_LOWER, TRAIL_REAL_UPPER) else s.trail_value[i]
         support = s.trail_support[i]
         when = s.trail_when[i]
     return support, when, value

@@ -18,23 +18,23 @@ cdef class Store:
     cdef public long long dear_mask, dear_first, dear_last, woken_count
     cdef public long long running, conflict_kind, conflict_variable, conflict_side
     cdef public long long conflict_support, conflict_edge, updates, visits
-    cdef public long long runs
+    cdef public long long runs, real_bounds_used, resting
     cdef public signed char[::1] kind, is_open, decided, constant
     cdef public signed char[::1] queued, slot_mask, mode, restriction_flags
     cdef public signed char[::1] loose, scheduled, priority, settles
     cdef public long long[::1] lb, ub, lower_when, upper_when
-    cdef public long long[::1] bit_base, hole_when, trail_key, trail_value
+    cdef public long long[::1] bit_base, hole_when, trail_value
     cdef public long long[::1] trail_when, slot_key, edge_weight, aux
     cdef public long long[::1] run_epoch, reasons, visit, cone
     cdef public long long[::1] walk
-    cdef public double[::1] flo, fhi, table_values, trail_number
+    cdef public double[::1] flo, fhi, table_values, real_bounds
     cdef public double[::1] restriction_lo, restriction_hi
     cdef public int[::1] lower_support, upper_support, word, words_of
     cdef public int[::1] table, table_length, hole_head, restriction_head
     cdef public int[::1] watch_head, mute_head, out_head, in_head
     cdef public int[::1] block_first, block_size, block_left, block_next
     cdef public int[::1] block_free, word_free, table_free, hole_variable
-    cdef public int[::1] hole_word, hole_support, hole_next, trail_support
+    cdef public int[::1] hole_word, hole_support, hole_next, trail_key, trail_support
     cdef public int[::1] slot_variable, slot_constraint, slot_next, slot_prev
     cdef public int[::1] edge_source, edge_target, out_next, out_prev
     cdef public int[::1] in_next, in_prev, edge_span, edge_owner
@@ -56,6 +56,9 @@ cdef class Store:
 
     @cython.locals(room="long long")
     cpdef int grow_trail(self) except -1
+
+    @cython.locals(i="long long")
+    cpdef long long save_real(self, double x) except -1
 
     @cython.locals(i="long long")
     cpdef int save(self, long long name, long long code, long long value, long long support) except -1

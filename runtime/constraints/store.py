@@ -81,11 +81,13 @@ class Store:
         self.trail_size = 0
         self.trail_room = room
         self.trail_base = 0
-        self.trail_key = array("q", [0]) * room
+        self.trail_key = array("i", [0]) * room
         self.trail_value = array("q", [0]) * room
-        self.trail_number = array("d", [0.0]) * room
         self.trail_support = array("i", [0]) * room
         self.trail_when = array("q", [0]) * room
+        self.real_bounds = array("d", [0.0]) * room  # those of floats; the trail has their places
+        self.real_bounds_used = 0
+        self.resting = 0
         self.marks = 0
         # Watches: who wakes when a variable changes. A constraint's watches are consecutive, as are its arguments.
         self.slot_variable = array("i", [-1]) * room
@@ -251,14 +253,22 @@ class Store:
     def grow_trail(self) -> None:
         """Double the room of the trail."""
         room = 2 * self.trail_room
-        self.trail_key = grown(self.trail_key, "q", room, 0)
+        self.trail_key = grown(self.trail_key, "i", room, 0)
         self.trail_value = grown(self.trail_value, "q", room, 0)
-        self.trail_number = grown(self.trail_number, "d", room, 0.0)
         self.trail_support = grown(self.trail_support, "i", room, 0)
         self.trail_when = grown(self.trail_when, "q", room, 0)
         self.trail_room = room
 
     # --------------------------------------------------------------------------------------------- saving, waking
+
+    def save_real(self, x: float) -> int:
+        """Keep a float's bound for the way back; give its place."""
+        i = self.real_bounds_used
+        if i == len(self.real_bounds):
+            self.real_bounds = grown(self.real_bounds, "d", 2 * i, 0.0)
+        self.real_bounds[i] = x
+        self.real_bounds_used = i + 1
+        return i
 
     def save(self, name: int, code: int, value: int, support: int) -> None:
         """Push a structural change: enough to undo it."""
@@ -307,7 +317,7 @@ class Store:
         if i == self.trail_room:
             self.grow_trail()
         self.trail_key[i] = v * 16 + TRAIL_REAL_LOWER
-        self.trail_number[i] = self.flo[v]
+        self.trail_value[i] = self.save_real(self.flo[v])
         self.trail_support[i] = self.lower_support[v]
         self.trail_when[i] = self.lower_when[v]
         self.trail_size = i + 1
@@ -322,7 +332,7 @@ class Store:
         if i == self.trail_room:
             self.grow_trail()
         self.trail_key[i] = v * 16 + TRAIL_REAL_UPPER
-        self.trail_number[i] = self.fhi[v]
+        self.trail_value[i] = self.save_real(self.fhi[v])
         self.trail_support[i] = self.upper_support[v]
         self.trail_when[i] = self.upper_when[v]
         self.trail_size = i + 1

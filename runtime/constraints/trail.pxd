@@ -4,12 +4,13 @@ cimport cython
 from runtime.constraints.bits cimport detach_words, restore_bits
 from runtime.constraints.network cimport detach_edge, free_edge
 from runtime.constraints.posting cimport release_constraint
+from runtime.constraints.resting cimport relink
 from runtime.constraints.store cimport Store
 from runtime.constraints.variables cimport drop_restriction, drop_variable
 
 cdef long long CONFLICT_NONE, TRAIL_CONSTRAINT, TRAIL_DECIDED, TRAIL_EDGE, TRAIL_HOLES, TRAIL_LINK, TRAIL_LOWER
 cdef long long TRAIL_OPEN, TRAIL_REAL_LOWER, TRAIL_REAL_UPPER, TRAIL_RESTRICTION, TRAIL_UPPER, TRAIL_VARIABLE
-cdef long long TRAIL_WEIGHT, TRAIL_WORDS
+cdef long long TRAIL_REST, TRAIL_WEIGHT, TRAIL_WORDS
 cdef double inf
 
 
@@ -19,4 +20,5 @@ cpdef int clear_queues(Store s) except -1
 @cython.locals(code="long long", i="long long", key="long long", name="long long")
 cpdef int undo_to(Store s, long long size) except -1
 
+@cython.locals(i="long long")
 cpdef int commit_trail(Store s) except -1

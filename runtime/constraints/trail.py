@@ -14,6 +14,7 @@ from runtime.constraints.codes import (
     TRAIL_OPEN,
     TRAIL_REAL_LOWER,
     TRAIL_REAL_UPPER,
+    TRAIL_REST,
     TRAIL_RESTRICTION,
     TRAIL_UPPER,
     TRAIL_VARIABLE,
@@ -22,6 +23,7 @@ from runtime.constraints.codes import (
 )
 from runtime.constraints.network import detach_edge, free_edge
 from runtime.constraints.posting import release_constraint
+from runtime.constraints.resting import relink
 from runtime.constraints.store import Store
 from runtime.constraints.variables import drop_restriction, drop_variable
 
@@ -73,12 +75,16 @@ def undo_to(s: Store, size: int) -> None:
         elif code == TRAIL_LINK:
             s.link_a[name] = -1
             s.link_b[name] = -1
+        elif code == TRAIL_REST:
+            relink(s, name)
         elif code == TRAIL_REAL_LOWER:
-            s.flo[name] = s.trail_number[i]
+            s.real_bounds_used = s.trail_value[i]
+            s.flo[name] = s.real_bounds[s.trail_value[i]]
             s.lower_support[name] = s.trail_support[i]
             s.lower_when[name] = s.trail_when[i]
         elif code == TRAIL_REAL_UPPER:
-            s.fhi[name] = s.trail_number[i]
+            s.real_bounds_used = s.trail_value[i]
+            s.fhi[name] = s.real_bounds[s.trail_value[i]]
             s.upper_support[name] = s.trail_support[i]
             s.upper_when[name] = s.trail_when[i]
         elif code == TRAIL_HOLES:
@@ -104,5 +110,11 @@ def undo_to(s: Store, size: int) -> None:
 
 def commit_trail(s: Store) -> None:
     """Forget how to go back; time stamps go on counting, also past those of what `retract` wrote without a trail."""
+    i = s.trail_size
+    while s.resting:  # what rests does so for a search, which is over
+        i -= 1
+        if s.trail_key[i] & 15 == TRAIL_REST:
+            relink(s, s.trail_key[i] >> 4)
     s.trail_base += s.trail_size + 1
     s.trail_size = 0
+    s.real_bounds_used = 0

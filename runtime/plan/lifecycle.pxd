@@ -2,6 +2,7 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
+from runtime.constraints.resting cimport rest_distance
 from runtime.plan.bodies cimport run
 from runtime.plan.guards cimport choice, follow
 from runtime.plan.holding cimport between, decide, equate

@@ -1,5 +1,6 @@
 """Settle the plan after a change, and change the states of tokens: activate, merge, reject."""
 
+from runtime.constraints.resting import rest_distance
 from runtime.plan.bodies import run
 from runtime.plan.codes import (
     BRANCH_THEN,
@@ -101,6 +102,8 @@ def merge(plan: Plan, t: int, other: int, span: int) -> bool:
             follow(plan, scope, a, b, span)
         if rows.level and not engine.consistent:
             return False
+    if rows.level:
+        rest_distance(engine, mine + DURATION)
     return settle(plan)
 
 
