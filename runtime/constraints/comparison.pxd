@@ -12,7 +12,7 @@ from runtime.constraints.posting cimport tie_edge, tie_edges
 from runtime.constraints.resting cimport rest
 from runtime.constraints.store cimport Store
 
-cdef long long HALF_INF, KIND_FLOAT, KIND_INT, MODE_EDGES, MOST_VALUES, NEVER, OP_ALL_DIFF, OP_EQ, OP_LEQ, OP_LT
+cdef long long HALF_INF, KIND_FLOAT, KIND_INT, MODE_EDGES, MODE_REAL, MOST_VALUES, NEVER, OP_ALL_DIFF, OP_EQ, OP_LEQ, OP_LT
 cdef long long OP_NEQ, OP_PLUS, OP_TEMPORAL_DISTANCE, OP_WITHIN_BOUNDS, SIDE_HOLES, SIDE_LOWER
 cdef long long SUPPORT_CONSTRAINT
 cdef double FLOAT_TOLERANCE, STRICT_STEP
@@ -47,7 +47,12 @@ cpdef bint differ_all(Store s, long long first, long long count, long long suppo
 @cython.locals(x="long long")
 cpdef bint keep_offset(Store s, long long c, long long a, long long k, long long b) except -1
 
-@cython.locals(is_known=bint, longest="long long", shortest="long long", x="long long")
+@cython.locals(is_known=bint, x="long long")
 cpdef bint keep_distance(
+    Store s, long long c, long long start, long long distance, long long end, long long support
+) except -1
+
+@cython.locals(is_known=bint, longest="long long", shortest="long long")
+cpdef bint follow_distance(
     Store s, long long c, long long start, long long distance, long long end, long long support
 ) except -1

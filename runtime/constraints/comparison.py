@@ -16,6 +16,7 @@ from runtime.constraints.codes import (
     KIND_FLOAT,
     KIND_INT,
     MODE_EDGES,
+    MODE_REAL,
     MOST_VALUES,
     NEVER,
     ONE_BIT,
@@ -62,7 +63,11 @@ def run_comparison(s: Store, c: int) -> bool:
     if op == OP_LEQ or op == OP_LT:
         if s.mode[c] == MODE_EDGES:
             return s.link_a[c] >= 0 or tie_edge(s, c, b, a, -1 if op == OP_LT else 0)
-        return precede(s, a, b, op == OP_LT, support)
+        if not precede(s, a, b, op == OP_LT, support):
+            return False
+        if s.mode[c] != MODE_REAL and s.ub[a] + (op == OP_LT) <= s.lb[b]:
+            rest(s, c)  # neither bound will come back
+        return True
     if op == OP_EQ:
         if s.mode[c] == MODE_EDGES and s.link_a[c] < 0 and not tie_edges(s, c, a, b, 0, 0):
             return False
@@ -212,30 +217,10 @@ def keep_offset(s: Store, c: int, a: int, k: int, b: int) -> bool:
 
 def keep_distance(s: Store, c: int, start: int, distance: int, end: int, support: int) -> bool:
     """Hold `end - start` within a variable's bounds, by two edges whose weights follow them, and narrow it in turn."""
-    longest = NEVER
-    shortest = -NEVER
-    if s.kind[distance] == KIND_FLOAT:
-        if high(s, distance) < HALF_INF:
-            longest = int(math.floor(high(s, distance) + FLOAT_TOLERANCE))
-        if low(s, distance) > -HALF_INF:
-            shortest = int(math.ceil(low(s, distance) - FLOAT_TOLERANCE))
-    else:
-        if s.ub[distance] < HALF_INF:
-            longest = s.ub[distance]
-        if s.lb[distance] > -HALF_INF:
-            shortest = s.lb[distance]
     is_known = s.lb[distance] == s.ub[distance] and s.kind[distance] != KIND_FLOAT
-    if s.link_a[c] < 0:
-        if not tie_edges(s, c, start, end, longest, -shortest):
+    if s.link_a[c] < 0 or is_known or s.upper_support[distance] != support or s.lower_support[distance] != support:
+        if not follow_distance(s, c, start, distance, end, support):
             return False
-    else:
-        # A bound that comes from those of start and end tells them nothing.
-        if is_known or s.upper_support[distance] != support:
-            if not tighten_edge(s, s.link_a[c], longest):
-                return False
-        if is_known or s.lower_support[distance] != support:
-            if not tighten_edge(s, s.link_b[c], -shortest):
-                return False
     if is_known:  # the edges say all that there is to say
         rest(s, c)
         return True
@@ -248,3 +233,26 @@ def keep_distance(s: Store, c: int, start: int, distance: int, end: int, support
         if (x > s.lb[distance] or s.kind[distance] == KIND_FLOAT) and not raise_to(s, distance, x, support):
             return False
     return True
+
+
+def follow_distance(s: Store, c: int, start: int, distance: int, end: int, support: int) -> bool:
+    """Have the edges between start and end say what the distance says, but for what comes from these themselves."""
+    longest = NEVER
+    shortest = -NEVER
+    if s.kind[distance] == KIND_FLOAT:
+        if high(s, distance) < HALF_INF:
+            longest = int(math.floor(high(s, distance) + FLOAT_TOLERANCE))
+        if low(s, distance) > -HALF_INF:
+            shortest = int(math.ceil(low(s, distance) - FLOAT_TOLERANCE))
+    else:
+        if s.ub[distance] < HALF_INF:
+            longest = s.ub[distance]
+        if s.lb[distance] > -HALF_INF:
+            shortest = s.lb[distance]
+    if s.link_a[c] < 0:
+        return tie_edges(s, c, start, end, longest, -shortest)
+    is_known = s.lb[distance] == s.ub[distance]
+    if is_known or s.upper_support[distance] != support:
+        if not tighten_edge(s, s.link_a[c], longest):
+            return False
+    return (not is_known and s.lower_support[distance] == support) or tighten_edge(s, s.link_b[c], -shortest)

@@ -2,27 +2,22 @@
 
 cimport cython
 from libc cimport math
-from runtime.constraints.arithmetic cimport run_arithmetic
 from runtime.constraints.bases cimport base_high, base_low, base_set, in_order, insert_value, is_base_single
-from runtime.constraints.comparison cimport run_comparison
 from runtime.constraints.constants cimport constant_interval, constant_set
 from runtime.constraints.explain cimport explain_bound, explain_conflict
-from runtime.constraints.functions cimport run_function
-from runtime.constraints.geometry cimport run_geometry
-from runtime.constraints.logic cimport meet, run_logic
+from runtime.constraints.families cimport carry_out
+from runtime.constraints.logic cimport meet
 from runtime.constraints.narrow cimport high, is_single, low, raise_to, reduce_to, round_bounds
 from runtime.constraints.network cimport insert_edge, propagate_edges
 from runtime.constraints.posting cimport post_constraint
 from runtime.constraints.queries cimport has_finitely_many, listed, may_be, number_of_values
 from runtime.constraints.retract cimport decisions_of, edges_of, follow_again, retract
-from runtime.constraints.sets cimport run_sets
 from runtime.constraints.store cimport Store
 from runtime.constraints.trail cimport commit_trail, undo_to
 from runtime.constraints.variables cimport (
     add_restriction, clear_row, close_values, keep_values, reserve_block, start_interval, start_values, take_row,
 )
 
-cdef long long FAMILY_ARITHMETIC, FAMILY_COMPARISON, FAMILY_FUNCTION, FAMILY_GEOMETRY, FAMILY_LOGIC, FAMILY_SETS
 cdef long long FLAG_DECISION, FLAG_VALUES, KIND_FLOAT, MOST_RUNS, OP_ELEMENT, OP_EXTERNAL, PATIENCE
 cdef long long SUPPORT_RESTRICTION
 cdef double FLOAT_TOLERANCE, inf
@@ -127,9 +122,6 @@ cdef class Engine(Store):
 
     @cython.locals(holding=bint)
     cpdef bint run(self, long long c) except -1
-
-    @cython.locals(family="long long")
-    cpdef bint carry_out(self, long long c) except -1
 
     @cython.locals(i="long long")
     cpdef int clear_woken(self) except -1

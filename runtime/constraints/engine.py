@@ -4,16 +4,9 @@ import math
 from collections.abc import Sequence
 from math import inf
 
-from runtime.constraints.arithmetic import run_arithmetic
 from runtime.constraints.bases import base_high, base_low, base_set, in_order, insert_value, is_base_single
 from runtime.constraints.cause import Cause, Link
 from runtime.constraints.codes import (
-    FAMILY_ARITHMETIC,
-    FAMILY_COMPARISON,
-    FAMILY_FUNCTION,
-    FAMILY_GEOMETRY,
-    FAMILY_LOGIC,
-    FAMILY_SETS,
     FLAG_DECISION,
     FLAG_VALUES,
     FLOAT_TOLERANCE,
@@ -22,19 +15,16 @@ from runtime.constraints.codes import (
     OP_EXTERNAL,
     SUPPORT_RESTRICTION,
 )
-from runtime.constraints.comparison import run_comparison
 from runtime.constraints.constants import constant_interval, constant_set
 from runtime.constraints.explain import explain_bound, explain_conflict
 from runtime.constraints.external import External
-from runtime.constraints.functions import run_function
-from runtime.constraints.geometry import run_geometry
-from runtime.constraints.logic import meet, run_logic
+from runtime.constraints.families import carry_out
+from runtime.constraints.logic import meet
 from runtime.constraints.narrow import high, is_single, low, raise_to, reduce_to, round_bounds
 from runtime.constraints.network import insert_edge, propagate_edges
 from runtime.constraints.posting import post_constraint
 from runtime.constraints.queries import has_finitely_many, listed, may_be, number_of_values
 from runtime.constraints.retract import decisions_of, edges_of, follow_again, retract
-from runtime.constraints.sets import run_sets
 from runtime.constraints.store import Store
 from runtime.constraints.trail import commit_trail, undo_to
 from runtime.constraints.variables import (
@@ -327,29 +317,10 @@ class Engine(Store):
             return True
         self.coarse = self.run_count[c] > PATIENCE
         self.running = c if self.settles[c] else -1
-        holding = self.carry_out(c)
+        holding = carry_out(self, c)
         self.coarse = False
         self.running = -1
         return holding
-
-    def carry_out(self, c: int) -> bool:
-        """Have the family of a constraint's operation narrow its arguments; false on a conflict."""
-        family = self.op[c] >> 5
-        if family == FAMILY_COMPARISON:
-            return run_comparison(self, c)
-        if family == FAMILY_ARITHMETIC:
-            return run_arithmetic(self, c)
-        if family == FAMILY_LOGIC:
-            return run_logic(self, c)
-        if family == FAMILY_SETS:
-            return run_sets(self, c)
-        if family == FAMILY_FUNCTION:
-            return run_function(self, c)
-        if family == FAMILY_GEOMETRY:
-            return run_geometry(self, c)
-        if self.op[c] == OP_EXTERNAL:
-            return bool(self.externals[c].propagate(self, c))
-        return True
 
     def clear_woken(self) -> None:
         """Let the watches in `woken` be woken again."""

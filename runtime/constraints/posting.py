@@ -222,7 +222,7 @@ def is_settled_by_one_run(s: Store, c: int) -> bool:
     op = s.op[c]
     if s.mode[c] == MODE_REAL:
         return False  # rounding to whole numbers may leave more to do
-    return op == OP_NEQ or op == OP_ADD_EQ or (op == OP_EQ and s.arity[c] == 2)
+    return op == OP_NEQ or op == OP_ADD_EQ or op == OP_TEMPORAL_DISTANCE or (op == OP_EQ and s.arity[c] == 2)
 
 
 def events_of(s: Store, c: int, position: int) -> int:

@@ -10,11 +10,11 @@ from runtime.plan.plan cimport Plan
 from runtime.plan.rows cimport Rows
 from runtime.plan.tokens cimport make_token
 from runtime.solver.decisions cimport Decisions
-from runtime.solver.places cimport fill_places, is_open_place
+from runtime.solver.places cimport fill_places, is_open_place, is_out_of_range, may_coincide
 from runtime.solver.queues cimport Queues
 from runtime.solver.reach cimport Reach
 
-cdef long long ACTIVATE_FIRST, ACTIVATE_ONLY, APPLIED, END, FAILED_CHOICE, FLAG_ACTION, FLAG_EFFECT, FLAG_FACT
+cdef long long ACTIVATE_FIRST, ACTIVATE_ONLY, APPLIED, FAILED_CHOICE, FLAG_ACTION, FLAG_EFFECT, FLAG_FACT
 cdef long long HANDLER_HSTS, HANDLER_SUPPORT, MERGE_ONLY, NONE, NO_CHOICE, OBJECT, ORDER_KEY, PHASE_ACTIVATE
 cdef long long PHASE_DONE, PHASE_MERGE, PHASE_REJECT, START, STATE, SYMBOL_ACTIVE, SYMBOL_MERGED, SYMBOL_REJECTED
 

@@ -3,7 +3,6 @@
 from runtime.constraints.bits import has_value
 from runtime.constraints.logic import meet
 from runtime.plan.codes import (
-    END,
     FLAG_ACTION,
     FLAG_EFFECT,
     FLAG_FACT,
@@ -34,7 +33,7 @@ from runtime.solver.codes import (
     PHASE_REJECT,
 )
 from runtime.solver.decisions import Decisions
-from runtime.solver.places import fill_places, is_open_place
+from runtime.solver.places import fill_places, is_open_place, is_out_of_range, may_coincide
 from runtime.solver.preferences import sorted_candidates
 from runtime.solver.queues import Queues
 
@@ -129,15 +128,12 @@ def is_compatible(q: Queues, t: int, candidate: int) -> bool:
     engine = q.engine
     if engine.lb[mine + START] > engine.ub[theirs + START] or engine.lb[theirs + START] > engine.ub[mine + START]:
         return False
+    if is_out_of_range(q, candidate):
+        return False
     for k in range(OBJECT, q.rows.width[t]):
         if not meet(engine, mine + k, theirs + k):
             return False
-    return (
-        q.to_start.is_apart(theirs + START)
-        and q.from_start.is_apart(theirs + START)
-        and q.to_end.is_apart(theirs + END)
-        and q.from_end.is_apart(theirs + END)
-    )
+    return may_coincide(q, candidate)
 
 
 def mend_by_activating(q: Queues, stack: Decisions, d: int, t: int) -> int:

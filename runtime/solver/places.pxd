@@ -20,18 +20,15 @@ cpdef long long fill_timeline(Queues q, Decisions stack, long long d, long long 
 
 
 @cython.locals(high="long long", low="long long", middle="long long", step="long long")
-cpdef long long first_behind(Queues q, long long count) except? -1
-
+cpdef long long first_apart(Queues q, Reach reach, long long time, long long count) except? -1
 
 @cython.locals(high="long long", low="long long", middle="long long", step="long long")
-cpdef long long count_before(Queues q, long long count) except? -1
+cpdef long long count_apart(Queues q, Reach reach, long long time, long long count) except? -1
 
+@cython.locals(at="long long", count="long long", end="long long", first="long long", o="long long", theirs="long long")
+cpdef bint may_coincide(Queues q, long long candidate) except -1
 
-cpdef bint can_be_before(Queues q, long long other) except -1
-
-
-cpdef bint can_be_behind(Queues q, long long other) except -1
-
+cpdef bint is_out_of_range(Queues q, long long candidate) except -1
 
 @cython.locals(end="long long", engine=Engine, need="long long", previous="long long", rows=Rows, start="long long")
 cpdef bint is_open_place(Queues q, long long t, long long before, long long after) except -1

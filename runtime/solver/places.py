@@ -5,6 +5,7 @@ from runtime.constraints.codes import HALF_INF, NEVER
 from runtime.plan.codes import DURATION, END, LIST_ORDER, LISTS, OBJECT, START
 from runtime.solver.decisions import Decisions
 from runtime.solver.queues import Queues
+from runtime.solver.reach import Reach
 
 
 def fill_places(q: Queues, stack: Decisions, d: int, t: int) -> int:
@@ -35,8 +36,8 @@ def fill_timeline(q: Queues, stack: Decisions, d: int, t: int, o: int) -> int:
     if count == 0:
         stack.add_to_pool(d, o, t, t)
         return 0
-    first = first_behind(q, count)
-    behind = count_before(q, count)
+    first = first_apart(q, q.from_end, START, count)
+    behind = count_apart(q, q.to_start, END, count)
     if first == 0:
         stack.add_to_pool(d, o, t, q.sequence[0])
         first = 1
@@ -47,16 +48,17 @@ def fill_timeline(q: Queues, stack: Decisions, d: int, t: int, o: int) -> int:
     return 0
 
 
-def first_behind(q: Queues, count: int) -> int:
-    """The first in the sequence that the token may precede, `count` if none: bounds say it of all from some place on.
+def first_apart(q: Queues, reach: Reach, time: int, count: int) -> int:
+    """The first in the sequence whose time (START, END) no path from the token forbids, `count` if none.
 
-    From there to the left in growing steps, then by halving: a question costs more, the farther away it is.
+    All behind it are apart, too; bounds say so of all from some place on. From there to the left in growing steps, then
+    by halving: a question costs more, the farther away it is.
     """
     low = 0
     high = count
     while low < high:
         middle = (low + high) >> 1
-        if q.from_end.is_plain(q.rows.var0[q.sequence[middle]] + START):
+        if reach.is_plain(q.rows.var0[q.sequence[middle]] + time):
             high = middle
         else:
             low = middle + 1
@@ -64,7 +66,7 @@ def first_behind(q: Queues, count: int) -> int:
     step = 1
     while low < high:
         middle = max(high - step, low)
-        if can_be_before(q, q.sequence[middle]):
+        if reach.is_apart(q.rows.var0[q.sequence[middle]] + time):
             high = middle
             step *= 2
         else:
@@ -73,13 +75,13 @@ def first_behind(q: Queues, count: int) -> int:
     return high
 
 
-def count_before(q: Queues, count: int) -> int:
-    """How many of the sequence may precede the token; found as `first_behind` is, from the left."""
+def count_apart(q: Queues, reach: Reach, time: int, count: int) -> int:
+    """How many of the sequence, from the left, have a time that no path to the token forbids; as `first_apart`."""
     low = 0
     high = count
     while low < high:
         middle = (low + high) >> 1
-        if q.to_start.is_plain(q.rows.var0[q.sequence[middle]] + END):
+        if reach.is_plain(q.rows.var0[q.sequence[middle]] + time):
             low = middle + 1
         else:
             high = middle
@@ -87,7 +89,7 @@ def count_before(q: Queues, count: int) -> int:
     step = 1
     while low < high:
         middle = min(low + step, high) - 1
-        if can_be_behind(q, q.sequence[middle]):
+        if reach.is_apart(q.rows.var0[q.sequence[middle]] + time):
             low = middle + 1
             step *= 2
         else:
@@ -96,14 +98,39 @@ def count_before(q: Queues, count: int) -> int:
     return low
 
 
-def can_be_before(q: Queues, other: int) -> bool:
-    """Whether the token that is looked around from may end before `other` starts."""
-    return q.from_end.is_apart(q.rows.var0[other] + START)
+def may_coincide(q: Queues, candidate: int) -> bool:
+    """Whether an active token may have the times of the one that is looked around from.
+
+    Of those in a sequence a first part is too early and a last part too late; found once, for all of them.
+    """
+    theirs = q.rows.var0[candidate]
+    if q.rows.link_head[LISTS * candidate + LIST_ORDER] < 0:
+        return (
+            q.to_start.is_apart(theirs + START)
+            and q.from_start.is_apart(theirs + START)
+            and q.to_end.is_apart(theirs + END)
+            and q.from_end.is_apart(theirs + END)
+        )
+    o = q.engine.lb[theirs + OBJECT]
+    if q.range_object != o:
+        q.range_object = o
+        count = q.take_sequence(o)
+        for at in range(count):
+            q.place_of[q.sequence[at]] = at
+        first = first_apart(q, q.from_start, START, count)
+        q.range_first = max(first, first_apart(q, q.from_end, END, count))
+        end = count_apart(q, q.to_start, START, count)
+        q.range_end = min(end, count_apart(q, q.to_end, END, count))
+    return not is_out_of_range(q, candidate)
 
 
-def can_be_behind(q: Queues, other: int) -> bool:
-    """Whether the token that is looked around from may start after `other` ends."""
-    return q.to_start.is_apart(q.rows.var0[other] + END)
+def is_out_of_range(q: Queues, candidate: int) -> bool:
+    """Whether `may_coincide` says no, as far as that is known without asking the network."""
+    if q.range_object < 0 or q.engine.lb[q.rows.var0[candidate] + OBJECT] != q.range_object:
+        return False
+    if q.rows.link_head[LISTS * candidate + LIST_ORDER] < 0:
+        return False
+    return bool(q.place_of[candidate] < q.range_first or q.place_of[candidate] >= q.range_end)
 
 
 def is_open_place(q: Queues, t: int, before: int, after: int) -> bool:

@@ -34,13 +34,14 @@ cdef class Queues:
     cdef public CustomManager custom
     cdef public long long found_at, found_low, managers, level, found_manager, found_kind, found_item, found_handler
     cdef public long long token_room, variable_room, edge_room, constraint_room, restriction_room, loose_count
-    cdef public long long dropped_count, rows_seen, engine_seen
+    cdef public long long dropped_count, rows_seen, engine_seen, range_object, range_first, range_end
     cdef public list heaps, effects
     cdef public long long[::1] sorted_by_size, sequence, token_row, token_key, token_parked, token_waiting
-    cdef public long long[::1] token_level, active_level, order_level, variable_row, variable_key, variable_parked
+    cdef public long long[::1] token_level, active_level, order_level, place_of, variable_row, variable_key, variable_parked
     cdef public long long[::1] variable_level, waits_for, waiting_next, waiting_before, edge_level, constraint_level
     cdef public long long[::1] restriction_level, loose_slot, loose_is_variable, dropped_slot, dropped_what
     cdef public long long[::1] fired_scope, fired_end, waiting_guards
+    cdef public signed char[::1] stirs
     cdef public double found_priority
 
     cpdef int make_tables(self) except -1
@@ -88,6 +89,8 @@ cdef class Queues:
 
     @cython.locals(first="long long", v="long long")
     cpdef long long park_variable(self, long long slot, long long t) except? -1
+
+    cpdef int stir_times(self, long long t) except -1
 
     @cython.locals(after="long long", before="long long", t="long long")
     cpdef long long forget_waiting(self, long long v) except? -1

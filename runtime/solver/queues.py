@@ -6,6 +6,7 @@ key that a slot has now is in `token_key` or `variable_key`, NO_KEY if it is in 
 
 from array import array
 
+from runtime.constraints.grow import grown
 from runtime.plan.codes import END, FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
 from runtime.plan.plan import Plan
 from runtime.solver.codes import (
@@ -70,6 +71,8 @@ class Queues:
                 for heap in range(first, first + treatments.manager_heaps[manager]):
                     self.sorted_by_size[heap] = 1 if not in_order or treatments.heap_priority[heap] != 0.0 else 0
         self.sequence = array("q", [0]) * 64
+        self.range_object = NONE  # whose sequence is known to coincide with the token that is looked around from
+        self.range_first = self.range_end = 0  # between these places only
         self.level = 0
         self.found_manager = NONE
         self.found_kind = NONE
@@ -92,9 +95,11 @@ class Queues:
         self.token_level = array("q", [0]) * 64
         self.active_level = array("q", [0]) * 64
         self.order_level = array("q", [0]) * 64
+        self.place_of = array("q", [0]) * 64
         self.variable_row = array("q", [NONE]) * (256 * self.managers)
         self.variable_key = array("q", [NO_KEY]) * (256 * self.managers)
         self.variable_parked = array("q", [0]) * 256
+        self.stirs = array("b", [0]) * 256  # by variable: a change may concern what is, or was, queued or parked
         self.variable_level = array("q", [0]) * 256
         self.waits_for = array("q", [NONE]) * 256
         self.waiting_next = array("q", [NONE]) * 256
@@ -125,12 +130,14 @@ class Queues:
             self.token_level = widened(self.token_level, room, 0)
             self.active_level = widened(self.active_level, room, 0)
             self.order_level = widened(self.order_level, room, 0)
+            self.place_of = widened(self.place_of, room, 0)
             self.token_room = room
         if self.variable_room < len(self.engine.kind):
             room = len(self.engine.kind)
             self.variable_row = widened(self.variable_row, room * self.managers, NONE)
             self.variable_key = widened(self.variable_key, room * self.managers, NO_KEY)
             self.variable_parked = widened(self.variable_parked, room, 0)
+            self.stirs = grown(self.stirs, "b", room, 0)
             self.variable_level = widened(self.variable_level, room, 0)
             self.waits_for = widened(self.waits_for, room, NONE)
             self.waiting_next = widened(self.waiting_next, room, NONE)
@@ -216,6 +223,7 @@ class Queues:
         self.to_start.begin(v + START, False)
         self.from_end.begin(v + END, True)
         self.to_end.begin(v + END, False)
+        self.range_object = NONE
         return 0
 
     def clear(self) -> None:
@@ -256,6 +264,7 @@ class Queues:
         """Put the slot of a variable where its row says, unless it is there and as near to the front as it may be."""
         heap = self.treatments.heap_of[self.variable_row[slot]]
         v = slot // self.managers
+        self.stirs[v] = 1
         if heap < 0:
             if self.variable_key[slot] == NO_KEY:
                 self.variable_key[slot] = 0
@@ -311,6 +320,7 @@ class Queues:
         """Keep a token back until its times change."""
         self.drop(slot, DROPPED_TOKEN)
         self.token_parked[slot // self.managers] = 1
+        self.stir_times(slot // self.managers)
         return 0
 
     def park_variable(self, slot: int, t: int) -> int:
@@ -321,12 +331,19 @@ class Queues:
         if t >= 0 and self.waits_for[v] != t:
             self.forget_waiting(v)
             self.waits_for[v] = t
+            self.stir_times(t)
             first = self.token_waiting[t]
             self.waiting_next[v] = first
             self.waiting_before[v] = NONE
             if first >= 0:
                 self.waiting_before[first] = v
             self.token_waiting[t] = v
+        return 0
+
+    def stir_times(self, t: int) -> int:
+        """Have changes of a token's times seen."""
+        self.stirs[self.rows.var0[t] + START] = 1
+        self.stirs[self.rows.var0[t] + END] = 1
         return 0
 
     def forget_waiting(self, v: int) -> int:

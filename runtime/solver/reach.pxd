@@ -3,7 +3,7 @@
 cimport cython
 from runtime.constraints.store cimport Store
 
-cdef long long OP_TEMPORAL_DISTANCE
+cdef long long APART, MOST_NEAR, OP_TEMPORAL_DISTANCE, REACHED, UNKNOWN
 
 
 @cython.final
@@ -11,15 +11,22 @@ cdef class Reach:
     cdef public Store engine
     cdef public bint temporal_only, is_forward
     cdef public long long origin, most, stamp, length, room
-    cdef public long long[::1] stamped, distance, key, item
+    cdef public long long near_stamp
+    cdef public long long[::1] stamped, distance, key, item, near, near_distance, near_stamped
 
     cpdef int begin(self, long long origin, bint is_forward) except -1
 
-    @cython.locals(begin="long long", end="long long", engine=Store, limit="long long")
+    @cython.locals(begin="long long", end="long long", engine=Store, limit="long long", near="long long")
     cpdef bint is_apart(self, long long other) except -1
 
     @cython.locals(begin="long long", end="long long", engine=Store)
     cpdef bint is_plain(self, long long other) except -1
+
+    @cython.locals(
+        at="long long", count="long long", down="long long", e="long long", engine=Store, high="long long",
+        is_shorter=bint, length="long long", low="long long", u="long long", up="long long", v="long long"
+    )
+    cpdef int probe(self, long long other) except -1
 
     @cython.locals(room="long long")
     cpdef int restart(self, long long most) except -1

@@ -6,6 +6,9 @@ from runtime.constraints.codes import OP_TEMPORAL_DISTANCE
 from runtime.constraints.store import Store
 from runtime.solver.widening import widened
 
+MOST_NEAR = 16
+UNKNOWN, APART, REACHED = range(3)
+
 
 class Reach:
     """Dijkstra with upper bounds as potentials, kept between questions; it holds while the network does not change."""
@@ -19,6 +22,10 @@ class Reach:
         self.stamp = 0
         self.stamped = array("q", [0]) * 64
         self.distance = array("q", [0]) * 64
+        self.near_stamp = 0
+        self.near_stamped = array("q", [0]) * 64
+        self.near_distance = array("q", [0]) * 64
+        self.near = array("q", [0]) * MOST_NEAR
         self.length = 0
         self.room = 64
         self.key = array("q", [0]) * 64
@@ -44,6 +51,11 @@ class Reach:
         limit = engine.ub[begin] - engine.ub[end]
         if self.is_plain(other) or begin == end:
             return True
+        if limit <= self.most and self.stamped[other] == self.stamp and self.distance[other] < limit:
+            return False
+        near = self.probe(other)
+        if near != UNKNOWN:
+            return near == APART
         if limit > self.most:
             self.restart(limit if limit > 2 * self.most else 2 * self.most)
         while self.stamped[other] != self.stamp or self.distance[other] >= limit:
@@ -61,6 +73,44 @@ class Reach:
         begin = self.origin if self.is_forward else other
         end = other if self.is_forward else self.origin
         return bool(engine.ub[begin] <= engine.ub[end] or engine.lb[begin] <= engine.lb[end])
+
+    def probe(self, other: int) -> int:
+        """Look for a path from the far end, by a few edges: APART, REACHED, or UNKNOWN if that does not tell.
+
+        Both bounds are potentials: what is left to go is never shorter than either says.
+        """
+        engine = self.engine
+        if len(self.near_stamped) < len(engine.kind):
+            self.near_stamped = widened(self.near_stamped, len(engine.kind), 0)
+            self.near_distance = widened(self.near_distance, len(engine.kind), 0)
+        self.near_stamp += 1
+        high = engine.ub[self.origin]
+        low = engine.lb[self.origin]
+        self.near[0] = other
+        self.near_distance[other] = 0
+        count = 1
+        at = 0
+        while at < count:
+            v = self.near[at]
+            at += 1
+            e = engine.in_head[v] if self.is_forward else engine.out_head[v]
+            while e >= 0:
+                u = engine.edge_source[e] if self.is_forward else engine.edge_target[e]
+                length = self.near_distance[v] + engine.edge_weight[e]
+                up = engine.ub[u] - high if self.is_forward else high - engine.ub[u]
+                down = engine.lb[u] - low if self.is_forward else low - engine.lb[u]
+                is_shorter = self.near_stamped[u] != self.near_stamp or length < self.near_distance[u]
+                if is_shorter and length + up < 0 and length + down < 0 and self.is_known(e):
+                    if u == self.origin:
+                        return REACHED
+                    if count == MOST_NEAR:
+                        return UNKNOWN
+                    self.near_stamped[u] = self.near_stamp
+                    self.near_distance[u] = length
+                    self.near[count] = u
+                    count += 1
+                e = engine.in_next[e] if self.is_forward else engine.out_next[e]
+        return APART
 
     def restart(self, most: int) -> int:
         """Forget all paths, and from now on look for those up to a greater length."""

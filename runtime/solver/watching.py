@@ -63,6 +63,7 @@ def catch_up(q: Queues, level: int) -> int:
         if code == TRAIL_VARIABLE:
             q.forget_waiting(name)
             q.variable_parked[name] = 0
+            q.stirs[name] = 0
             q.variable_level[name] = level
             forget_slots(q, name)
         elif code == TRAIL_EDGE:
@@ -95,7 +96,8 @@ def catch_up(q: Queues, level: int) -> int:
         code = engine.trail_key[at] & 15
         name = engine.trail_key[at] >> 4
         if code <= TRAIL_REAL_UPPER or code == TRAIL_HOLES:
-            see_change(q, name)
+            if q.stirs[name]:
+                see_change(q, name)
         elif code == TRAIL_VARIABLE and q.plan.variable_role[name] == ROLE_LOCAL:
             add_variable(q, name)
         at += 1
