@@ -9,13 +9,7 @@ from array import array
 from runtime.constraints.grow import grown
 from runtime.plan.codes import END, FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
 from runtime.plan.plan import Plan
-from runtime.solver.codes import (
-    DROPPED_TOKEN,
-    DROPPED_VARIABLE,
-    NO_KEY,
-    NONE,
-    UNBOUND_VARIABLE,
-)
+from runtime.solver.codes import DROPPED_TOKEN, DROPPED_VARIABLE, NO_KEY, NONE, UNBOUND_VARIABLE
 from runtime.solver.custom import CustomManager
 from runtime.solver.distances import Distances
 from runtime.solver.filters import Filters
