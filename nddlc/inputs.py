@@ -60,10 +60,12 @@ def models_in(names: tuple[str, ...], directories: tuple[str, ...]) -> list[Path
     found: dict[Path, None] = {}
     for name in names:
         if Path(name).is_dir():
-            below = [path for path in sorted(Path(name).rglob("*.nddl")) if not _is_hidden(path.relative_to(name))]
+            next(Path(name).iterdir(), None)  # where it cannot be read, nothing would be found, and nothing said
+            below = [path for path in sorted(Path(name).rglob("*.nddl")) if _is_model(path, path.relative_to(name))]
             if not below:
                 raise Unusable(f"there is no model (.nddl) in `{name}`")
-            found.update(dict.fromkeys(roots_among(below, [Path(directory) for directory in directories])))
+            roots = roots_among(below, [Path(directory) for directory in directories])
+            found.update(dict.fromkeys(_readable(str(root)) for root in roots))
         else:
             found.update(dict.fromkeys(readable((name,), directories)))
     return list(found)
@@ -80,8 +82,8 @@ def parts_in(names: tuple[str, ...], models: list[Path], directories: tuple[str,
     return frozenset((below | alone) - {path.resolve() for path in models})
 
 
-def _is_hidden(path: Path) -> bool:
-    return any(part.startswith(".") for part in path.parts)
+def _is_model(path: Path, below: Path) -> bool:
+    return not any(part.startswith(".") for part in below.parts) and not path.is_dir()
 
 
 @cache
@@ -130,9 +132,9 @@ def readable(files: tuple[str, ...], directories: tuple[str, ...]) -> list[Path]
 
 def _readable(name: str) -> Path:
     path = Path(name)
-    if path.is_dir():
-        raise Unusable(f"`{name}` is a directory", f"name {_in_directory(path)}")
     try:
+        if path.is_dir():
+            raise Unusable(f"`{name}` is a directory", f"name {_in_directory(path)}")
         with path.open("rb", buffering=0) as file:
             _check_kind(name, file.fileno())
     except FileNotFoundError:
@@ -165,11 +167,11 @@ def _alike(path: Path) -> str | None:
         if candidate != path and candidate.is_file():
             return f"there is `{candidate}`"
     try:
-        beside = sorted(each.name for each in path.parent.iterdir() if each.suffix in (".nddl", ".toml"))
+        beside = {each.stem: each for each in sorted(path.parent.iterdir()) if each.suffix in (".nddl", ".toml")}
     except OSError:
         return f"there is no directory `{path.parent}`"
-    meant = nearest(path.name, beside)
-    return None if meant is None else f"did you mean `{path.with_name(meant)}`?"
+    meant = nearest(path.stem, beside)
+    return None if meant is None else f"did you mean `{beside[meant]}`?"
 
 
 def columns() -> int | None:

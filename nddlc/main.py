@@ -32,6 +32,7 @@ COMMANDS = {
 PLANNING = ("load", "plan", "check", "explain")  # what is slow where the engine is not compiled
 UNUSABLE, BUG, INTERRUPTED = 2, 3, 130
 MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
+FORBIDDEN = (errno.EACCES, errno.EPERM, errno.ELOOP, errno.ENAMETOOLONG)
 
 
 class Subcommands(click.Group):
@@ -108,10 +109,13 @@ def run(arguments: Sequence[str] | None = None) -> int:
         _complain("nddlc: interrupted")
         return INTERRUPTED
     except OSError as problem:
-        if problem.errno not in MACHINE:
+        if problem.errno in MACHINE:
+            where = "the output" if problem.filename is None else f"`{problem.filename}`"
+            _complain(f"nddlc: cannot write {where}: {problem.strerror}")
+        elif problem.errno in FORBIDDEN and problem.filename is not None:
+            _complain(f"nddlc: cannot use `{problem.filename}`: {problem.strerror}")
+        else:
             return _report(problem, arguments)
-        where = "the output" if problem.filename is None else f"`{problem.filename}`"
-        _complain(f"nddlc: cannot write {where}: {problem.strerror}")
         return UNUSABLE
     except Exception as bug:  # the one place where our own mistakes are caught: to tell the user whose they are
         return _report(bug, arguments)

@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -13,6 +14,7 @@ import pytest
 from nddlc.main import COMMANDS, named, run
 
 Captured = pytest.CaptureFixture[str]
+ENVIRONMENT = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
 
 LAMP = """class Lamp extends Timeline { predicate lit { int level = [1 3]; } }
 Lamp lamp = new Lamp();
@@ -330,3 +332,44 @@ def test_of_a_mistyped_file_the_one_that_was_meant_is_told(lamp: str, capsys: Ca
     capsys.readouterr()
     assert run(["check", str(Path(lamp).parent)]) == 2
     assert "sea.toml` is a mission" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(
+    shutil.which("setpriv") is None or os.geteuid() != 0, reason="root reads all, and cannot be stopped"
+)
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["plan", "shut/lamp.nddl"], "cannot read `shut/lamp.nddl`: Permission denied"),
+        (["lint", "shut"], "cannot use `shut`: Permission denied"),
+        (["lint", "lamp.nddl"], "nddlc.toml`: Permission denied"),
+        (["fmt", "bare/lamp.nddl"], "cannot write `bare/lamp.nddl`: Permission denied"),
+    ],
+)
+def test_what_may_not_be_touched_is_no_bug(words: list[str], said: str, tmp_path: Path) -> None:
+    for folder in ("shut", "bare", "."):
+        (tmp_path / folder).mkdir(exist_ok=True)
+        (tmp_path / folder / "lamp.nddl").write_text("int  a = 1 ;\n", encoding="utf-8")
+    (tmp_path / "bare" / "nddlc.toml").touch()
+    (tmp_path / "nddlc.toml").touch(mode=0)
+    (tmp_path / "shut").chmod(0)
+    (tmp_path / "bare").chmod(0o555)
+    powers = "-dac_override,-dac_read_search"
+    command = [
+        "setpriv",
+        f"--bounding-set={powers}",
+        f"--inh-caps={powers}",
+        sys.executable,
+        "-m",
+        "nddlc.main",
+        *words,
+    ]
+    done = subprocess.run(command, cwd=tmp_path, env=ENVIRONMENT, capture_output=True, text=True, check=False)
+    (tmp_path / "shut").chmod(0o700)
+    assert said in done.stderr
+    assert done.returncode == 2
+
+
+def test_a_name_that_is_too_long_is_no_bug(capsys: Captured) -> None:
+    assert run(["lint", "a" * 300 + ".nddl"]) == 2
+    assert "File name too long" in capsys.readouterr().err
