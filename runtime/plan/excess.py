@@ -39,6 +39,7 @@ class Excess(External):
         self.helper = 0
         self.until = at  # where the window ends that is too tight, and what must lie in it in part:
         self.parts: list[tuple[int, int, int, float]] = []  # start, end, least duration, least quantity
+        self.limit_steps: list[Step] = []  # set_limit: from when on, between what
         self.room = 0.0  # what there is of it, at once
         self.limit = 0.0  # the level that it falls short of, or exceeds
         self.charged: list[tuple[int, float]] = []  # tokens that use it there, and how much for certain
@@ -104,6 +105,7 @@ class Excess(External):
             place += 1
         initial, minimum, maximum, rate, total, production_rate, production_total = bounds
         levels.set_limits(initial[0], initial[1], minimum[0], maximum[1])
+        levels.limit_steps = self.limit_steps
         levels.set_flows(rate[1], total[1], production_rate[1], production_total[1])
         for sign in self.signs:
             parts = [argument(s, c, place + k) for k in range(2 + abs(sign))]

@@ -14,6 +14,7 @@ cdef class Levels:
     cdef public double excess, initial_low, initial_high, minimum
     cdef public double maximum, rate, total, production_rate
     cdef public double production_total
+    cdef public list limit_steps
 
     cpdef int set_limits(self, double initial_low, double initial_high, double minimum, double maximum) except -1
 
@@ -43,6 +44,9 @@ cdef class Levels:
 
     @cython.locals(i="long long", least_consumed=double, least_produced=double)
     cpdef long long level_violation(self) except? -1
+
+    @cython.locals(first_maximum=double, first_minimum=double, i="long long", instants=set, steps=list, t="long long")
+    cpdef long long violation_of_steps(self) except? -1
 
     @cython.locals(consumed=double, flow=double, i="long long", produced=double)
     cpdef long long flow_violation(self) except? -1

@@ -47,6 +47,7 @@ class Levels:
         self.initial_high = initial_high
         self.minimum = minimum
         self.maximum = maximum
+        self.limit_steps: list[tuple[int, float, float]] = []
 
     def set_flows(self, rate: float, total: float, production_rate: float, production_total: float) -> None:
         """Fix how much may be consumed and produced at one instant, and altogether."""
@@ -141,6 +142,8 @@ class Levels:
 
     def level_violation(self) -> int:
         """Whether the level is certainly out of bounds somewhere."""
+        if self.limit_steps:
+            return self.violation_of_steps()
         least_consumed = 0.0
         least_produced = 0.0
         for i in range(self.count):
@@ -162,6 +165,32 @@ class Levels:
                     self.excess = self.worst_for_consumers(self.at) - self.maximum
                     if self.excess > FLOAT_TOLERANCE:
                         return TOO_HIGH
+        return 0
+
+    def violation_of_steps(self) -> int:
+        """Whether the level is certainly out of bounds, where those change: `limit_steps` tell from when on."""
+        steps = self.limit_steps
+        instants = {step[0] for step in steps}
+        for i in range(self.count):
+            instants.add(self.start_high[i])
+        first_minimum = self.minimum
+        first_maximum = self.maximum
+        for t in sorted(instants):
+            self.at = t
+            self.minimum = first_minimum
+            self.maximum = first_maximum
+            for start, minimum, maximum in steps:
+                if start <= t:
+                    self.minimum = minimum
+                    self.maximum = maximum
+            self.excess = self.minimum - self.best_for_consumers(t)
+            if self.excess > FLOAT_TOLERANCE:
+                return TOO_LOW
+            self.excess = self.worst_for_consumers(t) - self.maximum
+            if self.excess > FLOAT_TOLERANCE:
+                return TOO_HIGH
+        self.minimum = first_minimum
+        self.maximum = first_maximum
         return 0
 
     def flow_violation(self) -> int:

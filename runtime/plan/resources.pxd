@@ -20,7 +20,7 @@ cdef class Resources:
     cdef public long long[::1] start_high, end_low, end_high, is_resource, is_energetic
     cdef public long long[::1] profile, changed, limits
     cdef public double[::1] least, most
-    cdef public dict steps
+    cdef public dict steps, limit_steps
 
     @cython.locals(k="long long")
     cpdef int add_resource(self, long long o, list limits, long long profile) except -1
@@ -43,6 +43,8 @@ cdef class Resources:
     cpdef int grow_uses(self) except -1
 
     cpdef int set_capacity(self, long long o, long long start, double lower, double upper) except -1
+
+    cpdef int set_limit(self, long long o, long long start, double lower, double upper) except -1
 
     @cython.locals(
         end="long long", engine=Engine, holder="long long", o="long long", q="long long", start="long long",
@@ -77,3 +79,6 @@ cdef class Resources:
         start="long long", t="long long"
     )
     cpdef bint note_read(self, excess, long long i, long long u, bint by_order) except -1
+
+
+cpdef long long step_start(tuple step) except? -1

@@ -75,6 +75,7 @@ class Resources:
         self.changed = blank(ROOM)
         self.limits = blank(ROOM * LIMITS)
         self.steps: dict[int, list[tuple[int, float, float]]] = {}  # set_capacity: from when on, between what
+        self.limit_steps: dict[int, list[tuple[int, float, float]]] = {}  # set_limit: the same of the level
         self.pending = 0
         self.refusals: list[int] = []
 
@@ -165,6 +166,12 @@ class Resources:
         self.changed[o] = 1
         self.pending = 1
 
+    def set_limit(self, o: int, start: int, lower: float, upper: float) -> None:
+        """Change the bounds of the level from a time on."""
+        self.limit_steps[o] = sorted([*self.limit_steps.get(o, ()), (start, lower, upper)], key=step_start)
+        self.changed[o] = 1
+        self.pending = 1
+
     # ---- checking ----
 
     def is_quiet(self) -> bool:
@@ -210,8 +217,9 @@ class Resources:
                 self.fill(self.levels, o)
                 by_order = False
                 if not self.levels.violation():
-                    by_order = self.levels.flows_both_ways() and envelope.find_certain(o)
+                    by_order = o not in self.limit_steps and self.levels.flows_both_ways() and envelope.find_certain(o)
                     is_tight = not by_order and self.is_energetic[o] != 0 and o not in self.steps
+                    is_tight = is_tight and o not in self.limit_steps
                     is_tight = is_tight and self.levels.overload() != 0
                     if not by_order and not is_tight:
                         continue
@@ -233,6 +241,7 @@ class Resources:
         low = self.lower(at + INITIAL, 0.0)
         high = self.upper(at + INITIAL, 0.0)
         levels.set_limits(low, high, self.lower(at + MINIMUM, -inf), self.upper(at + MAXIMUM, inf))
+        levels.limit_steps = self.limit_steps.get(o, [])
         levels.rate = self.upper(at + RATE, inf)
         levels.total = self.upper(at + TOTAL, inf)
         levels.production_rate = self.upper(at + PRODUCTION_RATE, inf)
@@ -276,6 +285,7 @@ class Resources:
         """
         levels = self.levels
         excess = Excess(o, levels.wrong, levels.at, levels.excess, list(self.steps.get(o, ())))
+        excess.limit_steps = self.limit_steps.get(o, [])
         excess.room = levels.initial_high - levels.minimum
         excess.limit = levels.maximum if levels.wrong == TOO_HIGH else levels.minimum
         if envelope is not None:
@@ -359,3 +369,8 @@ class Resources:
                     excess.note(key + SIDE_LOWER)
                     excess.note(key + SIDE_UPPER)
         return True
+
+
+def step_start(step: tuple[int, float, float]) -> int:
+    """From when on a change holds; those of one time keep the order of the script."""
+    return step[0]
