@@ -5,7 +5,8 @@ by equality and <=. Each token lies within the horizon from the start. A guard t
 member of the token's own object. There are no loops over domains, no predicates in subclasses, no actions; tokens that
 may be rejected are alone in what the script claims.
 A resource is refused as soon as what charges it *now* is too much, whatever may come to its help later (as in EUROPA):
-so what helps a reservoir is in the script, and rules only harm it.
+so what helps a reservoir is in the script, and rules only harm it. Quantities are constants: a flaw of a resource is
+mended before variables are decided, for the worst of what a quantity may be.
 """
 
 from random import Random
