@@ -53,7 +53,7 @@ class Solver:
         self.engine = database.plan.engine
         self.europa = europa
         self.engine.holes = not europa  # EUROPA keeps an int that is an interval without holes
-        if any(self.plan.resources.is_resource[o] for o in range(self.plan.object_count)):
+        if any(self.plan.resources.is_resource):
             configuration = with_resources(configuration)
         matching = Matching(configuration, database.program)
         treatments = Treatments(matching, Texts(database), len(database.program.predicates))

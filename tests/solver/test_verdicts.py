@@ -169,3 +169,10 @@ def test_an_order_that_only_distances_imply_mends_a_flaw(tmp_path: Path, europa:
     """
     solver = solver_for(tmp_path, text, europa=europa, how=resources_configuration())
     assert solver.solve(2000, 2**60) == PLAN
+
+
+@pytest.mark.parametrize("europa", [False, True])
+def test_a_model_may_have_thousands_of_objects(tmp_path: Path, europa: bool) -> None:
+    lamps = "\n".join(f"Lamp l{k} = new Lamp();" for k in range(3000))
+    model = "class Lamp extends Timeline { predicate Lit { } }\n" + lamps + "\ngoal(l2999.Lit g);\neq(g.duration, 5);"
+    assert verdict(tmp_path, model, europa=europa) == "plan"
