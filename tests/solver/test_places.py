@@ -1,0 +1,44 @@
+"""Where a token may stand in a sequence, found by halving, against a question for each of the sequence."""
+
+from pathlib import Path
+
+import pytest
+
+from runtime.plan.codes import ACTIVE, END, INACTIVE, LIST_ORDER, LISTS, START
+from runtime.solver.codes import MOVED
+from runtime.solver.distances import Distances
+from runtime.solver.places import is_out_of_range, may_coincide
+from tests.solver.planning import solver_for
+from tests.solver.random_models import rules_model, timelines_puzzle
+
+
+def coincides(distances: Distances, mine: int, theirs: int) -> bool:
+    """Whether both times may be the same, by four searches of their own."""
+    return all(
+        distances.admits(mine + time, theirs + time, 0) and distances.admits(theirs + time, mine + time, 0)
+        for time in (START, END)
+    )
+
+
+@pytest.mark.parametrize("europa", [False, True])
+@pytest.mark.parametrize("seed", range(25))
+def test_tokens_of_a_sequence_coincide_where_single_searches_say_so(tmp_path: Path, seed: int, europa: bool) -> None:
+    asked = 0
+    for text in (timelines_puzzle(seed).text, rules_model(seed)):
+        solver = solver_for(tmp_path, text, europa=europa)
+        queues, rows = solver.queues, solver.plan.rows
+        distances = Distances(solver.engine, europa)
+        for _ in range(40):
+            if solver.step() != MOVED:
+                break
+            tokens = range(rows.token_count)
+            placed = [c for c in tokens if rows.status[c] == ACTIVE and rows.link_head[LISTS * c + LIST_ORDER] >= 0]
+            for t in tokens:
+                if rows.status[t] in (ACTIVE, INACTIVE):
+                    queues.look_around(t)
+                    for c in placed:
+                        wanted = coincides(distances, rows.var0[t], rows.var0[c])
+                        assert may_coincide(queues, c) == wanted, text
+                        assert is_out_of_range(queues, c) != wanted
+                        asked += 1
+    assert asked
