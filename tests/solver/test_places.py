@@ -21,10 +21,9 @@ def coincides(distances: Distances, mine: int, theirs: int) -> bool:
 
 
 @pytest.mark.parametrize("europa", [False, True])
-@pytest.mark.parametrize("seed", range(25))
-def test_tokens_of_a_sequence_coincide_where_single_searches_say_so(tmp_path: Path, seed: int, europa: bool) -> None:
+def test_tokens_of_a_sequence_coincide_where_single_searches_say_so(tmp_path: Path, europa: bool) -> None:
     asked = 0
-    for text in (timelines_puzzle(seed).text, rules_model(seed)):
+    for text in [timelines_puzzle(seed).text for seed in range(25)] + [rules_model(seed) for seed in range(25)]:
         solver = solver_for(tmp_path, text, europa=europa)
         queues, rows = solver.queues, solver.plan.rows
         distances = Distances(solver.engine, europa)
@@ -41,4 +40,4 @@ def test_tokens_of_a_sequence_coincide_where_single_searches_say_so(tmp_path: Pa
                         assert may_coincide(queues, c) == wanted, text
                         assert is_out_of_range(queues, c) != wanted
                         asked += 1
-    assert asked
+    assert asked > 1000
