@@ -9,7 +9,7 @@ from random import Random
 SIZES = {
     "capacity": (6, 10, 20),
     "unary": (6, 10, 20),
-    "reservoir": (4, 6, 8),
+    "reservoir": (3, 4, 5),
     "pigeons": (5, 6, 7),
     "survey": (4, 5, 6),
     "instrument": (3, 5, 8),
@@ -40,12 +40,13 @@ def unary(n: int, feasible: bool) -> Iterable[str]:
 
 
 def reservoir(n: int, feasible: bool) -> Iterable[str]:
-    """Refills and drains that must alternate, at times that are free; each variant has a plan, one at once."""
-    yield f"Reservoir tank = new Reservoir({2.0 if feasible else 1.0}, 0.0, {4.0 if feasible else 2.0}); close();"
+    """Drains that come each before its own refill, and a tank that is full at first; or empty: none can be first."""
+    yield f"Reservoir tank = new Reservoir({2.0 if feasible else 0.0}, 0.0, 2.0); close();"
     for i in range(n):
         for name, kind in (("p", "produce"), ("c", "consume")):
             yield f"goal(tank.{kind} {name}{i}); {name}{i}.quantity = 2.0;"
             yield f"leq(0, {name}{i}.time); leq({name}{i}.time, {4 * n});"
+        yield f"lt(c{i}.time, p{i}.time);"
 
 
 def pigeons(n: int, feasible: bool) -> Iterable[str]:

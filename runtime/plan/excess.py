@@ -35,6 +35,7 @@ class Excess(External):
         self.read: list[int] = []
         self.enough: list[int] = []
         self.uses: list[int] = []
+        self.tokens: list[int] = []  # or, of a timeline, the tokens
         self.edges: list[int] = []
         self.helper = 0
         self.until = at  # where the window ends that is too tight, and what must lie in it in part:

@@ -2,56 +2,18 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
-from runtime.constraints.reasons cimport collect_reasons, collect_weight
-from runtime.plan.guards cimport deciders
 from runtime.plan.resources cimport Resources
 from runtime.solver.decisions cimport Decisions
-from runtime.solver.distances cimport Distances
 from runtime.solver.queues cimport Queues
+from runtime.solver.walk cimport Walk
 
-cdef long long ACTIVE, AS_IT_IS, CUSTOM, UNBOUND_VARIABLE, CONFLICT_DOMAIN, EVERYTHING, HEAD_OPEN, LISTS, LIST_OPEN, NONE, NOW, OPEN_CONDITION, OP_EXTERNAL
-cdef long long RESOURCE_CONSUMES, RESOURCE_PRODUCES, SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_CONSTRAINT
-cdef long long SUPPORT_EDGE
+cdef long long END, LIST_ORDER, OBJECT, START
+cdef long long ACTIVE, CONFLICT_DOMAIN, CUSTOM, EVERYTHING, HEAD_OPEN, LISTS, LIST_OPEN, NONE, NOW, OPEN_CONDITION
+cdef long long OP_EXTERNAL, RESOURCE_CONSUMES, RESOURCE_PRODUCES, SIDE_LOWER, SIDE_UPPER, UNBOUND_VARIABLE
 cdef double FLOAT_TOLERANCE
 
 
-cdef class Blame:
-    cdef public Queues queues
-    cdef public Decisions stack
-    cdef public Engine engine
-    cdef public long long stamp, met_count, work_count, origin, opened
-    cdef public bint is_local
-    cdef public long long[::1] marked, met, seen, work_key, work_before
-
-    cpdef long long begin(self) except? -1
-
-    cpdef long long meet(self, long long level) except? -1
-
-    cpdef long long ask(self, long long v, long long side, long long before) except? -1
-
-    @cython.locals(at="long long", before="long long", engine=Engine, old="long long", when="long long")
-    cpdef long long ask_enough(self, long long v, long long side, long long enough) except? -1
-
-    @cython.locals(bound="long long", engine=Engine, when="long long")
-    cpdef long long first(self, long long v, long long side) except? -1
-
-    cpdef long long ask_domain(self, long long v) except? -1
-
-    @cython.locals(
-        at="long long", before="long long", engine=Engine, hole="long long", key="long long", side="long long",
-        support="long long", v="long long", when="long long"
-    )
-    cpdef long long walk(self) except? -1
-
-    @cython.locals(at="long long")
-    cpdef long long expand(self, long long support, long long v, long long side, long long when) except? -1
-
-    @cython.locals(k="long long")
-    cpdef long long ask_reasons(self, long long support, long long v, long long side, long long when) except? -1
-
-    @cython.locals(kind="long long")
-    cpdef long long level_of(self, long long support) except? -1
-
+cdef class Blame(Walk):
     @cython.locals(
         engine=Engine, first="long long", is_all=bint, k="long long", side="long long", support="long long", v="long long"
     )
@@ -63,20 +25,8 @@ cdef class Blame:
     @cython.locals(heir="long long", latest="long long", reason="long long", stack=Decisions)
     cpdef long long target(self, long long d) except? -1
 
-    @cython.locals(distances=Distances, e="long long", v="long long")
-    cpdef bint blame_edge(self, long long source, long long target, long long weight) except -1
-
-    @cython.locals(c="long long", k="long long")
-    cpdef long long ask_weight(self, long long e) except? -1
-
     @cython.locals(is_new=bint, item="long long", kind="long long", mine="long long", q=Queues)
     cpdef bint may_bring(self, long long d, long long predicate) except -1
-
-    @cython.locals(k="long long", q=Queues, s="long long", t="long long")
-    cpdef long long ask_guards(self, long long level) except? -1
-
-    @cython.locals(engine=Engine, r="long long", v="long long")
-    cpdef long long ask_arguments(self, long long c) except? -1
 
     @cython.locals(other="long long", q=Queues, t="long long")
     cpdef long long blame_absence(self, long long d, long long predicate) except? -1
@@ -86,6 +36,14 @@ cdef class Blame:
 
     @cython.locals(kind="long long", predicate="long long", q=Queues, u="long long", uses=Resources)
     cpdef bint blame_helpers(self, long long o, long long sign, long long d) except -1
+
+    @cython.locals(
+        end="long long", needed="long long", start="long long", t="long long", var0="long long[::1]"
+    )
+    cpdef long long blame_window(self, excess) except? -1
+
+    @cython.locals(first="long long", q=Queues)
+    cpdef long long blame_crowd(self, long long t) except? -1
 
     @cython.locals(
         e="long long", end="long long", key="long long", least=double, length="long long", loss=double,

@@ -7,6 +7,7 @@ from runtime.plan.marks cimport commit, mark, release, rewind
 from runtime.plan.plan cimport Plan
 from runtime.solver.blame cimport Blame
 from runtime.solver.choices cimport mend
+from runtime.solver.crowds cimport Crowds
 from runtime.solver.decisions cimport Decisions
 from runtime.solver.filters cimport Filters
 from runtime.solver.instants cimport is_mended
@@ -23,11 +24,12 @@ cdef class Solver:
     cdef public object database, account, nogoods
     cdef public Plan plan
     cdef public Engine engine
-    cdef public bint europa, has_active, is_exhausted, is_started, is_close, may_restart
+    cdef public bint europa, has_active, is_exhausted, is_started, is_close, is_hopeless, may_restart
     cdef public Filters filters
     cdef public Queues queues
     cdef public Decisions stack
     cdef public Blame blame
+    cdef public Crowds crowds
     cdef public long long steps, failures, steps_floor, depth_floor, max_steps, max_depth
 
     cpdef int set_horizon(self, long long lower, long long upper) except -1
@@ -46,8 +48,10 @@ cdef class Solver:
     @cython.locals(count="long long", outcome="long long")
     cpdef long long solve(self, long long max_steps, long long max_depth, object is_late=*) except? -1
 
-    @cython.locals(d="long long", is_hopeless=bint, most="long long", outcome="long long", q=Queues, stack=Decisions)
+    @cython.locals(d="long long", most="long long", outcome="long long", q=Queues, stack=Decisions)
     cpdef long long step(self) except? -1
+
+    cpdef long long fail(self, long long d) except? -1
 
     @cython.locals(level="long long", stack=Decisions)
     cpdef bint is_known_in_vain(self, long long d) except -1

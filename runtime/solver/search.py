@@ -23,6 +23,7 @@ from runtime.solver.codes import (
     UNBOUND_VARIABLE,
 )
 from runtime.solver.configuration import Configuration, with_resources
+from runtime.solver.crowds import Crowds
 from runtime.solver.custom import CustomManager
 from runtime.solver.decisions import Decisions
 from runtime.solver.filters import Filters, Scope
@@ -66,6 +67,7 @@ class Solver:
         self.queues.uses = Uses(self.plan, self.queues.distances, grounded(database))
         self.stack = Decisions()
         self.blame = Blame(self.queues, self.stack)
+        self.crowds = Crowds(self.queues)
         self.nogoods = Nogoods(program, self.queues, self.stack)
         self.steps = 0
         self.failures = 0
@@ -76,7 +78,8 @@ class Solver:
         self.has_active = False
         self.is_exhausted = False
         self.is_started = False
-        self.is_close = False  # it looks whether uses fit at all
+        self.is_close = False  # it looks whether uses, and tokens on timelines, fit at all
+        self.is_hopeless = False  # no choice of the decision that failed last can help
         self.account: Account | None = None  # who is told of failures
 
     @property
@@ -154,7 +157,6 @@ class Solver:
             self.refresh()
         stack = self.stack
         q = self.queues
-        is_hopeless = False
         while not self.is_exhausted:
             if q.weights.is_due():
                 self.begin_anew()
@@ -184,21 +186,36 @@ class Solver:
                 catch_up(q, d + 1)
                 stack.depth = d + 1
                 self.has_active = False
-                return FAILED if self.nogoods.is_awake and self.is_known_in_vain(d) else MOVED
-            self.failures += 1
-            if self.account is not None:
-                self.account.failed(d)
+                if self.nogoods.is_awake and self.is_known_in_vain(d):
+                    return FAILED
+                if self.is_close and not self.crowds.fit():
+                    self.fail(d)
+                    self.go_to(d)
+                    if self.is_hopeless:
+                        self.give_up(d, True)
+                    return FAILED
+                return MOVED
             if not self.europa:
                 note_levels(q, d + 1)
-                is_hopeless = self.blame.learn(d)
-                if self.may_restart and self.is_reordered(d):
-                    q.weights.note_failure()
+            self.fail(d)
             rewind(self.plan, stack.mark[d])
             self.look_closer()
-            if is_hopeless:
+            if self.is_hopeless:
                 self.give_up(d, True)
             return FAILED
         return EXHAUSTED
+
+    def fail(self, d: int) -> int:
+        """Learn from the conflict that the present choice of decision `d` has led to."""
+        self.failures += 1
+        self.is_hopeless = False
+        if self.account is not None:
+            self.account.failed(d)
+        if not self.europa:
+            self.is_hopeless = self.blame.learn(d)
+            if self.may_restart and self.is_reordered(d):
+                self.queues.weights.note_failure()
+        return 0
 
     def is_known_in_vain(self, d: int) -> bool:
         """Whether a nogood says that the choice just made at `d` leads nowhere; then it is taken back."""

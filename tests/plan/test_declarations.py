@@ -35,11 +35,14 @@ def missing(path: Path) -> Iterator[str]:
 
 
 def is_inherited(node: ast.ClassDef, name: str) -> bool:
-    """Whether the attribute is one of the engine's store."""
-    return any(isinstance(base, ast.Name) and base.id == "Store" for base in node.bases) and name in STORE
+    """Whether the attribute is one of a base class that is compiled, too."""
+    return any(isinstance(base, ast.Name) and name in BASES.get(base.id, ()) for base in node.bases)
 
 
-STORE = set(re.findall(r"\w+", (RUNTIME / "constraints" / "store.pxd").read_text()))
+BASES = {
+    name: set(re.findall(r"\w+", (RUNTIME / place).read_text()))
+    for name, place in (("Store", "constraints/store.pxd"), ("Walk", "solver/walk.pxd"))
+}
 
 
 @pytest.mark.parametrize("path", DECLARED, ids=lambda path: str(path.relative_to(RUNTIME)))

@@ -1,0 +1,66 @@
+"""Tokens that cannot lie one after the other on their timeline are refused together, and only where they must."""
+
+from pathlib import Path
+
+import pytest
+
+from runtime.solver.account import Recorder
+from runtime.solver.codes import EXHAUSTED, PLAN, RESULT_NAMES
+from tests.solver.planning import solver_for
+from tests.solver.random_models import rules_model, timelines_puzzle
+
+LANE = "class Lane extends Timeline { predicate run { int n; } } Lane lane = new Lane(); close();"
+
+
+def runs(lengths: tuple[int, ...], end: int) -> str:
+    """Goals of these lengths from 1 to `end`, none of which may merge."""
+    text = LANE
+    for i, length in enumerate(lengths):
+        text += f"goal(lane.run g{i}); eq(g{i}.n, {i}); eq(g{i}.duration, {length});"
+        text += f"leq(1, g{i}.start); leq(g{i}.end, {end});"
+    return text
+
+
+@pytest.mark.parametrize(("end", "wanted"), [(12, PLAN), (11, EXHAUSTED)])
+def test_a_crowd_is_one_conflict(tmp_path: Path, end: int, wanted: int) -> None:
+    solver = solver_for(tmp_path, runs((4, 4, 3), end))
+    recorder = Recorder(solver.database, solver.queues, solver.stack)
+    solver.account = recorder
+    assert solver.solve(2000, 2**60) == wanted
+    if wanted == EXHAUSTED:
+        assert "lane needs 11 of 10 ticks available in [1, 11]" in repr(recorder.end)
+        assert solver.steps < 12
+
+
+def test_the_longest_tokens_are_to_blame(tmp_path: Path) -> None:
+    short = "".join(f"rejectable(lane.run r{i}); eq(r{i}.duration, 1); leq(1, r{i}.start);" for i in range(3))
+    text = runs((6, 6), 12).replace(LANE, LANE + short)
+    solver = solver_for(tmp_path, text)
+    recorder = Recorder(solver.database, solver.queues, solver.stack)
+    solver.account = recorder
+    assert solver.solve(20000, 2**60) == EXHAUSTED
+    assert "lane needs 12 of 11 ticks available in [1, 12]: " in repr(recorder.end)
+
+
+def test_what_the_horizon_keeps_back_takes_no_time(tmp_path: Path) -> None:
+    text = runs((4, 4, 3), 11)
+    for horizon, wanted in (((0, 100), EXHAUSTED), ((20, 100), PLAN)):
+        solver = solver_for(tmp_path, text, horizon=horizon)
+        solver.refresh()
+        solver.look_closer()
+        assert solver.solve(2000, 2**60) == wanted
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_looking_at_crowds_changes_no_verdict(tmp_path: Path, seed: int) -> None:
+    puzzle = timelines_puzzle(seed)
+    solver = solver_for(tmp_path, puzzle.text)
+    solver.refresh()
+    solver.look_closer()
+    assert RESULT_NAMES[solver.solve(20000, 2**60)] == ("plan" if puzzle.has_plan else "exhausted"), puzzle.text
+    text = rules_model(seed)
+    plain = solver_for(tmp_path, text, europa=True).solve(3000, 2**60)
+    solver = solver_for(tmp_path, text)
+    solver.refresh()
+    solver.look_closer()
+    assert RESULT_NAMES[plain] == "timeout" or solver.solve(20000, 2**60) == plain, text
