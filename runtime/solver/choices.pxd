@@ -10,6 +10,7 @@ from runtime.solver.instants cimport mend_instant
 from runtime.solver.places cimport fill_places, is_open_place
 from runtime.solver.queues cimport Queues
 
+cdef long long SPREAD
 cdef long long APPLIED, CUSTOM, FAILED_CHOICE, HANDLER_HSTS_THREAT, HANDLER_LISTED, HANDLER_MAX, HANDLER_RANDOM
 cdef long long KIND_FLOAT, NEVER, NONE, NO_CHOICE, OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 

@@ -15,6 +15,7 @@ from runtime.solver.codes import (
     NO_CHOICE,
     NONE,
     OPEN_CONDITION,
+    SPREAD,
     THREAT,
     UNBOUND_VARIABLE,
 )
@@ -98,7 +99,7 @@ def random_value(q: Queues, stack: Decisions, d: int) -> int:
     step = count // 2 + 1
     while not are_coprime(step, count):
         step += 1
-    place = (v * 2654435761 + stack.tries[d] * step) % count
+    place = (v * SPREAD + stack.tries[d] * step) % count
     x = value_above(q, v, q.engine.lb[v])
     if q.engine.word[v] < 0:
         return x + place

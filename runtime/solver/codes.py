@@ -86,3 +86,6 @@ NOW = 2**62
 FEW_FAILURES = 250
 LARGEST_SIZE = 2**44
 WEIGHT_SCALE = 2**16
+
+# ---- what spreads the numbers of variables over all places (Knuth's multiplicative hashing) ----
+SPREAD = 2654435761
