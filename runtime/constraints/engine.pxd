@@ -15,7 +15,8 @@ from runtime.constraints.retract cimport decisions_of, edges_of, follow_again, r
 from runtime.constraints.store cimport Store
 from runtime.constraints.trail cimport commit_trail, undo_to
 from runtime.constraints.variables cimport (
-    add_restriction, clear_row, close_values, keep_values, reserve_block, start_interval, start_values, take_row,
+    add_restriction, clear_row, close_values, copy_words, is_untouched_set, keep_values, reserve_block,
+    start_interval, start_values, take_row,
 )
 
 cdef long long FLAG_DECISION, FLAG_VALUES, KIND_FLOAT, MOST_RUNS, OP_ELEMENT, OP_EXTERNAL, PATIENCE
@@ -36,6 +37,9 @@ cdef class Engine(Store):
 
     @cython.locals(r="long long", v="long long")
     cpdef long long new_values(self, long long kind, list values, long long span, long long owner) except? -1
+
+    @cython.locals(r="long long", v="long long")
+    cpdef long long new_like(self, long long other, long long span, long long owner) except? -1
 
     @cython.locals(r="long long", v="long long")
     cpdef long long new_open(self, long long kind, list values, long long span, long long owner) except? -1

@@ -31,6 +31,8 @@ from runtime.constraints.variables import (
     add_restriction,
     clear_row,
     close_values,
+    copy_words,
+    is_untouched_set,
     keep_values,
     reserve_block,
     start_interval,
@@ -74,6 +76,18 @@ class Engine(Store):
         r = add_restriction(self, v, lo, hi, FLAG_VALUES, span, owner)
         self.restriction_values[r] = values
         start_values(self, v, values, r)
+        return v
+
+    def new_like(self, other: int, span: int, owner: int) -> int:
+        """Make a variable with the base domain of a closed one that nothing has narrowed; they share the list."""
+        if not is_untouched_set(self, other):
+            return self.new_values(self.kind[other], base_set(self, other) or [], span, owner)
+        v = take_row(self)
+        clear_row(self, v, self.kind[other])
+        r = add_restriction(self, v, float(self.lb[other]), float(self.ub[other]), FLAG_VALUES, span, owner)
+        self.restriction_values[r] = self.restriction_values[self.restriction_head[other]]
+        start_interval(self, v, self.lb[other], self.ub[other], r)
+        copy_words(self, v, other)
         return v
 
     def new_open(self, kind: int, values: list[float], span: int, owner: int) -> int:

@@ -52,3 +52,9 @@ cpdef bint keep_reals(Store s, long long v, list values, long long support) exce
 
 @cython.locals(r="long long")
 cpdef bint close_values(Store s, long long v) except -1
+
+@cython.locals(r="long long")
+cpdef bint is_untouched_set(Store s, long long v) except -1
+
+@cython.locals(k="long long")
+cpdef int copy_words(Store s, long long v, long long other) except -1

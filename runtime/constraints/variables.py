@@ -208,6 +208,23 @@ def start_values(s: Store, v: int, values: list[float], r: int) -> None:
         s.bits[s.word[v] + (place >> 6)] |= ONE_BIT << (place & 63)
 
 
+def is_untouched_set(s: Store, v: int) -> bool:
+    """Tell whether a closed variable still has all of the dense set that its only restriction lists."""
+    r = s.restriction_head[v]
+    if s.is_open[v] or r < 0 or s.restriction_next[r] >= 0 or not s.restriction_flags[r] & FLAG_VALUES:
+        return False
+    if s.word[v] < 0 or s.table[v] >= 0 or s.hole_head[v] >= 0:
+        return False
+    return bool(s.lb[v] == s.restriction_lo[r] and s.ub[v] == s.restriction_hi[r])
+
+
+def copy_words(s: Store, v: int, other: int) -> None:
+    """Give a new variable the bit set of another one."""
+    attach_words(s, v, s.bit_base[other], s.ub[other] - s.bit_base[other] + 1)
+    for k in range(s.words_of[v]):
+        s.bits[s.word[v] + k] = s.bits[s.word[other] + k]
+
+
 def keep_values(s: Store, v: int, values: list[float], support: int) -> bool:
     """Narrow `v` to some of the listed values (sorted, each once)."""
     if not values:

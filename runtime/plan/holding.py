@@ -121,7 +121,7 @@ def copy(plan: Plan, prototype: int) -> int:
     if is_base_growing(engine, prototype):
         return engine.new_open(kind, values or [], NONE, NONE)
     if values is not None and not is_gapless(kind, values):
-        return engine.new_values(kind, values, NONE, NONE)
+        return engine.new_like(prototype, NONE, NONE)
     lower = values[0] if values else engine.base_lower(prototype)
     upper = values[len(values) - 1] if values else engine.base_upper(prototype)
     plan.note_form(prototype, lower, upper)

@@ -1,6 +1,6 @@
 """Constraints that rest in a search: nothing is lost, and all wake when the search goes back or is over."""
 
-from runtime.constraints.codes import KIND_BOOL, KIND_INT, OP_LEQ, OP_TEMPORAL_DISTANCE
+from runtime.constraints.codes import KIND_BOOL, KIND_INT, KIND_SYMBOL, OP_LEQ, OP_TEMPORAL_DISTANCE
 from runtime.constraints.engine import Engine
 
 
@@ -73,3 +73,15 @@ def test_an_order_that_holds_rests_and_one_that_may_not_hold_is_kept() -> None:
     assert c in watchers(engine, y) and c in watchers(engine, x)
     assert engine.restrict_base(x, 1, 1, 2, -1) and engine.propagate()
     assert engine.lower(y) == 1
+
+
+def test_a_variable_like_another_has_its_base_domain_whatever_happens_to_either() -> None:
+    engine = Engine()
+    model = engine.new_values(KIND_SYMBOL, [3, 5, 6, 90], 0, -1)
+    copy = engine.new_like(model, 1, -1)
+    assert engine.values_of(copy) == [3, 5, 6, 90] == engine.base_values(copy)
+    assert engine.restrict_base_values(copy, [5, 90], 2, -1) and engine.propagate()
+    assert (engine.values_of(copy), engine.values_of(model)) == ([5, 90], [3, 5, 6, 90])
+    assert engine.restrict_base_values(model, [3, 6, 90], 2, -1) and engine.propagate()
+    assert engine.values_of(engine.new_like(model, 1, -1)) == [3, 6, 90]
+    assert engine.values_of(engine.new_like(copy, 1, -1)) == [5, 90]
