@@ -46,6 +46,7 @@ from runtime.constraints.narrow import (
     set_upper,
 )
 from runtime.constraints.network import tighten_edge
+from runtime.constraints.orders import is_in_strict_circle
 from runtime.constraints.posting import tie_edge, tie_edges
 from runtime.constraints.resting import rest
 from runtime.constraints.store import Store
@@ -60,6 +61,8 @@ def run_comparison(s: Store, c: int) -> bool:
     support = c * 4 + SUPPORT_CONSTRAINT
     if op == OP_TEMPORAL_DISTANCE:
         return keep_distance(s, c, a, b, s.slot_variable[first + 2], support)
+    if s.coarse and (op == OP_LEQ or op == OP_LT or op == OP_EQ) and is_in_strict_circle(s, c):
+        return s.fail(b, SIDE_LOWER, support)
     if op == OP_LEQ or op == OP_LT:
         if s.mode[c] == MODE_EDGES:
             return s.link_a[c] >= 0 or tie_edge(s, c, b, a, -1 if op == OP_LT else 0)

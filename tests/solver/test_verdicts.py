@@ -176,3 +176,18 @@ def test_a_model_may_have_thousands_of_objects(tmp_path: Path, europa: bool) -> 
     lamps = "\n".join(f"Lamp l{k} = new Lamp();" for k in range(3000))
     model = "class Lamp extends Timeline { predicate Lit { } }\n" + lamps + "\ngoal(l2999.Lit g);\neq(g.duration, 5);"
     assert verdict(tmp_path, model, europa=europa) == "plan"
+
+
+def test_tokens_whose_reals_differ_are_not_merged(tmp_path: Path) -> None:
+    model = """
+    class T extends Timeline { predicate p { float x = [0.0 1.0]; } }
+    T t = new T();
+    close();
+    goal(t.p a);
+    goal(t.p b);
+    a.start = [0 5];
+    b.start = [0 5];
+    a.x < b.x;
+    """
+    assert verdict(tmp_path, model) == "plan"
+    assert verdict(tmp_path, model + "a.start == b.start;") == "exhausted"
