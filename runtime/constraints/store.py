@@ -14,7 +14,7 @@ from runtime.constraints.codes import (
     TRAIL_REAL_UPPER,
     TRAIL_UPPER,
 )
-from runtime.constraints.grow import grown, grown_ring
+from runtime.constraints.grow import grown, grown_ring, next_room
 
 FIRST_ROOM = 64
 
@@ -251,8 +251,8 @@ class Store:
         self.dear_mask = 2 * room - 1
 
     def grow_trail(self) -> None:
-        """Double the room of the trail."""
-        room = 2 * self.trail_room
+        """Make the trail longer."""
+        room = next_room(self.trail_room)
         self.trail_key = grown(self.trail_key, "i", room, 0)
         self.trail_value = grown(self.trail_value, "q", room, 0)
         self.trail_support = grown(self.trail_support, "i", room, 0)
