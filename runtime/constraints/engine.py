@@ -87,7 +87,8 @@ class Engine(Store):
         r = add_restriction(self, v, float(self.lb[other]), float(self.ub[other]), FLAG_VALUES, span, owner)
         self.restriction_values[r] = self.restriction_values[self.restriction_head[other]]
         start_interval(self, v, self.lb[other], self.ub[other], r)
-        copy_words(self, v, other)
+        if self.word[other] >= 0:
+            copy_words(self, v, other)
         return v
 
     def new_open(self, kind: int, values: list[float], span: int, owner: int) -> int:

@@ -17,7 +17,7 @@ def grown(old: "array[Any]", code: str, room: int, fill: float) -> "array[Any]":
     return new
 
 
-def lazily_zeroed(code: str, size: int) -> "array[Any]":
+def lazily_zeroed(code: Any, size: int) -> "array[Any]":
     """Give an array of zeros, of so many bytes, in pages of its own: private ones, for workers are forked."""
     pages = mmap.mmap(-1, size, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
     if hasattr(mmap, "MADV_HUGEPAGE"):

@@ -209,11 +209,13 @@ def start_values(s: Store, v: int, values: list[float], r: int) -> None:
 
 
 def is_untouched_set(s: Store, v: int) -> bool:
-    """Tell whether a closed variable still has all of the dense set that its only restriction lists."""
+    """Tell whether a closed variable has all of the dense set of whole numbers that its only restriction lists."""
     r = s.restriction_head[v]
     if s.is_open[v] or r < 0 or s.restriction_next[r] >= 0 or not s.restriction_flags[r] & FLAG_VALUES:
         return False
-    if s.word[v] < 0 or s.table[v] >= 0 or s.hole_head[v] >= 0:
+    if s.kind[v] == KIND_FLOAT or s.table[v] >= 0 or s.hole_head[v] >= 0 or s.lb[v] > s.ub[v]:
+        return False
+    if s.word[v] < 0 and s.ub[v] - s.lb[v] + 1 != len(s.restriction_values[r]):
         return False
     return bool(s.lb[v] == s.restriction_lo[r] and s.ub[v] == s.restriction_hi[r])
 

@@ -57,7 +57,7 @@ cpdef long long make_variable(
 ) except? -1
 
 
-@cython.locals(engine=Engine, v="long long")
+@cython.locals(engine=Engine, v="long long", values=list)
 cpdef long long make_closed(
     Plan plan, long long prototype, long long role, long long owner, long long name
 ) except? -1
@@ -68,3 +68,7 @@ cpdef long long copy(Plan plan, long long prototype) except? -1
 
 
 cpdef bint is_gapless(long long kind, list values) except -1
+
+
+@cython.locals(count="long long", twin="long long")
+cpdef long long closed_twin(Plan plan, long long prototype, list values) except? -1

@@ -106,9 +106,22 @@ def make_closed(plan: Plan, prototype: int, role: int, owner: int, name: int) ->
     engine = plan.engine
     if not engine.is_open[prototype]:
         return make_variable(plan, prototype, role, owner, name)
-    v = engine.new_values(engine.kind[prototype], engine.base_values(prototype) or [], NONE, NONE)
+    values = engine.base_values(prototype) or []
+    if plan.rows.level and values:  # nothing joins it in a search
+        v = engine.new_like(closed_twin(plan, prototype, values), NONE, NONE)
+    else:
+        v = engine.new_values(engine.kind[prototype], values, NONE, NONE)
     plan.note_variable(v, role, owner, name)
     return v
+
+
+def closed_twin(plan: Plan, prototype: int, values: list[float]) -> int:
+    """A constant with the values that an open prototype lists; it serves until more are listed."""
+    twin, count = plan.twins.get(prototype, (NONE, 0))
+    if count != len(values):
+        twin = plan.engine.new_constant_values(plan.engine.kind[prototype], values)
+        plan.twins[prototype] = (twin, len(values))
+    return int(twin)
 
 
 def copy(plan: Plan, prototype: int) -> int:

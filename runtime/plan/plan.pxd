@@ -38,6 +38,7 @@ cdef class Plan:
     cdef public bint loops_read_choices
     cdef public double[::1] form_lower, form_upper
     cdef public list unions
+    cdef public dict twins
     cdef public object services, envelope
     cdef public Resources resources
 

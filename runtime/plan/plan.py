@@ -109,6 +109,7 @@ class Plan:
         self.name_prototype = blank(1)  # for a member of no known object
         # Prototypes whose domain is an interval.
         self.form_capacity = 256
+        self.twins: dict[int, tuple[int, int]] = {}  # of open prototypes: a closed constant, how many values it has
         self.form = blank(256)
         self.form_lower = blank_reals(256)
         self.form_upper = blank_reals(256)
