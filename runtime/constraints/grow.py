@@ -20,8 +20,6 @@ def grown(old: "array[Any]", code: str, room: int, fill: float) -> "array[Any]":
 def lazily_zeroed(code: Any, size: int) -> "array[Any]":
     """Give an array of zeros, of so many bytes, in pages of its own: private ones, for workers are forked."""
     pages = mmap.mmap(-1, size, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
-    if hasattr(mmap, "MADV_HUGEPAGE"):
-        pages.madvise(mmap.MADV_HUGEPAGE)
     return cast("array[Any]", memoryview(pages).cast(code))
 
 
