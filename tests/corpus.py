@@ -89,7 +89,7 @@ OTHERS: dict[tuple[str, str], str] = {
 }
 # Where nddlc differs on purpose; docs/compatibility.md says why.
 OTHER_STEPS = ("BlocksWorld", "constraint-to-temporal")
-OTHER_VERDICT = {"backtr": "exhausted", "smallerInconsistency-initial-state": "exhausted"}
+OTHER_VERDICT = {"backtr": "exhausted"}
 
 
 @dataclass(frozen=True, slots=True)
