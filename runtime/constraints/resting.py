@@ -44,6 +44,21 @@ def relink(s: Store, c: int) -> None:
                 s.slot_prev[after] = slot
 
 
+def waken(s: Store, c: int) -> None:
+    """Put a constraint at the head of the lists of its variables, which have others since `rest` took it from them."""
+    s.aux[c] = 0
+    s.resting -= 1
+    for slot in range(s.first[c], s.first[c] + s.arity[c]):
+        if s.slot_next[slot] != -2:
+            v = s.slot_variable[slot]
+            after = s.watch_head[v]
+            s.watch_head[v] = slot
+            s.slot_prev[slot] = -1
+            s.slot_next[slot] = after
+            if after >= 0:
+                s.slot_prev[after] = slot
+
+
 def rest_distance(s: Store, distance: int) -> None:
     """Let the constraint rest that ties a token's duration to its times: they all equal those of another token."""
     slot = s.watch_head[distance]

@@ -4,7 +4,7 @@ cimport cython
 from runtime.constraints.bits cimport detach_words, restore_bits
 from runtime.constraints.network cimport detach_edge, free_edge
 from runtime.constraints.posting cimport release_constraint
-from runtime.constraints.resting cimport relink
+from runtime.constraints.resting cimport relink, waken
 from runtime.constraints.store cimport Store
 from runtime.constraints.variables cimport drop_restriction, drop_variable
 

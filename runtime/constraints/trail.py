@@ -23,7 +23,7 @@ from runtime.constraints.codes import (
 )
 from runtime.constraints.network import detach_edge, free_edge
 from runtime.constraints.posting import release_constraint
-from runtime.constraints.resting import relink
+from runtime.constraints.resting import relink, waken
 from runtime.constraints.store import Store
 from runtime.constraints.variables import drop_restriction, drop_variable
 
@@ -114,7 +114,7 @@ def commit_trail(s: Store) -> None:
     while s.resting:  # what rests does so for a search, which is over
         i -= 1
         if s.trail_key[i] & 15 == TRAIL_REST:
-            relink(s, s.trail_key[i] >> 4)
+            waken(s, s.trail_key[i] >> 4)
     s.trail_base += s.trail_size + 1
     s.trail_size = 0
     s.real_bounds_used = 0

@@ -85,3 +85,20 @@ def test_a_variable_like_another_has_its_base_domain_whatever_happens_to_either(
     assert engine.restrict_base_values(model, [3, 6, 90], 2, -1) and engine.propagate()
     assert engine.values_of(engine.new_like(model, 1, -1)) == [3, 6, 90]
     assert engine.values_of(engine.new_like(copy, 1, -1)) == [5, 90]
+
+
+def test_what_wakes_leaves_those_on_the_lists_that_came_meanwhile() -> None:
+    engine = Engine()
+    c, start, duration, end = token(engine, 1, 9)
+    assert engine.propagate()
+    engine.mark()
+    assert engine.decide(duration, 3, 2, -1) and engine.propagate()
+    assert c not in watchers(engine, start)
+    other = engine.new_interval(KIND_INT, 3, 200, 3, -1)
+    later = engine.post(OP_TEMPORAL_DISTANCE, [start, other, end], 3, -1)
+    assert engine.restrict_base(end, 0, 10, 4, -1) and engine.propagate()
+    limit = engine.newest_restriction
+    engine.commit()
+    assert {c, later} <= set(watchers(engine, start)) and {c, later} <= set(watchers(engine, end))
+    assert engine.retract(variables=[duration], restrictions=[limit])
+    assert (engine.lower(other), engine.upper(other)) == (3, 100)
