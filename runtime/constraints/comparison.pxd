@@ -47,12 +47,12 @@ cpdef bint differ_all(Store s, long long first, long long count, long long suppo
 @cython.locals(x="long long")
 cpdef bint keep_offset(Store s, long long c, long long a, long long k, long long b) except -1
 
-@cython.locals(is_known=bint, x="long long")
+@cython.locals(is_known=bint, is_telling=bint, x="long long")
 cpdef bint keep_distance(
     Store s, long long c, long long start, long long distance, long long end, long long support
 ) except -1
 
-@cython.locals(is_known=bint, longest="long long", shortest="long long")
+@cython.locals(longest="long long", shortest="long long", support="long long")
 cpdef bint follow_distance(
-    Store s, long long c, long long start, long long distance, long long end, long long support
+    Store s, long long c, long long start, long long distance, long long end, bint wholly
 ) except -1

@@ -221,8 +221,10 @@ def keep_offset(s: Store, c: int, a: int, k: int, b: int) -> bool:
 def keep_distance(s: Store, c: int, start: int, distance: int, end: int, support: int) -> bool:
     """Hold `end - start` within a variable's bounds, by two edges whose weights follow them, and narrow it in turn."""
     is_known = s.lb[distance] == s.ub[distance] and s.kind[distance] != KIND_FLOAT
-    if s.link_a[c] < 0 or is_known or s.upper_support[distance] != support or s.lower_support[distance] != support:
-        if not follow_distance(s, c, start, distance, end, support):
+    # A bound that comes from those of start and end tells them nothing, unless it was rounded to a value.
+    is_telling = is_known or s.word[distance] >= 0 or s.link_a[c] < 0
+    if is_telling or s.upper_support[distance] != support or s.lower_support[distance] != support:
+        if not follow_distance(s, c, start, distance, end, is_telling):
             return False
     if is_known:  # the edges say all that there is to say
         rest(s, c)
@@ -238,8 +240,8 @@ def keep_distance(s: Store, c: int, start: int, distance: int, end: int, support
     return True
 
 
-def follow_distance(s: Store, c: int, start: int, distance: int, end: int, support: int) -> bool:
-    """Have the edges between start and end say what the distance says, but for what comes from these themselves."""
+def follow_distance(s: Store, c: int, start: int, distance: int, end: int, wholly: bool) -> bool:
+    """Have the edges between start and end say what the distance says, if not wholly, but for what comes from them."""
     longest = NEVER
     shortest = -NEVER
     if s.kind[distance] == KIND_FLOAT:
@@ -254,8 +256,8 @@ def follow_distance(s: Store, c: int, start: int, distance: int, end: int, suppo
             shortest = s.lb[distance]
     if s.link_a[c] < 0:
         return tie_edges(s, c, start, end, longest, -shortest)
-    is_known = s.lb[distance] == s.ub[distance]
-    if is_known or s.upper_support[distance] != support:
+    support = c * 4 + SUPPORT_CONSTRAINT
+    if wholly or s.upper_support[distance] != support:
         if not tighten_edge(s, s.link_a[c], longest):
             return False
-    return (not is_known and s.lower_support[distance] == support) or tighten_edge(s, s.link_b[c], -shortest)
+    return (not wholly and s.lower_support[distance] == support) or tighten_edge(s, s.link_b[c], -shortest)

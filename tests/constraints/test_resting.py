@@ -102,3 +102,14 @@ def test_what_wakes_leaves_those_on_the_lists_that_came_meanwhile() -> None:
     assert {c, later} <= set(watchers(engine, start)) and {c, later} <= set(watchers(engine, end))
     assert engine.retract(variables=[duration], restrictions=[limit])
     assert (engine.lower(other), engine.upper(other)) == (3, 100)
+
+
+def test_a_duration_that_is_rounded_over_a_hole_tells_its_ends() -> None:
+    engine = Engine()
+    duration = engine.new_values(KIND_INT, [-1, 1, 2], 0, -1)
+    start = engine.new_interval(KIND_INT, -1, 1, 0, -1)
+    end = engine.new_interval(KIND_INT, 1, 1, 0, -1)
+    engine.post(OP_TEMPORAL_DISTANCE, [start, duration, end], 1, -1)
+    assert engine.propagate()
+    assert engine.values_of(duration) == [1, 2]
+    assert (engine.lower(start), engine.upper(start)) == (-1, 0)
