@@ -17,7 +17,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from runtime.build_form import build_form
-from runtime.constraints import codes
+from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 
 NANO = 1e9
@@ -64,8 +64,8 @@ def plan_network(engine: Engine, chance: random.Random, tokens: int) -> list[tup
     """Lay tokens on ten timelines, with durations and relations across, as a plan has them."""
     points = []
     for _ in range(tokens):
-        start = engine.new_interval(codes.KIND_INT, 0, 100000, 0, -1)
-        end = engine.new_interval(codes.KIND_INT, 0, 100000, 0, -1)
+        start = engine.new_interval(tags.KIND_INT, 0, 100000, 0, -1)
+        end = engine.new_interval(tags.KIND_INT, 0, 100000, 0, -1)
         engine.add_edge(start, end, chance.randint(20, 60), 0, -1)
         engine.add_edge(end, start, -chance.randint(1, 20), 0, -1)
         points.append((start, end))
@@ -100,11 +100,11 @@ def measure_network(scale: int) -> tuple[float, float]:
 def measure_sums(scale: int) -> float:
     """Push a bound through a chain of sums."""
     engine = Engine()
-    last = first = engine.new_interval(codes.KIND_INT, 0, 10**9, 0, -1)
+    last = first = engine.new_interval(tags.KIND_INT, 0, 10**9, 0, -1)
     for _ in range(200):
-        step = engine.new_interval(codes.KIND_INT, 0, 3, 0, -1)
-        total = engine.new_interval(codes.KIND_INT, 0, 10**9, 0, -1)
-        engine.post(codes.OP_ADD_EQ, [last, step, total], 0, -1)
+        step = engine.new_interval(tags.KIND_INT, 0, 3, 0, -1)
+        total = engine.new_interval(tags.KIND_INT, 0, 10**9, 0, -1)
+        engine.post(tags.OP_ADD_EQ, [last, step, total], 0, -1)
         last = total
     engine.propagate()
     engine.commit()
@@ -122,19 +122,19 @@ def measure_tokens(scale: int) -> float:
     """Make a token with its constraints, propagate, and undo it."""
     engine = Engine()
     plan_network(engine, random.Random(2), 50)
-    parent = engine.new_interval(codes.KIND_INT, 0, 1000, 0, -1)
+    parent = engine.new_interval(tags.KIND_INT, 0, 1000, 0, -1)
     engine.propagate()
     engine.commit()
     begun = time.process_time()
     for _ in range(100 * scale):
         mark = engine.mark()
         engine.reserve(5)
-        engine.new_interval(codes.KIND_SYMBOL, 0, 2, 0, 1)
-        engine.new_interval(codes.KIND_OBJECT, 0, 5, 0, 1)
-        duration = engine.new_interval(codes.KIND_INT, 1, float("inf"), 0, 1)
-        start = engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), 0, 1)
-        end = engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), 0, 1)
-        engine.post(codes.OP_TEMPORAL_DISTANCE, [start, duration, end], 0, 1)
+        engine.new_interval(tags.KIND_SYMBOL, 0, 2, 0, 1)
+        engine.new_interval(tags.KIND_OBJECT, 0, 5, 0, 1)
+        duration = engine.new_interval(tags.KIND_INT, 1, float("inf"), 0, 1)
+        start = engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), 0, 1)
+        end = engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), 0, 1)
+        engine.post(tags.OP_TEMPORAL_DISTANCE, [start, duration, end], 0, 1)
         engine.add_edge(start, parent, 0, 0, 1)
         engine.add_edge(parent, end, 50, 0, 1)
         engine.propagate()
@@ -182,7 +182,7 @@ def measure_shape(
 ) -> float:
     """Lay out points, each relation's first at least 1 before its second; take turns and undo each."""
     engine = Engine()
-    points = [engine.new_interval(codes.KIND_INT, 0, 10**7, 0, -1) for _ in range(count)]
+    points = [engine.new_interval(tags.KIND_INT, 0, 10**7, 0, -1) for _ in range(count)]
     for before, after in relations:
         engine.add_edge(points[after], points[before], -1, 0, -1)
     engine.propagate()
@@ -220,7 +220,7 @@ def many_edges() -> Iterator[float]:
     for count in (10**5, 10**6 if build_form() == "compiled" else 10**5):
         before = resident()
         engine = Engine()
-        points = [engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), 0, -1) for _ in range(count // 10)]
+        points = [engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), 0, -1) for _ in range(count // 10)]
         for k in range(count):
             engine.add_edge(points[k % len(points)], points[k * 7 % len(points)], 1000, 0, -1)
             if k % 1000 == 0:

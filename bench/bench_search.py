@@ -15,9 +15,9 @@ from bench.hard_models import SIZES, model
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.source import Source
 from nddlc.loading import load
-from runtime.solver.codes import RESULT_NAMES
-from runtime.solver.read import read_configuration
+from runtime.solver.configuration.read import read_configuration
 from runtime.solver.search import Solver
+from runtime.solver.tags import RESULT_NAMES
 
 LIMIT = 20.0  # seconds per problem
 HORIZON = (0, 1000)

@@ -26,9 +26,9 @@ from runtime.build_form import build_form
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.source import Source
 from nddlc.loading import load
-from runtime.solver.codes import RESULT_NAMES
-from runtime.solver.read import read_configuration
+from runtime.solver.configuration.read import read_configuration
 from runtime.solver.search import Solver
+from runtime.solver.tags import RESULT_NAMES
 
 SIZES = {
     "survey_ordered": (8, 16, 32, 64, 128, 256, 512),

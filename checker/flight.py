@@ -15,8 +15,8 @@ from nddl_lang.text.read import read_source
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, run_mission
 from runtime.executive.outcome import Cause, Conflict, Outcome
-from runtime.solver.configuration import Configuration, default_configuration
-from runtime.solver.read import read_configuration
+from runtime.solver.configuration.configuration import Configuration, default_configuration
+from runtime.solver.configuration.read import read_configuration
 from runtime.user.library import load_library
 
 PREFIX = re.compile(r"\b\w+:(?=\w)")  # the reactor's name before a variable's

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
-from checker.mission_codes import CIRCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE
+from checker.codes import CIRCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE
 from checker.mission_table import MissionText, Table, nearest
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.read import read_source

@@ -1,6 +1,6 @@
 """The pages of the codes about mission files; `docs/mission.md` describes such a file."""
 
-from checker.mission_codes import (
+from checker.codes import (
     CIRCLE,
     ILL_DISTRIBUTION,
     MISSING_KEY,

@@ -4,7 +4,7 @@ import difflib
 import math
 from collections.abc import Sequence
 
-from checker.mission_codes import (
+from checker.codes import (
     MISSING_KEY,
     OUT_OF_RANGE,
     REVERSED,

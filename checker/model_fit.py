@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
+from checker.codes import NO_ARGUMENT, NO_PREDICATE, NO_RANGE, NO_TIMELINE, UNUSED_PARAMETER
 from checker.mission import Mission
-from checker.mission_codes import NO_ARGUMENT, NO_PREDICATE, NO_RANGE, NO_TIMELINE, UNUSED_PARAMETER
 from checker.mission_table import nearest
 from compiler.program import DomainConstant, ParameterSite, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note

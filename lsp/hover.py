@@ -5,7 +5,7 @@ from typing import assert_never
 
 from lsprotocol.types import Hover, MarkupContent, MarkupKind, Position
 
-from lsp.complaints import Conversion
+from lsp.codes import Conversion
 from lsp.describe import Describer
 from lsp.documents import View
 from lsp.meaning import WORDS, Meaning, Word, meaning_at

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from typing import Any
 
-from runtime.solver.account import Attempt, Failure
-from runtime.solver.wording import Line
+from runtime.solver.learning.failure_log import Attempt, Failure
+from runtime.solver.learning.rendering import Line
 
 MOST_LINES = 60
 DEEPEST = 12

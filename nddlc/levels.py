@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from math import inf
 
-from runtime.constraints.codes import HALF_INF
-from runtime.plan.codes import INITIAL, LIMITS, MAXIMUM, MINIMUM
+from runtime.constraints.domains.tags import HALF_INF
 from runtime.plan.database import PlanDatabase
+from runtime.plan.tags import INITIAL, LIMITS, MAXIMUM, MINIMUM
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import as_dict
 from nddlc.libraries import library_of
 from runtime.plan.database import PlanDatabase
-from runtime.plan.readout import read
+from runtime.plan.readout.readout import read
 from runtime.user.library import Library
 
 Facts = dict[str, Any]

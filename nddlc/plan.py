@@ -11,22 +11,22 @@ import click
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
 from nddlc.because import as_data, shortened, story
+from nddlc.cancellation import Clock
 from nddlc.gantt import drawing
 from nddlc.inputs import Unusable, chosen_dialect, colours, columns, readable
 from nddlc.levels import Run, runs
 from nddlc.loading import Facts, Loaded, facts, load
-from nddlc.patience import Clock
 from nddlc.picture import page, svg
 from nddlc.plan_text import INTERRUPTED, found_values, lines, tokens_shown, verdict
-from runtime.constraints.codes import HALF_INF, INF
-from runtime.plan.codes import REJECTED
-from runtime.plan.readout import live_tokens, read, token_names
-from runtime.solver.account import Failure, Recorder
-from runtime.solver.codes import PLAN, RESULT_NAMES
-from runtime.solver.configuration import Configuration, default_configuration
-from runtime.solver.limits import Limits, model_limits
-from runtime.solver.read import read_configuration
+from runtime.constraints.domains.tags import HALF_INF, INF
+from runtime.plan.readout.readout import live_tokens, read, token_names
+from runtime.plan.tags import REJECTED
+from runtime.solver.configuration.configuration import Configuration, default_configuration
+from runtime.solver.configuration.limits import Limits, model_limits
+from runtime.solver.configuration.read import read_configuration
+from runtime.solver.learning.failure_log import Failure, Recorder
 from runtime.solver.search import Solver
+from runtime.solver.tags import PLAN, RESULT_NAMES
 
 DEFAULT_HORIZON = (0, 1000)
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from nddlc.gantt import Drawing, chart, short, span
 from nddlc.load import table
 from nddlc.loading import Facts
-from runtime.solver.limits import Limits
+from runtime.solver.configuration.limits import Limits
 
 HEAD = ("token", "predicate", "state", "object", "start", "duration", "end", "parameters")
 VARIABLES = ("variable", "value")

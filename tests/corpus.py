@@ -19,10 +19,10 @@ from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Severity
 from nddl_lang.text.read import read_source
 from nddlc.loading import load
-from runtime.solver.codes import RESULT_NAMES
-from runtime.solver.limits import Limits, model_limits
-from runtime.solver.read import read_configuration
+from runtime.solver.configuration.limits import Limits, model_limits
+from runtime.solver.configuration.read import read_configuration
 from runtime.solver.search import Solver
+from runtime.solver.tags import RESULT_NAMES
 
 Answer = TypeVar("Answer")
 PATIENCE = 20.0  # seconds for one model

@@ -2,19 +2,19 @@
 
 cimport cython
 from libc cimport math
-from runtime.constraints.bases cimport base_high, base_low, base_set, in_order, insert_value, is_base_single
-from runtime.constraints.constants cimport constant_interval, constant_set
-from runtime.constraints.explain cimport explain_bound, explain_conflict
-from runtime.constraints.families cimport carry_out
-from runtime.constraints.logic cimport meet
-from runtime.constraints.narrow cimport high, is_single, low, raise_to, reduce_to, round_bounds
-from runtime.constraints.network cimport insert_edge, propagate_edges
-from runtime.constraints.posting cimport post_constraint
-from runtime.constraints.queries cimport has_finitely_many, listed, may_be, number_of_values
-from runtime.constraints.retract cimport decisions_of, edges_of, follow_again, retract
-from runtime.constraints.store cimport Store
-from runtime.constraints.trail cimport commit_trail, undo_to
-from runtime.constraints.variables cimport (
+from runtime.constraints.domains.base_domain cimport base_high, base_low, base_set, in_order, insert_value, is_base_single
+from runtime.constraints.domains.constants cimport constant_interval, constant_set
+from runtime.constraints.explanation.explain cimport explain_bound, explain_conflict
+from runtime.constraints.propagators.registry cimport carry_out
+from runtime.constraints.propagators.logic cimport meet
+from runtime.constraints.domains.narrow cimport high, is_single, low, raise_to, reduce_to, round_bounds
+from runtime.constraints.stn.network cimport insert_edge, propagate_edges
+from runtime.constraints.stn.posting cimport post_constraint
+from runtime.constraints.domains.queries cimport has_finitely_many, listed, may_be, number_of_values
+from runtime.constraints.relaxation.retract cimport decisions_of, edges_of, follow_again, retract
+from runtime.constraints.domains.store cimport Store
+from runtime.constraints.relaxation.trail cimport commit_trail, undo_to
+from runtime.constraints.domains.variables cimport (
     add_restriction, clear_row, close_values, copy_words, is_untouched_set, keep_values, reserve_block,
     start_interval, start_values, take_row,
 )

@@ -4,9 +4,19 @@ import math
 from collections.abc import Sequence
 from math import inf
 
-from runtime.constraints.bases import base_high, base_low, base_set, in_order, insert_value, is_base_single
-from runtime.constraints.cause import Cause, Link
-from runtime.constraints.codes import (
+from runtime.constraints.domains.base_domain import (
+    base_high,
+    base_low,
+    base_set,
+    in_order,
+    insert_value,
+    is_base_single,
+)
+from runtime.constraints.domains.constants import constant_interval, constant_set
+from runtime.constraints.domains.narrow import high, is_single, low, raise_to, reduce_to, round_bounds
+from runtime.constraints.domains.queries import has_finitely_many, listed, may_be, number_of_values
+from runtime.constraints.domains.store import Store
+from runtime.constraints.domains.tags import (
     FLAG_DECISION,
     FLAG_VALUES,
     FLOAT_TOLERANCE,
@@ -15,19 +25,7 @@ from runtime.constraints.codes import (
     OP_EXTERNAL,
     SUPPORT_RESTRICTION,
 )
-from runtime.constraints.constants import constant_interval, constant_set
-from runtime.constraints.explain import explain_bound, explain_conflict
-from runtime.constraints.external import External
-from runtime.constraints.families import carry_out
-from runtime.constraints.logic import meet
-from runtime.constraints.narrow import high, is_single, low, raise_to, reduce_to, round_bounds
-from runtime.constraints.network import insert_edge, propagate_edges
-from runtime.constraints.posting import post_constraint
-from runtime.constraints.queries import has_finitely_many, listed, may_be, number_of_values
-from runtime.constraints.retract import decisions_of, edges_of, follow_again, retract
-from runtime.constraints.store import Store
-from runtime.constraints.trail import commit_trail, undo_to
-from runtime.constraints.variables import (
+from runtime.constraints.domains.variables import (
     add_restriction,
     clear_row,
     close_values,
@@ -39,6 +37,15 @@ from runtime.constraints.variables import (
     start_values,
     take_row,
 )
+from runtime.constraints.explanation.cause import Cause, Link
+from runtime.constraints.explanation.explain import explain_bound, explain_conflict
+from runtime.constraints.propagators.external import External
+from runtime.constraints.propagators.logic import meet
+from runtime.constraints.propagators.registry import carry_out
+from runtime.constraints.relaxation.retract import decisions_of, edges_of, follow_again, retract
+from runtime.constraints.relaxation.trail import commit_trail, undo_to
+from runtime.constraints.stn.network import insert_edge, propagate_edges
+from runtime.constraints.stn.posting import post_constraint
 
 PATIENCE = 200  # runs of one constraint in one propagation, before steps of less than a hundredth are left out
 MOST_RUNS = 5000  # and before it is left out itself

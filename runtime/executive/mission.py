@@ -14,7 +14,7 @@ from runtime.executive.planning import Planner
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
-from runtime.solver.configuration import Configuration
+from runtime.solver.configuration.configuration import Configuration
 from runtime.user.constraint import Constraint
 
 INFINITY = 4503599627370495

@@ -7,8 +7,8 @@ from runtime.executive.messages import Observation, Request, token_text
 from runtime.executive.outcome import Conflict
 from runtime.executive.planning import Planner
 from runtime.executive.repair import hold_present, relax, stand
-from runtime.executive.settle import Unsettled, settle
 from runtime.executive.story import conflict_of, latest
+from runtime.executive.synchronise import Unsettled, settle
 from runtime.executive.timelines import NOTHING, Goal, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.view import SPAN_REQUEST

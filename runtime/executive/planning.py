@@ -5,11 +5,11 @@ from dataclasses import replace
 from runtime.executive.outcome import Conflict
 from runtime.executive.story import conflict_of
 from runtime.executive.workbench import Workbench
-from runtime.plan.codes import FLAG_REJECTABLE, INACTIVE, ROLE_LOCAL, ROLE_TOKEN
-from runtime.solver.codes import EXHAUSTED, PLAN, TIMEOUT
-from runtime.solver.configuration import Configuration, FlawFilter
-from runtime.solver.filters import Scope
+from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, ROLE_LOCAL, ROLE_TOKEN
+from runtime.solver.configuration.configuration import Configuration, FlawFilter
+from runtime.solver.flaws.filters import Scope
 from runtime.solver.search import Solver
+from runtime.solver.tags import EXHAUSTED, PLAN, TIMEOUT
 
 PRESENT_STEPS = 200
 

@@ -1,9 +1,7 @@
 """Turn a conflict of the engine into the outcome's: causes with places in the model, reasons in words, and terms."""
 
 from nddl_lang.text.source import Span
-from runtime.constraints.cause import Cause as EngineCause
-from runtime.constraints.cause import CauseKind
-from runtime.constraints.codes import (
+from runtime.constraints.domains.tags import (
     FLAG_VALUES,
     HALF_INF,
     KIND_BOOL,
@@ -17,12 +15,14 @@ from runtime.constraints.codes import (
     OP_TEMPORAL_DISTANCE,
     SIDE_UPPER,
 )
-from runtime.constraints.minimise import minimise
-from runtime.constraints.operations import OPERATIONS
+from runtime.constraints.explanation.cause import Cause as EngineCause
+from runtime.constraints.explanation.cause import CauseKind
+from runtime.constraints.minimisation.minimise import minimise
+from runtime.constraints.propagators.operations import OPERATIONS
 from runtime.executive.outcome import Cause, Conflict, Place, Term, VariableInfo
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST
 from runtime.executive.workbench import Workbench
-from runtime.plan.codes import DURATION, END, FIRST_PARAMETER, OBJECT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_TOKEN, START, STATE
+from runtime.plan.tags import DURATION, END, FIRST_PARAMETER, OBJECT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_TOKEN, START, STATE
 from runtime.user.written import Written
 
 NAMES = {code: name for name, code in reversed(OPERATIONS.items())}

@@ -3,7 +3,7 @@
 from math import inf
 
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, DomainConstant
-from runtime.constraints.codes import (
+from runtime.constraints.domains.tags import (
     KIND_BOOL,
     KIND_FLOAT,
     KIND_INT,
@@ -13,7 +13,8 @@ from runtime.constraints.codes import (
 )
 from runtime.executive.messages import Arguments
 from runtime.executive.timelines import TimelineState
-from runtime.plan.codes import (
+from runtime.plan.database import PlanDatabase
+from runtime.plan.tags import (
     ACTIVE,
     FLAG_FACT,
     FLAG_GOAL,
@@ -30,7 +31,6 @@ from runtime.plan.codes import (
     REJECTED,
     ROLE_TOKEN,
 )
-from runtime.plan.database import PlanDatabase
 
 # Spans of what no line of the model says: the executive's own reasons.
 SPAN_OBSERVATION, SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_REQUEST, SPAN_MISSION = -2, -3, -4, -5, -6

@@ -6,8 +6,8 @@ from compiler.program import FIRST_PARAMETER, DomainConstant
 from runtime.executive.messages import Arguments
 from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST, PlanView
-from runtime.plan.archiving import archive, detach
-from runtime.plan.codes import (
+from runtime.plan.store.prototypes import restrict_constant
+from runtime.plan.tags import (
     FLAG_FACT,
     FLAG_GOAL,
     FLAG_REJECTABLE,
@@ -17,7 +17,7 @@ from runtime.plan.codes import (
     MERGED,
     NONE,
 )
-from runtime.plan.prototypes import restrict_constant
+from runtime.plan.tokens.archive import archive, detach
 
 
 class Workbench(PlanView):

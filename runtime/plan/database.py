@@ -6,19 +6,21 @@ from compiler.program import Program
 from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.text.diagnostic import Diagnostic
 from runtime.constraints.engine import Engine
-from runtime.plan import lifecycle, marks, retracting, timelines
-from runtime.plan.codes import NONE
-from runtime.plan.faults import LOOSE_ITEM, NO_OBJECT
-from runtime.plan.flatten import Code
-from runtime.plan.flaws import Flaws
+from runtime.plan import lifecycle
 from runtime.plan.loading import load_code, load_members, load_predicates, load_prototypes, load_relations
-from runtime.plan.names import Names
-from runtime.plan.objects import Objects
-from runtime.plan.plan import Plan
-from runtime.plan.prototypes import Prototypes
-from runtime.plan.script import Script
-from runtime.plan.tokens import make_token
-from runtime.plan.written import WrittenConstraints
+from runtime.plan.resources.envelope import Flaws
+from runtime.plan.rules.rule_bytecode import Code
+from runtime.plan.script.codes import LOOSE_ITEM, NO_OBJECT
+from runtime.plan.script.objects import Objects
+from runtime.plan.script.script import Script
+from runtime.plan.script.user_constraints import WrittenConstraints
+from runtime.plan.store import marks
+from runtime.plan.store.names import Names
+from runtime.plan.store.plan import Plan
+from runtime.plan.store.prototypes import Prototypes
+from runtime.plan.tags import NONE
+from runtime.plan.tokens import retraction, timelines
+from runtime.plan.tokens.tokens import make_token
 from runtime.user.constraint import Constraint
 
 GROUNDED = "GroundedProfile"
@@ -156,11 +158,11 @@ class PlanDatabase:
 
     def cancel(self, t: int) -> bool:
         """Make a token inactive again (level 0)."""
-        return retracting.cancel(self.plan, t) and self.settle()
+        return retraction.cancel(self.plan, t) and self.settle()
 
     def remove_tokens(self, tokens: list[int]) -> bool:
         """Take tokens away with all that followed from them (level 0)."""
-        return retracting.remove_tokens(self.plan, tokens) and self.settle()
+        return retraction.remove_tokens(self.plan, tokens) and self.settle()
 
     def order(self, o: int, before: int, after: int, span: int = NONE) -> bool:
         """Put `before` in front of `after` on object `o`; the same token twice: it alone, behind what is there."""
@@ -168,7 +170,7 @@ class PlanDatabase:
 
     def free(self, before: int, after: int) -> bool:
         """Undo `order` (level 0)."""
-        return retracting.free(self.plan, before, after, NONE) and self.settle()
+        return retraction.free(self.plan, before, after, NONE) and self.settle()
 
     # ---- variables ----
 
@@ -178,7 +180,7 @@ class PlanDatabase:
 
     def reset(self, v: int) -> bool:
         """Undo the decision of a variable (level 0)."""
-        return retracting.reset(self.plan, v) and self.settle()
+        return retraction.reset(self.plan, v) and self.settle()
 
     # ---- names ----
 

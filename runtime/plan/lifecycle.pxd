@@ -2,15 +2,15 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
-from runtime.constraints.resting cimport rest_distance
-from runtime.plan.bodies cimport run
-from runtime.plan.guards cimport choice, follow
-from runtime.plan.holding cimport between, decide, equate
-from runtime.plan.links cimport unlink
-from runtime.plan.plan cimport Plan
-from runtime.plan.retracting cimport retract_branch
-from runtime.plan.rows cimport Rows
-from runtime.plan.tokens cimport activation
+from runtime.constraints.stn.entailment cimport rest_distance
+from runtime.plan.rules.rule_interpreter cimport run
+from runtime.plan.rules.guards cimport choice, follow
+from runtime.plan.store.scopes cimport between, decide, equate
+from runtime.plan.store.links cimport unlink
+from runtime.plan.store.plan cimport Plan
+from runtime.plan.tokens.retraction cimport retract_branch
+from runtime.plan.store.rows cimport Rows
+from runtime.plan.tokens.tokens cimport activation
 
 cdef long long BRANCH_THEN, BRANCH_WAITING, DURATION, END, LIST_OPEN, MERGED, NONE, OBJECT, REJECTED, SCOPE_BRANCH
 cdef long long SCOPE_MERGE, START, STATE, SYMBOL_MERGED, SYMBOL_REJECTED

@@ -1,8 +1,12 @@
 """Settle the plan after a change, and change the states of tokens: activate, merge, reject."""
 
-from runtime.constraints.resting import rest_distance
-from runtime.plan.bodies import run
-from runtime.plan.codes import (
+from runtime.constraints.stn.entailment import rest_distance
+from runtime.plan.rules.guards import choice, follow
+from runtime.plan.rules.rule_interpreter import run
+from runtime.plan.store.links import unlink
+from runtime.plan.store.plan import Plan
+from runtime.plan.store.scopes import between, decide, equate
+from runtime.plan.tags import (
     BRANCH_THEN,
     BRANCH_WAITING,
     DURATION,
@@ -19,12 +23,8 @@ from runtime.plan.codes import (
     SYMBOL_MERGED,
     SYMBOL_REJECTED,
 )
-from runtime.plan.guards import choice, follow
-from runtime.plan.holding import between, decide, equate
-from runtime.plan.links import unlink
-from runtime.plan.plan import Plan
-from runtime.plan.retracting import retract_branch
-from runtime.plan.tokens import activation
+from runtime.plan.tokens.retraction import retract_branch
+from runtime.plan.tokens.tokens import activation
 
 
 def settle(plan: Plan) -> bool:

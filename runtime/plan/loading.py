@@ -6,8 +6,13 @@ from math import inf
 
 from compiler.program import DomainConstant, Program, TypeCode
 from nddl_lang.semantics.relations import RELATIONS, DurationRule, Point
-from runtime.constraints.codes import KIND_INT
-from runtime.plan.codes import (
+from runtime.constraints.domains.tags import KIND_INT
+from runtime.plan.rules.rule_bytecode import Code
+from runtime.plan.store.links import new_head
+from runtime.plan.store.names import Names
+from runtime.plan.store.plan import Plan
+from runtime.plan.store.prototypes import STATES, Prototypes
+from runtime.plan.tags import (
     DURATION_EQUAL,
     DURATION_FREE,
     DURATION_ORIGIN_SHORTER,
@@ -23,11 +28,6 @@ from runtime.plan.codes import (
     RESOURCE_PRODUCES,
     START,
 )
-from runtime.plan.flatten import Code
-from runtime.plan.links import new_head
-from runtime.plan.names import Names
-from runtime.plan.plan import Plan
-from runtime.plan.prototypes import STATES, Prototypes
 
 RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
 DURATIONS = {

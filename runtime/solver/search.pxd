@@ -3,18 +3,18 @@
 cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.lifecycle cimport settle
-from runtime.plan.marks cimport commit, mark, release, rewind
-from runtime.plan.plan cimport Plan
-from runtime.solver.blame cimport Blame
-from runtime.solver.choices cimport mend
-from runtime.solver.crowds cimport Crowds
-from runtime.solver.decisions cimport Decisions
-from runtime.solver.filters cimport Filters
-from runtime.solver.instants cimport is_mended
-from runtime.solver.queues cimport Queues
-from runtime.solver.selection cimport select
-from runtime.solver.shortage cimport complete
-from runtime.solver.watching cimport catch_up, fill, note_levels
+from runtime.plan.store.marks cimport commit, mark, release, rewind
+from runtime.plan.store.plan cimport Plan
+from runtime.solver.learning.conflict_analysis cimport Blame
+from runtime.solver.resolvers.choices cimport mend
+from runtime.solver.learning.disjunctive cimport Crowds
+from runtime.solver.flaws.decisions cimport Decisions
+from runtime.solver.flaws.filters cimport Filters
+from runtime.solver.resolvers.resource_resolvers cimport is_mended
+from runtime.solver.flaws.agenda cimport Queues
+from runtime.solver.flaws.selection cimport select
+from runtime.solver.learning.dead_end cimport complete
+from runtime.solver.flaws.agenda_updates cimport catch_up, fill, note_levels
 
 cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
 cdef long long RESOURCE_THREAT, TIMEOUT, UNBOUND_VARIABLE

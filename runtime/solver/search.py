@@ -2,14 +2,31 @@
 
 from collections.abc import Callable
 
-from runtime.plan.codes import REJECTED
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import settle
-from runtime.plan.marks import commit, mark, release, rewind
-from runtime.solver.account import Account
-from runtime.solver.blame import Blame
-from runtime.solver.choices import mend
-from runtime.solver.codes import (
+from runtime.plan.store.marks import commit, mark, release, rewind
+from runtime.plan.tags import REJECTED
+from runtime.solver.configuration.configuration import Configuration, with_resources
+from runtime.solver.configuration.handler_matching import Matching
+from runtime.solver.configuration.handler_table import Treatments
+from runtime.solver.configuration.vocabulary import Texts, grounded
+from runtime.solver.flaws.agenda import Queues
+from runtime.solver.flaws.agenda_updates import catch_up, fill, note_levels
+from runtime.solver.flaws.custom import CustomManager
+from runtime.solver.flaws.decisions import Decisions
+from runtime.solver.flaws.filters import Filters, Scope
+from runtime.solver.flaws.selection import select
+from runtime.solver.flaws.supports import Supports
+from runtime.solver.flaws.uses import Uses
+from runtime.solver.learning.conflict_analysis import Blame
+from runtime.solver.learning.dead_end import complete
+from runtime.solver.learning.disjunctive import Crowds
+from runtime.solver.learning.failure_log import Account
+from runtime.solver.learning.nogoods import Nogoods
+from runtime.solver.learning.order_invariance import has_loops, is_any_order_right
+from runtime.solver.resolvers.choices import mend
+from runtime.solver.resolvers.resource_resolvers import is_mended
+from runtime.solver.tags import (
     APPLIED,
     EVERYTHING,
     EXHAUSTED,
@@ -22,23 +39,6 @@ from runtime.solver.codes import (
     TIMEOUT,
     UNBOUND_VARIABLE,
 )
-from runtime.solver.configuration import Configuration, with_resources
-from runtime.solver.crowds import Crowds
-from runtime.solver.custom import CustomManager
-from runtime.solver.decisions import Decisions
-from runtime.solver.filters import Filters, Scope
-from runtime.solver.freedom import has_loops, is_any_order_right
-from runtime.solver.instants import is_mended
-from runtime.solver.matching import Matching
-from runtime.solver.nogoods import Nogoods
-from runtime.solver.queues import Queues
-from runtime.solver.selection import select
-from runtime.solver.shortage import complete
-from runtime.solver.supports import Supports
-from runtime.solver.treatments import Treatments
-from runtime.solver.uses import Uses
-from runtime.solver.vocabulary import Texts, grounded
-from runtime.solver.watching import catch_up, fill, note_levels
 
 NO_LIMIT = 2**62
 

@@ -17,7 +17,7 @@ docs/constraints.md says how the module is found, and what a constraint must kee
 
 from collections.abc import Callable, Sequence
 
-from runtime.constraints.codes import FLOAT_TOLERANCE
+from runtime.constraints.domains.tags import FLOAT_TOLERANCE
 from runtime.user.view import Value, View
 
 Term = tuple[str, tuple[str | float | int, ...]]

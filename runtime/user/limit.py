@@ -19,7 +19,7 @@ from threading import get_ident
 from types import FrameType
 from typing import Protocol
 
-from runtime.constraints.store import Store
+from runtime.constraints.domains.store import Store
 from runtime.user.fault import StoppedError, UserCodeError, place_in, stopped
 
 USUAL = 5.0  # seconds that one call may take

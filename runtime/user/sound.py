@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from math import inf
 
 from nddl_lang.semantics.signature import ArgumentKind
-from runtime.constraints.codes import (
+from runtime.constraints.domains.tags import (
     KIND_BOOL,
     KIND_FLOAT,
     KIND_INT,

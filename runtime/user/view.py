@@ -8,8 +8,8 @@ import math
 from collections.abc import Iterable
 from typing import Protocol
 
-from runtime.constraints.bases import is_growing
-from runtime.constraints.codes import (
+from runtime.constraints.domains.base_domain import is_growing
+from runtime.constraints.domains.tags import (
     FLOAT_TOLERANCE,
     HALF_INF,
     KIND_BOOL,
@@ -17,7 +17,7 @@ from runtime.constraints.codes import (
     KIND_INT,
 )
 from runtime.constraints.engine import Engine
-from runtime.constraints.external import at_least, at_most, never, refuse
+from runtime.constraints.propagators.external import at_least, at_most, never, refuse
 
 Value = float | int | bool | str
 MOST_LISTED = 4096

@@ -3,9 +3,9 @@
 import sys
 from collections.abc import Sequence
 
+from runtime.constraints.domains.store import Store
 from runtime.constraints.engine import Engine
-from runtime.constraints.external import External
-from runtime.constraints.store import Store
+from runtime.constraints.propagators.external import External
 from runtime.user.constraint import Constraint, Term
 from runtime.user.fault import failed
 from runtime.user.limit import WATCH, watched

@@ -23,7 +23,7 @@ from freshness import (
 )
 
 ROOT = Path(__file__).resolve().parents[2]
-TRAIL, TOKENS, CLOCK = "runtime.constraints.trail", "runtime.plan.tokens", "runtime.executive.clock"
+TRAIL, TOKENS, CLOCK = "runtime.constraints.relaxation.trail", "runtime.plan.tokens.tokens", "runtime.executive.clock"
 
 
 @pytest.fixture
@@ -31,13 +31,13 @@ def tree(tmp_path: Path) -> Path:
     """Lay out an engine of three modules, two of which share a layout, as if it had just been built."""
     shutil.copytree(ROOT / "build_backend", tmp_path / "build_backend")
     texts = {
-        "runtime/constraints/trail.pxd": "cdef class Trail:\n    cdef long long top\n",
-        "runtime/constraints/trail.py": "class Trail: ...\n",
-        "runtime/plan/tokens.pxd": "from runtime.constraints.trail cimport Trail\n",
-        "runtime/plan/tokens.py": "class Tokens: ...\n",
+        "runtime/constraints/relaxation/trail.pxd": "cdef class Trail:\n    cdef long long top\n",
+        "runtime/constraints/relaxation/trail.py": "class Trail: ...\n",
+        "runtime/plan/tokens/tokens.pxd": "from runtime.constraints.relaxation.trail cimport Trail\n",
+        "runtime/plan/tokens/tokens.py": "class Tokens: ...\n",
         "runtime/executive/clock.pxd": "cdef long long now\n",
         "runtime/executive/clock.py": "now = 0\n",
-        "runtime/constraints/codes.py": "INF = 1\n",
+        "runtime/constraints/domains/tags.py": "INF = 1\n",
     }
     for name, text in texts.items():
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
@@ -67,23 +67,23 @@ def test_nothing_is_stale_after_a_build(tree: Path) -> None:
 
 
 def test_a_touched_source_is_not_stale(tree: Path) -> None:
-    (tree / "runtime/constraints/trail.py").touch()
+    (tree / "runtime/constraints/relaxation/trail.py").touch()
     assert stale_modules(tree) == []
 
 
 def test_a_changed_source_makes_its_own_binary_stale(tree: Path) -> None:
-    append(tree / "runtime/constraints/trail.py")
+    append(tree / "runtime/constraints/relaxation/trail.py")
     assert stale_modules(tree) == [TRAIL]
     assert unfit_binaries(tree) == [binary(tree, TRAIL)]
 
 
 def test_a_changed_layout_makes_those_stale_that_read_it(tree: Path) -> None:
-    append(tree / "runtime/constraints/trail.pxd")
+    append(tree / "runtime/constraints/relaxation/trail.pxd")
     assert stale_modules(tree) == [TRAIL, TOKENS]
 
 
 def test_a_module_that_is_not_compiled_makes_nothing_stale(tree: Path) -> None:
-    append(tree / "runtime/constraints/codes.py")
+    append(tree / "runtime/constraints/domains/tags.py")
     assert stale_modules(tree) == []
 
 
@@ -118,11 +118,11 @@ def test_a_binary_whose_source_is_gone_is_an_orphan(tree: Path, gone: list[str])
 @pytest.mark.parametrize(
     "line",
     [
-        "from runtime.constraints.trail cimport Trail",
+        "from runtime.constraints.relaxation.trail cimport Trail",
         "from runtime.constraints cimport trail",
         "from runtime.constraints cimport (\n    domains,\n    trail,\n)",
-        "cimport runtime.constraints.trail",
-        "cimport runtime.constraints.trail as t",
+        "cimport runtime.constraints.relaxation.trail",
+        "cimport runtime.constraints.relaxation.trail as t",
     ],
 )
 def test_every_form_of_cimport_is_seen(line: str) -> None:

@@ -15,10 +15,10 @@ from nddl_lang.lint.linter import lint
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.render import render
 from runtime.plan.database import PlanDatabase
-from runtime.plan.readout import read
-from runtime.solver.codes import PLAN, TIMEOUT
-from runtime.solver.configuration import default_configuration
+from runtime.plan.readout.readout import read
+from runtime.solver.configuration.configuration import default_configuration
 from runtime.solver.search import Solver
+from runtime.solver.tags import PLAN, TIMEOUT
 from tests.cli.mutants import mutant
 from tests.syntax.corpus import texts
 

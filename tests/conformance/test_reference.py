@@ -9,7 +9,7 @@ from nddl_lang.analysis import analyse_text
 from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.syntax.dialect import Dialect
 from runtime.plan.database import PlanDatabase
-from runtime.plan.readout import read
+from runtime.plan.readout.readout import read
 from tests.conformance.judge import Facts, same_domain
 
 INCONSISTENT = {"consistent": "False"}

@@ -9,17 +9,17 @@ import math
 import random
 from dataclasses import dataclass, field
 
-from runtime.constraints import codes
-from runtime.constraints.cause import Cause, CauseKind
+from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
-from runtime.constraints.minimise import Scratch, minimise, sufficient
+from runtime.constraints.explanation.cause import Cause, CauseKind
+from runtime.constraints.minimisation.minimise import Scratch, minimise, sufficient
 from tests.constraints import meaning
 from tests.constraints.random_sets import Post, Problem, Tally, build, draw, holds, may_have, post, solutions
 from tests.constraints.signatures import FORWARD, images
 from tests.constraints.witness import anything, quick_order, walks_to_solution
 
 MOST_COMBINATIONS = 2000
-OF_DOMAINS = (codes.OP_TEST_SINGLETON, codes.OP_TEST_SPECIFIED)  # they speak of what is known, not of values
+OF_DOMAINS = (tags.OP_TEST_SINGLETON, tags.OP_TEST_SPECIFIED)  # they speak of what is known, not of values
 
 
 @dataclass
@@ -141,7 +141,7 @@ def points_to_solution(
         lo, hi = engine.lower(w), engine.upper(w)
         candidates = [x for x in (lo, hi, (lo + hi) / 2) if abs(x) < math.inf]
         for x in dict.fromkeys((*candidates, *values[v])):
-            if budget[0] < 0 or (engine.kind[w] != codes.KIND_FLOAT and x != int(x)) or not engine.contains(w, x):
+            if budget[0] < 0 or (engine.kind[w] != tags.KIND_FLOAT and x != int(x)) or not engine.contains(w, x):
                 continue
             mark = engine.mark()
             if engine.decide(w, x, 0, -1) and engine.propagate() and extend():

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import inf
 
-from runtime.constraints import codes
-from runtime.constraints.cause import Cause, CauseKind
+from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
-from runtime.constraints.minimise import minimise, sufficient
+from runtime.constraints.explanation.cause import Cause, CauseKind
+from runtime.constraints.minimisation.minimise import minimise, sufficient
 from tests.constraints.reference import shortest_distances
 
 Bounds = tuple[float, float]
@@ -88,7 +88,7 @@ class Life:
         for p in range(1, self.count + 1):
             lo = self.chance.choice((-inf, -inf, float(self.chance.randint(-20, 5))))
             hi = self.chance.choice((inf, inf, float(self.chance.randint(5, 30))))
-            v = self.engine.new_interval(codes.KIND_INT, lo, hi, p, -1)
+            v = self.engine.new_interval(tags.KIND_INT, lo, hi, p, -1)
             self.variable.append(v)
             self.point[v] = p
             self.model.relations[(CauseKind.RESTRICTION, self.engine.restrictions_of(v)[0])] = (0, p, lo, hi)
@@ -154,14 +154,14 @@ class Life:
             return
         a, b = self.variable[source - 1], self.variable[target - 1]
         x = self.chance.randint(-5, 9)
-        k = self.engine.new_constant(codes.KIND_INT, x, x)
+        k = self.engine.new_constant(tags.KIND_INT, x, x)
         op, arguments, lo, hi = self.chance.choice(
             [
-                (codes.OP_LEQ, [a, b], 0.0, inf),
-                (codes.OP_LT, [a, b], 1.0, inf),
-                (codes.OP_EQ, [a, b], 0.0, 0.0),
-                (codes.OP_ADD_EQ, [a, k, b], float(x), float(x)),
-                (codes.OP_ADD_EQ, [k, a, b], float(x), float(x)),
+                (tags.OP_LEQ, [a, b], 0.0, inf),
+                (tags.OP_LT, [a, b], 1.0, inf),
+                (tags.OP_EQ, [a, b], 0.0, 0.0),
+                (tags.OP_ADD_EQ, [a, k, b], float(x), float(x)),
+                (tags.OP_ADD_EQ, [k, a, b], float(x), float(x)),
             ]
         )
         c = self.engine.post(op, arguments, 100, -1)
@@ -174,10 +174,10 @@ class Life:
             return
         lo = self.chance.choice((-inf, 0.0, 1.0, 3.0))
         hi = self.chance.choice((inf, 4.0, 9.0))
-        d = self.engine.new_interval(codes.KIND_INT, lo, hi, 100, -1)
+        d = self.engine.new_interval(tags.KIND_INT, lo, hi, 100, -1)
         self.model.limits[(CauseKind.RESTRICTION, self.engine.restrictions_of(d)[0])] = (d, (lo, hi))
         arguments = [self.variable[source - 1], d, self.variable[target - 1]]
-        c = self.engine.post(codes.OP_TEMPORAL_DISTANCE, arguments, 100, -1)
+        c = self.engine.post(tags.OP_TEMPORAL_DISTANCE, arguments, 100, -1)
         self.model.lengths[c] = (source, d, target)
 
     def restrict(self) -> None:

@@ -12,7 +12,7 @@ from datetime import UTC, datetime
 from fractions import Fraction
 from typing import Any
 
-from runtime.constraints import codes
+from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from tests.constraints import meaning
 
@@ -41,46 +41,46 @@ def product(*x: Fraction) -> Fraction:
 
 # The operation, the places of its result and of its inputs, and the result.
 EXACT: list[tuple[int, int, tuple[int, ...], Function]] = [
-    (codes.OP_ADD_EQ, 2, (0, 1), lambda x, y: x + y),
-    (codes.OP_ADD_EQ, 0, (2, 1), lambda x, y: x - y),
-    (codes.OP_MUL_EQ, 2, (0, 1), lambda x, y: x * y),
-    (codes.OP_DIV_EQ, 0, (1, 2), lambda x, y: x * y),
-    (codes.OP_DIV_EQ, 2, (0, 1), lambda x, y: x / y),
-    (codes.OP_MUL_EQ, 0, (2, 1), lambda x, y: x / y),
-    (codes.OP_EQ_SUM, 0, (1, 2, 3, 4), lambda *x: sum(x)),
-    (codes.OP_EQ_SUM, 2, (1, 0, 3), lambda x, y, z: y - x - z),
-    (codes.OP_EQ_PRODUCT, 0, (1, 2, 3), product),
-    (codes.OP_EQ_MAXIMUM, 0, (1, 2, 3), lambda *x: max(x)),
-    (codes.OP_EQ_MINIMUM, 0, (1, 2), lambda *x: min(x)),
-    (codes.OP_ALL_MAX, 3, (0, 1, 2), lambda *x: max(x)),
-    (codes.OP_MAXF, 0, (1, 2, 3), lambda *x: max(x)),
-    (codes.OP_MINF, 0, (1, 2), lambda *x: min(x)),
-    (codes.OP_MAX, 0, (1, 2), lambda *x: max(x)),
-    (codes.OP_MIN, 0, (1, 2), lambda *x: min(x)),
-    (codes.OP_ABS_VAL, 0, (1,), abs),
-    (codes.OP_ABSF, 0, (1,), abs),
-    (codes.OP_ABS, 0, (1,), abs),
-    (codes.OP_NEG, 0, (1,), lambda x: -x),
-    (codes.OP_NEG, 1, (0,), lambda x: -x),
-    (codes.OP_DIFF_SQUARE, 2, (0, 1), lambda x, y: (x - y) ** 2),
-    (codes.OP_FLOORF, 0, (1,), math.floor),
-    (codes.OP_CEILF, 0, (1,), math.ceil),
-    (codes.OP_EQ, 0, (1,), lambda x: x),
-    (codes.OP_SUBSET_OF, 0, (1,), lambda x: x),
+    (tags.OP_ADD_EQ, 2, (0, 1), lambda x, y: x + y),
+    (tags.OP_ADD_EQ, 0, (2, 1), lambda x, y: x - y),
+    (tags.OP_MUL_EQ, 2, (0, 1), lambda x, y: x * y),
+    (tags.OP_DIV_EQ, 0, (1, 2), lambda x, y: x * y),
+    (tags.OP_DIV_EQ, 2, (0, 1), lambda x, y: x / y),
+    (tags.OP_MUL_EQ, 0, (2, 1), lambda x, y: x / y),
+    (tags.OP_EQ_SUM, 0, (1, 2, 3, 4), lambda *x: sum(x)),
+    (tags.OP_EQ_SUM, 2, (1, 0, 3), lambda x, y, z: y - x - z),
+    (tags.OP_EQ_PRODUCT, 0, (1, 2, 3), product),
+    (tags.OP_EQ_MAXIMUM, 0, (1, 2, 3), lambda *x: max(x)),
+    (tags.OP_EQ_MINIMUM, 0, (1, 2), lambda *x: min(x)),
+    (tags.OP_ALL_MAX, 3, (0, 1, 2), lambda *x: max(x)),
+    (tags.OP_MAXF, 0, (1, 2, 3), lambda *x: max(x)),
+    (tags.OP_MINF, 0, (1, 2), lambda *x: min(x)),
+    (tags.OP_MAX, 0, (1, 2), lambda *x: max(x)),
+    (tags.OP_MIN, 0, (1, 2), lambda *x: min(x)),
+    (tags.OP_ABS_VAL, 0, (1,), abs),
+    (tags.OP_ABSF, 0, (1,), abs),
+    (tags.OP_ABS, 0, (1,), abs),
+    (tags.OP_NEG, 0, (1,), lambda x: -x),
+    (tags.OP_NEG, 1, (0,), lambda x: -x),
+    (tags.OP_DIFF_SQUARE, 2, (0, 1), lambda x, y: (x - y) ** 2),
+    (tags.OP_FLOORF, 0, (1,), math.floor),
+    (tags.OP_CEILF, 0, (1,), math.ceil),
+    (tags.OP_EQ, 0, (1,), lambda x: x),
+    (tags.OP_SUBSET_OF, 0, (1,), lambda x: x),
 ]
 # The operation, whether its result stands first (else second), the least and the greatest input, and the function.
 CLOSE: list[tuple[int, float, float, Callable[[float], float]]] = [
-    (codes.OP_SINF, -180.0, 180.0, lambda x: math.sin(math.radians(x))),
-    (codes.OP_COSF, -180.0, 180.0, lambda x: math.cos(math.radians(x))),
-    (codes.OP_SIN, -90.0, 90.0, lambda x: math.sin(math.radians(x))),
-    (codes.OP_SQRTF, 0.0, 1e6, math.sqrt),
-    (codes.OP_SQRT, 0.0, 1e6, math.sqrt),
-    (codes.OP_EXPF, -30.0, 20.0, math.exp),
-    (codes.OP_LOGF, 1e-3, 1e6, math.log),
-    (codes.OP_DEG_TO_RAD, -720.0, 720.0, math.radians),
-    (codes.OP_CIRCLE_MOD, -900.0, 900.0, meaning.angle),
+    (tags.OP_SINF, -180.0, 180.0, lambda x: math.sin(math.radians(x))),
+    (tags.OP_COSF, -180.0, 180.0, lambda x: math.cos(math.radians(x))),
+    (tags.OP_SIN, -90.0, 90.0, lambda x: math.sin(math.radians(x))),
+    (tags.OP_SQRTF, 0.0, 1e6, math.sqrt),
+    (tags.OP_SQRT, 0.0, 1e6, math.sqrt),
+    (tags.OP_EXPF, -30.0, 20.0, math.exp),
+    (tags.OP_LOGF, 1e-3, 1e6, math.log),
+    (tags.OP_DEG_TO_RAD, -720.0, 720.0, math.radians),
+    (tags.OP_CIRCLE_MOD, -900.0, 900.0, meaning.angle),
 ]
-ROUGHNESS = {codes.OP_SINF: 2e-9, codes.OP_COSF: 2e-9, codes.OP_SIN: 2e-9, codes.OP_CIRCLE_MOD: 2e-9}
+ROUGHNESS = {tags.OP_SINF: 2e-9, tags.OP_COSF: 2e-9, tags.OP_SIN: 2e-9, tags.OP_CIRCLE_MOD: 2e-9}
 
 
 @dataclass
@@ -101,7 +101,7 @@ class World:
         else:
             lo = math.nextafter(float(value), -math.inf) - slack - below
             hi = math.nextafter(float(value), math.inf) + slack + above
-        kind = codes.KIND_INT if is_whole else codes.KIND_FLOAT
+        kind = tags.KIND_INT if is_whole else tags.KIND_FLOAT
         v = self.engine.new_interval(kind, lo, hi, len(self.values), -1)
         self.values.append(value)
         self.slack.append(slack)
@@ -166,14 +166,14 @@ def add_exact(world: World, tally: Tally) -> None:
     op, place, inputs, function = world.chance.choice(EXACT)
     given = world.inputs(len(inputs))
     x = [world.values[v] for v in given]
-    if op == codes.OP_DIV_EQ and (x[1] == 0 if place else x[0] == 0 or x[1] == 0):
+    if op == tags.OP_DIV_EQ and (x[1] == 0 if place else x[0] == 0 or x[1] == 0):
         return
-    if op == codes.OP_MUL_EQ and place == 0 and x[1] == 0:
+    if op == tags.OP_MUL_EQ and place == 0 and x[1] == 0:
         return
     value = Fraction(function(*x))
     if abs(value) > GROWTH or 0 < abs(value) < 1e-6 or value.denominator > 2**400:
         return
-    if op in (codes.OP_FLOORF, codes.OP_CEILF) and abs(x[0] - round(x[0])) < 1e-4:
+    if op in (tags.OP_FLOORF, tags.OP_CEILF) and abs(x[0] - round(x[0])) < 1e-4:
         return  # within the tolerance it counts as the whole number
     row = dict(zip((place, *inputs), (world.variable(value), *given), strict=True))
     post(world, tally, op, [row[k] for k in sorted(row)])
@@ -184,9 +184,9 @@ def add_close(world: World, tally: Tally) -> None:
     op, least, most, function = world.chance.choice(CLOSE)
     x = world.chance.uniform(least, most)
     if world.chance.random() < 0.2:
-        x = float(round(x / 30.0) * 30) if op != codes.OP_LOGF else 1.0
+        x = float(round(x / 30.0) * 30) if op != tags.OP_LOGF else 1.0
         x = min(max(x, least), most)
-    if op == codes.OP_CIRCLE_MOD and abs(abs(function(x)) - 180.0) < 1e-3:
+    if op == tags.OP_CIRCLE_MOD and abs(abs(function(x)) - 180.0) < 1e-3:
         return  # where one turn ends and the next begins
     value = function(x)
     slack = abs(value) * FEW_BITS + ROUGHNESS.get(op, 1e-15)
@@ -200,21 +200,21 @@ def add_earth(world: World, tally: Tally) -> None:
         tick = chance.randint(0, 4_000_000_000)
         at = datetime.fromtimestamp(tick, UTC)
         date = (at.hour * 3600 + at.minute * 60 + at.second, at.timetuple().tm_yday, at.year)
-        post(world, tally, codes.OP_TICK_DATE, [world.variable(Fraction(x)) for x in (tick, *date)])
+        post(world, tally, tags.OP_TICK_DATE, [world.variable(Fraction(x)) for x in (tick, *date)])
         return
     here = (chance.uniform(-80, 80), chance.uniform(-170, 170))
     there = (here[0] + chance.uniform(-0.05, 0.05), here[1] + chance.uniform(-0.05, 0.05))
     north, east = meaning.displacement(*here, *there)
     a, b = ([world.variable(Fraction(x)) for x in place] for place in (here, there))
-    post(world, tally, codes.OP_SANE_POS, a)
+    post(world, tally, tags.OP_SANE_POS, a)
     match chance.randrange(3):
         case 0:
             d = world.variable(Fraction(meaning.sphere_distance(*here, *there)), meaning.METRES)
-            post(world, tally, codes.OP_LL_DIST, [d, *a, *b])
+            post(world, tally, tags.OP_LL_DIST, [d, *a, *b])
         case 1:
             way = [world.variable(Fraction(x), meaning.METRES) for x in (north, east)]
-            post(world, tally, codes.OP_WGS_DISPLACEMENT, [*a, *b, *way])
+            post(world, tally, tags.OP_WGS_DISPLACEMENT, [*a, *b, *way])
         case _:
             to = [world.variable(Fraction(x), meaning.DEGREES) for x in there]
             way = [world.variable(Fraction(x)) for x in (north, east)]
-            post(world, tally, codes.OP_WGS_DISPLACE, [*a, *way, *to])
+            post(world, tally, tags.OP_WGS_DISPLACE, [*a, *way, *to])

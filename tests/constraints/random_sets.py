@@ -4,18 +4,18 @@ import random
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from runtime.constraints import codes
+from runtime.constraints.domains import tags
+from runtime.constraints.domains.narrow import is_single
+from runtime.constraints.domains.store import Store
 from runtime.constraints.engine import Engine
-from runtime.constraints.external import External, argument, never
-from runtime.constraints.narrow import is_single
-from runtime.constraints.store import Store
+from runtime.constraints.propagators.external import External, argument, never
 from tests.constraints import meaning
 from tests.constraints.signatures import FORWARD, OTHERS, SIGNATURES, TURNING, draw_values, images
 
 Post = tuple[int, tuple[int, ...]]
 MOST_NODES = 20000
 TINY = 1e-3
-ON_EARTH = (codes.OP_WGS_DISPLACE, codes.OP_WGS_DISPLACEMENT)
+ON_EARTH = (tags.OP_WGS_DISPLACE, tags.OP_WGS_DISPLACEMENT)
 
 
 class IsEven(External):
@@ -66,9 +66,9 @@ class Problem:
 
 def holds(op: int, x: list[float]) -> bool:
     """Tell whether a constraint holds; what is written in Python and look-ups are known here."""
-    if op == codes.OP_EXTERNAL:
+    if op == tags.OP_EXTERNAL:
         return sum(x) % 2 == 0
-    if op == codes.OP_ELEMENT:
+    if op == tags.OP_ELEMENT:
         return 0 <= x[1] < len(x) - 2 and meaning.near(x[0], x[2 + int(x[1])])
     return meaning.holds(op, x)
 
@@ -120,11 +120,11 @@ def spread_result(chance: random.Random, problem: Problem, op: int, arguments: l
 
 def may_have(kind: int, value: float) -> bool:
     """Tell whether a variable of a kind may have a value."""
-    if kind == codes.KIND_BOOL:
+    if kind == tags.KIND_BOOL:
         return value in (0, 1)
     if 0 < abs(value) < TINY:
         return False  # what a product with it is near to, and what exactly, are two things
-    return abs(value) <= 1e9 and (kind == codes.KIND_FLOAT or value == int(value))
+    return abs(value) <= 1e9 and (kind == tags.KIND_FLOAT or value == int(value))
 
 
 def solutions(
@@ -163,7 +163,7 @@ def build(problem: Problem, chance: random.Random) -> Engine:
             w = engine.new_constant_values(kind, list(values))
             if w != v:  # constants are shared; here each has a variable of its own
                 engine.new_values(kind, list(values), v, -1)
-        elif kind != codes.KIND_FLOAT and len(values) == values[-1] - values[0] + 1 and chance.random() < 0.8:
+        elif kind != tags.KIND_FLOAT and len(values) == values[-1] - values[0] + 1 and chance.random() < 0.8:
             engine.new_interval(kind, values[0], values[-1], v, -1)
         elif chance.random() < 0.1:
             w = engine.new_open(kind, list(values[:-1]), v, -1)
@@ -178,9 +178,9 @@ def build(problem: Problem, chance: random.Random) -> Engine:
 
 def post(engine: Engine, op: int, arguments: tuple[int, ...], span: int) -> int:
     """Post one constraint."""
-    if op == codes.OP_EXTERNAL:
+    if op == tags.OP_EXTERNAL:
         return engine.post_external(IsEven(), list(arguments), span, -1)
-    if op == codes.OP_ELEMENT:
+    if op == tags.OP_ELEMENT:
         keys = list(range(len(arguments) - 2))
         return engine.post_element(arguments[0], arguments[1], keys, list(arguments[2:]), span, -1)
     return engine.post(op, list(arguments), span, -1)

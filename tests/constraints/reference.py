@@ -6,7 +6,7 @@ import random
 from dataclasses import dataclass, field
 from math import inf
 
-from runtime.constraints import codes
+from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from tests.constraints.meaning import holds
 
@@ -37,53 +37,53 @@ def shortest_distances(count: int, edges: list[Edge]) -> list[list[float]] | Non
 
 # How strongly an operation narrows: to the values, or to the bounds, that its solutions have; else it only is sound.
 BY_VALUE = (
-    codes.OP_EQ,
-    codes.OP_NEQ,
-    codes.OP_LT,
-    codes.OP_LEQ,
-    codes.OP_TEST_EQ,
-    codes.OP_TEST_NEQ,
-    codes.OP_TEST_LEQ,
-    codes.OP_TEST_LT,
-    codes.OP_TEST_AND,
-    codes.OP_TEST_OR,
-    codes.OP_OR,
+    tags.OP_EQ,
+    tags.OP_NEQ,
+    tags.OP_LT,
+    tags.OP_LEQ,
+    tags.OP_TEST_EQ,
+    tags.OP_TEST_NEQ,
+    tags.OP_TEST_LEQ,
+    tags.OP_TEST_LT,
+    tags.OP_TEST_AND,
+    tags.OP_TEST_OR,
+    tags.OP_OR,
 )
-BY_BOUND = (codes.OP_ADD_EQ, codes.OP_TEMPORAL_DISTANCE, codes.OP_EQ_SUM, codes.OP_EQ_MAXIMUM, codes.OP_EQ_MINIMUM)
+BY_BOUND = (tags.OP_ADD_EQ, tags.OP_TEMPORAL_DISTANCE, tags.OP_EQ_SUM, tags.OP_EQ_MAXIMUM, tags.OP_EQ_MINIMUM)
 ONLY_SOUND = (
-    codes.OP_ALL_DIFF,
-    codes.OP_MUL_EQ,
-    codes.OP_DIV_EQ,
-    codes.OP_EQ_PRODUCT,
-    codes.OP_ABS_VAL,
-    codes.OP_NEG,
-    codes.OP_DIFF_SQUARE,
-    codes.OP_COUNT_ZEROES,
-    codes.OP_COUNT_NON_ZEROES,
-    codes.OP_COND_ALL_DIFF,
-    codes.OP_COND_EQ,
-    codes.OP_MAXF,
-    codes.OP_ABSF,
+    tags.OP_ALL_DIFF,
+    tags.OP_MUL_EQ,
+    tags.OP_DIV_EQ,
+    tags.OP_EQ_PRODUCT,
+    tags.OP_ABS_VAL,
+    tags.OP_NEG,
+    tags.OP_DIFF_SQUARE,
+    tags.OP_COUNT_ZEROES,
+    tags.OP_COUNT_NON_ZEROES,
+    tags.OP_COND_ALL_DIFF,
+    tags.OP_COND_EQ,
+    tags.OP_MAXF,
+    tags.OP_ABSF,
 )
-TRUTH_FIRST = range(codes.OP_TEST_EQ, codes.OP_TEST_OR + 1)
+TRUTH_FIRST = range(tags.OP_TEST_EQ, tags.OP_TEST_OR + 1)
 LENGTHS = {
-    codes.OP_EQ: (2, 3),
-    codes.OP_ALL_DIFF: (3, 4),
-    codes.OP_ADD_EQ: (3, 3),
-    codes.OP_MUL_EQ: (3, 3),
-    codes.OP_DIV_EQ: (3, 3),
-    codes.OP_TEMPORAL_DISTANCE: (3, 3),
-    codes.OP_DIFF_SQUARE: (3, 3),
-    codes.OP_EQ_SUM: (3, 4),
-    codes.OP_EQ_PRODUCT: (3, 4),
-    codes.OP_EQ_MAXIMUM: (3, 4),
-    codes.OP_EQ_MINIMUM: (3, 4),
-    codes.OP_MAXF: (3, 4),
-    codes.OP_OR: (1, 3),
-    codes.OP_COUNT_ZEROES: (2, 4),
-    codes.OP_COUNT_NON_ZEROES: (2, 4),
-    codes.OP_COND_ALL_DIFF: (3, 4),
-    codes.OP_COND_EQ: (3, 4),
+    tags.OP_EQ: (2, 3),
+    tags.OP_ALL_DIFF: (3, 4),
+    tags.OP_ADD_EQ: (3, 3),
+    tags.OP_MUL_EQ: (3, 3),
+    tags.OP_DIV_EQ: (3, 3),
+    tags.OP_TEMPORAL_DISTANCE: (3, 3),
+    tags.OP_DIFF_SQUARE: (3, 3),
+    tags.OP_EQ_SUM: (3, 4),
+    tags.OP_EQ_PRODUCT: (3, 4),
+    tags.OP_EQ_MAXIMUM: (3, 4),
+    tags.OP_EQ_MINIMUM: (3, 4),
+    tags.OP_MAXF: (3, 4),
+    tags.OP_OR: (1, 3),
+    tags.OP_COUNT_ZEROES: (2, 4),
+    tags.OP_COUNT_NON_ZEROES: (2, 4),
+    tags.OP_COND_ALL_DIFF: (3, 4),
+    tags.OP_COND_EQ: (3, 4),
 }
 
 
@@ -140,8 +140,8 @@ def random_problem(chance: random.Random, operations: tuple[int, ...], variables
     """Draw a problem over bools, ints and symbols with few values."""
     problem = Problem()
     for _ in range(variables):
-        kind = chance.choice((codes.KIND_INT, codes.KIND_INT, codes.KIND_SYMBOL, codes.KIND_BOOL))
-        if kind == codes.KIND_BOOL:
+        kind = chance.choice((tags.KIND_INT, tags.KIND_INT, tags.KIND_SYMBOL, tags.KIND_BOOL))
+        if kind == tags.KIND_BOOL:
             domain = {0, 1}
         else:
             lo = chance.randint(-3, 3)
@@ -150,7 +150,7 @@ def random_problem(chance: random.Random, operations: tuple[int, ...], variables
                 domain = set(chance.sample(sorted(domain), chance.randint(1, len(domain))))
         problem.kinds.append(kind)
         problem.domains.append(domain)
-    bools = [v for v in range(variables) if problem.kinds[v] == codes.KIND_BOOL]
+    bools = [v for v in range(variables) if problem.kinds[v] == tags.KIND_BOOL]
     for _ in range(posts):
         op = chance.choice(operations)
         least, most = LENGTHS.get(op, (3, 3) if op in TRUTH_FIRST else (2, 2))
@@ -158,15 +158,15 @@ def random_problem(chance: random.Random, operations: tuple[int, ...], variables
         if count > variables:
             continue
         arguments = chance.sample(range(variables), count)
-        if op in TRUTH_FIRST or op in (codes.OP_COND_ALL_DIFF, codes.OP_COND_EQ):
+        if op in TRUTH_FIRST or op in (tags.OP_COND_ALL_DIFF, tags.OP_COND_EQ):
             if not bools:
                 continue
             arguments[0] = chance.choice(bools)
             if arguments[0] in arguments[1:]:
                 continue
-        if op in (codes.OP_TEST_AND, codes.OP_TEST_OR) and not set(arguments) <= set(bools):
+        if op in (tags.OP_TEST_AND, tags.OP_TEST_OR) and not set(arguments) <= set(bools):
             continue
-        if op == codes.OP_TEMPORAL_DISTANCE and any(problem.kinds[v] != codes.KIND_INT for v in arguments):
+        if op == tags.OP_TEMPORAL_DISTANCE and any(problem.kinds[v] != tags.KIND_INT for v in arguments):
             continue
         problem.posts.append((op, tuple(arguments)))
     return problem

@@ -5,21 +5,21 @@ import random
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from runtime.constraints import codes
+from runtime.constraints.domains import tags
 from tests.constraints import meaning
 
 # Letters: b bool, i int, f float, n any number, s what compares (ints, bools, symbols), y symbol or text, o object,
 # C constant set of whole numbers, K constant object. A `*` behind a letter: one to three more of it.
 KINDS = {
-    "b": (codes.KIND_BOOL,),
-    "i": (codes.KIND_INT,),
-    "f": (codes.KIND_FLOAT,),
-    "n": (codes.KIND_INT, codes.KIND_FLOAT),
-    "s": (codes.KIND_INT, codes.KIND_BOOL, codes.KIND_INT),
-    "y": (codes.KIND_SYMBOL, codes.KIND_STRING),
-    "o": (codes.KIND_OBJECT,),
-    "C": (codes.KIND_INT,),
-    "K": (codes.KIND_OBJECT,),
+    "b": (tags.KIND_BOOL,),
+    "i": (tags.KIND_INT,),
+    "f": (tags.KIND_FLOAT,),
+    "n": (tags.KIND_INT, tags.KIND_FLOAT),
+    "s": (tags.KIND_INT, tags.KIND_BOOL, tags.KIND_INT),
+    "y": (tags.KIND_SYMBOL, tags.KIND_STRING),
+    "o": (tags.KIND_OBJECT,),
+    "C": (tags.KIND_INT,),
+    "K": (tags.KIND_OBJECT,),
 }
 OBJECTS = tuple(float(k) for k in range(8))
 
@@ -52,115 +52,115 @@ SAME = ("ss", "yy", "oo", "nn", "ff")
 MANY = ("sss*", "yyy*", "ooo*", "nn*", "ff*")
 TESTS = ("bss", "byy", "boo", "bnn", "bff")
 SIGNATURES: dict[int, Signature] = {
-    codes.OP_EQ: forms(*SAME, *MANY),
-    codes.OP_NEQ: forms(*SAME),
-    codes.OP_LT: forms("ii", "nn", "ff", "ss"),
-    codes.OP_LEQ: forms("ii", "nn", "ff", "ss"),
-    codes.OP_ALL_DIFF: forms(*MANY),
-    codes.OP_TEMPORAL_DISTANCE: forms("iii", "ifi"),
-    codes.OP_WITHIN_BOUNDS: forms("nnn", "iii"),
-    codes.OP_ADD_EQ: forms("iii", "nnn", "fff", "iCi"),
-    codes.OP_MUL_EQ: forms("iii", "nnn", "fff"),
-    codes.OP_DIV_EQ: forms("iii", "nnn", "fff"),
-    codes.OP_EQ_SUM: forms("iii*", "nnn*", "ibb*"),
-    codes.OP_EQ_PRODUCT: forms("iii*", "nnn*"),
-    codes.OP_EQ_MINIMUM: forms("iii*", "nnn*"),
-    codes.OP_EQ_MAXIMUM: forms("iii*", "nnn*"),
-    codes.OP_ALL_MIN: forms("iii*", "nnn*"),
-    codes.OP_ALL_MAX: forms("iii*", "nnn*"),
-    codes.OP_ABS_VAL: forms("ii", "nn"),
-    codes.OP_NEG: forms("ii", "nn"),
-    codes.OP_DIFF_SQUARE: forms("iii", "nnn", "fff"),
-    codes.OP_CALC_DISTANCE: forms("fiiii", "fnnnn"),
-    codes.OP_DISTANCE_SQUARES: forms("iif", "nnf"),
-    codes.OP_TEST_EQ: forms(*TESTS),
-    codes.OP_TEST_NEQ: forms(*TESTS),
-    codes.OP_TEST_LEQ: forms("bss", "bnn", "bff"),
-    codes.OP_TEST_LT: forms("bss", "bnn", "bff"),
-    codes.OP_TEST_AND: forms("bbb", "bss"),
-    codes.OP_TEST_OR: forms("bbb", "bss"),
-    codes.OP_TEST_NOT: forms("bb", "bi"),
-    codes.OP_OR: forms("bb*", "s*"),
-    codes.OP_COUNT_ZEROES: forms("ibb*", "iss*", "inn*"),
-    codes.OP_COUNT_NON_ZEROES: forms("ibb*", "iss*", "inn*"),
-    codes.OP_COND_ALL_DIFF: forms("bsss*", "byyy*", "bnn*"),
-    codes.OP_COND_EQ: forms("bsss*", "byyy*", "bnn*"),
-    codes.OP_TEST_SINGLETON: forms("bs", "by"),
-    codes.OP_TEST_SPECIFIED: forms("bs", "by"),
-    codes.OP_SUBSET_OF: forms("ii", "yy", "oo"),
-    codes.OP_EQ_UNION: forms("iii*", "nn*"),
-    codes.OP_ELEMENT: forms("iiiii", "fiff", "yiyy", "oioo"),
-    codes.OP_HAS_ANCESTOR: forms("oo"),
-    codes.OP_COMMON_ANCESTOR: forms("ooo"),
-    codes.OP_ABS: forms("nn", "ii"),
-    codes.OP_SQRT: forms("fn", "ii"),
-    codes.OP_FLOOR: forms("in", "ff"),
-    codes.OP_CEIL: forms("in", "ff"),
-    codes.OP_MAX: forms("nnn", "iii"),
-    codes.OP_MIN: forms("nnn", "iii"),
-    codes.OP_POW: forms("fni", "fii"),
-    codes.OP_MOD: forms("iii", "fnn"),
-    codes.OP_SIN: forms("fn"),
-    codes.OP_SAMPLE: forms("ii", "ff"),
-    codes.OP_TRAVEL_TIME: forms("iiiiif"),
-    codes.OP_TOWARDS: forms("ffiiii"),
-    codes.OP_SINF: forms("fi", "ff"),
-    codes.OP_COSF: forms("fi", "ff"),
-    codes.OP_SQRTF: forms("fn", "ii"),
-    codes.OP_ABSF: forms("nn", "ii"),
-    codes.OP_FLOORF: forms("in", "ff"),
-    codes.OP_CEILF: forms("in", "ff"),
-    codes.OP_MAXF: forms("nnn*", "iii*"),
-    codes.OP_MINF: forms("nnn*", "iii*"),
-    codes.OP_EXPF: forms("fn"),
-    codes.OP_LOGF: forms("fn"),
-    codes.OP_DEG_TO_RAD: forms("fn"),
-    codes.OP_CIRCLE_MOD: forms("in", "fn"),
-    codes.OP_TICK_DATE: forms("iiii"),
-    codes.OP_LL_DIST: forms("fnnnn"),
-    codes.OP_WGS_DISPLACE: forms("nnnnff"),
-    codes.OP_WGS_DISPLACEMENT: forms("nnnnff"),
-    codes.OP_SANE_POS: forms("nn"),
-    codes.OP_WATCH: forms("s*", "nn"),
-    codes.OP_EXTERNAL: forms("ii", "iii"),
-    codes.OP_NOTHING: forms("nn"),
+    tags.OP_EQ: forms(*SAME, *MANY),
+    tags.OP_NEQ: forms(*SAME),
+    tags.OP_LT: forms("ii", "nn", "ff", "ss"),
+    tags.OP_LEQ: forms("ii", "nn", "ff", "ss"),
+    tags.OP_ALL_DIFF: forms(*MANY),
+    tags.OP_TEMPORAL_DISTANCE: forms("iii", "ifi"),
+    tags.OP_WITHIN_BOUNDS: forms("nnn", "iii"),
+    tags.OP_ADD_EQ: forms("iii", "nnn", "fff", "iCi"),
+    tags.OP_MUL_EQ: forms("iii", "nnn", "fff"),
+    tags.OP_DIV_EQ: forms("iii", "nnn", "fff"),
+    tags.OP_EQ_SUM: forms("iii*", "nnn*", "ibb*"),
+    tags.OP_EQ_PRODUCT: forms("iii*", "nnn*"),
+    tags.OP_EQ_MINIMUM: forms("iii*", "nnn*"),
+    tags.OP_EQ_MAXIMUM: forms("iii*", "nnn*"),
+    tags.OP_ALL_MIN: forms("iii*", "nnn*"),
+    tags.OP_ALL_MAX: forms("iii*", "nnn*"),
+    tags.OP_ABS_VAL: forms("ii", "nn"),
+    tags.OP_NEG: forms("ii", "nn"),
+    tags.OP_DIFF_SQUARE: forms("iii", "nnn", "fff"),
+    tags.OP_CALC_DISTANCE: forms("fiiii", "fnnnn"),
+    tags.OP_DISTANCE_SQUARES: forms("iif", "nnf"),
+    tags.OP_TEST_EQ: forms(*TESTS),
+    tags.OP_TEST_NEQ: forms(*TESTS),
+    tags.OP_TEST_LEQ: forms("bss", "bnn", "bff"),
+    tags.OP_TEST_LT: forms("bss", "bnn", "bff"),
+    tags.OP_TEST_AND: forms("bbb", "bss"),
+    tags.OP_TEST_OR: forms("bbb", "bss"),
+    tags.OP_TEST_NOT: forms("bb", "bi"),
+    tags.OP_OR: forms("bb*", "s*"),
+    tags.OP_COUNT_ZEROES: forms("ibb*", "iss*", "inn*"),
+    tags.OP_COUNT_NON_ZEROES: forms("ibb*", "iss*", "inn*"),
+    tags.OP_COND_ALL_DIFF: forms("bsss*", "byyy*", "bnn*"),
+    tags.OP_COND_EQ: forms("bsss*", "byyy*", "bnn*"),
+    tags.OP_TEST_SINGLETON: forms("bs", "by"),
+    tags.OP_TEST_SPECIFIED: forms("bs", "by"),
+    tags.OP_SUBSET_OF: forms("ii", "yy", "oo"),
+    tags.OP_EQ_UNION: forms("iii*", "nn*"),
+    tags.OP_ELEMENT: forms("iiiii", "fiff", "yiyy", "oioo"),
+    tags.OP_HAS_ANCESTOR: forms("oo"),
+    tags.OP_COMMON_ANCESTOR: forms("ooo"),
+    tags.OP_ABS: forms("nn", "ii"),
+    tags.OP_SQRT: forms("fn", "ii"),
+    tags.OP_FLOOR: forms("in", "ff"),
+    tags.OP_CEIL: forms("in", "ff"),
+    tags.OP_MAX: forms("nnn", "iii"),
+    tags.OP_MIN: forms("nnn", "iii"),
+    tags.OP_POW: forms("fni", "fii"),
+    tags.OP_MOD: forms("iii", "fnn"),
+    tags.OP_SIN: forms("fn"),
+    tags.OP_SAMPLE: forms("ii", "ff"),
+    tags.OP_TRAVEL_TIME: forms("iiiiif"),
+    tags.OP_TOWARDS: forms("ffiiii"),
+    tags.OP_SINF: forms("fi", "ff"),
+    tags.OP_COSF: forms("fi", "ff"),
+    tags.OP_SQRTF: forms("fn", "ii"),
+    tags.OP_ABSF: forms("nn", "ii"),
+    tags.OP_FLOORF: forms("in", "ff"),
+    tags.OP_CEILF: forms("in", "ff"),
+    tags.OP_MAXF: forms("nnn*", "iii*"),
+    tags.OP_MINF: forms("nnn*", "iii*"),
+    tags.OP_EXPF: forms("fn"),
+    tags.OP_LOGF: forms("fn"),
+    tags.OP_DEG_TO_RAD: forms("fn"),
+    tags.OP_CIRCLE_MOD: forms("in", "fn"),
+    tags.OP_TICK_DATE: forms("iiii"),
+    tags.OP_LL_DIST: forms("fnnnn"),
+    tags.OP_WGS_DISPLACE: forms("nnnnff"),
+    tags.OP_WGS_DISPLACEMENT: forms("nnnnff"),
+    tags.OP_SANE_POS: forms("nn"),
+    tags.OP_WATCH: forms("s*", "nn"),
+    tags.OP_EXTERNAL: forms("ii", "iii"),
+    tags.OP_NOTHING: forms("nn"),
 }
 ANGLES = (-180.0, -90.0, -45.0, 0.0, 30.0, 60.0, 90.0, 135.0, 180.0, 270.0, 400.0)
 # Functions that act once their arguments are known; drawn more rarely, for a conflict of theirs blames all arguments.
 FORWARD = (
-    codes.OP_ABS,
-    codes.OP_SQRT,
-    codes.OP_FLOOR,
-    codes.OP_CEIL,
-    codes.OP_MAX,
-    codes.OP_MIN,
-    codes.OP_POW,
-    codes.OP_MOD,
-    codes.OP_SIN,
-    codes.OP_SAMPLE,
-    codes.OP_DISTANCE_SQUARES,
-    codes.OP_CALC_DISTANCE,
-    codes.OP_TRAVEL_TIME,
-    codes.OP_TOWARDS,
-    codes.OP_TICK_DATE,
-    codes.OP_LL_DIST,
-    codes.OP_WGS_DISPLACE,
-    codes.OP_WGS_DISPLACEMENT,
+    tags.OP_ABS,
+    tags.OP_SQRT,
+    tags.OP_FLOOR,
+    tags.OP_CEIL,
+    tags.OP_MAX,
+    tags.OP_MIN,
+    tags.OP_POW,
+    tags.OP_MOD,
+    tags.OP_SIN,
+    tags.OP_SAMPLE,
+    tags.OP_DISTANCE_SQUARES,
+    tags.OP_CALC_DISTANCE,
+    tags.OP_TRAVEL_TIME,
+    tags.OP_TOWARDS,
+    tags.OP_TICK_DATE,
+    tags.OP_LL_DIST,
+    tags.OP_WGS_DISPLACE,
+    tags.OP_WGS_DISPLACEMENT,
 )
 OTHERS = tuple(op for op in SIGNATURES if op not in FORWARD)
-TURNING = (codes.OP_SIN, codes.OP_SINF, codes.OP_COSF, codes.OP_DEG_TO_RAD, codes.OP_CIRCLE_MOD)
+TURNING = (tags.OP_SIN, tags.OP_SINF, tags.OP_COSF, tags.OP_DEG_TO_RAD, tags.OP_CIRCLE_MOD)
 
 
 def draw_values(chance: random.Random, op: int, letter: str, place: int) -> tuple[int, tuple[float, ...]]:
     """Draw the kind and the values of a new variable."""
     kind = chance.choice(KINDS[letter])
-    if kind == codes.KIND_BOOL:
+    if kind == tags.KIND_BOOL:
         return kind, (0, 1) if chance.random() < 0.8 else (chance.randint(0, 1),)
-    if kind == codes.KIND_OBJECT:
+    if kind == tags.KIND_OBJECT:
         return kind, tuple(sorted(chance.sample(OBJECTS, 1 if letter == "K" else chance.randint(1, 4))))
-    if op == codes.OP_TICK_DATE and place == 0:
+    if op == tags.OP_TICK_DATE and place == 0:
         return kind, tuple(sorted(chance.sample((0, 86399, 86400 * 59, 951_782_400 + 5, 1_735_689_600), 2)))
-    if kind == codes.KIND_FLOAT:
+    if kind == tags.KIND_FLOAT:
         pool = ANGLES if op in TURNING and place else tuple(k / 4.0 for k in range(-8, 13))
         return kind, tuple(sorted(chance.sample(pool, chance.choice((1, 1, 2, 3)))))
     if op in TURNING and place:
@@ -170,7 +170,7 @@ def draw_values(chance: random.Random, op: int, letter: str, place: int) -> tupl
     values = [float(x) for x in range(lo, lo + width)]
     if chance.random() < 0.3:
         values = sorted(chance.sample(values, chance.randint(1, len(values))))
-    return kind, tuple(x + 4 for x in values) if kind in (codes.KIND_SYMBOL, codes.KIND_STRING) else tuple(values)
+    return kind, tuple(x + 4 for x in values) if kind in (tags.KIND_SYMBOL, tags.KIND_STRING) else tuple(values)
 
 
 def quotient(place: int, x: float, y: float) -> list[tuple[int, float]]:
@@ -202,75 +202,75 @@ def images(op: int, x: list[float]) -> list[tuple[int, float]]:
     """Give results that follow from the other arguments, by place; the given values at these places do not matter."""
     try:
         match op:
-            case codes.OP_ADD_EQ:
+            case tags.OP_ADD_EQ:
                 return [(2, x[0] + x[1]), (0, x[2] - x[1]), (1, x[2] - x[0])]
-            case codes.OP_TEMPORAL_DISTANCE:
+            case tags.OP_TEMPORAL_DISTANCE:
                 return [(2, x[0] + x[1]), (0, x[2] - x[1]), (1, x[2] - x[0])]
-            case codes.OP_MUL_EQ:
+            case tags.OP_MUL_EQ:
                 return [(2, x[0] * x[1]), *quotient(0, x[2], x[1]), *quotient(1, x[2], x[0])]
-            case codes.OP_DIV_EQ:
+            case tags.OP_DIV_EQ:
                 return [(0, x[1] * x[2]), *quotient(1, x[0], x[2]), *quotient(2, x[0], x[1])]
-            case codes.OP_EQ_SUM:
+            case tags.OP_EQ_SUM:
                 return [(0, sum(x[1:])), (1, x[0] - sum(x[2:]))]
-            case codes.OP_EQ_PRODUCT:
+            case tags.OP_EQ_PRODUCT:
                 others = math.prod(x[2:])
                 return [(0, x[1] * others), *quotient(1, x[0], others)]
-            case codes.OP_NEG:
+            case tags.OP_NEG:
                 return [(0, -x[1]), (1, -x[0])]
-            case codes.OP_DIFF_SQUARE:
+            case tags.OP_DIFF_SQUARE:
                 return [(2, (x[0] - x[1]) ** 2), *roots(0, x[2], x[1]), *roots(1, x[2], x[0])]
-            case codes.OP_CALC_DISTANCE:
+            case tags.OP_CALC_DISTANCE:
                 found = [(0, math.hypot(x[1] - x[3], x[2] - x[4]))]
                 for k, j in ((1, 3), (3, 1), (2, 4), (4, 2)):
                     other = x[2] - x[4] if k % 2 else x[1] - x[3]
                     found += roots(k, x[0] ** 2 - other**2, x[j])
                 return found
-            case codes.OP_DISTANCE_SQUARES:
+            case tags.OP_DISTANCE_SQUARES:
                 return [(0, x[2] ** 2 - x[1]), (1, x[2] ** 2 - x[0]), *roots(2, x[0] + x[1], 0.0)]
-            case codes.OP_SQRT | codes.OP_SQRTF:
+            case tags.OP_SQRT | tags.OP_SQRTF:
                 return [(1, x[0] * x[0]), *roots(0, x[1], 0.0)]
-            case codes.OP_ABS | codes.OP_ABSF | codes.OP_ABS_VAL:
+            case tags.OP_ABS | tags.OP_ABSF | tags.OP_ABS_VAL:
                 return [(0, abs(x[1])), (1, x[0]), (1, -x[0])]
-            case codes.OP_MAX | codes.OP_MIN:
+            case tags.OP_MAX | tags.OP_MIN:
                 return [(1, x[0]), (2, x[0])]
-            case codes.OP_SAMPLE:
+            case tags.OP_SAMPLE:
                 return [(0, x[1]), (1, x[0])]
-            case codes.OP_POW:
+            case tags.OP_POW:
                 root = abs(x[0]) ** (1.0 / x[2])
                 return [(0, float(x[1] ** x[2])), (1, root), (1, -root)]
-            case codes.OP_MOD:
+            case tags.OP_MOD:
                 return [(1, x[0]), (2, x[1] - x[0]), (2, x[0] - x[1]), *remainder(x)]
-            case codes.OP_FLOOR | codes.OP_FLOORF:
+            case tags.OP_FLOOR | tags.OP_FLOORF:
                 return [(0, math.floor(x[1])), (1, x[0])]
-            case codes.OP_CEIL | codes.OP_CEILF:
+            case tags.OP_CEIL | tags.OP_CEILF:
                 return [(0, math.ceil(x[1])), (1, x[0])]
-            case codes.OP_SIN:
+            case tags.OP_SIN:
                 return [(0, math.sin(math.radians(min(max(x[1], -90), 90)))), *arc(math.asin, x[0])]
-            case codes.OP_SINF:
+            case tags.OP_SINF:
                 return [(0, math.sin(math.radians(x[1]))), *arc(math.asin, x[0])]
-            case codes.OP_COSF:
+            case tags.OP_COSF:
                 return [(0, math.cos(math.radians(x[1]))), *arc(math.acos, x[0])]
-            case codes.OP_EXPF:
+            case tags.OP_EXPF:
                 return [(0, math.exp(x[1])), *logarithm(1, x[0])]
-            case codes.OP_LOGF:
+            case tags.OP_LOGF:
                 return [(1, math.exp(x[0])), *logarithm(0, x[1])]
-            case codes.OP_DEG_TO_RAD:
+            case tags.OP_DEG_TO_RAD:
                 return [(0, math.radians(x[1])), (1, math.degrees(x[0]))]
-            case codes.OP_CIRCLE_MOD:
+            case tags.OP_CIRCLE_MOD:
                 return [(0, meaning.angle(x[1])), (1, x[0])]
-            case codes.OP_TRAVEL_TIME:
+            case tags.OP_TRAVEL_TIME:
                 return [(0, max(1.0, math.ceil(math.hypot(x[3] - x[1], x[4] - x[2]) / x[5])))]
-            case codes.OP_TOWARDS:
+            case tags.OP_TOWARDS:
                 distance = math.hypot(x[4] - x[2], x[5] - x[3]) or 1.0
                 return [(0, (x[4] - x[2]) / distance), (1, (x[5] - x[3]) / distance)]
-            case codes.OP_LL_DIST:
+            case tags.OP_LL_DIST:
                 return [(0, meaning.sphere_distance(*x[1:]))]
-            case codes.OP_WGS_DISPLACEMENT:
+            case tags.OP_WGS_DISPLACEMENT:
                 north, east = meaning.displacement(*x[:4])
                 return [(4, north), (5, east)]
-            case codes.OP_WGS_DISPLACE:
+            case tags.OP_WGS_DISPLACE:
                 return [(4, x[0] + x[2] / 110_574.0), (5, x[1] + x[3] / 111_320.0 / math.cos(math.radians(x[0])))]
-            case codes.OP_TICK_DATE:
+            case tags.OP_TICK_DATE:
                 days = int(x[0]) // 86400
                 return [(1, x[0] % 86400), (2, days % 365 + 1), (3, 1970 + days // 365)]
     except (ValueError, ZeroDivisionError, OverflowError):

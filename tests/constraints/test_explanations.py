@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 import z3
 
-from runtime.constraints import codes
-from runtime.constraints.cases import Patience
-from runtime.constraints.cause import Cause, CauseKind
+from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
-from runtime.constraints.minimise import Scratch, minimise, sufficient
+from runtime.constraints.explanation.cause import Cause, CauseKind
+from runtime.constraints.minimisation.case_split import Patience
+from runtime.constraints.minimisation.minimise import Scratch, minimise, sufficient
 from tests.constraints.reference import (
     BATCHES,
     BY_BOUND,
@@ -24,39 +24,39 @@ from tests.constraints.reference import (
     seeds,
 )
 
-JUDGED = tuple(op for op in BY_VALUE + BY_BOUND if op not in (codes.OP_EQ_MAXIMUM, codes.OP_EQ_MINIMUM))
+JUDGED = tuple(op for op in BY_VALUE + BY_BOUND if op not in (tags.OP_EQ_MAXIMUM, tags.OP_EQ_MINIMUM))
 
 
 def claim(op: int, x: list[Any]) -> Any:
     """Say in z3 what a constraint says."""
     match op:
-        case codes.OP_EQ:
+        case tags.OP_EQ:
             return z3.And([x[0] == y for y in x[1:]])
-        case codes.OP_NEQ:
+        case tags.OP_NEQ:
             return x[0] != x[1]
-        case codes.OP_LT:
+        case tags.OP_LT:
             return x[0] < x[1]
-        case codes.OP_LEQ:
+        case tags.OP_LEQ:
             return x[0] <= x[1]
-        case codes.OP_TEMPORAL_DISTANCE:
+        case tags.OP_TEMPORAL_DISTANCE:
             return x[2] - x[0] == x[1]
-        case codes.OP_ADD_EQ:
+        case tags.OP_ADD_EQ:
             return x[0] + x[1] == x[2]
-        case codes.OP_EQ_SUM:
+        case tags.OP_EQ_SUM:
             return x[0] == z3.Sum(x[1:])
-        case codes.OP_TEST_EQ:
+        case tags.OP_TEST_EQ:
             return (x[0] != 0) == (x[1] == x[2])
-        case codes.OP_TEST_NEQ:
+        case tags.OP_TEST_NEQ:
             return (x[0] != 0) == (x[1] != x[2])
-        case codes.OP_TEST_LEQ:
+        case tags.OP_TEST_LEQ:
             return (x[0] != 0) == (x[1] <= x[2])
-        case codes.OP_TEST_LT:
+        case tags.OP_TEST_LT:
             return (x[0] != 0) == (x[1] < x[2])
-        case codes.OP_TEST_AND:
+        case tags.OP_TEST_AND:
             return (x[0] != 0) == z3.And(x[1] != 0, x[2] != 0)
-        case codes.OP_TEST_OR:
+        case tags.OP_TEST_OR:
             return (x[0] != 0) == z3.Or(x[1] != 0, x[2] != 0)
-        case codes.OP_OR:
+        case tags.OP_OR:
             return z3.Or([y != 0 for y in x])
     raise AssertionError(op)
 
@@ -66,7 +66,7 @@ def is_satisfiable(engine: Engine, causes: Sequence[Cause]) -> bool:
     solver = z3.Solver()
     names = [z3.Int(f"v{v}") for v in range(engine.variables)]
     for v in range(engine.variables):
-        if engine.kind[v] == codes.KIND_BOOL:
+        if engine.kind[v] == tags.KIND_BOOL:
             solver.add(names[v] >= 0, names[v] <= 1)
         if engine.constant[v]:
             solver.add(names[v] == engine.lb[v])
@@ -76,7 +76,7 @@ def is_satisfiable(engine: Engine, causes: Sequence[Cause]) -> bool:
             solver.add(names[target] - names[source] <= engine.edge_weight[cause.id])
         elif cause.kind is CauseKind.RESTRICTION:
             name = names[engine.restriction_variable[cause.id]]
-            if engine.restriction_flags[cause.id] & codes.FLAG_VALUES:
+            if engine.restriction_flags[cause.id] & tags.FLAG_VALUES:
                 solver.add(z3.Or([name == int(x) for x in engine.restriction_values[cause.id]]))
             else:
                 solver.add(name >= int(engine.restriction_lo[cause.id]))
@@ -84,7 +84,7 @@ def is_satisfiable(engine: Engine, causes: Sequence[Cause]) -> bool:
         else:
             op = engine.op[cause.id]
             solver.add(
-                claim(codes.OP_ADD_EQ if op == codes.OP_PLUS else op, [names[v] for v in engine.arguments(cause.id)])
+                claim(tags.OP_ADD_EQ if op == tags.OP_PLUS else op, [names[v] for v in engine.arguments(cause.id)])
             )
     return bool(solver.check() == z3.sat)
 
@@ -97,7 +97,7 @@ def first_conflict(seed: int, commits: bool) -> Engine | None:
     count = len(problem.domains)
     for k, (op, arguments) in enumerate(problem.posts):
         engine.post(op, list(arguments), k, -1)
-        ints = [v for v in range(count) if problem.kinds[v] == codes.KIND_INT]
+        ints = [v for v in range(count) if problem.kinds[v] == tags.KIND_INT]
         if len(ints) > 1 and chance.random() < 0.3:
             source, target = chance.sample(ints, 2)
             if not engine.add_edge(source, target, chance.randint(-3, 3), 100 + k, -1):
@@ -152,28 +152,28 @@ def test_nearly_every_explanation_is_minimal_for_z3_too() -> None:
 
 def test_a_cycle_among_unbounded_points_is_explained_by_its_edges() -> None:
     engine = Engine()
-    a, b, c, d = (engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), 9, -1) for _ in range(4))
+    a, b, c, d = (engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), 9, -1) for _ in range(4))
     assert engine.add_edge(a, d, 1, 1, -1)
     assert engine.add_edge(b, a, -1, 2, -1)
     assert engine.add_edge(c, b, -1, 3, 7)
     assert not engine.add_edge(a, c, 1, 4, -1)
-    assert engine.conflict_kind == codes.CONFLICT_CYCLE
+    assert engine.conflict_kind == tags.CONFLICT_CYCLE
     assert sorted((cause.span, cause.owner) for cause in engine.explain()) == [(2, -1), (3, 7), (4, -1)]
 
 
 def test_a_late_observation_is_explained_back_to_its_causes() -> None:
     engine = Engine()
-    start = engine.new_interval(codes.KIND_INT, 0, 10, 1, -1)
-    duration = engine.new_interval(codes.KIND_INT, 1, float("inf"), 2, -1)
-    end = engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), 3, -1)
-    rate = engine.new_interval(codes.KIND_FLOAT, 2.5, 2.5, 4, -1)
-    length = engine.new_interval(codes.KIND_FLOAT, 10.0, 10.0, 5, -1)
-    engine.post(codes.OP_MUL_EQ, [rate, duration, length], 6, 42)
-    engine.post(codes.OP_TEMPORAL_DISTANCE, [start, duration, end], 7, 42)
+    start = engine.new_interval(tags.KIND_INT, 0, 10, 1, -1)
+    duration = engine.new_interval(tags.KIND_INT, 1, float("inf"), 2, -1)
+    end = engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), 3, -1)
+    rate = engine.new_interval(tags.KIND_FLOAT, 2.5, 2.5, 4, -1)
+    length = engine.new_interval(tags.KIND_FLOAT, 10.0, 10.0, 5, -1)
+    engine.post(tags.OP_MUL_EQ, [rate, duration, length], 6, 42)
+    engine.post(tags.OP_TEMPORAL_DISTANCE, [start, duration, end], 7, 42)
     assert engine.propagate()
     engine.restrict_base(start, 8, 8, 8, -1)
     assert engine.propagate() and engine.lower(end) == 12
-    chain = engine.support_chain(end, codes.SIDE_LOWER)
+    chain = engine.support_chain(end, tags.SIDE_LOWER)
     assert chain[0].variable == end and chain[0].value == 12
     assert {link.cause.span for link in chain} >= {4, 5, 6, 7, 8}
     assert all(link.cause.owner == 42 for link in chain if link.cause.kind is CauseKind.CONSTRAINT)
@@ -181,23 +181,23 @@ def test_a_late_observation_is_explained_back_to_its_causes() -> None:
 
 def test_a_set_is_among_the_causes_of_what_it_leaves_out() -> None:
     engine = Engine()
-    x = engine.new_interval(codes.KIND_FLOAT, 0.0, 9.0, 1, -1)
+    x = engine.new_interval(tags.KIND_FLOAT, 0.0, 9.0, 1, -1)
     engine.restrict_base_values(x, [1.0, 4.0, 8.0], 2, -1)
     engine.restrict_base(x, 2.0, 9.0, 3, -1)
     engine.restrict_base(x, 0.0, 7.0, 4, -1)
     assert engine.propagate() and engine.is_singleton(x)
-    y = engine.new_interval(codes.KIND_FLOAT, 5.0, 9.0, 5, -1)
-    engine.post(codes.OP_EQ, [x, y], 6, -1)
+    y = engine.new_interval(tags.KIND_FLOAT, 5.0, 9.0, 5, -1)
+    engine.post(tags.OP_EQ, [x, y], 6, -1)
     assert not engine.propagate()
     assert {cause.span for cause in minimise(engine, sufficient(engine))} == {2, 4, 5, 6}
 
 
 def test_taking_the_last_value_of_a_bool_blames_what_fixed_it() -> None:
     engine = Engine()
-    a, b, c = (engine.new_interval(codes.KIND_BOOL, 0, 1, k, -1) for k in range(3))
-    engine.post(codes.OP_LT, [b, c], 3, -1)
-    engine.post(codes.OP_LEQ, [c, a], 4, -1)
-    engine.post(codes.OP_NEQ, [c, a], 5, -1)
+    a, b, c = (engine.new_interval(tags.KIND_BOOL, 0, 1, k, -1) for k in range(3))
+    engine.post(tags.OP_LT, [b, c], 3, -1)
+    engine.post(tags.OP_LEQ, [c, a], 4, -1)
+    engine.post(tags.OP_NEQ, [c, a], 5, -1)
     assert not engine.propagate()
     assert {3, 4, 5} <= {cause.span for cause in engine.explain()}
     assert Scratch(engine).refutes(engine.explain())

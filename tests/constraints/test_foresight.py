@@ -5,11 +5,11 @@ import random
 
 import pytest
 
-from runtime.constraints import codes
-from runtime.constraints.cases import Patience, fails_in_all_cases
+from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
-from runtime.constraints.foresight import foresee
-from runtime.constraints.minimise import minimise, sufficient
+from runtime.constraints.minimisation.case_split import Patience, fails_in_all_cases
+from runtime.constraints.minimisation.minimise import minimise, sufficient
+from runtime.constraints.minimisation.relational import foresee
 from tests.constraints import meaning
 from tests.constraints.reference import BATCHES, seeds
 from tests.constraints.signatures import FORWARD, KINDS, SIGNATURES, draw_values
@@ -22,13 +22,13 @@ def solved(chance: random.Random, op: int) -> tuple[list[int], list[float]] | No
     """Draw kinds and values of a function's arguments that hold."""
     kinds = [chance.choice(KINDS[letter]) for letter in SIGNATURES[op].draw(chance)]
     x = [
-        chance.choice(draw_values(chance, op, "i" if k == codes.KIND_INT else "f", place)[1])
+        chance.choice(draw_values(chance, op, "i" if k == tags.KIND_INT else "f", place)[1])
         for place, k in enumerate(kinds)
     ]
     for _ in range(8):
         if meaning.holds(op, x):
             return kinds, x
-        options = [each for each in repairs(op, x) if kinds[each[0]] == codes.KIND_FLOAT or each[1] == int(each[1])]
+        options = [each for each in repairs(op, x) if kinds[each[0]] == tags.KIND_FLOAT or each[1] == int(each[1])]
         if not options:
             return None
         place, value = chance.choice(options)
@@ -49,7 +49,7 @@ def test_no_solution_is_lost_before_arguments_are_known(op: int, batch: int) -> 
         variables = []
         for kind, value in zip(kinds, x, strict=True):
             below, above = (chance.choice(WIDTHS) * chance.choice((1.0, 0.25)) for _ in range(2))
-            if kind == codes.KIND_INT:
+            if kind == tags.KIND_INT:
                 below, above = below // 1.0, above // 1.0
             variables.append(engine.new_interval(kind, value - below, value + above, -1, -1))
         if not foresee(engine, op, variables, -1, -1):
@@ -75,29 +75,29 @@ def needed(op: int, domains: list[tuple[int, float, float]]) -> set[int]:
     return {cause.span for cause in minimise(engine, sufficient(engine))} - {99}
 
 
-INT, FLOAT = codes.KIND_INT, codes.KIND_FLOAT
+INT, FLOAT = tags.KIND_INT, tags.KIND_FLOAT
 
 
 @pytest.mark.parametrize(
     ("op", "x", "places"),
     [
-        (codes.OP_ABS, [(INT, -3, -3), (INT, 3, 3)], {0}),
-        (codes.OP_MIN, [(INT, 5, 5), (INT, 2, 2), (INT, 8, 8)], {0, 1}),
-        (codes.OP_POW, [(FLOAT, -4, -4), (FLOAT, 3, 3), (INT, 2, 2)], {0, 1}),
-        (codes.OP_POW, [(FLOAT, 2.5, 2.5), (INT, 3, 3), (INT, 2, 2)], {0}),
-        (codes.OP_MOD, [(INT, 7, 7), (INT, 9, 9), (INT, 4, 4)], {0, 2}),
-        (codes.OP_MOD, [(INT, -1, -1), (INT, 9, 9), (INT, 4, 4)], {0, 1}),
-        (codes.OP_CALC_DISTANCE, [(FLOAT, 1.5, 1.5), (INT, 0, 0), (INT, 0, 0), (INT, 3, 3), (INT, 4, 4)], {0}),
-        (codes.OP_TOWARDS, [(FLOAT, 2, 2), (FLOAT, 0, 1), *[(INT, k, k) for k in range(4)]], {0}),
-        (codes.OP_TRAVEL_TIME, [(INT, 0, 0), *[(INT, k, k) for k in range(4)], (FLOAT, 1, 1)], {0}),
+        (tags.OP_ABS, [(INT, -3, -3), (INT, 3, 3)], {0}),
+        (tags.OP_MIN, [(INT, 5, 5), (INT, 2, 2), (INT, 8, 8)], {0, 1}),
+        (tags.OP_POW, [(FLOAT, -4, -4), (FLOAT, 3, 3), (INT, 2, 2)], {0, 1}),
+        (tags.OP_POW, [(FLOAT, 2.5, 2.5), (INT, 3, 3), (INT, 2, 2)], {0}),
+        (tags.OP_MOD, [(INT, 7, 7), (INT, 9, 9), (INT, 4, 4)], {0, 2}),
+        (tags.OP_MOD, [(INT, -1, -1), (INT, 9, 9), (INT, 4, 4)], {0, 1}),
+        (tags.OP_CALC_DISTANCE, [(FLOAT, 1.5, 1.5), (INT, 0, 0), (INT, 0, 0), (INT, 3, 3), (INT, 4, 4)], {0}),
+        (tags.OP_TOWARDS, [(FLOAT, 2, 2), (FLOAT, 0, 1), *[(INT, k, k) for k in range(4)]], {0}),
+        (tags.OP_TRAVEL_TIME, [(INT, 0, 0), *[(INT, k, k) for k in range(4)], (FLOAT, 1, 1)], {0}),
         (
-            codes.OP_TRAVEL_TIME,
+            tags.OP_TRAVEL_TIME,
             [(INT, 2, 2), (INT, 0, 0), (INT, 0, 0), (INT, 9, 9), (INT, 7, 7), (FLOAT, 1, 1)],
             {0, 1, 3, 5},
         ),
-        (codes.OP_TICK_DATE, [(INT, 0, 0), (INT, 0, 0), (INT, 5, 5), (INT, 1980, 1980)], {0, 3}),
-        (codes.OP_LL_DIST, [(FLOAT, 7e5, 7e5), *[(FLOAT, k, k) for k in range(3)], (INT, 4, 4)], {0, 1, 2, 3}),
-        (codes.OP_LL_DIST, [(FLOAT, 3e7, 3e7), *[(FLOAT, k, k) for k in range(4)]], {0}),
+        (tags.OP_TICK_DATE, [(INT, 0, 0), (INT, 0, 0), (INT, 5, 5), (INT, 1980, 1980)], {0, 3}),
+        (tags.OP_LL_DIST, [(FLOAT, 7e5, 7e5), *[(FLOAT, k, k) for k in range(3)], (INT, 4, 4)], {0, 1, 2, 3}),
+        (tags.OP_LL_DIST, [(FLOAT, 3e7, 3e7), *[(FLOAT, k, k) for k in range(4)]], {0}),
     ],
 )
 def test_an_explanation_names_only_what_matters(op: int, x: list[tuple[int, float, float]], places: set[int]) -> None:
@@ -106,8 +106,8 @@ def test_an_explanation_names_only_what_matters(op: int, x: list[tuple[int, floa
 
 def test_few_values_are_tried() -> None:
     engine = Engine()
-    truth = engine.new_interval(codes.KIND_BOOL, 0, 1, 0, -1)
-    engine.post(codes.OP_TEST_NOT, [truth, truth], 1, -1)
+    truth = engine.new_interval(tags.KIND_BOOL, 0, 1, 0, -1)
+    engine.post(tags.OP_TEST_NOT, [truth, truth], 1, -1)
     assert engine.propagate()
     assert fails_in_all_cases(engine, [truth], Patience(1000))
     assert not fails_in_all_cases(engine, [truth], Patience(1)), "patience ends before"

@@ -5,7 +5,7 @@ from array import array
 
 import pytest
 
-from runtime.constraints.grow import IS_LAZY, LARGE, grown, next_room
+from runtime.constraints.domains.arrays import IS_LAZY, LARGE, grown, next_room
 
 
 @pytest.mark.parametrize(("code", "fill"), [("q", 0), ("i", 0), ("i", -1), ("b", 0), ("d", 0.0), ("Q", 0)])

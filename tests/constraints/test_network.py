@@ -5,7 +5,7 @@ from math import inf
 
 import pytest
 
-from runtime.constraints import codes
+from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from tests.constraints.reference import BATCHES, Edge, seeds, shortest_distances
 
@@ -44,7 +44,7 @@ def build(bounds: list[tuple[float, float]]) -> Engine:
     """Make an engine with a point for each pair of bounds."""
     engine = Engine()
     for lo, hi in bounds:
-        engine.new_interval(codes.KIND_INT, lo, hi, 0, -1)
+        engine.new_interval(tags.KIND_INT, lo, hi, 0, -1)
     return engine
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from runtime.constraints.codes import KIND_FLOAT, OP_EQ, OP_LEQ, OP_LT
+from runtime.constraints.domains.tags import KIND_FLOAT, OP_EQ, OP_LEQ, OP_LT
 from runtime.constraints.engine import Engine
 
 

@@ -4,9 +4,9 @@ import random
 
 import pytest
 
-from runtime.constraints import codes
+from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
-from runtime.constraints.minimise import minimise, sufficient
+from runtime.constraints.minimisation.minimise import minimise, sufficient
 from tests.constraints.reference import (
     BATCHES,
     BY_BOUND,
@@ -64,7 +64,7 @@ def keep_whole_solutions(seed: int) -> None:
     chance = random.Random(seed)
     problem = random_problem(chance, BY_BOUND[:1] + BY_BOUND[2:] + ONLY_SOUND[1:], chance.randint(2, 5), 3)
     problem.kinds = [
-        codes.KIND_FLOAT if kind == codes.KIND_INT and chance.random() < 0.6 else kind for kind in problem.kinds
+        tags.KIND_FLOAT if kind == tags.KIND_INT and chance.random() < 0.6 else kind for kind in problem.kinds
     ]
     solutions = problem.solutions()
     engine = built(problem)
@@ -83,11 +83,11 @@ def test_reals_keep_every_whole_solution(batch: int) -> None:
 
 def test_floats_whose_bounds_touch_are_not_smaller() -> None:
     engine = Engine()
-    a = engine.new_interval(codes.KIND_FLOAT, 0.0, 9.0, 0, -1)
-    nine = engine.new_constant(codes.KIND_FLOAT, 9.0, 9.0)
-    engine.post(codes.OP_LT, [a, nine], 1, -1)
-    assert engine.propagate() and engine.upper(a) == 9.0 - codes.STRICT_STEP
-    b = engine.new_interval(codes.KIND_FLOAT, 0.0, 9.0, 2, -1)
-    engine.post(codes.OP_LT, [nine, b], 3, -1)
+    a = engine.new_interval(tags.KIND_FLOAT, 0.0, 9.0, 0, -1)
+    nine = engine.new_constant(tags.KIND_FLOAT, 9.0, 9.0)
+    engine.post(tags.OP_LT, [a, nine], 1, -1)
+    assert engine.propagate() and engine.upper(a) == 9.0 - tags.STRICT_STEP
+    b = engine.new_interval(tags.KIND_FLOAT, 0.0, 9.0, 2, -1)
+    engine.post(tags.OP_LT, [nine, b], 3, -1)
     assert not engine.propagate()
     assert {cause.span for cause in minimise(engine, sufficient(engine))} == {2, 3}

@@ -4,7 +4,7 @@ import random
 
 import pytest
 
-from runtime.constraints import codes
+from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from tests.constraints.reference import (
     BATCHES,
@@ -93,15 +93,15 @@ def test_retracting_equals_never_having_posted(batch: int) -> None:
 
 def test_bounds_that_hold_each_other_up_are_loosened() -> None:
     engine = Engine()
-    x = engine.new_interval(codes.KIND_INT, 0, float("inf"), 0, -1)
-    y = engine.new_interval(codes.KIND_INT, 0, float("inf"), 0, -1)
-    two = engine.new_constant(codes.KIND_INT, 2, 2)
+    x = engine.new_interval(tags.KIND_INT, 0, float("inf"), 0, -1)
+    y = engine.new_interval(tags.KIND_INT, 0, float("inf"), 0, -1)
+    two = engine.new_constant(tags.KIND_INT, 2, 2)
     engine.restrict_base(y, 0, 10, 1, -1)
     limit = engine.newest_restriction
-    twice = engine.new_interval(codes.KIND_INT, 0, float("inf"), 0, -1)
-    engine.post(codes.OP_MUL_EQ, [x, two, twice], 2, -1)
-    engine.post(codes.OP_LEQ, [twice, y], 3, -1)
-    engine.post(codes.OP_LEQ, [y, x], 4, -1)
+    twice = engine.new_interval(tags.KIND_INT, 0, float("inf"), 0, -1)
+    engine.post(tags.OP_MUL_EQ, [x, two, twice], 2, -1)
+    engine.post(tags.OP_LEQ, [twice, y], 3, -1)
+    engine.post(tags.OP_LEQ, [y, x], 4, -1)
     assert engine.propagate()
     assert (engine.upper(x), engine.upper(y)) == (0, 0)
     engine.commit()
@@ -111,9 +111,9 @@ def test_bounds_that_hold_each_other_up_are_loosened() -> None:
 
 def test_a_decision_can_be_taken_back_and_leaves_the_base_domain() -> None:
     engine = Engine()
-    a = engine.new_interval(codes.KIND_INT, 1, 9, 0, -1)
-    b = engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), 0, -1)
-    engine.post(codes.OP_ADD_EQ, [a, engine.new_constant(codes.KIND_INT, 1, 1), b], 1, -1)
+    a = engine.new_interval(tags.KIND_INT, 1, 9, 0, -1)
+    b = engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), 0, -1)
+    engine.post(tags.OP_ADD_EQ, [a, engine.new_constant(tags.KIND_INT, 1, 1), b], 1, -1)
     assert engine.propagate() and engine.decide(a, 5, 2, -1) and engine.propagate()
     assert (engine.lower(b), engine.upper(b), engine.base_upper(a), engine.is_decided(a)) == (6, 6, 9, True)
     engine.commit()
@@ -123,7 +123,7 @@ def test_a_decision_can_be_taken_back_and_leaves_the_base_domain() -> None:
 
 def test_a_variable_stays_decided_until_the_last_decision_goes() -> None:
     engine = Engine()
-    a = engine.new_interval(codes.KIND_INT, 1, 9, 0, -1)
+    a = engine.new_interval(tags.KIND_INT, 1, 9, 0, -1)
     decisions = []
     for _ in range(2):
         assert engine.decide(a, 5, 0, -1) and engine.propagate()
@@ -137,19 +137,19 @@ def test_a_variable_stays_decided_until_the_last_decision_goes() -> None:
 
 def test_rows_of_what_was_undone_are_used_again() -> None:
     engine = Engine()
-    base = [engine.new_interval(codes.KIND_INT, 0, 50, 0, -1) for _ in range(4)]
+    base = [engine.new_interval(tags.KIND_INT, 0, 50, 0, -1) for _ in range(4)]
     engine.commit()
     sizes = []
     for turn in range(300):
         mark = engine.mark()
         first = engine.reserve(3)
-        start, duration, end = (engine.new_interval(codes.KIND_INT, 0, 50, 0, -1) for _ in range(3))
-        colour = engine.new_values(codes.KIND_SYMBOL, [3, 5, 9], 0, -1)
+        start, duration, end = (engine.new_interval(tags.KIND_INT, 0, 50, 0, -1) for _ in range(3))
+        colour = engine.new_values(tags.KIND_SYMBOL, [3, 5, 9], 0, -1)
         assert first == start
-        engine.post(codes.OP_TEMPORAL_DISTANCE, [start, duration, end], 0, -1)
-        engine.post(codes.OP_NEQ, [base[turn % 4], base[(turn + 1) % 4]], 0, -1)
-        engine.post(codes.OP_LEQ, [end, base[turn % 4]], 0, -1)
-        engine.post(codes.OP_ALL_DIFF, [colour, base[0], base[1]], 0, -1)
+        engine.post(tags.OP_TEMPORAL_DISTANCE, [start, duration, end], 0, -1)
+        engine.post(tags.OP_NEQ, [base[turn % 4], base[(turn + 1) % 4]], 0, -1)
+        engine.post(tags.OP_LEQ, [end, base[turn % 4]], 0, -1)
+        engine.post(tags.OP_ALL_DIFF, [colour, base[0], base[1]], 0, -1)
         assert engine.propagate()
         engine.decide(base[0], 7, 0, -1)
         assert engine.propagate()
@@ -179,14 +179,14 @@ def test_rows_of_what_was_undone_are_used_again() -> None:
 
 def test_sets_of_values_far_apart_come_and_go() -> None:
     engine = Engine()
-    v = engine.new_interval(codes.KIND_INT, 0, 10**9, 0, -1)
-    x = engine.new_interval(codes.KIND_FLOAT, 0.0, 9.0, 0, -1)
+    v = engine.new_interval(tags.KIND_INT, 0, 10**9, 0, -1)
+    x = engine.new_interval(tags.KIND_FLOAT, 0.0, 9.0, 0, -1)
     engine.commit()
     for turn in range(50):
         mark = engine.mark()
         assert engine.restrict_base_values(v, [3, 70000, 10**6 + turn], 1, -1)
         assert engine.restrict_base_values(x, [0.5, 2.25, 7.125], 2, -1)
-        engine.post(codes.OP_NEQ, [v, engine.new_constant(codes.KIND_INT, 70000, 70000)], 3, -1)
+        engine.post(tags.OP_NEQ, [v, engine.new_constant(tags.KIND_INT, 70000, 70000)], 3, -1)
         engine.restrict_base(x, 1.0, 9.0, 4, -1)
         assert engine.propagate()
         assert (engine.values_of(v), engine.values_of(x)) == ([3, 10**6 + turn], [2.25, 7.125])
@@ -200,8 +200,8 @@ def test_sets_of_values_far_apart_come_and_go() -> None:
 
 def test_what_a_contradicting_restriction_asks_for_is_not_passed_on() -> None:
     engine = Engine()
-    a = engine.new_interval(codes.KIND_INT, -19, 14, 0, -1)
-    b = engine.new_interval(codes.KIND_INT, float("-inf"), 10, 0, -1)
+    a = engine.new_interval(tags.KIND_INT, -19, 14, 0, -1)
+    b = engine.new_interval(tags.KIND_INT, float("-inf"), 10, 0, -1)
     engine.decide(a, 4, 1, -1)
     decision = engine.newest_restriction
     assert engine.add_edge(a, b, 1, 2, -1)
@@ -216,7 +216,7 @@ def test_what_a_contradicting_restriction_asks_for_is_not_passed_on() -> None:
 
 def test_bounds_that_a_retraction_pulled_are_explained_later() -> None:
     engine = Engine()
-    a, b = (engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), k, -1) for k in range(2))
+    a, b = (engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), k, -1) for k in range(2))
     engine.restrict_base(a, float("-inf"), 9, 2, -1)
     engine.add_edge(a, b, 1, 3, -1)
     engine.add_edge(a, b, 0, 4, -1)
@@ -231,7 +231,7 @@ def test_bounds_that_a_retraction_pulled_are_explained_later() -> None:
 def test_taking_a_relation_out_of_a_long_chain_touches_its_cone_only() -> None:
     engine = Engine()
     length, station = 10_000, 100
-    points = [engine.new_interval(codes.KIND_INT, float("-inf"), float("inf"), 0, -1) for _ in range(length)]
+    points = [engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), 0, -1) for _ in range(length)]
     edges = []
     for k, v in enumerate(points):
         if k % station == 0:

@@ -3,7 +3,7 @@
 import math
 import random
 
-from runtime.constraints import codes
+from runtime.constraints.domains import tags
 from tests.constraints import meaning
 from tests.constraints.random_sets import Post, Problem, holds, may_have
 from tests.constraints.signatures import OBJECTS, images
@@ -12,7 +12,7 @@ Values = dict[int, tuple[float, ...]]
 WALKS = 30
 STEPS = 15  # of one walk
 FAR_TICK = 1e12
-ROUNDED = (codes.OP_TRAVEL_TIME, codes.OP_TOWARDS, codes.OP_WGS_DISPLACE, codes.OP_WGS_DISPLACEMENT)
+ROUNDED = (tags.OP_TRAVEL_TIME, tags.OP_TOWARDS, tags.OP_WGS_DISPLACE, tags.OP_WGS_DISPLACEMENT)
 EQUATOR = 6378137.0  # metres
 WIDE = 90  # a variable of which nothing is stated may start so far from 0
 FAR = 1e6  # a vector so long has every direction, to the tolerance
@@ -31,13 +31,13 @@ def quick_order(posts: list[Post], values: dict[int, tuple[float, ...]]) -> list
 def anything(problem: Problem, v: int) -> tuple[float, ...]:
     """Give many values of the kind of a variable."""
     kind = problem.kinds[v]
-    if kind == codes.KIND_BOOL:
+    if kind == tags.KIND_BOOL:
         return (0, 1)
-    if kind in (codes.KIND_SYMBOL, codes.KIND_STRING):
+    if kind in (tags.KIND_SYMBOL, tags.KIND_STRING):
         return tuple(range(12))
-    if kind == codes.KIND_OBJECT:
+    if kind == tags.KIND_OBJECT:
         return OBJECTS + meaning.UNBORN
-    if kind == codes.KIND_INT:
+    if kind == tags.KIND_INT:
         return tuple(dict.fromkeys((*problem.values[v], *range(-6, 12))))
     return tuple(dict.fromkeys((*problem.values[v], *(float(k) for k in range(-4, 5)))))
 
@@ -46,7 +46,7 @@ def walks_to_solution(posts: list[Post], kinds: list[int], values: Values, state
     """Tell whether some walk ends at a solution; variables that nothing is stated of may leave their values."""
 
     def drawn(chance: random.Random, v: int) -> float:
-        if v not in stated and kinds[v] in (codes.KIND_INT, codes.KIND_FLOAT) and chance.random() < 0.2:
+        if v not in stated and kinds[v] in (tags.KIND_INT, tags.KIND_FLOAT) and chance.random() < 0.2:
             return chance.randint(-WIDE, WIDE)
         return chance.choice(values[v])
 
@@ -62,7 +62,7 @@ def walks_to_solution(posts: list[Post], kinds: list[int], values: Values, state
             options = []
             for place, value in repairs(op, [x[v] for v in row]):
                 v = row[place]
-                value = round(value) if op in ROUNDED and kinds[v] != codes.KIND_FLOAT else value
+                value = round(value) if op in ROUNDED and kinds[v] != tags.KIND_FLOAT else value
                 if v not in stated:
                     options += [(v, value)] if is_able(kinds[v], value) else []
                 else:
@@ -78,16 +78,16 @@ def walks_to_solution(posts: list[Post], kinds: list[int], values: Values, state
 
 def is_able(kind: int, value: float) -> bool:
     """Tell whether a variable of a kind may have a value, however far away."""
-    return may_have(kind, value) or (FAR_TICK > abs(value) > 1.0 and kind != codes.KIND_BOOL and value == int(value))
+    return may_have(kind, value) or (FAR_TICK > abs(value) > 1.0 and kind != tags.KIND_BOOL and value == int(value))
 
 
 def repairs(op: int, x: list[float]) -> list[tuple[int, float]]:
     """Give values of single arguments, by place, with which a constraint may hold."""
     try:
         match op:
-            case codes.OP_TICK_DATE:
+            case tags.OP_TICK_DATE:
                 return [*images(op, x), (0, (meaning.days_before(int(x[3])) + x[2] - 1) * 86400.0 + x[1])]
-            case codes.OP_TRAVEL_TIME:
+            case tags.OP_TRAVEL_TIME:
                 found = images(op, x)
                 if x[5] <= 0.0:
                     found += [(0, 1.0), (1, x[3]), (2, x[4]), (3, x[1]), (4, x[2])]
@@ -101,7 +101,7 @@ def repairs(op: int, x: list[float]) -> list[tuple[int, float]]:
                     if x[0] > 0:
                         found.append((5, math.hypot(x[3] - x[1], x[4] - x[2]) / (x[0] - 1.0 + part)))
                 return found
-            case codes.OP_TOWARDS:
+            case tags.OP_TOWARDS:
                 found = images(op, x)
                 for k, (u, other) in enumerate(((x[0], x[1]), (x[1], x[0]))):
                     rest = math.sqrt(max(0.0, 1.0 - other * other))
@@ -109,11 +109,11 @@ def repairs(op: int, x: list[float]) -> list[tuple[int, float]]:
                     for far in (FAR, abs(x[5 - k] - x[3 - k]) / max(1e-9, abs(other))):
                         found += [(4 + k, x[2 + k] + u * far), (2 + k, x[4 + k] - u * far)]
                 return found
-            case codes.OP_LL_DIST:
+            case tags.OP_LL_DIST:
                 return [*images(op, x), *positions_apart(x)]
-            case codes.OP_WGS_DISPLACEMENT:
+            case tags.OP_WGS_DISPLACEMENT:
                 return [*images(op, x), *displaced(x[:4], x[4:], (0, 1, 2, 3, 4, 5))]
-            case codes.OP_WGS_DISPLACE:
+            case tags.OP_WGS_DISPLACE:
                 return [*images(op, x), *displaced([x[0], x[1], x[4], x[5]], x[2:4], (0, 1, 4, 5, 2, 3))]
     except (ValueError, ZeroDivisionError, OverflowError):
         return []

@@ -14,9 +14,9 @@ from nddl_lang.text.page import RulePage
 from nddl_lang.text.source import Source
 from nddlc.loading import load
 from nddlc.rulebook import PAGES
-from runtime.plan.pages import SCRIPT_PAGES
-from runtime.solver.pages import SOLVER_PAGES
-from runtime.solver.read import read_configuration as read_solver
+from runtime.plan.script.pages import SCRIPT_PAGES
+from runtime.solver.configuration.pages import SOLVER_PAGES
+from runtime.solver.configuration.read import read_configuration as read_solver
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("nddl_lang", "compiler", "runtime", "checker", "lsp", "nddlc")

@@ -18,7 +18,7 @@ from runtime.executive.configuration import (
 )
 from runtime.executive.mission import MissionPrograms, run_mission
 from runtime.executive.outcome import Outcome
-from runtime.solver.configuration import default_configuration
+from runtime.solver.configuration.configuration import default_configuration
 
 
 @dataclass(frozen=True, slots=True)

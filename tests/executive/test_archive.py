@@ -8,7 +8,7 @@ from runtime.executive.planning import Planner
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
-from runtime.solver.configuration import default_configuration
+from runtime.solver.configuration.configuration import default_configuration
 from tests.executive.flying import program
 from tests.executive.test_equal_runs import toy
 

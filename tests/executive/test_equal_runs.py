@@ -18,7 +18,7 @@ from nddl_lang.analysis import analyse_file
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ParameterConfiguration
 from runtime.executive.mission import MissionPrograms, run_mission
 from runtime.executive.outcome import Outcome
-from runtime.solver.configuration import default_configuration
+from runtime.solver.configuration.configuration import default_configuration
 from tests.executive.flying import fly, lines, planner, simulator
 
 FOLDER = Path(__file__).resolve().parents[2]

@@ -7,7 +7,7 @@ from nddl_lang.analysis import analyse_text
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from runtime.plan.database import Environment, PlanDatabase
-from runtime.plan.readout import read
+from runtime.plan.readout.readout import read
 
 TIMELINES = """
 class T extends Timeline { predicate p { int x; } predicate q { int x; } predicate r { } }

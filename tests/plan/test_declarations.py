@@ -41,7 +41,7 @@ def is_inherited(node: ast.ClassDef, name: str) -> bool:
 
 BASES = {
     name: set(re.findall(r"\w+", (RUNTIME / place).read_text()))
-    for name, place in (("Store", "constraints/store.pxd"), ("Walk", "solver/walk.pxd"))
+    for name, place in (("Store", "constraints/domains/store.pxd"), ("Walk", "solver/learning/support_walk.pxd"))
 }
 
 

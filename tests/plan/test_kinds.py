@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from runtime.solver.codes import PLAN
+from runtime.solver.tags import PLAN
 from tests.plan.models import loaded, stopped, token, tokens
 from tests.solver.planning import solver_for, verdict
 

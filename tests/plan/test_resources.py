@@ -6,7 +6,7 @@ from random import Random
 import pytest
 
 from runtime.plan.database import PlanDatabase
-from runtime.plan.flaws import Flaws
+from runtime.plan.resources.envelope import Flaws
 from tests.plan.models import loaded, token
 
 

@@ -1,8 +1,8 @@
 """Rules and guards: what fires when, and what is taken back."""
 
-from runtime.plan.codes import FIRST_PARAMETER
 from runtime.plan.database import PlanDatabase
-from runtime.plan.readout import live_tokens, token_names
+from runtime.plan.readout.readout import live_tokens, token_names
+from runtime.plan.tags import FIRST_PARAMETER
 from tests.plan.models import OBJECTS, TIMELINES, domains, loaded, token, tokens
 
 SCENE = TIMELINES + OBJECTS

@@ -1,8 +1,8 @@
 """Sequences on timelines: where tokens are put, what that says about their times, how it is taken back."""
 
-from runtime.plan.codes import LIST_ORDER, LISTS, OBJECT, START
 from runtime.plan.database import PlanDatabase
-from runtime.plan.readout import read
+from runtime.plan.readout.readout import read
+from runtime.plan.tags import LIST_ORDER, LISTS, OBJECT, START
 from tests.plan.models import OBJECTS, TIMELINES, domains, loaded, token
 
 SCENE = TIMELINES + OBJECTS

@@ -5,7 +5,9 @@ from typing import Any
 
 import pytest
 
-from runtime.plan.codes import (
+from runtime.plan.database import PlanDatabase
+from runtime.plan.readout.readout import live_tokens, read
+from runtime.plan.tags import (
     ACTIVE,
     FLAG_REJECTABLE,
     HEAD_OPEN,
@@ -21,8 +23,6 @@ from runtime.plan.codes import (
     SYMBOL_MERGED,
     SYMBOL_REJECTED,
 )
-from runtime.plan.database import PlanDatabase
-from runtime.plan.readout import live_tokens, read
 from tests.plan.models import loaded, token
 
 MODEL = """

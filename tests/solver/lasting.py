@@ -7,12 +7,12 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
-from runtime.constraints import codes
+from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from runtime.plan.database import PlanDatabase
-from runtime.solver.codes import PLAN
-from runtime.solver.configuration import default_configuration
+from runtime.solver.configuration.configuration import default_configuration
 from runtime.solver.search import Solver
+from runtime.solver.tags import PLAN
 from tests.plan.models import loaded
 from tests.plan.test_undo import MODEL
 
@@ -63,19 +63,19 @@ def plan_and_undo(count: int) -> list[tuple[int, int]]:
 def post_and_undo(count: int) -> list[tuple[int, int]]:
     """Post all kinds of things, decide, and rewind."""
     engine = Engine()
-    base = [engine.new_interval(codes.KIND_INT, 0, 50, k, -1) for k in range(6)]
+    base = [engine.new_interval(tags.KIND_INT, 0, 50, k, -1) for k in range(6)]
     chance = Random(1)
     engine.commit()
 
     def turn(k: int) -> None:
         mark = engine.mark()
-        fresh = [engine.new_interval(codes.KIND_INT, 0, 50, 0, -1) for _ in range(k % 4)]
-        colour = engine.new_values(codes.KIND_SYMBOL, [3, 5, 9], 0, -1)
-        far = engine.new_values(codes.KIND_INT, [k % 100, 5000, 90000], 0, -1)
+        fresh = [engine.new_interval(tags.KIND_INT, 0, 50, 0, -1) for _ in range(k % 4)]
+        colour = engine.new_values(tags.KIND_SYMBOL, [3, 5, 9], 0, -1)
+        far = engine.new_values(tags.KIND_INT, [k % 100, 5000, 90000], 0, -1)
         able = base + fresh
-        engine.post(codes.OP_TEMPORAL_DISTANCE, chance.sample(able, 3), 0, -1)
-        engine.post(codes.OP_ALL_DIFF, [colour, far, *fresh], 0, -1)
-        engine.post(codes.OP_ADD_EQ, chance.sample(able, 3), 0, -1)
+        engine.post(tags.OP_TEMPORAL_DISTANCE, chance.sample(able, 3), 0, -1)
+        engine.post(tags.OP_ALL_DIFF, [colour, far, *fresh], 0, -1)
+        engine.post(tags.OP_ADD_EQ, chance.sample(able, 3), 0, -1)
         source, target = chance.sample(able, 2)
         engine.add_edge(source, target, 7, 0, -1)
         if engine.propagate():
@@ -89,15 +89,15 @@ def post_and_undo(count: int) -> list[tuple[int, int]]:
 def tick(count: int) -> list[tuple[int, int]]:
     """Live as an agent does: each tick a token comes and is restricted, and the oldest of some is retracted."""
     engine = Engine()
-    clock = engine.new_interval(codes.KIND_INT, 0, float("inf"), 0, -1)
+    clock = engine.new_interval(tags.KIND_INT, 0, float("inf"), 0, -1)
     tokens: list[list[int]] = []
 
     def turn(k: int) -> None:
         engine.reserve(4)
-        start, end = (engine.new_interval(codes.KIND_INT, k, float("inf"), 0, -1) for _ in range(2))
-        length = engine.new_interval(codes.KIND_INT, 1, float("inf"), 0, -1)
-        mode = engine.new_values(codes.KIND_SYMBOL, [1, 2, 4], 0, -1)
-        engine.post(codes.OP_TEMPORAL_DISTANCE, [start, length, end], 0, -1)
+        start, end = (engine.new_interval(tags.KIND_INT, k, float("inf"), 0, -1) for _ in range(2))
+        length = engine.new_interval(tags.KIND_INT, 1, float("inf"), 0, -1)
+        mode = engine.new_values(tags.KIND_SYMBOL, [1, 2, 4], 0, -1)
+        engine.post(tags.OP_TEMPORAL_DISTANCE, [start, length, end], 0, -1)
         if tokens:
             engine.add_edge(start, tokens[-1][1], 0, 0, -1)
         engine.restrict_base(start, k, k, 0, -1)

@@ -6,9 +6,9 @@ from textwrap import dedent
 import pytest
 
 from nddl_lang.text.source import Source
-from runtime.solver.configuration import Configuration, FlawFilter, Match, default_configuration
-from runtime.solver.limits import Limits, model_limits
-from runtime.solver.read import read_configuration
+from runtime.solver.configuration.configuration import Configuration, FlawFilter, Match, default_configuration
+from runtime.solver.configuration.limits import Limits, model_limits
+from runtime.solver.configuration.read import read_configuration
 from tests.solver.planning import loaded
 
 SAMPLE = """\

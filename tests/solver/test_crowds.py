@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from runtime.solver.account import Recorder
-from runtime.solver.codes import EXHAUSTED, PLAN, RESULT_NAMES
+from runtime.solver.learning.failure_log import Recorder
+from runtime.solver.tags import EXHAUSTED, PLAN, RESULT_NAMES
 from tests.solver.planning import solver_for
 from tests.solver.random_models import rules_model, timelines_puzzle
 

@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from nddl_lang.text.source import Source
-from runtime.solver.codes import EXHAUSTED, PLAN
-from runtime.solver.read import read_configuration
+from runtime.solver.configuration.read import read_configuration
+from runtime.solver.tags import EXHAUSTED, PLAN
 from tests.solver.planning import solver_for
 
 SHIP = "class Ship extends Timeline { predicate Sail { int sails = {2, 3}; } predicate Drift { } }"

@@ -6,9 +6,9 @@ from random import Random
 
 import pytest
 
-from runtime.solver import nogoods
-from runtime.solver.codes import EXHAUSTED, PLAN, UNBOUND_VARIABLE
+from runtime.solver.learning import nogoods
 from runtime.solver.search import Solver
+from runtime.solver.tags import EXHAUSTED, PLAN, UNBOUND_VARIABLE
 from tests.solver.planning import solver_for
 from tests.solver.random_models import guards_model
 

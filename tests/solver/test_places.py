@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from runtime.plan.codes import ACTIVE, END, INACTIVE, LIST_ORDER, LISTS, START
-from runtime.solver.codes import MOVED
-from runtime.solver.distances import Distances
-from runtime.solver.places import is_out_of_range, may_coincide
+from runtime.constraints.stn.distances import Distances
+from runtime.plan.tags import ACTIVE, END, INACTIVE, LIST_ORDER, LISTS, START
+from runtime.solver.resolvers.insertions import is_out_of_range, may_coincide
+from runtime.solver.tags import MOVED
 from tests.solver.planning import solver_for
 from tests.solver.random_models import rules_model, timelines_puzzle
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from runtime.plan.readout import read
-from runtime.solver.codes import RESULT_NAMES
+from runtime.plan.readout.readout import read
+from runtime.solver.tags import RESULT_NAMES
 from tests.solver.model_data import RELATIONS, Model, Wish, random_model, written
 from tests.solver.planning import solver_for
 

@@ -5,11 +5,11 @@ import random
 import pytest
 
 from runtime.build_form import build_form
-from runtime.constraints.bits import count_values
-from runtime.constraints.codes import KIND_INT, KIND_SYMBOL
+from runtime.constraints.domains.bitset import count_values
+from runtime.constraints.domains.tags import KIND_INT, KIND_SYMBOL
 from runtime.constraints.engine import Engine
-from runtime.solver.distances import Distances
-from runtime.solver.reach import Reach
+from runtime.constraints.stn.distances import Distances
+from runtime.constraints.stn.reach import Reach
 
 assert build_form()
 

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 from bench.hard_models import model
-from runtime.solver.account import Recorder
-from runtime.solver.codes import EXHAUSTED, PLAN, RESULT_NAMES
-from runtime.solver.configuration import Configuration, default_configuration
+from runtime.solver.configuration.configuration import Configuration, default_configuration
+from runtime.solver.learning.failure_log import Recorder
 from runtime.solver.search import Solver
+from runtime.solver.tags import EXHAUSTED, PLAN, RESULT_NAMES
 from tests.solver.planning import resources_configuration, solver_for
 from tests.solver.random_models import guards_model, loops_model, rules_model, uses_model, variables_puzzle
 

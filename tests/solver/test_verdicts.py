@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from runtime.solver.codes import EXHAUSTED, PLAN, RESULT_NAMES
+from runtime.solver.tags import EXHAUSTED, PLAN, RESULT_NAMES
 from tests.solver.planning import resources_configuration, solver_for, verdict
 from tests.solver.random_models import (
     guards_model,

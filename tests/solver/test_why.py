@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from runtime.solver.account import Attempt, Recorder
-from runtime.solver.codes import EXHAUSTED
+from runtime.solver.learning.failure_log import Attempt, Recorder
+from runtime.solver.tags import EXHAUSTED
 from tests.solver.planning import resources_configuration, solver_for
 
 

@@ -8,7 +8,7 @@ import runtime.build_form
 from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_text
 from runtime.plan.database import PlanDatabase
-from runtime.plan.readout import read
+from runtime.plan.readout.readout import read
 from runtime.user.constraint import Constraint
 from runtime.user.library import Library, load_library
 

@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from checker.smt.confirm import Finding, confirm
-from runtime.constraints.cause import CauseKind
-from runtime.constraints.minimise import minimise
+from runtime.constraints.explanation.cause import CauseKind
+from runtime.constraints.minimisation.minimise import minimise
 from runtime.executive.story import conflict_of
 from runtime.executive.workbench import Workbench
 from runtime.user.fault import UserCodeError

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from runtime.plan.readout import read
-from runtime.solver.codes import RESULT_NAMES
-from runtime.solver.configuration import Configuration
+from runtime.plan.readout.readout import read
+from runtime.solver.configuration.configuration import Configuration
+from runtime.solver.tags import RESULT_NAMES
 from tests.solver.planning import resources_configuration, solver_for
 from tests.solver.whole.existence import has_plan
 from tests.solver.whole.model import RESOURCES, Model, written

@@ -1,0 +1,1 @@
+"""Domains of variables, kept in arrays: bounds, bit sets, base domains."""

@@ -1,0 +1,304 @@
+"""Keep which values between a variable's bounds are missing: words of bits, a log of who removed which."""
+
+from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.store import Store
+from runtime.constraints.domains.tags import (
+    ALL_BITS,
+    EVENT_HOLES,
+    EVERY_SECOND_BIT,
+    FLOAT_TOLERANCE,
+    FOUR_OF_EIGHT_BITS,
+    KIND_FLOAT,
+    NEVER,
+    ONE_BIT,
+    TRAIL_HOLES,
+    TRAIL_WORDS,
+    TWO_OF_FOUR_BITS,
+)
+
+
+def lowest_bit(x: int) -> int:
+    """Give the place of the lowest set bit, which is how many zeros stand behind it; x is not 0."""
+    return bits_in((x & -x) - 1)
+
+
+def bits_in(x: int) -> int:
+    """Count the set bits of a word, in pairs, then in fours, then in bytes (Warren, Hacker's Delight, 5-1)."""
+    x -= (x >> 1) & EVERY_SECOND_BIT
+    x = (x & TWO_OF_FOUR_BITS) + ((x >> 2) & TWO_OF_FOUR_BITS)
+    x = (x + (x >> 4)) & FOUR_OF_EIGHT_BITS
+    x += x >> 8
+    x += x >> 16
+    x += x >> 32
+    return x & 127
+
+
+def highest_bit(x: int) -> int:
+    """Give the place of the highest set bit; x is not 0."""
+    n = 0
+    if x >> 32:
+        n += 32
+        x >>= 32
+    if x >> 16:
+        n += 16
+        x >>= 16
+    if x >> 8:
+        n += 8
+        x >>= 8
+    if x >> 4:
+        n += 4
+        x >>= 4
+    if x >> 2:
+        n += 2
+        x >>= 2
+    if x >> 1:
+        n += 1
+    return n
+
+
+def grow_bits(s: Store, need: int) -> None:
+    """Make room for `need` more words."""
+    room = len(s.bits)
+    while room < s.bits_used + need:
+        room *= 2
+    if room > len(s.bits):
+        s.bits = grown(s.bits, "Q", room, 0)
+
+
+def allocate_words(s: Store, count: int) -> int:
+    """Take `count` consecutive words; small blocks come back through free lists."""
+    if count < len(s.word_free) and s.word_free[count] >= 0:
+        first = s.word_free[count]
+        s.word_free[count] = s.bits[first] - 1
+        return first
+    if s.bits_used + count > len(s.bits):
+        grow_bits(s, count)
+    first = s.bits_used
+    s.bits_used = first + count
+    return first
+
+
+def release_words(s: Store, first: int, count: int) -> None:
+    """Give words back (blocks of more than 64 words are not used again)."""
+    if count < len(s.word_free):
+        s.bits[first] = s.word_free[count] + 1
+        s.word_free[count] = first
+
+
+def attach_words(s: Store, v: int, base: int, values: int) -> None:
+    """Give `v` a full bit set for the `values` places that start at `base`."""
+    count = (values + 63) >> 6
+    first = allocate_words(s, count)
+    for k in range(count):
+        s.bits[first + k] = ALL_BITS
+    if values & 63:
+        s.bits[first + count - 1] = (ONE_BIT << (values & 63)) - 1
+    s.word[v] = first
+    s.words_of[v] = count
+    s.bit_base[v] = base
+    s.save(v, TRAIL_WORDS, 0, 0)
+
+
+def detach_words(s: Store, v: int) -> None:
+    """Take the bit set of `v` away; its log must be empty."""
+    release_words(s, s.word[v], s.words_of[v])
+    if s.table[v] >= 0:
+        release_table(s, s.table[v], s.table_length[v])
+    s.word[v] = -1
+    s.words_of[v] = 0
+    s.table[v] = -1
+
+
+def place_above(s: Store, v: int, x: int) -> int:
+    """Give the first place whose value is at least x; it may lie beyond the last place."""
+    if s.table[v] < 0:
+        return x - s.bit_base[v] if x > s.bit_base[v] else 0
+    return table_place(s, v, float(x))
+
+
+def place_below(s: Store, v: int, x: int) -> int:
+    """Give the last place whose value is at most x; -1 if there is none."""
+    if s.table[v] < 0:
+        return x - s.bit_base[v] if x >= s.bit_base[v] else -1
+    place = table_place(s, v, float(x))
+    if place < s.table_length[v] and s.table_values[s.table[v] + place] <= x:
+        return place
+    return place - 1
+
+
+def table_place(s: Store, v: int, x: float) -> int:
+    """Find by halving the first place of a table whose value is at least x, less the tolerance of a float."""
+    first = s.table[v]
+    low = 0
+    high = s.table_length[v]
+    if s.kind[v] == KIND_FLOAT:
+        x -= FLOAT_TOLERANCE
+    while low < high:
+        middle = (low + high) >> 1
+        if s.table_values[first + middle] < x:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+def next_place(s: Store, v: int, place: int) -> int:
+    """Give the first set place from `place` on; -1 if there is none."""
+    if place < 0:
+        place = 0
+    k = place >> 6
+    if k >= s.words_of[v]:
+        return -1
+    x = s.bits[s.word[v] + k] & (ALL_BITS << (place & 63) & ALL_BITS)
+    while x == 0:
+        k += 1
+        if k >= s.words_of[v]:
+            return -1
+        x = s.bits[s.word[v] + k]
+    return (k << 6) + lowest_bit(x)
+
+
+def previous_place(s: Store, v: int, place: int) -> int:
+    """Give the last set place up to `place`; -1 if there is none."""
+    if place < 0:
+        return -1
+    k = place >> 6
+    if k >= s.words_of[v]:
+        k = s.words_of[v] - 1
+        place = (k << 6) + 63
+    x = s.bits[s.word[v] + k] & (ALL_BITS >> (63 - (place & 63)))
+    while x == 0:
+        k -= 1
+        if k < 0:
+            return -1
+        x = s.bits[s.word[v] + k]
+    return (k << 6) + highest_bit(x)
+
+
+def value_at(s: Store, v: int, place: int) -> int:
+    """Give the whole number at a place."""
+    if s.table[v] < 0:
+        return s.bit_base[v] + place
+    return int(s.table_values[s.table[v] + place])
+
+
+def next_value(s: Store, v: int, x: int) -> int:
+    """Give the first value from x on that is no hole; NEVER if there is none."""
+    place = next_place(s, v, place_above(s, v, x))
+    return NEVER if place < 0 else value_at(s, v, place)
+
+
+def previous_value(s: Store, v: int, x: int) -> int:
+    """Give the last value up to x that is no hole; -NEVER if there is none."""
+    place = previous_place(s, v, place_below(s, v, x))
+    return -NEVER if place < 0 else value_at(s, v, place)
+
+
+def has_value(s: Store, v: int, x: int) -> bool:
+    """Tell whether a discrete variable may take x."""
+    if x < s.lb[v] or x > s.ub[v]:
+        return False
+    if s.word[v] < 0:
+        return True
+    place = place_above(s, v, x)
+    if s.table[v] >= 0 and (place >= s.table_length[v] or value_at(s, v, place) != x):
+        return False
+    return (s.bits[s.word[v] + (place >> 6)] >> (place & 63)) & 1 != 0
+
+
+def clear_bits(s: Store, v: int, k: int, mask: int, support: int) -> None:
+    """Remove the places of `mask` in the k-th word of `v`, log who did it, and wake the watches of holes."""
+    entry = s.hole_free
+    if entry >= 0:
+        s.hole_free = s.hole_next[entry]
+    else:
+        entry = s.holes_used
+        if entry == len(s.hole_mask):
+            grow_log(s)
+        s.holes_used += 1
+    s.bits[s.word[v] + k] &= ALL_BITS ^ mask
+    s.hole_variable[entry] = v
+    s.hole_word[entry] = k
+    s.hole_mask[entry] = mask
+    s.hole_support[entry] = support
+    s.hole_when[entry] = s.trail_base + s.trail_size
+    s.hole_next[entry] = s.hole_head[v]
+    s.hole_head[v] = entry
+    s.save(v, TRAIL_HOLES, entry, 0)
+    s.updates += 1
+    s.wake(v, EVENT_HOLES)
+
+
+def restore_bits(s: Store, v: int) -> None:
+    """Put the values of the newest log entry of `v` back and drop the entry."""
+    entry = s.hole_head[v]
+    s.bits[s.word[v] + s.hole_word[entry]] |= s.hole_mask[entry]
+    s.hole_head[v] = s.hole_next[entry]
+    s.hole_next[entry] = s.hole_free
+    s.hole_free = entry
+    s.hole_variable[entry] = -1
+
+
+def drop_log(s: Store, v: int) -> None:
+    """Free all log entries of a variable."""
+    while s.hole_head[v] >= 0:
+        entry = s.hole_head[v]
+        s.hole_head[v] = s.hole_next[entry]
+        s.hole_next[entry] = s.hole_free
+        s.hole_free = entry
+
+
+def grow_log(s: Store) -> None:
+    """Double the rows of the log of holes."""
+    room = 2 * len(s.hole_mask)
+    s.hole_variable = grown(s.hole_variable, "i", room, -1)
+    s.hole_word = grown(s.hole_word, "i", room, 0)
+    s.hole_mask = grown(s.hole_mask, "Q", room, 0)
+    s.hole_support = grown(s.hole_support, "i", room, -1)
+    s.hole_when = grown(s.hole_when, "q", room, -1)
+    s.hole_next = grown(s.hole_next, "i", room, -1)
+
+
+def attach_table(s: Store, v: int, values: list[float]) -> None:
+    """Give `v` a full bit set over a sorted table of values that are sparse or real."""
+    count = len(values)
+    if count < len(s.table_free) and s.table_free[count] >= 0:
+        first = s.table_free[count]
+        s.table_free[count] = int(s.table_values[first])
+    else:
+        first = s.table_used
+        if first + count > len(s.table_values):
+            s.table_values = grown(s.table_values, "d", 2 * (first + count), 0.0)
+        s.table_used = first + count
+    for k in range(count):
+        s.table_values[first + k] = values[k]
+    s.table[v] = first
+    s.table_length[v] = count
+    attach_words(s, v, 0, count)
+
+
+def release_table(s: Store, first: int, count: int) -> None:
+    """Give a table back (tables of more than 64 values are not used again)."""
+    if count < len(s.table_free):
+        s.table_values[first] = s.table_free[count]
+        s.table_free[count] = first
+
+
+def count_values(s: Store, v: int) -> int:
+    """Count the values of a discrete variable."""
+    if s.word[v] < 0:
+        return s.ub[v] - s.lb[v] + 1
+    total = 0
+    place = place_above(s, v, s.lb[v])
+    last = place_below(s, v, s.ub[v])
+    if last >= 64 * s.words_of[v]:
+        last = 64 * s.words_of[v] - 1
+    while place <= last:
+        # A word at a time: the places below its first one and above its last one are shifted out.
+        x = s.bits[s.word[v] + (place >> 6)] >> (place & 63)
+        rest = last - place
+        if rest < 63:
+            x &= (ONE_BIT << (rest + 1)) - 1
+        total += bits_in(x)
+        place = (place | 63) + 1
+    return total

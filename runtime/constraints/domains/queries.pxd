@@ -1,0 +1,23 @@
+# The C types of `queries.py`.
+
+cimport cython
+from runtime.constraints.domains.base_domain cimport base_set, is_growing
+from runtime.constraints.domains.bitset cimport count_values, has_value, next_place, place_above, place_below, value_at
+from runtime.constraints.domains.narrow cimport is_near, is_single
+from runtime.constraints.domains.store cimport Store
+
+cdef long long HALF_INF, KIND_FLOAT
+cdef double FLOAT_TOLERANCE
+
+
+cpdef bint may_be(Store s, long long v, double x) except -1
+
+cpdef bint has_finitely_many(Store s, long long v) except -1
+
+cpdef long long number_of_values(Store s, long long v) except? -1
+
+@cython.locals(found=list, last="long long", place="long long")
+cpdef list listed(Store s, long long v)
+
+@cython.locals(found=list, place="long long", x=double)
+cpdef list listed_reals(Store s, long long v)

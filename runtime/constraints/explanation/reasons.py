@@ -1,0 +1,136 @@
+"""Say which bounds a support read when it narrowed a bound: the step of every walk back along supports."""
+
+from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.store import Store
+from runtime.constraints.domains.tags import (
+    FAMILY_ARITHMETIC,
+    FAMILY_COMPARISON,
+    FAMILY_FUNCTION,
+    KIND_BOOL,
+    KIND_FLOAT,
+    MODE_EDGES,
+    OP_ABS_VAL,
+    OP_ADD_EQ,
+    OP_BIND,
+    OP_DIV_EQ,
+    OP_EQ,
+    OP_EQ_SUM,
+    OP_LEQ,
+    OP_LT,
+    OP_MUL_EQ,
+    OP_TEMPORAL_DISTANCE,
+    SIDE_HOLES,
+    SIDE_LOWER,
+    SIDE_UPPER,
+    SUPPORT_CONSTRAINT,
+    SUPPORT_EDGE,
+)
+
+
+def collect_reasons(s: Store, support: int, v: int, side: int) -> None:
+    """Put the keys `u * 4 + side` that `support` read for this side of `v` into `reasons`.
+
+    More than it truly read does no harm: explanations are shrunk afterwards, retraction loosens a little more.
+    """
+    s.reason_count = 0
+    kind = support & 3
+    if support < 0 or kind > SUPPORT_CONSTRAINT:
+        return
+    if kind == SUPPORT_EDGE:
+        collect_edge(s, support >> 2, v, side)
+        return
+    c = support >> 2
+    op = s.op[c]
+    first = s.first[c]
+    if op == OP_LEQ or op == OP_LT:
+        other = s.slot_variable[first + 1] if v == s.slot_variable[first] else s.slot_variable[first]
+        add_reason(s, other, side)
+    elif op == OP_EQ and side != SIDE_HOLES:
+        for k in range(first, first + s.arity[c]):
+            if s.slot_variable[k] != v:
+                add_reason(s, s.slot_variable[k], side)
+    elif op == OP_ADD_EQ and side != SIDE_HOLES:
+        collect_sum(s, v, side, s.slot_variable[first + 2], first, first + 2)
+    elif op == OP_EQ_SUM and side != SIDE_HOLES:
+        collect_sum(s, v, side, s.slot_variable[first], first + 1, first + s.arity[c])
+    elif op == OP_TEMPORAL_DISTANCE:
+        add_reason(s, s.slot_variable[first + 2], side)
+        add_reason(s, s.slot_variable[first], 1 - side)
+    else:
+        collect_all(s, c, v, side)
+
+
+def add_reason(s: Store, v: int, side: int) -> None:
+    """Put one bound among the reasons; constants need none."""
+    if s.constant[v]:
+        return
+    if s.reason_count == len(s.reasons):
+        s.reasons = grown(s.reasons, "q", 2 * len(s.reasons), 0)
+    s.reasons[s.reason_count] = v * 4 + side
+    s.reason_count += 1
+
+
+def collect_edge(s: Store, e: int, v: int, side: int) -> None:
+    """Put the bound at the other end of an edge, and the bound that its weight follows."""
+    if side == SIDE_UPPER:
+        add_reason(s, s.edge_source[e], SIDE_UPPER)
+    else:
+        add_reason(s, s.edge_target[e], SIDE_LOWER)
+    collect_weight(s, e)
+
+
+def collect_weight(s: Store, e: int) -> None:
+    """Put the bound of the distance that the weight of an edge follows, if it does."""
+    c = s.edge_link[e]
+    if c >= 0 and s.op[c] == OP_TEMPORAL_DISTANCE:
+        add_reason(s, s.slot_variable[s.first[c] + 1], SIDE_UPPER if e == s.link_a[c] else SIDE_LOWER)
+
+
+def collect_sum(s: Store, v: int, side: int, total: int, first: int, last: int) -> None:
+    """Put what a sum read for its total, or for one of its terms; a variable may stand on both sides."""
+    is_term = False
+    for k in range(first, last):
+        if s.slot_variable[k] == v:
+            is_term = True
+        if v == total:
+            add_reason(s, s.slot_variable[k], side)
+    if is_term:
+        add_reason(s, total, side)
+        for k in range(first, last):
+            if s.slot_variable[k] != v:
+                add_reason(s, s.slot_variable[k], 1 - side)
+
+
+def collect_all(s: Store, c: int, v: int, side: int) -> None:
+    """Put every bound of all arguments but `v`, which may be -1, and those of `v` where the operation reads them."""
+    first = s.first[c]
+    for k in range(first, first + s.arity[c]):
+        u = s.slot_variable[k]
+        if u != v:
+            add_reason(s, u, SIDE_LOWER)
+            add_reason(s, u, SIDE_UPPER)
+            if s.word[u] >= 0:
+                add_reason(s, u, SIDE_HOLES)
+    if v >= 0 and reads_itself(s, s.op[c], v, side):
+        add_reason(s, v, SIDE_LOWER)
+        add_reason(s, v, SIDE_UPPER)
+
+
+def reads_itself(s: Store, op: int, v: int, side: int) -> bool:
+    """Tell whether an operation narrows `v` from where it stands: a value at the end is taken, a branch is chosen."""
+    if s.kind[v] == KIND_BOOL:
+        return False
+    family = op >> 5
+    if family == FAMILY_ARITHMETIC:
+        if op == OP_MUL_EQ or op == OP_DIV_EQ:
+            # A factor of what is not 0 is not 0: its bound steps from 0 to 1 or -1.
+            return s.kind[v] != KIND_FLOAT and (s.lb[v] == 1 if side == SIDE_LOWER else s.ub[v] == -1)
+        return op == OP_ABS_VAL
+    if family == FAMILY_FUNCTION:
+        return op == OP_BIND
+    return True
+
+
+def is_carried(s: Store, c: int) -> bool:
+    """Tell whether a constraint is carried out by edges that do not change."""
+    return s.op[c] >> 5 == FAMILY_COMPARISON and s.mode[c] == MODE_EDGES

@@ -1,0 +1,1 @@
+"""Minimal explanations: subsets of causes, propagated again in a scratch engine."""

@@ -1,0 +1,1 @@
+"""Propagators, one family per file, and the registry that finds them."""

@@ -1,0 +1,19 @@
+# The C types of `crowding.py`.
+
+cimport cython
+from runtime.constraints.domains.bitset cimport count_values, has_value, next_value
+from runtime.constraints.domains.narrow cimport high, low
+from runtime.constraints.domains.store cimport Store
+
+cdef long long HALF_INF, KIND_FLOAT
+cdef double FLOAT_TOLERANCE
+
+
+@cython.locals(x="long long")
+cpdef bint is_subset(Store s, long long a, long long b) except -1
+
+@cython.locals(inside="long long", j="long long", k="long long", size="long long", u="long long", v="long long")
+cpdef bint is_crowded(Store s, long long first, long long count) except -1
+
+@cython.locals(found="long long", hi="long long", k="long long", lo="long long", v="long long", x="long long")
+cpdef bint has_few_values(Store s, long long first, long long count) except -1

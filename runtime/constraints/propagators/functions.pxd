@@ -1,0 +1,52 @@
+# The C types of `functions.py`.
+
+cimport cython
+from libc cimport math
+from runtime.constraints.domains.bitset cimport has_value, next_value, previous_value
+from runtime.constraints.domains.narrow cimport assign, high, is_single, low, raise_to, reduce_to
+from runtime.constraints.domains.store cimport Store
+
+cdef long long HALF_INF, KIND_FLOAT, OP_ABS, OP_BIND, OP_CEIL, OP_FLOOR, OP_MAX, OP_MIN, OP_MOD, OP_POW, OP_RAND
+cdef long long OP_SAMPLE, OP_SQRT, OP_TOWARDS, OP_TRAVEL_TIME, SIDE_HOLES, SUPPORT_CONSTRAINT
+cdef double FLOAT_TOLERANCE, ULP
+
+
+@cython.locals(
+    a="long long", first="long long", k="long long", op="long long", r="long long", support="long long", x=double,
+    y=double, z=double
+)
+cpdef bint run_function(Store s, long long c) except -1
+
+@cython.locals(
+    a="long long", b="long long", corner="long long", hi=double, lo=double, r="long long", x=double, y=double
+)
+cpdef bint spread(Store s, long long op, long long first, long long count, double z, long long support) except -1
+
+cpdef double middle(Store s, long long v) except? -1.0
+
+cpdef double half_width(Store s, long long v) except? -1.0
+
+@cython.locals(x=double, y=double)
+cpdef double whole(Store s, long long v) except? -1.0
+
+@cython.locals(y=double)
+cpdef double settled(double x) except? -1.0
+
+cpdef bint has_power(double x, double y) except -1
+
+cpdef double apply(long long op, double x, double y) except? -1.0
+
+@cython.locals(x=double)
+cpdef double sine(double degrees) except? -1.0
+
+@cython.locals(above="long long", below="long long", wanted="long long")
+cpdef bint bind(Store s, long long v, double x, long long support) except -1
+
+@cython.locals(k="long long")
+cpdef bint are_known(Store s, long long first, long long last) except -1
+
+@cython.locals(distance=double, dx=double, dy=double, speed=double, ticks="long long", x=double)
+cpdef bint travel(Store s, long long first, long long support) except -1
+
+@cython.locals(distance=double, dx=double, dy=double, k="long long", v="long long")
+cpdef bint point_towards(Store s, long long first, long long support) except -1

@@ -1,0 +1,1 @@
+"""Backtracking by the trail, and retraction at level 0."""

@@ -1,0 +1,67 @@
+# The C types of `retract.py`.
+
+cimport cython
+from libc cimport math
+from runtime.constraints.domains.base_domain cimport is_listing
+from runtime.constraints.domains.bitset cimport detach_words, drop_log
+from runtime.constraints.relaxation.cone cimport follow_cone, loosen_by, loosen_by_constraint, loosen_by_edge
+from runtime.constraints.domains.narrow cimport raise_to, reduce_to
+from runtime.constraints.stn.network cimport attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
+from runtime.constraints.stn.posting cimport release_constraint
+from runtime.constraints.explanation.reasons cimport is_carried
+from runtime.constraints.domains.store cimport Store
+from runtime.constraints.relaxation.trail cimport clear_queues, commit_trail
+from runtime.constraints.domains.variables cimport drop_restriction, drop_variable, keep_values
+
+cdef long long FLAG_DECISION, FLAG_VALUES, HALF_INF, INF, KIND_FLOAT, NEVER, OP_TEMPORAL_DISTANCE, SIDE_LOWER
+cdef long long SIDE_UPPER, SUPPORT_EDGE, SUPPORT_RESTRICTION
+cdef double FLOAT_TOLERANCE, inf
+
+
+@cython.locals(doomed=list, r="long long", suspects=list, v="long long", was_consistent=bint)
+cpdef list retract(Store s, list constraints, list edges, list restrictions, list variables)
+
+@cython.locals(head="long long", slot="long long", v="long long")
+cpdef list gather(Store s, list constraints, list variables)
+
+@cython.locals(e="long long", found=list)
+cpdef list edges_of(Store s, long long v)
+
+@cython.locals(c="long long", i="long long", side="long long", slot="long long", v="long long")
+cpdef int reset_cone(Store s) except -1
+
+@cython.locals(best=double, r="long long", support="long long", x=double)
+cpdef int reset_bound(Store s, long long v, long long side) except -1
+
+cpdef int set_base_lower(Store s, long long v, double x, long long support) except -1
+
+cpdef int set_base_upper(Store s, long long v, double x, long long support) except -1
+
+cpdef int reset_set(Store s, long long v) except -1
+
+@cython.locals(r="long long")
+cpdef void uncross(Store s, long long v, long long side) except *
+
+@cython.locals(c="long long", head="long long", i="long long", side="long long", slot="long long", v="long long")
+cpdef int renew_cone(Store s) except -1
+
+@cython.locals(listed=list)
+cpdef int restrict_to_sets(Store s, long long v) except -1
+
+@cython.locals(e="long long", x="long long")
+cpdef int pull_lower(Store s, long long v) except -1
+
+@cython.locals(e="long long", x="long long")
+cpdef int pull_upper(Store s, long long v) except -1
+
+@cython.locals(c="long long", r="long long", support="long long", v="long long")
+cpdef int schedule_all(Store s) except -1
+
+@cython.locals(e="long long")
+cpdef bint follow_again(Store s, list edges) except -1
+
+@cython.locals(r="long long")
+cpdef bint has_decision(Store s, long long v) except -1
+
+@cython.locals(found=list, r="long long")
+cpdef list decisions_of(Store s, long long v)

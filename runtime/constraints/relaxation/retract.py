@@ -1,0 +1,325 @@
+"""Take constraints, edges, restrictions and variables out again at level 0, in any order, and loosen what they held.
+
+The cone of a removed thing is what it supported, what that supported, and so on. Its bounds go back to their base and
+are pulled tight along the remaining edges; what touches them is propagated again. Cost: the cone and its neighbours.
+"""
+
+import math
+from math import inf
+
+from runtime.constraints.domains.base_domain import is_listing
+from runtime.constraints.domains.bitset import detach_words, drop_log
+from runtime.constraints.domains.narrow import raise_to, reduce_to
+from runtime.constraints.domains.store import Store
+from runtime.constraints.domains.tags import (
+    FLAG_DECISION,
+    FLAG_VALUES,
+    FLOAT_TOLERANCE,
+    HALF_INF,
+    INF,
+    KIND_FLOAT,
+    NEVER,
+    OP_TEMPORAL_DISTANCE,
+    SIDE_LOWER,
+    SIDE_UPPER,
+    SUPPORT_EDGE,
+    SUPPORT_RESTRICTION,
+)
+from runtime.constraints.domains.variables import drop_restriction, drop_variable, keep_values
+from runtime.constraints.explanation.reasons import is_carried
+from runtime.constraints.relaxation.cone import follow_cone, loosen_by, loosen_by_constraint, loosen_by_edge
+from runtime.constraints.relaxation.trail import clear_queues, commit_trail
+from runtime.constraints.stn.network import attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
+from runtime.constraints.stn.posting import release_constraint
+
+
+def retract(
+    s: Store, constraints: list[int], edges: list[int], restrictions: list[int], variables: list[int]
+) -> list[int]:
+    """Remove and loosen; leave the rest scheduled. Give the edges that must be followed again, one by one.
+
+    Constraints, edges and restrictions of the removed variables go too.
+    """
+    was_consistent = s.consistent
+    commit_trail(s)
+    if not was_consistent:
+        clear_queues(s)
+    s.consistent = True
+    s.conflict_kind = 0
+    s.visits_begun += 1
+    s.cone_count = 0
+    doomed = gather(s, constraints, variables)
+    for e in edges:
+        loosen_by_edge(s, e)
+    for c in doomed:
+        loosen_by_constraint(s, c)
+    for r in restrictions:
+        loosen_by(s, s.restriction_variable[r], r * 4 + SUPPORT_RESTRICTION)
+    suspects = [e for e in s.suspects if s.edge_source[e] >= 0]
+    s.suspects.clear()
+    for e in suspects:
+        loosen_by_edge(s, e)
+    follow_cone(s)
+    gone = set(edges)
+    for c in doomed:
+        for e in (s.link_a[c], s.link_b[c]):
+            if e >= 0:
+                gone.add(e)
+    for v in variables:
+        gone.update(edges_of(s, v))
+    for e in suspects:
+        detach_edge(s, e)
+    for e in sorted(gone):
+        if e not in suspects:
+            detach_edge(s, e)
+        free_edge(s, e)
+    for c in doomed:
+        release_constraint(s, c)
+    for r in restrictions:
+        v = s.restriction_variable[r]
+        is_decision = s.restriction_flags[r] & FLAG_DECISION
+        drop_restriction(s, r)
+        if is_decision:
+            s.set_decided(v, 1 if has_decision(s, v) else 0)
+    reset_cone(s)
+    for v in variables:
+        while s.restriction_head[v] >= 0:
+            drop_restriction(s, s.restriction_head[v])
+        drop_variable(s, v)
+    renew_cone(s)
+    commit_trail(s)
+    if not was_consistent:
+        schedule_all(s)
+    return [e for e in suspects if e not in gone]
+
+
+def gather(s: Store, constraints: list[int], variables: list[int]) -> list[int]:
+    """List the constraints that go: the given ones and those on removed variables, each once."""
+    doomed = dict.fromkeys(constraints)
+    for v in variables:
+        for head in (s.watch_head[v], s.mute_head[v]):
+            slot = head
+            while slot >= 0:
+                doomed[s.slot_constraint[slot]] = None
+                slot = s.slot_next[slot]
+        for e in edges_of(s, v):
+            if s.edge_link[e] >= 0:
+                doomed[s.edge_link[e]] = None
+            loosen_by_edge(s, e)
+    return list(doomed)
+
+
+def edges_of(s: Store, v: int) -> list[int]:
+    """List the edges of a variable."""
+    found = []
+    e = s.out_head[v]
+    while e >= 0:
+        found.append(e)
+        e = s.out_next[e]
+    e = s.in_head[v]
+    while e >= 0:
+        found.append(e)
+        e = s.in_next[e]
+    return found
+
+
+def reset_cone(s: Store) -> None:
+    """Give every bound of the cone its base value back, and every distance in it edges that hold nothing."""
+    for i in range(s.cone_count):
+        v = s.cone[i] >> 2
+        side = s.cone[i] & 3
+        if s.word[v] >= 0:
+            reset_set(s, v)
+        elif s.loose[v]:
+            reset_bound(s, v, side)
+        slot = s.watch_head[v]
+        while slot >= 0:
+            c = s.slot_constraint[slot]
+            if s.op[c] == OP_TEMPORAL_DISTANCE and s.slot_variable[s.first[c] + 1] == v and s.link_a[c] >= 0:
+                s.edge_weight[s.link_a[c] if side == SIDE_UPPER else s.link_b[c]] = NEVER
+            slot = s.slot_next[slot]
+
+
+def reset_bound(s: Store, v: int, side: int) -> None:
+    """Give one bound the tightest value that restrictions and decisions leave it."""
+    best = -inf if side == SIDE_LOWER else inf
+    support = -1
+    r = s.restriction_head[v]
+    while r >= 0:
+        x = s.restriction_lo[r] if side == SIDE_LOWER else s.restriction_hi[r]
+        # Of equal ones the oldest counts, as when they were carried out.
+        if support < 0 or (x >= best if side == SIDE_LOWER else x <= best):
+            best = x
+            support = r * 4 + SUPPORT_RESTRICTION
+        r = s.restriction_next[r]
+    if side == SIDE_LOWER:
+        set_base_lower(s, v, best, support)
+    else:
+        set_base_upper(s, v, best, support)
+
+
+def set_base_lower(s: Store, v: int, x: float, support: int) -> None:
+    """Set a lower bound as it was before all propagation."""
+    s.lower_support[v] = support
+    s.lower_when[v] = -1
+    if s.kind[v] == KIND_FLOAT:
+        s.flo[v] = -inf if x <= -HALF_INF else x
+    else:
+        s.lb[v] = -INF if x <= -HALF_INF else int(math.ceil(x - FLOAT_TOLERANCE))
+
+
+def set_base_upper(s: Store, v: int, x: float, support: int) -> None:
+    """Set an upper bound as it was before all propagation."""
+    s.upper_support[v] = support
+    s.upper_when[v] = -1
+    if s.kind[v] == KIND_FLOAT:
+        s.fhi[v] = inf if x >= HALF_INF else x
+    else:
+        s.ub[v] = INF if x >= HALF_INF else int(math.floor(x + FLOAT_TOLERANCE))
+
+
+def reset_set(s: Store, v: int) -> None:
+    """Take the bit set of a variable away; `renew_cone` carries its restrictions to sets out again."""
+    drop_log(s, v)
+    detach_words(s, v)
+    reset_bound(s, v, SIDE_LOWER)
+    reset_bound(s, v, SIDE_UPPER)
+
+
+def uncross(s: Store, v: int, side: int) -> None:
+    """Where restrictions contradict, record the conflict and let the variable's declaration alone bound this side."""
+    if s.kind[v] == KIND_FLOAT:
+        if s.flo[v] <= s.fhi[v]:
+            return
+        if s.flo[v] <= s.fhi[v] + FLOAT_TOLERANCE:
+            s.fhi[v] = s.flo[v]
+            return
+    elif s.lb[v] <= s.ub[v]:
+        return
+    r = s.restriction_head[v]
+    while s.restriction_next[r] >= 0:
+        r = s.restriction_next[r]
+    if s.restriction_lo[r] > s.restriction_hi[r]:
+        return
+    s.fail(v, side, s.lower_support[v] if side == SIDE_LOWER else s.upper_support[v])
+    if side == SIDE_LOWER:
+        set_base_lower(s, v, s.restriction_lo[r], r * 4 + SUPPORT_RESTRICTION)
+    else:
+        set_base_upper(s, v, s.restriction_hi[r], r * 4 + SUPPORT_RESTRICTION)
+
+
+def renew_cone(s: Store) -> None:
+    """Pull the bounds of the cone tight along the edges, restrict to sets, and schedule all that touches them."""
+    for i in range(s.cone_count):
+        v = s.cone[i] >> 2
+        s.loose[v] = 0
+        if s.kind[v] >= 0:
+            uncross(s, v, s.cone[i] & 3)
+    for i in range(s.cone_count):
+        v = s.cone[i] >> 2
+        side = s.cone[i] & 3
+        if s.kind[v] < 0:
+            continue
+        if side == SIDE_LOWER:
+            pull_lower(s, v)
+        else:
+            pull_upper(s, v)
+        restrict_to_sets(s, v)
+        for head in (s.watch_head[v], s.mute_head[v]):
+            slot = head
+            while slot >= 0:
+                c = s.slot_constraint[slot]
+                if not (is_carried(s, c) and s.link_a[c] >= 0) or s.slot_mask[slot]:
+                    s.schedule(c)
+                slot = s.slot_next[slot]
+
+
+def restrict_to_sets(s: Store, v: int) -> None:
+    """Carry the restrictions of a variable to sets of values out again, the oldest first."""
+    listed = []
+    r = s.restriction_head[v]
+    while r >= 0:
+        if s.restriction_flags[r] & FLAG_VALUES and not is_listing(s, r):
+            listed.append(r)
+        r = s.restriction_next[r]
+    for r in reversed(listed):
+        if s.consistent and s.restriction_values[r]:
+            keep_values(s, v, s.restriction_values[r], r * 4 + SUPPORT_RESTRICTION)
+
+
+def pull_lower(s: Store, v: int) -> None:
+    """Raise a lower bound to what its edges ask for now."""
+    e = s.out_head[v]
+    while e >= 0:
+        x = s.lb[s.edge_target[e]] - s.edge_weight[e]
+        if x > s.ub[v]:
+            s.queue_edges(s.edge_target[e], 0)  # which will find the conflict
+        elif x > s.lb[v]:
+            s.lb[v] = x
+            s.lower_support[v] = e * 4 + SUPPORT_EDGE
+            s.lower_when[v] = s.trail_base
+        e = s.out_next[e]
+    s.queue_edges(v, 0)
+
+
+def pull_upper(s: Store, v: int) -> None:
+    """Reduce an upper bound to what its edges ask for now."""
+    e = s.in_head[v]
+    while e >= 0:
+        x = s.ub[s.edge_source[e]] + s.edge_weight[e]
+        if x < s.lb[v]:
+            s.queue_edges(s.edge_source[e], 1)
+        elif x < s.ub[v]:
+            s.ub[v] = x
+            s.upper_support[v] = e * 4 + SUPPORT_EDGE
+            s.upper_when[v] = s.trail_base
+        e = s.in_next[e]
+    s.queue_edges(v, 1)
+
+
+def schedule_all(s: Store) -> None:
+    """After a conflict at level 0 nothing is known to be carried out: restrict again, schedule all, visit all edges."""
+    for r in range(s.restrictions_used):
+        v = s.restriction_variable[r]
+        if v >= 0 and s.consistent and not is_listing(s, r):
+            support = r * 4 + SUPPORT_RESTRICTION
+            if raise_to(s, v, s.restriction_lo[r], support):
+                reduce_to(s, v, s.restriction_hi[r], support)
+    for c in range(s.constraints_used):
+        if s.op[c] >= 0:
+            s.schedule(c)
+    for v in range(s.variables):
+        if s.kind[v] >= 0:
+            restrict_to_sets(s, v)
+            s.queue_edges(v, 0)
+            s.queue_edges(v, 1)
+
+
+def follow_again(s: Store, edges: list[int]) -> bool:
+    """Put edges that led to a conflict back, one by one; false if one does again."""
+    propagate_edges(s, -1, -1, -1)
+    for e in edges:
+        attach_edge(s, e)
+        if not (s.consistent and follow_edge(s, e)):
+            s.suspects.append(e)
+    return s.consistent
+
+
+def has_decision(s: Store, v: int) -> bool:
+    """Tell whether any restriction of a variable is a decision."""
+    r = s.restriction_head[v]
+    while r >= 0 and not s.restriction_flags[r] & FLAG_DECISION:
+        r = s.restriction_next[r]
+    return r >= 0
+
+
+def decisions_of(s: Store, v: int) -> list[int]:
+    """Take the mark of a decision from a variable; give the decisions to retract."""
+    s.set_decided(v, 0)
+    found = []
+    r = s.restriction_head[v]
+    while r >= 0:
+        if s.restriction_flags[r] & FLAG_DECISION:
+            found.append(r)
+        r = s.restriction_next[r]
+    return found

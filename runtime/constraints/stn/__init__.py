@@ -1,0 +1,1 @@
+"""The simple temporal network, its shortest paths, and the rows of posted constraints."""

@@ -1,0 +1,25 @@
+# The C types of `distances.py`.
+
+cimport cython
+from runtime.constraints.engine cimport Engine
+from runtime.constraints.domains.store cimport Store
+from runtime.constraints.stn.heap cimport Heap
+
+cdef long long OP_TEMPORAL_DISTANCE
+
+
+cdef class Distances:
+    cdef public Store engine
+    cdef public Heap heap
+    cdef public long long stamp
+    cdef public long long[::1] stamped, distance, via
+    cdef public bint by_bounds, temporal_only
+
+    @cython.locals(
+        e="long long", engine=Engine, heap=Heap, is_shorter=bint, length="long long", limit="long long", longer="long long",
+        u="long long", v="long long"
+    )
+    cpdef bint admits(self, long long source, long long target, long long weight) except -1
+
+    @cython.locals(c="long long")
+    cpdef bint is_known(self, long long e) except -1

@@ -1,0 +1,272 @@
+"""Keep constraints in rows and their arguments in slots; put them on the watch lists of their variables."""
+
+from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.store import Store
+from runtime.constraints.domains.tags import (
+    EVENT_ANY,
+    EVENT_DOMAIN,
+    EVENT_HOLES,
+    EVENT_LOWER,
+    EVENT_UPPER,
+    FAMILY_ARITHMETIC,
+    KIND_BOOL,
+    KIND_FLOAT,
+    KIND_INT,
+    MODE_EDGES,
+    MODE_REAL,
+    MODE_WHOLE,
+    OP_ADD_EQ,
+    OP_ALL_MAX,
+    OP_ALL_MIN,
+    OP_ELEMENT,
+    OP_EQ,
+    OP_EQ_MAXIMUM,
+    OP_EQ_MINIMUM,
+    OP_EXTERNAL,
+    OP_LEQ,
+    OP_LT,
+    OP_NEQ,
+    OP_PLUS,
+    OP_RAND,
+    OP_TEMPORAL_DISTANCE,
+    OP_TEST_SPECIFIED,
+    OP_WATCH,
+    PRIORITY_CHEAP,
+    PRIORITY_DEAR,
+    PRIORITY_WATCH,
+    TRAIL_CONSTRAINT,
+    TRAIL_LINK,
+)
+from runtime.constraints.stn.network import insert_edge
+
+MASK = 2**64 - 1
+
+
+def grow_constraints(s: Store) -> None:
+    """Double the rows of constraints, and the queues with them."""
+    room = 2 * len(s.op)
+    s.op = grown(s.op, "i", room, -1)
+    s.mode = grown(s.mode, "b", room, 0)
+    s.first = grown(s.first, "i", room, 0)
+    s.arity = grown(s.arity, "i", room, 0)
+    s.span = grown(s.span, "i", room, -1)
+    s.owner = grown(s.owner, "i", room, -1)
+    s.link_a = grown(s.link_a, "i", room, -1)
+    s.link_b = grown(s.link_b, "i", room, -1)
+    s.aux = grown(s.aux, "q", room, 0)
+    s.run_count = grown(s.run_count, "i", room, 0)
+    s.run_epoch = grown(s.run_epoch, "q", room, 0)
+    s.constraint_next = grown(s.constraint_next, "i", room, -1)
+    s.grow_constraint_queues(room)
+
+
+def grow_slots(s: Store, need: int) -> None:
+    """Make room for `need` more slots."""
+    room = len(s.slot_variable)
+    while room < s.slots_used + need:
+        room *= 2
+    s.slot_variable = grown(s.slot_variable, "i", room, -1)
+    s.slot_constraint = grown(s.slot_constraint, "i", room, -1)
+    s.slot_mask = grown(s.slot_mask, "b", room, 0)
+    s.slot_next = grown(s.slot_next, "i", room, -1)
+    s.slot_prev = grown(s.slot_prev, "i", room, -1)
+    s.slot_key = grown(s.slot_key, "q", room, 0)
+
+
+def allocate_slots(s: Store, count: int) -> int:
+    """Take `count` consecutive slots; blocks of up to 64 come back through free lists."""
+    if count <= 64 and s.slot_free[count] >= 0:
+        first = s.slot_free[count]
+        s.slot_free[count] = s.slot_next[first]
+        return first
+    if s.slots_used + count > len(s.slot_variable):
+        grow_slots(s, count)
+    first = s.slots_used
+    s.slots_used = first + count
+    return first
+
+
+def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
+    """Make a constraint whose arguments are still to be filled in."""
+    c = s.constraint_free
+    if c >= 0:
+        s.constraint_free = s.constraint_next[c]
+    else:
+        c = s.constraints_used
+        if c == len(s.op):
+            grow_constraints(s)
+        s.constraints_used = c + 1
+    s.op[c] = op
+    s.mode[c] = MODE_WHOLE
+    s.first[c] = allocate_slots(s, arity)
+    s.arity[c] = arity
+    s.span[c] = span
+    s.owner[c] = owner
+    s.link_a[c] = -1
+    s.link_b[c] = -1
+    s.aux[c] = 0
+    s.priority[c] = PRIORITY_CHEAP
+    s.scheduled[c] = 0
+    s.run_epoch[c] = 0
+    s.save(c, TRAIL_CONSTRAINT, 0, 0)
+    return c
+
+
+def watch(s: Store, c: int, position: int, v: int, mask: int) -> None:
+    """Fill in an argument and wake `c` at the events of `mask`; without any it is mute. Constants have no lists."""
+    slot = s.first[c] + position
+    s.slot_variable[slot] = v
+    s.slot_constraint[slot] = c
+    s.slot_mask[slot] = mask
+    if s.constant[v]:
+        s.slot_next[slot] = -2
+        return
+    s.slot_prev[slot] = -1
+    if mask:
+        other = s.watch_head[v]
+        s.watch_head[v] = slot
+    else:
+        other = s.mute_head[v]
+        s.mute_head[v] = slot
+    s.slot_next[slot] = other
+    if other >= 0:
+        s.slot_prev[other] = slot
+
+
+def release_constraint(s: Store, c: int) -> None:
+    """Take a constraint off all watch lists and free its row; its edges must be gone."""
+    first = s.first[c]
+    count = s.arity[c]
+    for slot in range(first, first + count):
+        after = s.slot_next[slot]
+        if after != -2:
+            before = s.slot_prev[slot]
+            if before >= 0:
+                s.slot_next[before] = after
+            elif s.slot_mask[slot]:
+                s.watch_head[s.slot_variable[slot]] = after
+            else:
+                s.mute_head[s.slot_variable[slot]] = after
+            if after >= 0:
+                s.slot_prev[after] = before
+        s.slot_constraint[slot] = -1
+    if 0 < count <= 64:
+        s.slot_next[first] = s.slot_free[count]
+        s.slot_free[count] = first
+    if s.op[c] == OP_EXTERNAL:
+        del s.externals[c]
+    s.op[c] = -1
+    s.constraint_next[c] = s.constraint_free
+    s.constraint_free = c
+
+
+def tie_edges(s: Store, c: int, source: int, target: int, forth: int, back: int) -> bool:
+    """Carry a constraint out by two edges between the same points; false on a conflict."""
+    s.save(c, TRAIL_LINK, 0, 0)
+    s.link_a[c] = insert_edge(s, source, target, forth, s.span[c], s.owner[c], c)
+    s.link_b[c] = insert_edge(s, target, source, back, s.span[c], s.owner[c], c)
+    return bool(s.consistent)
+
+
+def tie_edge(s: Store, c: int, source: int, target: int, weight: int) -> bool:
+    """Carry a constraint out by one edge; false on a conflict."""
+    s.save(c, TRAIL_LINK, 0, 0)
+    s.link_a[c] = insert_edge(s, source, target, weight, s.span[c], s.owner[c], c)
+    return bool(s.consistent)
+
+
+def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: int) -> int:
+    """Make a constraint, choose how it is carried out, put it on the lists of its variables, schedule it."""
+    if op == OP_ALL_MAX or op == OP_ALL_MIN:
+        op = OP_EQ_MAXIMUM if op == OP_ALL_MAX else OP_EQ_MINIMUM
+        arguments = [arguments[len(arguments) - 1], *arguments[: len(arguments) - 1]]
+    elif op == OP_ADD_EQ and s.constant[arguments[0]] and not s.constant[arguments[1]]:
+        arguments = [arguments[1], arguments[0], arguments[2]]
+    c = new_constraint(s, op, len(arguments), span, owner)
+    choose_mode(s, c, arguments)
+    if op == OP_WATCH:
+        s.priority[c] = PRIORITY_WATCH
+    elif op == OP_EXTERNAL:
+        s.priority[c] = PRIORITY_DEAR
+    elif op == OP_RAND:
+        s.aux[c] = random_whole(s.seed, span, owner)
+    for position in range(s.arity[c]):
+        watch(s, c, position, arguments[position], events_of(s, c, position))
+    s.settles[c] = is_settled_by_one_run(s, c) and len(set(arguments)) == len(arguments)
+    s.schedule(c)
+    return c
+
+
+def start_element(s: Store, result: int, index: int, rows: int, span: int, owner: int) -> int:
+    """Make a look-up of `rows` rows, to be given by `add_row` in the order of their keys."""
+    c = new_constraint(s, OP_ELEMENT, rows + 2, span, owner)
+    if s.kind[result] == KIND_FLOAT:
+        s.mode[c] = MODE_REAL
+    watch(s, c, 0, result, EVENT_DOMAIN)
+    watch(s, c, 1, index, EVENT_DOMAIN)
+    s.settles[c] = 0
+    s.schedule(c)
+    return c
+
+
+def add_row(s: Store, c: int, k: int, key: int, v: int) -> None:
+    """Give row `k` of a look-up: the key that the index takes for variable `v`."""
+    if s.kind[v] == KIND_FLOAT:
+        s.mode[c] = MODE_REAL
+    watch(s, c, 2 + k, v, EVENT_DOMAIN)
+    s.slot_key[s.first[c] + 2 + k] = key
+
+
+def is_settled_by_one_run(s: Store, c: int) -> bool:
+    """Tell whether one run reaches the constraint's own fixpoint, where no bound has to jump over holes."""
+    op = s.op[c]
+    if s.mode[c] == MODE_REAL:
+        return False  # rounding to whole numbers may leave more to do
+    return op == OP_NEQ or op == OP_ADD_EQ or op == OP_TEMPORAL_DISTANCE or (op == OP_EQ and s.arity[c] == 2)
+
+
+def events_of(s: Store, c: int, position: int) -> int:
+    """Give the events of an argument that may let the constraint narrow another one."""
+    op = s.op[c]
+    if s.mode[c] == MODE_EDGES:
+        return EVENT_HOLES if op == OP_EQ else 0
+    if op == OP_LEQ or op == OP_LT:
+        return EVENT_LOWER if position == 0 else EVENT_UPPER
+    if op >> 5 == FAMILY_ARITHMETIC or op == OP_TEMPORAL_DISTANCE:
+        return EVENT_LOWER | EVENT_UPPER
+    if op == OP_WATCH:
+        return EVENT_ANY
+    return EVENT_ANY if op == OP_TEST_SPECIFIED else EVENT_DOMAIN
+
+
+def choose_mode(s: Store, c: int, arguments: list[int]) -> None:
+    """Have comparisons of ints, and sums of an int and a constant, carried out by edges; reals by doubles."""
+    op = s.op[c]
+    edges = True
+    for v in arguments:
+        if s.kind[v] == KIND_FLOAT:
+            s.mode[c] = MODE_REAL
+        if s.kind[v] != KIND_INT or s.constant[v]:
+            edges = False
+    if op == OP_ADD_EQ:
+        if is_offset(s, arguments[0], arguments[1], arguments[2]):
+            s.mode[c] = MODE_EDGES
+            s.op[c] = OP_PLUS
+    elif op == OP_PLUS or (edges and (op == OP_LEQ or op == OP_LT or (op == OP_EQ and s.arity[c] == 2))):
+        s.mode[c] = MODE_EDGES
+
+
+def is_offset(s: Store, a: int, k: int, b: int) -> bool:
+    """Tell whether a + k = b relates two ints by a constant whole number."""
+    if s.kind[a] != KIND_INT or s.kind[b] != KIND_INT or s.constant[a] or s.constant[b] or not s.constant[k]:
+        return False
+    return (s.kind[k] == KIND_INT or s.kind[k] == KIND_BOOL) and s.lb[k] == s.ub[k]
+
+
+def random_whole(seed: int, span: int, owner: int) -> int:
+    """Draw from 0 to 32767: a function of the seed and of where the constraint was posted (splitmix64)."""
+    x = (seed * 1000003 + span * 8191 + owner + 2) & MASK
+    x = (x + 0x9E3779B97F4A7C15) & MASK
+    x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & MASK
+    x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & MASK
+    return (x ^ (x >> 31)) & 32767

@@ -1,0 +1,1 @@
+"""Resources: who uses them, profiles, envelopes and violations."""

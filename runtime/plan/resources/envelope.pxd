@@ -1,0 +1,83 @@
+# The C types of `flaws.py`.
+
+cimport cython
+from runtime.constraints.engine cimport Engine
+from runtime.plan.resources.profile cimport Levels
+from runtime.plan.resources.resources cimport Resources
+
+cdef long long NONE, ROOM, SIDE_LOWER, SIDE_UPPER
+cdef double FLOAT_TOLERANCE
+
+
+cdef class Flaws:
+    cdef public Engine engine
+    cdef public Resources resources
+    cdef public Levels levels
+    cdef public long long resource, at, is_low, pair_room
+    cdef public long long pair_count, variable_room, mark, use_room
+    cdef public bint grounded
+    cdef public double excess
+    cdef public long long[::1] pair_before, pair_after, use_before, use_after
+    cdef public long long[::1] marks, stack, via, takes, gives
+    cdef public long long[::1] instants, from_taker, from_giver, queue
+    cdef public long long[::1] ordered
+    cdef public double[::1] supply, demand, flow
+
+    @cython.locals(levels=Levels, resources=Resources)
+    cpdef bint find(self, long long o) except -1
+
+    @cython.locals(levels=Levels)
+    cpdef bint find_certain(self, long long o) except -1
+
+    @cython.locals(i="long long", levels=Levels)
+    cpdef bint envelope_is_outside(self, long long sign) except -1
+
+    @cython.locals(i="long long", levels=Levels, total=double)
+    cpdef double change(self, long long sign) except? -1.0
+
+    @cython.locals(count="long long", grounded=bint, k="long long", level=double, levels=Levels)
+    cpdef bint find_side(self, long long o, long long is_low) except -1
+
+    @cython.locals(
+        count="long long", i="long long", j="long long", k="long long", levels=Levels, sign="long long",
+        t="long long"
+    )
+    cpdef long long collect_instants(self) except? -1
+
+    @cython.locals(
+        i="long long", j="long long", known=bint, levels=Levels, n="long long", resources=Resources,
+        taker="long long", u="long long", v="long long"
+    )
+    cpdef int prepare(self) except -1
+
+    cpdef int make_room(self, long long n) except -1
+
+    @cython.locals(e="long long", engine=Engine, top="long long", u="long long")
+    cpdef int walk_back(self, long long v) except -1
+
+    @cython.locals(
+        cell="long long", i="long long", j="long long", levels=Levels, n="long long", pushed=double, t="long long",
+        total=double
+    )
+    cpdef double given_back(self) except? -1.0
+
+    @cython.locals(first="long long", i="long long", j="long long", k="long long", last="long long", n="long long")
+    cpdef double augment(self, long long source) except? -1.0
+
+    @cython.locals(amount=double, i="long long", j="long long")
+    cpdef double push(self, long long source, long long giver) except? -1.0
+
+    @cython.locals(e="long long", i="long long", is_marked=bint, j="long long", n="long long", v="long long")
+    cpdef int note_orders(self, list edges, list read) except -1
+
+    @cython.locals(i="long long", j="long long", levels=Levels, n="long long", v="long long")
+    cpdef long long find_pairs(self) except? -1
+
+    @cython.locals(levels=Levels)
+    cpdef bint is_charged(self, long long j) except -1
+
+    @cython.locals(levels=Levels)
+    cpdef bint may_give(self, long long i) except -1
+
+    @cython.locals(k="long long")
+    cpdef int add_pair(self, long long before, long long after, long long giver, long long taker) except -1

@@ -1,0 +1,374 @@
+"""Find instants at which a resource may be out of bounds though nothing is certain, and what could be ordered there.
+
+The level at an instant is bounded by what the order of uses allows, not by their times alone: a use that comes after
+another's end cannot be charged together with it. The worst case is a closure of greatest weight among what may have
+happened (Muscettola's resource envelope); as known orders are transitive, it is a flow from what takes to what must
+have given back before. Order is read off the network: paths of edges whose weights are not positive, and bounds.
+"""
+
+from runtime.constraints.domains.tags import FLOAT_TOLERANCE, SIDE_LOWER, SIDE_UPPER
+from runtime.constraints.engine import Engine
+from runtime.plan.arrays import blank, blank_reals, grown
+from runtime.plan.resources.profile import Levels
+from runtime.plan.resources.resources import Resources
+from runtime.plan.tags import NONE
+
+ROOM = 64
+
+
+class Flaws:
+    """A search for flaws, and what it found; its arrays are used again.
+
+    A flaw is `resource`, the instant `at`, `is_low` and `excess`; the pairs are timepoints (and uses), the first of
+    which could be put before the second to mend it.
+    """
+
+    def __init__(self, engine: Engine, resources: Resources) -> None:
+        self.engine = engine
+        self.resources = resources
+        self.levels = Levels()
+        self.resource = NONE
+        self.at = 0
+        self.is_low = 1
+        self.grounded = False
+        self.excess = 0.0
+        self.pair_room = ROOM
+        self.pair_count = 0
+        self.pair_before = blank(ROOM)
+        self.pair_after = blank(ROOM)
+        self.use_before = blank(ROOM)
+        self.use_after = blank(ROOM)
+        self.variable_room = ROOM
+        self.marks = blank(ROOM)
+        self.mark = 0
+        self.stack = blank(ROOM)
+        self.via = blank(ROOM)
+        self.use_room = ROOM
+        self.takes = blank(ROOM)  # the timepoint at which use i takes from the level, or gives to it
+        self.gives = blank(ROOM)
+        self.instants = blank(ROOM)
+        self.supply = blank_reals(ROOM)
+        self.demand = blank_reals(ROOM)
+        self.from_taker = blank(ROOM)
+        self.from_giver = blank(ROOM)
+        self.queue = blank(ROOM)
+        self.flow = blank_reals(ROOM * ROOM)
+        self.ordered = blank(ROOM * ROOM)  # [taker * use_room + giver]: the giver gives before the taker takes
+
+    # ---- flaws ----
+
+    def find(self, o: int) -> bool:
+        """The first instant at which resource `o` may be out of bounds; what it is stands in the fields."""
+        resources = self.resources
+        levels = self.levels
+        resources.fill(levels, o)
+        self.resource = o
+        if levels.initial_low + self.change(-1) < levels.minimum - FLOAT_TOLERANCE and self.find_side(o, 1):
+            return True
+        return levels.initial_high + self.change(1) > levels.maximum + FLOAT_TOLERANCE and self.find_side(o, 0)
+
+    def find_certain(self, o: int) -> bool:
+        """Whether the order of uses makes certain what their times alone leave open: the whole envelope is outside."""
+        levels = self.levels
+        self.resources.fill(levels, o)
+        self.resource = o
+        self.grounded = False
+        self.is_low = 0
+        if self.envelope_is_outside(-1):
+            return True
+        self.is_low = 1
+        return self.envelope_is_outside(1)
+
+    def envelope_is_outside(self, sign: int) -> bool:
+        """Whether at some instant the highest level is below the minimum (or the lowest above the maximum)."""
+        levels = self.levels
+        self.prepare()
+        for i in range(levels.count):
+            if levels.sign[i] == sign:
+                self.at = levels.start_high[i]
+                if sign < 0:
+                    self.excess = levels.minimum - levels.best_for_consumers(self.at)
+                else:
+                    self.excess = levels.worst_for_consumers(self.at) - levels.maximum
+                self.excess += self.given_back()
+                if self.excess > FLOAT_TOLERANCE:
+                    return True
+        return False
+
+    def change(self, sign: int) -> float:
+        """The greatest change of the level in one direction."""
+        levels = self.levels
+        total = 0.0
+        for i in range(levels.count):
+            if levels.sign[i] == sign:
+                total += sign * levels.most[i]
+        return total
+
+    def find_side(self, o: int, is_low: int) -> bool:
+        """The first instant at which the level may be too low (or too high)."""
+        levels = self.levels
+        self.is_low = is_low
+        grounded = self.resources.is_grounded(o)
+        self.grounded = grounded
+        if not grounded:
+            self.prepare()
+        count = self.collect_instants()
+        for k in range(count):
+            self.at = self.instants[k]
+            if grounded:
+                level = levels.grounded(self.at)
+                self.excess = levels.minimum - level if is_low else level - levels.maximum
+            else:
+                level = levels.worst_for_consumers(self.at) if is_low else levels.best_for_consumers(self.at)
+                self.excess = levels.minimum - level if is_low else level - levels.maximum
+                if self.excess > FLOAT_TOLERANCE:
+                    self.excess -= self.given_back()
+            if self.excess > FLOAT_TOLERANCE:
+                return True
+        return False
+
+    def collect_instants(self) -> int:
+        """The instants at which the level may change for the worse, in order; their number."""
+        levels = self.levels
+        sign = -1 if self.is_low else 1
+        count = 0
+        for i in range(levels.count):
+            if levels.sign[i] == sign:
+                t = levels.start_low[i]
+                k = count
+                while k > 0 and self.instants[k - 1] > t:
+                    k -= 1
+                if k > 0 and self.instants[k - 1] == t:
+                    continue
+                for j in range(count, k, -1):
+                    self.instants[j] = self.instants[j - 1]
+                self.instants[k] = t
+                count += 1
+        return count
+
+    # ---- order ----
+
+    def prepare(self) -> None:
+        """Find which uses give back (or take) before which others take (or give)."""
+        levels = self.levels
+        n = levels.count
+        self.make_room(n)
+        resources = self.resources
+        taker = -1 if self.is_low else 1
+        for i in range(n):
+            u = levels.use[i]
+            self.takes[i] = NONE
+            self.gives[i] = NONE
+            if u >= 0 and levels.sign[i] == taker:
+                self.takes[i] = resources.start[u]
+                if self.is_low and not levels.lasting[i]:
+                    self.gives[i] = resources.end[u]
+            elif u >= 0 and levels.lasting[i]:
+                self.gives[i] = resources.start[u]
+        for j in range(n):
+            if self.takes[j] >= 0:
+                self.walk_back(self.takes[j])
+                for i in range(n):
+                    v = self.gives[i]
+                    known = v >= 0 and i != j
+                    if known and self.marks[v] != self.mark:
+                        known = self.engine.ub[v] <= self.engine.lb[self.takes[j]]
+                    self.ordered[j * self.use_room + i] = known
+
+    def make_room(self, n: int) -> None:
+        """Make the arrays long enough for `n` uses and all variables."""
+        if n > self.use_room:
+            while n > self.use_room:
+                self.use_room *= 2
+            self.takes = blank(self.use_room)
+            self.gives = blank(self.use_room)
+            self.instants = grown(self.instants, self.use_room)
+            self.supply = blank_reals(self.use_room)
+            self.demand = blank_reals(self.use_room)
+            self.from_taker = blank(self.use_room)
+            self.from_giver = blank(self.use_room)
+            self.queue = blank(self.use_room)
+            self.flow = blank_reals(self.use_room * self.use_room)
+            self.ordered = blank(self.use_room * self.use_room)
+        if self.engine.variables > self.variable_room:
+            while self.engine.variables > self.variable_room:
+                self.variable_room *= 2
+            self.marks = grown(self.marks, self.variable_room)
+            self.stack = blank(self.variable_room)
+            self.via = blank(self.variable_room)
+
+    def walk_back(self, v: int) -> None:
+        """Mark all timepoints that are known to be no later than `v`."""
+        engine = self.engine
+        self.mark += 1
+        self.marks[v] = self.mark
+        self.stack[0] = v
+        top = 1
+        while top:
+            top -= 1
+            e = engine.out_head[self.stack[top]]
+            while e >= 0:
+                u = engine.edge_target[e]
+                if engine.edge_weight[e] <= 0 and self.marks[u] != self.mark:
+                    self.marks[u] = self.mark
+                    self.via[u] = e
+                    self.stack[top] = u
+                    top += 1
+                e = engine.out_next[e]
+
+    # ---- the envelope ----
+
+    def given_back(self) -> float:
+        """How much of what may be taken at the instant must have been given back before: the greatest flow."""
+        levels = self.levels
+        n = levels.count
+        t = self.at
+        total = 0.0
+        for i in range(n):
+            self.supply[i] = 0.0
+            self.demand[i] = 0.0
+            if self.takes[i] >= 0 and levels.start_low[i] <= t < levels.start_high[i]:
+                if levels.lasting[i] or levels.end_high[i] > t:
+                    self.supply[i] = levels.most[i]
+            if self.gives[i] >= 0:
+                if self.takes[i] < 0:
+                    if levels.start_low[i] <= t < levels.start_high[i]:
+                        self.demand[i] = levels.least[i]
+                elif levels.end_low[i] <= t < levels.end_high[i]:
+                    self.demand[i] = levels.most[i]
+            total += self.demand[i]
+        if total <= FLOAT_TOLERANCE:
+            return 0.0
+        for cell in range(n * self.use_room):
+            self.flow[cell] = 0.0
+        total = 0.0
+        for j in range(n):
+            while self.supply[j] > FLOAT_TOLERANCE:
+                pushed = self.augment(j)
+                if pushed <= 0.0:
+                    break
+                total += pushed
+        return total
+
+    def augment(self, source: int) -> float:
+        """Push along one shortest path from taker `source` to a giver with demand left; how much."""
+        n = self.levels.count
+        for k in range(n):
+            self.from_taker[k] = NONE
+            self.from_giver[k] = NONE
+        self.from_giver[source] = n  # anything but NONE: reached
+        self.queue[0] = source
+        first = 0
+        last = 1
+        while first < last:
+            j = self.queue[first]
+            first += 1
+            for i in range(n):
+                if self.from_taker[i] >= 0 or not self.ordered[j * self.use_room + i]:
+                    continue
+                self.from_taker[i] = j
+                if self.demand[i] > FLOAT_TOLERANCE:
+                    return self.push(source, i)
+                for k in range(n):
+                    if self.from_giver[k] < 0 and self.flow[k * self.use_room + i] > FLOAT_TOLERANCE:
+                        self.from_giver[k] = i
+                        self.queue[last] = k
+                        last += 1
+        return 0.0
+
+    def push(self, source: int, giver: int) -> float:
+        """Push what fits along the path that `augment` found."""
+        amount = min(self.supply[source], self.demand[giver])
+        i = giver
+        j = self.from_taker[i]
+        while j != source:
+            i = self.from_giver[j]
+            amount = min(amount, self.flow[j * self.use_room + i])
+            j = self.from_taker[i]
+        self.supply[source] -= amount
+        self.demand[giver] -= amount
+        i = giver
+        j = self.from_taker[i]
+        self.flow[j * self.use_room + i] += amount
+        while j != source:
+            i = self.from_giver[j]
+            self.flow[j * self.use_room + i] -= amount
+            j = self.from_taker[i]
+            self.flow[j * self.use_room + i] += amount
+        return amount
+
+    # ---- reasons ----
+
+    def note_orders(self, edges: list[int], read: list[int]) -> None:
+        """After `find_certain`: add the edges that order what the flow joins, or the bounds (`4 * v + side`)."""
+        n = self.levels.count
+        for j in range(n):
+            is_marked = False
+            for i in range(n):
+                if self.flow[j * self.use_room + i] <= FLOAT_TOLERANCE:
+                    continue
+                if not is_marked:
+                    self.walk_back(self.takes[j])
+                    is_marked = True
+                v = self.gives[i]
+                if self.marks[v] != self.mark:
+                    read.append(v * 4 + SIDE_UPPER)
+                    read.append(self.takes[j] * 4 + SIDE_LOWER)
+                    continue
+                while v != self.takes[j]:
+                    e = self.via[v]
+                    edges.append(e)
+                    v = self.engine.edge_source[e]
+
+    # ---- mending ----
+
+    def find_pairs(self) -> int:
+        """The orders that could mend the flaw: a giver before a taker, neither known to be so nor impossible."""
+        levels = self.levels
+        n = levels.count
+        self.pair_count = 0
+        if self.grounded:
+            self.prepare()
+        for j in range(n):
+            if self.takes[j] < 0 or not self.is_charged(j):
+                continue
+            for i in range(n):
+                v = self.gives[i]
+                if i == j or v < 0 or self.ordered[j * self.use_room + i] or not self.may_give(i):
+                    continue
+                if self.engine.lb[v] <= self.engine.ub[self.takes[j]]:
+                    self.add_pair(v, self.takes[j], levels.use[i], levels.use[j])
+        return self.pair_count
+
+    def is_charged(self, j: int) -> bool:
+        """Whether use `j` counts at the instant of the flaw."""
+        levels = self.levels
+        if levels.start_low[j] > self.at:
+            return False
+        if levels.lasting[j]:
+            return True
+        if self.grounded:
+            return levels.end_low[j] > self.at
+        return levels.end_high[j] > self.at
+
+    def may_give(self, i: int) -> bool:
+        """Whether use `i` could give back before, and has not certainly done so."""
+        levels = self.levels
+        if self.takes[i] >= 0:
+            return self.is_charged(i)
+        return levels.start_high[i] > self.at or self.grounded
+
+    def add_pair(self, before: int, after: int, giver: int, taker: int) -> None:
+        """Note one possible order."""
+        k = self.pair_count
+        if k == self.pair_room:
+            self.pair_room *= 2
+            self.pair_before = grown(self.pair_before, self.pair_room)
+            self.pair_after = grown(self.pair_after, self.pair_room)
+            self.use_before = grown(self.use_before, self.pair_room)
+            self.use_after = grown(self.use_after, self.pair_room)
+        self.pair_before[k] = before
+        self.pair_after[k] = after
+        self.use_before[k] = giver
+        self.use_after[k] = taker
+        self.pair_count = k + 1

@@ -1,0 +1,376 @@
+"""Keep who uses which resource, and refuse what certainly exceeds one.
+
+A use is charged from `start` to `end` (Reusable, Unary, CBReusable), or once at `start` (`produce`, `consume`). Bounds
+are compared with those of the last check, so that going back in time needs no notice.
+"""
+
+from math import inf
+from typing import Protocol
+
+from runtime.constraints.domains.tags import SIDE_LOWER, SIDE_UPPER
+from runtime.constraints.engine import Engine
+from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
+from runtime.plan.resources.profile import Levels
+from runtime.plan.resources.violation import Excess
+from runtime.plan.tags import (
+    INITIAL,
+    LIMITS,
+    MAXIMUM,
+    MINIMUM,
+    NONE,
+    PRODUCTION_RATE,
+    PRODUCTION_TOTAL,
+    RATE,
+    TOO_HIGH,
+    TOO_LOW,
+    TOO_TIGHT,
+    TOTAL,
+)
+
+ROOM = 32
+
+
+class Envelope(Protocol):
+    """What knows the order of uses."""
+
+    is_low: int
+    at: int
+
+    def find_certain(self, o: int) -> bool:
+        """Whether the order of uses makes certain what their times alone leave open."""
+
+    def note_orders(self, edges: list[int], read: list[int]) -> None:
+        """Add the edges and bounds by which it is certain."""
+
+
+class Resources:
+    """Uses `u` as rows of numbers; resources are named by their object."""
+
+    def __init__(self, engine: Engine) -> None:
+        self.engine = engine
+        self.levels = Levels()
+        self.room = ROOM
+        self.count = 0
+        self.free: list[int] = []
+        self.token = blank(ROOM)
+        self.sign = blank(ROOM)
+        self.holder = blank(ROOM)
+        self.quantity = blank(ROOM)
+        self.start = blank(ROOM)
+        self.end = blank(ROOM)
+        self.duration = blank(ROOM)
+        self.on = blank(ROOM)
+        self.start_low = blank(ROOM)
+        self.start_high = blank(ROOM)
+        self.end_low = blank(ROOM)
+        self.end_high = blank(ROOM)
+        self.least = blank_reals(ROOM)
+        self.most = blank_reals(ROOM)
+        # Resources: the variables of their limits, and whether one of their uses has changed.
+        self.object_room = ROOM
+        self.is_resource = blank(ROOM)
+        self.is_energetic = blank(ROOM)  # also refuse what cannot fit into a window
+        self.profile = blank(ROOM)  # the variable that chooses how levels are computed
+        self.grounded_text = NONE
+        self.changed = blank(ROOM)
+        self.limits = blank(ROOM * LIMITS)
+        self.steps: dict[int, list[tuple[int, float, float]]] = {}  # set_capacity: from when on, between what
+        self.limit_steps: dict[int, list[tuple[int, float, float]]] = {}  # set_limit: the same of the level
+        self.pending = 0
+        self.refusals: list[int] = []
+
+    # ---- resources and uses ----
+
+    def add_resource(self, o: int, limits: list[int], profile: int) -> None:
+        """Make object `o` a resource with the variables of its limits (NONE: not limited)."""
+        while o >= self.object_room:
+            self.object_room *= 2
+            self.is_resource = grown(self.is_resource, self.object_room)
+            self.is_energetic = grown(self.is_energetic, self.object_room)
+            self.profile = grown(self.profile, self.object_room)
+            self.changed = grown(self.changed, self.object_room)
+            self.limits = grown(self.limits, self.object_room * LIMITS)
+        self.is_resource[o] = 1
+        self.profile[o] = profile
+        for k in range(LIMITS):
+            self.limits[o * LIMITS + k] = limits[k]
+
+    def is_grounded(self, o: int) -> bool:
+        """Whether levels are those of the earliest schedule: the resource asks for a "GroundedProfile"."""
+        v = self.profile[o]
+        return v >= 0 and self.engine.lb[v] == self.grounded_text and self.engine.ub[v] == self.grounded_text
+
+    def add_use(
+        self, token: int, sign: int, holder: int, quantity: int, start: int, end: int, duration: int, level: int
+    ) -> int:
+        """Charge a resource from now on; what has no end (NONE) changes the level for good. The number of the use.
+
+        `duration` is the variable between start and end, NONE where there is none.
+        """
+        if self.free and level == 0:
+            u = self.free.pop()
+        else:
+            if self.count == self.room:
+                self.grow_uses()
+            u = self.count
+            self.count += 1
+        self.token[u] = token
+        self.sign[u] = sign
+        self.holder[u] = holder
+        self.quantity[u] = quantity
+        self.start[u] = start
+        self.end[u] = end
+        self.duration[u] = duration
+        self.on[u] = NONE
+        return u
+
+    def remove_use(self, u: int) -> None:
+        """Forget a use (level 0)."""
+        if self.on[u] >= 0:
+            self.changed[self.on[u]] = 1
+            self.pending = 1
+        self.sign[u] = 0
+        self.free.append(u)
+
+    def remove_token(self, t: int) -> None:
+        """Forget the use that is token `t` (level 0)."""
+        for u in range(self.count):
+            if self.sign[u] and self.token[u] == t:
+                self.remove_use(u)
+
+    def truncate(self, count: int) -> None:
+        """Forget the uses that a search has added."""
+        self.count = count
+
+    def grow_uses(self) -> None:
+        """Double the rows."""
+        self.room *= 2
+        self.token = grown(self.token, self.room)
+        self.sign = grown(self.sign, self.room)
+        self.holder = grown(self.holder, self.room)
+        self.quantity = grown(self.quantity, self.room)
+        self.start = grown(self.start, self.room)
+        self.end = grown(self.end, self.room)
+        self.duration = grown(self.duration, self.room)
+        self.on = grown(self.on, self.room)
+        self.start_low = grown(self.start_low, self.room)
+        self.start_high = grown(self.start_high, self.room)
+        self.end_low = grown(self.end_low, self.room)
+        self.end_high = grown(self.end_high, self.room)
+        self.least = grown_reals(self.least, self.room)
+        self.most = grown_reals(self.most, self.room)
+
+    def set_capacity(self, o: int, start: int, lower: float, upper: float) -> None:
+        """Change the capacity from a time on."""
+        self.steps.setdefault(o, []).append((start, lower, upper))
+        self.changed[o] = 1
+        self.pending = 1
+
+    def set_limit(self, o: int, start: int, lower: float, upper: float) -> None:
+        """Change the bounds of the level from a time on."""
+        self.limit_steps[o] = sorted([*self.limit_steps.get(o, ()), (start, lower, upper)], key=step_start)
+        self.changed[o] = 1
+        self.pending = 1
+
+    # ---- checking ----
+
+    def is_quiet(self) -> bool:
+        """Whether no use has changed since the last check."""
+        engine = self.engine
+        for u in range(self.count):
+            if not self.sign[u]:
+                continue
+            holder = self.holder[u]
+            o = engine.lb[holder] if engine.lb[holder] == engine.ub[holder] else NONE
+            start = self.start[u]
+            end = self.end[u]
+            q = self.quantity[u]
+            if (
+                o != self.on[u]
+                or engine.lb[start] != self.start_low[u]
+                or engine.ub[start] != self.start_high[u]
+                or engine.flo[q] != self.least[u]
+                or engine.fhi[q] != self.most[u]
+                or (end >= 0 and (engine.lb[end] != self.end_low[u] or engine.ub[end] != self.end_high[u]))
+            ):
+                if self.on[u] >= 0:
+                    self.changed[self.on[u]] = 1
+                self.on[u] = o
+                self.start_low[u] = engine.lb[start]
+                self.start_high[u] = engine.ub[start]
+                if end >= 0:
+                    self.end_low[u] = engine.lb[end]
+                    self.end_high[u] = engine.ub[end]
+                self.least[u] = engine.flo[q]
+                self.most[u] = engine.fhi[q]
+                if o >= 0 and self.is_resource[o]:
+                    self.changed[o] = 1
+                    self.pending = 1
+        return not self.pending
+
+    def check(self, envelope: "Envelope", level: int) -> bool:
+        """Refuse what certainly exceeds a resource; False if something does."""
+        self.pending = 0
+        for o in range(self.object_room):
+            if self.changed[o] and self.is_resource[o]:
+                self.changed[o] = 0
+                self.fill(self.levels, o)
+                by_order = False
+                if not self.levels.violation():
+                    by_order = o not in self.limit_steps and self.levels.flows_both_ways() and envelope.find_certain(o)
+                    is_tight = not by_order and self.is_energetic[o] != 0 and o not in self.steps
+                    is_tight = is_tight and o not in self.limit_steps
+                    is_tight = is_tight and self.levels.overload() != 0
+                    if not by_order and not is_tight:
+                        continue
+                self.changed[o] = 1
+                return self.refuse(o, level, envelope if by_order else None)
+        return True
+
+    def take_refusals(self) -> list[int]:
+        """Give up the constraints that refused at level 0, as the reason may go."""
+        taken = self.refusals
+        self.refusals = []
+        if taken:
+            self.pending = 1
+        return taken
+
+    def fill(self, levels: Levels, o: int) -> None:
+        """Put the uses and limits of a resource into `levels`."""
+        at = o * LIMITS
+        low = self.lower(at + INITIAL, 0.0)
+        high = self.upper(at + INITIAL, 0.0)
+        levels.set_limits(low, high, self.lower(at + MINIMUM, -inf), self.upper(at + MAXIMUM, inf))
+        levels.limit_steps = self.limit_steps.get(o, [])
+        levels.rate = self.upper(at + RATE, inf)
+        levels.total = self.upper(at + TOTAL, inf)
+        levels.production_rate = self.upper(at + PRODUCTION_RATE, inf)
+        levels.production_total = self.upper(at + PRODUCTION_TOTAL, inf)
+        for u in range(self.count):
+            if self.sign[u] and self.on[u] == o:
+                i = levels.add(u, self.sign[u], self.end[u] < 0)
+                levels.start_low[i] = self.start_low[u]
+                levels.start_high[i] = self.start_high[u]
+                levels.end_low[i] = self.end_low[u]
+                levels.end_high[i] = self.end_high[u]
+                levels.least[i] = self.least[u]
+                levels.most[i] = self.most[u]
+                if self.end[u] >= 0:
+                    levels.length[i] = max(0, self.end_low[u] - self.start_high[u])
+                if self.duration[u] >= 0:
+                    levels.length[i] = max(levels.length[i], self.engine.lb[self.duration[u]])
+        for start, lower, upper in self.steps.get(o, ()):
+            levels.add_step(start, low - upper, high - lower)
+            low, high = lower, upper
+
+    def lower(self, place: int, otherwise: float) -> float:
+        """The lower bound of a limit."""
+        return otherwise if self.limits[place] < 0 else self.engine.flo[self.limits[place]]
+
+    def upper(self, place: int, otherwise: float) -> float:
+        """The upper bound of a limit."""
+        return otherwise if self.limits[place] < 0 else self.engine.fhi[self.limits[place]]
+
+    def set_energetic(self, o: int, is_energetic: bool) -> None:
+        """Have resource `o` refuse what cannot fit into a window, or no longer."""
+        if o < self.object_room and self.is_energetic[o] != is_energetic:
+            self.is_energetic[o] = is_energetic
+            self.changed[o] = 1
+            self.pending = 1
+
+    def refuse(self, o: int, level: int, envelope: "Envelope | None") -> bool:
+        """Post a constraint on the uses that exceed a resource: it finds the same, so that the engine can explain it.
+
+        With an envelope the order of uses made it certain.
+        """
+        levels = self.levels
+        excess = Excess(o, levels.wrong, levels.at, levels.excess, list(self.steps.get(o, ())))
+        excess.limit_steps = self.limit_steps.get(o, [])
+        excess.room = levels.initial_high - levels.minimum
+        excess.limit = levels.maximum if levels.wrong == TOO_HIGH else levels.minimum
+        if envelope is not None:
+            excess.limit = levels.minimum if envelope.is_low == 0 else levels.maximum
+            excess.by_order(envelope.is_low == 0, envelope.at, Resources, type(envelope))
+            bounds: list[int] = []
+            envelope.note_orders(excess.edges, bounds)
+            for key in bounds:
+                excess.note(key)
+        variables: list[int] = []
+        for k in range(LIMITS):
+            if self.limits[o * LIMITS + k] >= 0:
+                excess.limits.append(k)
+                variables.append(self.limits[o * LIMITS + k])
+        for v in variables:
+            excess.note(4 * v + SIDE_LOWER)
+            excess.note(4 * v + SIDE_UPPER)
+        span_owner = NONE
+        for i in range(levels.count):
+            u = levels.use[i]
+            if u >= 0 and self.note_read(excess, i, u, envelope is not None):
+                excess.uses.append(u)
+                sign = self.sign[u] * (1 if self.end[u] < 0 else 2 if self.duration[u] < 0 else 3)
+                excess.signs.append(sign)
+                variables += [self.holder[u], self.quantity[u], self.start[u]]
+                if self.end[u] >= 0:
+                    variables.append(self.end[u])
+                    if self.duration[u] >= 0:
+                        variables.append(self.duration[u])
+                span_owner = self.token[u]
+        c = self.engine.post_external(excess, variables, NONE, span_owner)
+        if level == 0:
+            self.refusals.append(c)
+        return self.engine.propagate()
+
+    def note_read(self, excess: Excess, i: int, u: int, by_order: bool) -> bool:
+        """Note which bounds of use `u`, row `i` of the levels, count for an excess; False if it has no part in it."""
+        levels = self.levels
+        start = 4 * self.start[u]
+        end = 4 * self.end[u]
+        quantity = 4 * self.quantity[u]
+        t = excess.at
+        if excess.wrong == TOO_TIGHT:
+            share = levels.share(i, levels.at, levels.until)
+            if share == 0:
+                return False
+            excess.charged.append((self.token[u], levels.least[i] * share))
+            excess.until = levels.until
+            excess.note(quantity + SIDE_LOWER)
+            if self.duration[u] >= 0:
+                excess.note(4 * self.duration[u] + SIDE_LOWER)
+                excess.parts.append((self.start[u], self.end[u], levels.length[i], levels.least[i]))
+            else:
+                for side in (SIDE_LOWER, SIDE_UPPER):
+                    excess.note(start + side)
+                    excess.note(end + side)
+        elif excess.wrong == TOO_LOW or excess.wrong == TOO_HIGH:
+            harms = -1 if excess.wrong == TOO_LOW else 1
+            if self.end[u] < 0:
+                excess.helper = -harms
+            if self.sign[u] == harms:
+                is_certain = levels.start_high[i] <= t and (self.end[u] < 0 or levels.end_low[i] > t)
+                if is_certain:
+                    excess.note_enough(start + SIDE_UPPER, t)
+                    if self.end[u] >= 0:
+                        excess.note_enough(end + SIDE_LOWER, t + 1)
+                elif not by_order:
+                    return False
+                excess.charged.append((self.token[u], levels.least[i]))
+                excess.note(quantity + SIDE_LOWER)
+            elif levels.start_low[i] > t:
+                excess.note_enough(start + SIDE_LOWER, t + 1)
+            elif self.end[u] >= 0 and levels.end_high[i] <= t:
+                excess.note_enough(end + SIDE_UPPER, t)
+            else:
+                excess.note(quantity + SIDE_UPPER)
+        else:
+            excess.charged.append((self.token[u], levels.least[i]))
+            for key in (start, end, quantity):
+                if key >= 0:
+                    excess.note(key + SIDE_LOWER)
+                    excess.note(key + SIDE_UPPER)
+        return True
+
+
+def step_start(step: tuple[int, float, float]) -> int:
+    """From when on a change holds; those of one time keep the order of the script."""
+    return step[0]

@@ -1,0 +1,1 @@
+"""Rules: bytecode, guards and the interpreter."""

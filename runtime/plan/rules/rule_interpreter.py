@@ -1,0 +1,238 @@
+"""Carry out flattened bodies: those of predicates when a token is made, those of rules when it becomes active.
+
+Bodies run from a stack of (position, end, scope), so that a child's own body runs in the middle of the rule that made
+it without recursion. Nothing is propagated here, except that edges reach the network at once.
+"""
+
+from runtime.constraints.domains.tags import KIND_INT, OP_FREEZE, OP_SAMPLE
+from runtime.plan.rules.guards import wait
+from runtime.plan.store.operands import operand
+from runtime.plan.store.plan import Plan
+from runtime.plan.store.scopes import between, constraint, copy_variable, equate, post_two, restrict
+from runtime.plan.tags import (
+    DO_ASSIGN,
+    DO_BETWEEN,
+    DO_CHILD,
+    DO_FOREACH,
+    DO_GUARD,
+    DO_POST,
+    DO_RELATE,
+    DO_SAMPLE,
+    DO_USE,
+    DO_VARIABLE,
+    DURATION,
+    END,
+    FLAG_CONDITION,
+    FLAG_EFFECT,
+    HOLDS_USE,
+    IN_NONE,
+    NONE,
+    OBJECT,
+    OBJECT_GIVEN,
+    OBJECT_OWN,
+    ROLE_INTERNAL,
+    ROLE_LOCAL,
+    START,
+)
+from runtime.plan.tokens.predicate_hierarchy import own_predicate
+from runtime.plan.tokens.relations import relate
+from runtime.plan.tokens.tokens import make_token
+
+
+def run(plan: Plan) -> bool:
+    """Carry out what is on the stack; False on a conflict, after which a search drops the rest."""
+    rows = plan.rows
+    while plan.stack_length:
+        top = plan.stack_length - 1
+        at = plan.stack_at[top]
+        scope = plan.stack_scope[top]
+        if plan.stack_slot[top] >= 0:
+            rows.cells[rows.scope_frame[scope] + plan.stack_slot[top]] = plan.stack_value[top]
+            plan.stack_slot[top] = NONE
+        if at == plan.stack_end[top]:
+            plan.stack_length = top
+            continue
+        plan.stack_at[top] = at + step(plan, scope, at)
+        if rows.level and not plan.engine.consistent:
+            plan.stack_length = 0
+            plan.operands_used = 0
+            return False
+    return plan.engine.consistent
+
+
+def step(plan: Plan, scope: int, at: int) -> int:
+    """Carry out the instruction at `at`; the number of its cells."""
+    code = plan.code[at]
+    span = plan.code[at + 1]
+    if code == DO_POST:
+        return post(plan, scope, at, span)
+    if code == DO_CHILD:
+        return child(plan, scope, at, span)
+    if code == DO_BETWEEN:
+        return distance(plan, scope, at, span)
+    if code == DO_VARIABLE:
+        return variable(plan, scope, at, span)
+    if code == DO_GUARD:
+        return guard(plan, scope, at, span)
+    if code == DO_RELATE:
+        return relation(plan, scope, at, span)
+    if code == DO_ASSIGN:
+        return assign(plan, scope, at, span)
+    if code == DO_SAMPLE:
+        return sample(plan, scope, at, span)
+    if code == DO_FOREACH:
+        return loop(plan, scope, at, span)
+    if code == DO_USE:
+        return use(plan, scope, at, span)
+    slot = plan.code[at + 2]
+    v = plan.services.make_object(scope, plan.code[at + 3])
+    if slot >= 0:
+        plan.rows.cells[plan.rows.scope_frame[scope] + slot] = v
+    return 4
+
+
+def variable(plan: Plan, scope: int, at: int, span: int) -> int:
+    """Make a local variable."""
+    name = plan.code[at + 3]
+    v = copy_variable(plan, scope, plan.code[at + 4], ROLE_INTERNAL if name < 0 else ROLE_LOCAL, name)
+    if plan.code[at + 5] != IN_NONE:
+        source = operand(plan, scope, plan.code[at + 5], plan.code[at + 6], span)
+        restrict(plan, scope, v, source, span)
+    plan.rows.cells[plan.rows.scope_frame[scope] + plan.code[at + 2]] = v
+    return 7
+
+
+def post(plan: Plan, scope: int, at: int, span: int) -> int:
+    """Post a constraint."""
+    count = plan.code[at + 3]
+    first = collect(plan, scope, at + 4, count, span)
+    constraint(plan, scope, plan.code[at + 2], first, span)
+    return 4 + 2 * count
+
+
+def collect(plan: Plan, scope: int, at: int, count: int, span: int) -> int:
+    """Put the variables of `count` operands behind the collected ones; finding one may post something itself."""
+    first = plan.operands_used
+    for i in range(count):
+        plan.add_operand(operand(plan, scope, plan.code[at + 2 * i], plan.code[at + 2 * i + 1], span))
+    return first
+
+
+def distance(plan: Plan, scope: int, at: int, span: int) -> int:
+    """Post a distance between two timepoints, or the comparison that it stands for where one is no whole number."""
+    a = operand(plan, scope, plan.code[at + 2], plan.code[at + 3], span)
+    b = operand(plan, scope, plan.code[at + 4], plan.code[at + 5], span)
+    engine = plan.engine
+    if engine.kind[a] == KIND_INT and engine.kind[b] == KIND_INT:
+        between(plan, scope, a, b, plan.code[at + 6], plan.code[at + 7], span)
+    else:
+        post_two(plan, scope, plan.code[at + 8], a, b, span)
+    return 9
+
+
+def relation(plan: Plan, scope: int, at: int, span: int) -> int:
+    """Relate two tokens that exist."""
+    rows = plan.rows
+    tokens = rows.scope_frame[scope] + rows.scope_slots[scope]
+    origin = rows.cells[tokens + plan.code[at + 3]]
+    target = rows.cells[tokens + plan.code[at + 4]]
+    relate(plan, scope, plan.code[at + 2], origin, target, at + 5, span)
+    return 6 + 2 * plan.code[at + 5]
+
+
+def child(plan: Plan, scope: int, at: int, span: int) -> int:
+    """Make a token that the rule asks for."""
+    rows = plan.rows
+    role = plan.code[at + 5]
+    mode = plan.code[at + 6]
+    given = NONE
+    master = rows.scope_token[scope]
+    if mode == OBJECT_OWN:
+        given = rows.var0[master] + OBJECT
+    elif mode == OBJECT_GIVEN:
+        given = operand(plan, scope, plan.code[at + 7], plan.code[at + 8], span)
+    flags = FLAG_CONDITION if role == 1 else FLAG_EFFECT if role == 2 else 0
+    predicate = plan.code[at + 3]
+    if mode == OBJECT_OWN:
+        predicate = own_predicate(plan, predicate, master)
+    t = make_token(plan, predicate, flags, master, scope, given, span)
+    rows.label[t] = plan.code[at + 4]
+    rows.relation[t] = plan.code[at + 9]
+    tokens = rows.scope_frame[scope] + rows.scope_slots[scope]
+    origin = rows.cells[tokens + plan.code[at + 10]]
+    rows.origin[t] = origin
+    rows.cells[tokens + plan.code[at + 2]] = t
+    relate(plan, scope, plan.code[at + 9], origin, t, at + 11, span)
+    return 12 + 2 * plan.code[at + 11]
+
+
+def assign(plan: Plan, scope: int, at: int, span: int) -> int:
+    """Restrict the base domain of a variable of the token."""
+    v = operand(plan, scope, plan.code[at + 2], plan.code[at + 3], span)
+    source = operand(plan, scope, plan.code[at + 4], plan.code[at + 5], span)
+    restrict(plan, scope, v, source, span)
+    return 6
+
+
+def sample(plan: Plan, scope: int, at: int, span: int) -> int:
+    """Bind a variable to what the environment draws; without a draw it keeps its range."""
+    v = operand(plan, scope, plan.code[at + 3], plan.code[at + 4], span)
+    value = plan.services.draw(plan.code[at + 2], v)
+    if value >= 0:
+        post_two(plan, scope, OP_SAMPLE, v, value, span)
+        return 5
+    prototype = plan.services.sample_range(plan.code[at + 2])
+    if prototype >= 0:
+        equate(plan, scope, v, copy_variable(plan, scope, prototype, ROLE_INTERNAL, NONE), span)
+    return 5
+
+
+def loop(plan: Plan, scope: int, at: int, span: int) -> int:
+    """Run a block once per object of a domain, in the order of their making, and freeze the domain.
+
+    What stands above the loop counts, so it is propagated first. An open domain stays open.
+    """
+    v = operand(plan, scope, plan.code[at + 3], plan.code[at + 4], span)
+    if not plan.engine.propagate():
+        return 6
+    block = plan.code[at + 5]
+    objects = plan.engine.values_of(v)
+    if plan.rows.level > 0:
+        base = plan.engine.base_values(v)
+        if base is None or len(base) != len(objects):
+            plan.loops_read_choices = True
+    if not objects:
+        return 6
+    frozen = plan.engine.new_constant_values(plan.engine.kind[v], objects)
+    post_two(plan, scope, OP_FREEZE, v, frozen, span)
+    for o in reversed(objects):
+        held = plan.object_constant[int(o)]
+        plan.push(plan.block_start[block], plan.block_end[block], scope, plan.code[at + 2], held)
+    return 6
+
+
+def use(plan: Plan, scope: int, at: int, span: int) -> int:
+    """Charge a resource without a token."""
+    first = collect(plan, scope, at + 2, 4, span)
+    owner = plan.rows.scope_token[scope]
+    holder = plan.operands[first]
+    quantity = plan.operands[first + 1]
+    start = plan.operands[first + 2]
+    end = plan.operands[first + 3]
+    plan.operands_used = first
+    duration = NONE
+    if owner >= 0 and start == plan.rows.var0[owner] + START and end == plan.rows.var0[owner] + END:
+        duration = plan.rows.var0[owner] + DURATION
+    u = plan.resources.add_use(owner, -1, holder, quantity, start, end, duration, plan.rows.level)
+    if owner >= 0:
+        plan.rows.hold(scope, HOLDS_USE, u, 1)
+    return 10
+
+
+def guard(plan: Plan, scope: int, at: int, span: int) -> int:
+    """Leave the branches to `settle`."""
+    count = plan.code[at + 6]
+    condition = operand(plan, scope, plan.code[at + 2], plan.code[at + 3], span)
+    first = collect(plan, scope, at + 7, count, span)
+    wait(plan, scope, at, condition, first, span)
+    return 7 + 2 * count

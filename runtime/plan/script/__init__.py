@@ -1,0 +1,1 @@
+"""The script of a model: statements, calls, objects and their constructors."""

@@ -1,0 +1,91 @@
+"""Write domains in the notation of the conformance suite: `[1, 3] int`, `{red, green} Color`, `{a} T open`."""
+
+import json
+from collections.abc import Sequence
+from math import inf
+
+from runtime.constraints.domains.base_domain import is_growing
+from runtime.constraints.domains.tags import (
+    HALF_INF,
+    KIND_BOOL,
+    KIND_FLOAT,
+    KIND_INT,
+    KIND_OBJECT,
+    KIND_STRING,
+)
+from runtime.constraints.engine import Engine
+from runtime.plan.store.prototypes import STATES, Prototypes
+
+NAMES = {KIND_BOOL: "bool", KIND_INT: "int", KIND_FLOAT: "float", KIND_STRING: "string"}
+
+
+def domain_text(prototypes: Prototypes, engine: Engine, v: int, names: Sequence[str], type_name: str | None) -> str:
+    """The derived domain of a variable."""
+    kind = engine.kind[v]
+    name = NAMES.get(kind, type_name)
+    if is_growing(engine, v):
+        return f"{set_text(prototypes, kind, engine.values_of(v), names)} {name} open"
+    lower, upper = wide(engine.lower(v)), wide(engine.upper(v))
+    if kind in (KIND_INT, KIND_FLOAT):
+        if lower == upper or (kind == KIND_FLOAT and engine.is_singleton(v)):
+            return f"{{{number_text(lower, kind)}}} {name}"
+        if lower > upper:
+            return f"{{}} {name}"
+        if engine.word[v] < 0:
+            return f"[{number_text(lower, kind)}, {number_text(upper, kind)}] {name}"
+    values = list(engine.values_of(v))
+    if kind == KIND_INT and len(values) > 1 and values[-1] - values[0] + 1 == len(values):
+        return f"[{number_text(lower, kind)}, {number_text(upper, kind)}] {name}"
+    if name is None:
+        name = symbol_type(prototypes, values)
+    return f"{set_text(prototypes, kind, values, names)} {name}"
+
+
+def wide(x: float) -> float:
+    """A bound, infinite where the engine counts it as infinite."""
+    return inf if x >= HALF_INF else -inf if x <= -HALF_INF else x
+
+
+def symbol_type(prototypes: Prototypes, values: Sequence[float]) -> str:
+    """The enum of some symbols."""
+    enum = prototypes.symbol_enum[int(values[0])] if values else STATES
+    return "symbol" if enum == STATES else enum
+
+
+def set_text(prototypes: Prototypes, kind: int, values: Sequence[float], names: Sequence[str]) -> str:
+    """The values of a set; those with names are sorted by name."""
+    if kind in (KIND_INT, KIND_FLOAT):
+        texts = [number_text(x, kind) for x in values]
+    elif kind == KIND_BOOL:
+        texts = ["true" if x else "false" for x in values]
+    elif kind == KIND_STRING:
+        texts = sorted(json.dumps(prototypes.texts.text(int(x)), ensure_ascii=False) for x in values)
+    elif kind == KIND_OBJECT:
+        texts = sorted(names[int(x)] for x in values)
+    else:
+        texts = sorted(prototypes.symbols.text(int(x)) for x in values)
+    return f"{{{', '.join(texts)}}}"
+
+
+def number_text(x: float, kind: int) -> str:
+    """A number; floats have a decimal point."""
+    if x == inf:
+        return "+inf"
+    if x == -inf:
+        return "-inf"
+    return str(int(x)) if kind == KIND_INT else repr(float(x))
+
+
+def base_text(prototypes: Prototypes, engine: Engine, v: int, names: Sequence[str]) -> str:
+    """The base domain of a variable, for a message."""
+    kind = engine.kind[v]
+    values = engine.base_values(v)
+    if values is not None:
+        text = set_text(prototypes, kind, values, names)
+        return text[1:-1] if len(values) == 1 else text
+    lower, upper = engine.base_lower(v), engine.base_upper(v)
+    if kind not in (KIND_INT, KIND_FLOAT):
+        return set_text(prototypes, kind, list(range(int(lower), int(upper) + 1)), names)
+    if lower == upper:
+        return set_text(prototypes, kind, [lower], names)[1:-1]
+    return f"[{number_text(lower, kind)}, {number_text(upper, kind)}]"

@@ -1,0 +1,19 @@
+# The C types of `marks.py`.
+
+cimport cython
+from runtime.plan.store.links cimport undo
+from runtime.plan.store.plan cimport Plan
+
+
+
+@cython.locals(level="long long")
+cpdef long long mark(Plan plan) except? -1
+
+
+cpdef int rewind(Plan plan, long long number) except -1
+
+
+cpdef int release(Plan plan, long long number) except -1
+
+
+cpdef int commit(Plan plan) except -1

@@ -1,0 +1,57 @@
+"""Go back in time, plan and engine together: marks nest, and are named by their depth."""
+
+from runtime.plan.arrays import grown
+from runtime.plan.store.links import undo
+from runtime.plan.store.plan import Plan
+
+
+def mark(plan: Plan) -> int:
+    """Remember the present state, which must be settled; the number of the mark."""
+    level = plan.rows.level
+    if level == plan.mark_capacity:
+        plan.mark_capacity *= 2
+        plan.mark_engine = grown(plan.mark_engine, plan.mark_capacity)
+        plan.mark_rows = grown(plan.mark_rows, plan.mark_capacity)
+        plan.mark_uses = grown(plan.mark_uses, plan.mark_capacity)
+        plan.mark_awaited = grown(plan.mark_awaited, plan.mark_capacity)
+        plan.mark_objects = grown(plan.mark_objects, plan.mark_capacity)
+    if level == 0:
+        plan.rows.trail_length = 0
+        plan.awaited_count = 0
+    plan.mark_engine[level] = plan.engine.mark()
+    plan.mark_rows[level] = plan.rows.trail_length
+    plan.mark_uses[level] = plan.resources.count
+    plan.mark_awaited[level] = plan.awaited_count
+    plan.mark_objects[level] = plan.object_count
+    plan.rows.level = level + 1
+    return level
+
+
+def rewind(plan: Plan, number: int) -> None:
+    """Go back to a mark; it stays, later ones are gone."""
+    plan.stack_length = 0
+    plan.queue_length = 0
+    plan.operands_used = 0
+    plan.engine.rewind(plan.mark_engine[number])
+    undo(plan.rows, plan.mark_rows[number])
+    plan.resources.truncate(plan.mark_uses[number])
+    plan.forget_awaited(plan.mark_awaited[number])
+    if plan.object_count > plan.mark_objects[number]:
+        plan.services.forget_objects(plan.mark_objects[number])
+    plan.rows.level = number + 1
+
+
+def release(plan: Plan, number: int) -> None:
+    """Go back to a mark and drop it."""
+    rewind(plan, number)
+    plan.rows.level = number
+    if number == 0:
+        plan.engine.commit()
+
+
+def commit(plan: Plan) -> None:
+    """Forget all marks: what holds now is level 0."""
+    plan.engine.commit()
+    plan.rows.trail_length = 0
+    plan.rows.level = 0
+    plan.awaited_count = 0

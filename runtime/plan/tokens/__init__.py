@@ -1,0 +1,1 @@
+"""Tokens: creation, relations, order on timelines, retraction and archive."""

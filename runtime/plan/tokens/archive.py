@@ -1,0 +1,201 @@
+"""Take tokens that are over out of the plan, and let what they said of others stand as base bounds (level 0).
+
+A token may go when nothing that still can change hangs on it: its master goes too or is gone, so do the tokens merged
+into it, its children go or have begun, and none of its guards waits. What it told its children and other variables is
+kept by restrictions that bear the span of the edge or constraint which said so, so explanations name the same lines.
+"""
+
+from runtime.constraints.domains.tags import KIND_FLOAT, SUPPORT_CONSTRAINT, SUPPORT_EDGE, SUPPORT_RESTRICTION
+from runtime.plan.store.plan import Plan
+from runtime.plan.tags import (
+    ACTIVE,
+    BRANCH_WAITING,
+    HOLDS_CONSTRAINT,
+    HOLDS_EDGE,
+    HOLDS_RESTRICTION,
+    HOLDS_VARIABLES,
+    MERGED,
+    NONE,
+    ROLE_LOCAL,
+    ROLE_TOKEN,
+    SCOPE_GUARD,
+    START,
+)
+from runtime.plan.tokens.retraction import remove_tokens, scopes_of
+
+
+def archive(plan: Plan, tokens: list[int], tick: int) -> int:
+    """Take out those of `tokens`, which are over at `tick`, that may go; how many went."""
+    doomed = removable(plan, tokens, tick)
+    if not doomed:
+        return 0
+    freeze(plan, doomed)
+    for t in doomed:
+        orphan(plan, t, doomed)
+    remove_tokens(plan, list(doomed))
+    return len(doomed)
+
+
+def removable(plan: Plan, tokens: list[int], tick: int) -> dict[int, None]:
+    """The largest part of `tokens` of which no member is needed by a token outside."""
+    rows = plan.rows
+    doomed = dict.fromkeys(
+        t for t in tokens if not plan.predicate_resource[rows.predicate[t]] and not has_waiting_guard(plan, t)
+    )
+    changed = True
+    while changed:
+        needed = [t for t in doomed if not is_free(plan, t, doomed, tick)]
+        for t in needed:
+            del doomed[t]
+        changed = bool(needed)
+    return doomed
+
+
+def is_free(plan: Plan, t: int, doomed: dict[int, None], tick: int) -> bool:
+    """Whether `t` can go together with the other `doomed` tokens."""
+    rows = plan.rows
+    if rows.master[t] >= 0 and rows.master[t] not in doomed:
+        return False
+    if rows.status[t] == MERGED and rows.merged_into[t] not in doomed:
+        return False
+    other = rows.merged[t]
+    while other >= 0:
+        if other not in doomed:
+            return False
+        other = rows.merged_next[other]
+    child = rows.children[t]
+    while child >= 0:
+        if child not in doomed:
+            is_settled = rows.status[child] == ACTIVE or rows.status[child] == MERGED
+            if not is_settled or plan.engine.upper(rows.var0[child] + START) > tick:
+                return False
+        child = rows.sibling[child]
+    return True
+
+
+def has_waiting_guard(plan: Plan, t: int) -> bool:
+    """Whether a part of the rules of `t` may still come."""
+    rows = plan.rows
+    return any(rows.scope_kind[s] == SCOPE_GUARD and rows.scope_branch[s] == BRANCH_WAITING for s in scopes_of(plan, t))
+
+
+def orphan(plan: Plan, t: int, doomed: dict[int, None]) -> None:
+    """Let the children of `t` that stay stand by themselves."""
+    rows = plan.rows
+    kept: list[int] = []
+    child = rows.children[t]
+    while child >= 0:
+        kept.append(child)
+        child = rows.sibling[child]
+    rows.children[t] = NONE
+    for child in reversed(kept):
+        if child in doomed:
+            rows.sibling[child] = rows.children[t]
+            rows.children[t] = child
+        else:
+            rows.master[child] = NONE
+            rows.creator[child] = NONE
+            rows.sibling[child] = NONE
+
+
+def detach(plan: Plan, t: int) -> None:
+    """Let `t` stand by itself: it no longer goes when the token that asked for it does."""
+    rows = plan.rows
+    master = rows.master[t]
+    if master < 0:
+        return
+    child = rows.children[master]
+    if child == t:
+        rows.children[master] = rows.sibling[t]
+    else:
+        while rows.sibling[child] != t:
+            child = rows.sibling[child]
+        rows.sibling[child] = rows.sibling[t]
+    rows.master[t] = NONE
+    rows.creator[t] = NONE
+    rows.sibling[t] = NONE
+
+
+def freeze(plan: Plan, doomed: dict[int, None]) -> None:
+    """Put into base domains what edges and constraints that go with the `doomed` tokens say of other variables."""
+    engine = plan.engine
+    edges, constraints, restrictions, gone = belongings(plan, doomed)
+    near: dict[int, None] = {}
+    for e in edges:
+        near[engine.edge_source[e]] = None
+        near[engine.edge_target[e]] = None
+    for c in constraints:
+        near.update(dict.fromkeys(engine.arguments(c)))
+    near.update(dict.fromkeys(engine.restriction_variable[r] for r in restrictions))
+    supports = {e * 4 + SUPPORT_EDGE for e in edges}
+    supports.update(c * 4 + SUPPORT_CONSTRAINT for c in constraints)
+    supports.update(r * 4 + SUPPORT_RESTRICTION for r in restrictions)
+    for v in near:
+        if v not in gone and not engine.constant[v]:
+            keep_domain(plan, v, supports)
+
+
+def belongings(
+    plan: Plan, doomed: dict[int, None]
+) -> tuple[dict[int, None], dict[int, None], dict[int, None], dict[int, None]]:
+    """The edges, constraints, restrictions and variables that go with tokens."""
+    engine, rows = plan.engine, plan.rows
+    edges: dict[int, None] = {}
+    constraints: dict[int, None] = {}
+    restrictions: dict[int, None] = {}
+    gone: dict[int, None] = {}
+    for t in doomed:
+        gone.update(dict.fromkeys(range(rows.var0[t], rows.var0[t] + rows.width[t])))
+        for s in scopes_of(plan, t):
+            h = rows.scope_holds[s]
+            while h >= 0:
+                kind = rows.hold_kind[h]
+                if kind == HOLDS_EDGE:
+                    edges[rows.hold_id[h]] = None
+                elif kind == HOLDS_CONSTRAINT:
+                    constraints[rows.hold_id[h]] = None
+                elif kind == HOLDS_RESTRICTION:
+                    restrictions[rows.hold_id[h]] = None
+                elif kind == HOLDS_VARIABLES:
+                    gone[rows.hold_id[h]] = None
+                h = rows.hold_next[h]
+    for v in gone:
+        constraints.update(dict.fromkeys(engine.constraints_of(v)))
+        edges.update(dict.fromkeys(engine.edges_of(v)))
+    for c in constraints:
+        edges.update(dict.fromkeys(e for e in (engine.link_a[c], engine.link_b[c]) if e >= 0))
+    return edges, constraints, restrictions, gone
+
+
+def keep_domain(plan: Plan, v: int, supports: set[int]) -> None:
+    """Restrict `v` to its present domain where that rests on one of `supports`; the token of `v` answers for it."""
+    engine = plan.engine
+    owner = plan.variable_owner[v] if plan.variable_role[v] in (ROLE_TOKEN, ROLE_LOCAL) else NONE
+    lower, upper = engine.lower_support[v], engine.upper_support[v]
+    if engine.word[v] >= 0:
+        base = engine.base_values(v)
+        values = [float(x) for x in engine.values_of(v)]
+        if base is None or len(values) < len(base):
+            span = span_of(plan, lower if lower in supports else upper)
+            engine.restrict_base_values(v, values, span, owner)
+        return
+    is_real = engine.kind[v] == KIND_FLOAT
+    if lower in supports:
+        bound = engine.flo[v] if is_real else engine.lower(v)
+        engine.restrict_base(v, bound, float("inf"), span_of(plan, lower), owner)
+    if upper in supports:
+        bound = engine.fhi[v] if is_real else engine.upper(v)
+        engine.restrict_base(v, -float("inf"), bound, span_of(plan, upper), owner)
+
+
+def span_of(plan: Plan, support: int) -> int:
+    """The span of an edge, a constraint or a restriction."""
+    engine = plan.engine
+    kind, identity = support & 3, support >> 2
+    if support < 0:
+        return NONE
+    if kind == SUPPORT_EDGE:
+        return int(engine.edge_span[identity])
+    if kind == SUPPORT_CONSTRAINT:
+        return int(engine.span[identity])
+    return int(engine.restriction_span[identity])

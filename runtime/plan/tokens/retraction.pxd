@@ -1,0 +1,56 @@
+# The C types of `retracting.py`.
+
+cimport cython
+from runtime.plan.store.links cimport link_by_key, unlink
+from runtime.plan.store.plan cimport Plan
+from runtime.plan.store.rows cimport Rows
+from runtime.plan.tokens.timelines cimport await_order, drop_pair, has_any_pair, unplace
+
+cdef long long ACTIVE, BRANCH_WAITING, FLAG_DECISION, FREED, HEAD_OPEN, HOLDS_CONSTRAINT, HOLDS_EDGE
+cdef long long HOLDS_RESTRICTION, HOLDS_USE, HOLDS_VARIABLES, INACTIVE, LISTS, LIST_OPEN, LIST_ORDER
+cdef long long LIST_PREDICATE, LIST_THREAT, MERGED, NONE, OP_WATCH, SCOPE_BODY, SCOPE_MERGE, SCOPE_PLACE
+cdef long long STATE
+
+
+cpdef bint cancel(Plan plan, long long t) except -1
+
+
+cpdef bint remove_tokens(Plan plan, list tokens) except -1
+
+
+@cython.locals(doomed=set, rows=Rows, t="long long")
+cpdef bint retract_branch(Plan plan, long long s) except -1
+
+
+cpdef bint reset(Plan plan, long long v) except -1
+
+
+@cython.locals(after="long long", p="long long", rows=Rows)
+cpdef bint free(Plan plan, long long first, long long second, long long span) except -1
+
+
+@cython.locals(found=list, rows=Rows, s="long long")
+cpdef list scopes_of(Plan plan, long long t)
+
+
+@cython.locals(rows=Rows, status="long long", v="long long")
+cpdef void deactivate(Plan plan, long long t, sweep) except *
+
+
+@cython.locals(c="long long")
+cpdef void wake_guards(Plan plan, long long v) except *
+
+
+@cython.locals(child="long long", following="long long", last="long long", rows=Rows, s="long long")
+cpdef void drop_scopes(Plan plan, long long t, set doomed, sweep) except *
+
+
+@cython.locals(c="long long", h="long long", kind="long long", rows=Rows)
+cpdef int collect_holds(Plan plan, long long s, sweep) except -1
+
+
+cpdef list decisions_of(Plan plan, long long v)
+
+
+@cython.locals(done="long long", freed=list, gone=set, r="long long", restrictions=list, rows=Rows)
+cpdef bint finish(Plan plan, sweep) except -1

@@ -1,0 +1,239 @@
+"""Take back at level 0 what scopes made: constraints, edges, variables, children and their children, in one sweep."""
+
+from runtime.constraints.domains.tags import FLAG_DECISION, OP_WATCH
+from runtime.plan.store.links import link_by_key, unlink
+from runtime.plan.store.plan import Plan
+from runtime.plan.tags import (
+    ACTIVE,
+    BRANCH_WAITING,
+    FREED,
+    HEAD_OPEN,
+    HOLDS_CONSTRAINT,
+    HOLDS_EDGE,
+    HOLDS_RESTRICTION,
+    HOLDS_USE,
+    HOLDS_VARIABLES,
+    INACTIVE,
+    LIST_OPEN,
+    LIST_ORDER,
+    LIST_PREDICATE,
+    LIST_THREAT,
+    LISTS,
+    MERGED,
+    NONE,
+    SCOPE_BODY,
+    SCOPE_MERGE,
+    SCOPE_PLACE,
+    STATE,
+)
+from runtime.plan.tokens.timelines import await_order, drop_pair, has_any_pair, unplace
+
+
+class Sweep:
+    """What is to go: collected first, then handed to the engine at once."""
+
+    def __init__(self) -> None:
+        self.edges: list[int] = []
+        self.constraints: list[int] = []
+        self.restrictions: list[int] = []
+        self.variables: list[int] = []
+        self.undecided: list[int] = []
+        self.scopes: list[int] = []
+        self.tokens: list[int] = []  # to be removed; grows while it is walked
+        self.reopened: list[int] = []
+
+
+def cancel(plan: Plan, t: int) -> bool:
+    """Make `t` inactive again, with all that followed from its state."""
+    sweep = Sweep()
+    deactivate(plan, t, sweep)
+    return finish(plan, sweep)
+
+
+def remove_tokens(plan: Plan, tokens: list[int]) -> bool:
+    """Take tokens away with all that came with them."""
+    sweep = Sweep()
+    sweep.tokens += tokens
+    return finish(plan, sweep)
+
+
+def retract_branch(plan: Plan, s: int) -> bool:
+    """Take back the branch that guard `s` runs."""
+    sweep = Sweep()
+    rows = plan.rows
+    t = rows.scope_token[s]
+    doomed = {s}
+    for each in reversed(scopes_of(plan, t)):
+        if rows.scope_parent[each] in doomed:
+            doomed.add(each)
+    doomed.discard(s)
+    drop_scopes(plan, t, doomed, sweep)
+    rows.set_branch(s, BRANCH_WAITING)
+    return finish(plan, sweep)
+
+
+def reset(plan: Plan, v: int) -> bool:
+    """Undo the decision of a variable."""
+    sweep = Sweep()
+    sweep.undecided.append(v)
+    return finish(plan, sweep)
+
+
+def free(plan: Plan, first: int, second: int, span: int) -> bool:
+    """Undo that `first` was put in front of `second` on a timeline."""
+    sweep = Sweep()
+    rows = plan.rows
+    p = rows.pairs_out[first]
+    while p >= 0:
+        after = rows.pair_next_out[p]
+        if rows.pair_second[p] == second:
+            sweep.edges.append(rows.pair_edge[p])
+            drop_pair(rows, p)
+        p = after
+    for t in (first, second):
+        if not has_any_pair(rows, t):
+            drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_PLACE}, sweep)
+            if rows.link_head[LISTS * t + LIST_ORDER] >= 0:
+                unplace(plan, t, sweep.edges, span)
+                await_order(plan, t)
+    return finish(plan, sweep)
+
+
+def withdraw_refusals(plan: Plan) -> None:
+    """Let the next statement mend what resources refuse so far: they are looked at again when it is settled."""
+    refusals = plan.resources.take_refusals()
+    if refusals:
+        plan.engine.retract(refusals, [], [], [])
+
+
+def scopes_of(plan: Plan, t: int) -> list[int]:
+    """The scopes of a token, the latest first."""
+    rows = plan.rows
+    found = []
+    s = rows.scopes[t]
+    while s >= 0:
+        found.append(s)
+        s = rows.scope_next[s]
+    return found
+
+
+def deactivate(plan: Plan, t: int, sweep: Sweep) -> None:
+    """Collect what the state of `t` brought: rules, merge, place on a timeline, tokens merged into it."""
+    rows = plan.rows
+    status = rows.status[t]
+    if status == INACTIVE or status == FREED:
+        return
+    if status == ACTIVE:
+        unplace(plan, t, sweep.edges, NONE)
+        unlink(rows, t, LIST_PREDICATE)
+        unlink(rows, t, LIST_THREAT)
+        while rows.merged[t] >= 0:
+            deactivate(plan, rows.merged[t], sweep)
+        if plan.predicate_resource[rows.predicate[t]]:
+            plan.resources.remove_token(t)
+    elif status == MERGED:
+        rows.unset_merged(t)
+        for v in range(rows.var0[t], rows.var0[t] + rows.width[t]):
+            wake_guards(plan, v)
+    rows.set_status(t, INACTIVE)
+    sweep.undecided.append(rows.var0[t] + STATE)
+    sweep.reopened.append(t)
+    drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] != SCOPE_BODY}, sweep)
+
+
+def wake_guards(plan: Plan, v: int) -> None:
+    """Have the guards looked at that wait for `v`: it may be decided no more, even if its values stay as they are."""
+    if plan.variable_guards[v]:
+        for c in plan.engine.constraints_of(v):
+            if plan.engine.op[c] == OP_WATCH:
+                plan.enqueue(plan.guard_of[c])
+
+
+def drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: Sweep) -> None:
+    """Collect what scopes of `t` hold, and the children that they made; take the scopes off the token's list."""
+    if not doomed:
+        return
+    rows = plan.rows
+    last = NONE
+    s = rows.scopes[t]
+    while s >= 0:
+        following = rows.scope_next[s]
+        if s in doomed:
+            if last < 0:
+                rows.scopes[t] = following
+            else:
+                rows.scope_next[last] = following
+            collect_holds(plan, s, sweep)
+            sweep.scopes.append(s)
+        else:
+            last = s
+        s = following
+    child = rows.children[t]
+    while child >= 0:
+        if rows.creator[child] in doomed:
+            sweep.tokens.append(child)
+        child = rows.sibling[child]
+
+
+def collect_holds(plan: Plan, s: int, sweep: Sweep) -> None:
+    """Collect what one scope holds, and give the holds back."""
+    rows = plan.rows
+    if rows.scope_watch[s] >= 0:
+        for v in plan.engine.arguments(rows.scope_watch[s]):
+            plan.variable_guards[v] -= 1
+    while rows.scope_holds[s] >= 0:
+        h = rows.scope_holds[s]
+        kind = rows.hold_kind[h]
+        if kind == HOLDS_EDGE:
+            sweep.edges.append(rows.hold_id[h])
+        elif kind == HOLDS_CONSTRAINT:
+            c = rows.hold_id[h]
+            if rows.scope_kind[s] == SCOPE_MERGE and plan.engine.op[c] == OP_WATCH:
+                plan.variable_guards[plan.engine.arguments(c)[0]] -= 1
+            sweep.constraints.append(c)
+        elif kind == HOLDS_RESTRICTION:
+            sweep.restrictions.append(rows.hold_id[h])
+        elif kind == HOLDS_VARIABLES:
+            sweep.variables.append(rows.hold_id[h])
+        elif kind == HOLDS_USE:
+            plan.resources.remove_use(rows.hold_id[h])
+        rows.drop_hold(s)
+
+
+def decisions_of(plan: Plan, v: int) -> list[int]:
+    """The restrictions that decide a variable."""
+    return [r for r in plan.engine.restrictions_of(v) if plan.engine.restriction_flags[r] & FLAG_DECISION]
+
+
+def finish(plan: Plan, sweep: Sweep) -> bool:
+    """Take tokens apart, one after the other with all their children; then let the engine forget everything."""
+    rows = plan.rows
+    done = 0
+    freed: list[int] = []
+    while done < len(sweep.tokens):
+        t = sweep.tokens[done]
+        done += 1
+        if rows.status[t] == FREED:
+            continue  # named both by itself and as a child of another
+        freed.append(t)
+        deactivate(plan, t, sweep)
+        drop_scopes(plan, t, set(scopes_of(plan, t)), sweep)
+        unlink(rows, t, LIST_OPEN)
+        rows.set_status(t, FREED)
+        sweep.variables += range(rows.var0[t], rows.var0[t] + rows.width[t])
+    gone = set(sweep.variables)
+    for v in sweep.undecided:
+        sweep.restrictions += decisions_of(plan, v)
+    restrictions = [r for r in dict.fromkeys(sweep.restrictions) if plan.engine.restriction_variable[r] not in gone]
+    for r in restrictions:
+        wake_guards(plan, plan.engine.restriction_variable[r])
+    sweep.constraints += plan.resources.take_refusals()
+    plan.engine.retract(sweep.constraints, sweep.edges, restrictions, sweep.variables)
+    for s in sweep.scopes:
+        rows.release_scope(s)
+    for t in reversed(freed):
+        rows.release_token(t)
+    for t in sweep.reopened:
+        if rows.status[t] == INACTIVE and rows.link_head[LISTS * t + LIST_OPEN] < 0:
+            link_by_key(rows, t, LIST_OPEN, HEAD_OPEN)
+    return bool(plan.engine.consistent)

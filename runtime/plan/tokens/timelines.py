@@ -1,0 +1,170 @@
+"""Order active tokens on timelines: a sequence per object, `end <= start` between neighbours, objects fixed.
+
+A pair is one posted `first.end <= second.start`. Neighbours that are separated by an insertion keep theirs.
+"""
+
+from runtime.plan.store.links import link, link_by_key, unlink
+from runtime.plan.store.plan import Plan
+from runtime.plan.store.rows import Rows
+from runtime.plan.store.scopes import equate
+from runtime.plan.tags import (
+    END,
+    HEAD_THREAT,
+    LIST_ORDER,
+    LIST_THREAT,
+    LISTS,
+    NONE,
+    OBJECT,
+    SCOPE_PLACE,
+    START,
+    UNDO_NEW_PAIR,
+)
+
+
+def order(plan: Plan, o: int, before: int, after: int, span: int) -> bool:
+    """Put `before` in front of `after` on object `o`; the same token twice: it alone, behind all that are there.
+
+    A token that is not in the sequence yet becomes the neighbour of the other one. Objects that are no timelines have
+    no sequence: there only the pair is ordered.
+    """
+    rows = plan.rows
+    head = plan.object_head[o]
+    if not plan.object_timeline[o]:
+        fix_object(plan, o, before, span)
+        if before != after:
+            fix_object(plan, o, after, span)
+            pair(plan, before, after, span)
+        return plan.engine.consistent
+    if before == after:
+        if not is_placed(rows, before):
+            insert(plan, o, before, rows.head_last[head], span)
+        return plan.engine.consistent
+    if not is_placed(rows, before):
+        if is_placed(rows, after):
+            insert(plan, o, before, rows.link_before[LISTS * after + LIST_ORDER], span)
+        else:
+            insert(plan, o, before, rows.head_last[head], span)
+    if not is_placed(rows, after):
+        insert(plan, o, after, before, span)
+    elif rows.link_after[LISTS * before + LIST_ORDER] != after or not has_pair(rows, before, after):
+        pair(plan, before, after, span)
+    return plan.engine.consistent
+
+
+def insert(plan: Plan, o: int, t: int, previous: int, span: int) -> None:
+    """Put `t` into the sequence of `o` behind `previous` (NONE: in front), between its neighbours' times."""
+    rows = plan.rows
+    head = plan.object_head[o]
+    link(rows, t, LIST_ORDER, head, previous)
+    unlink(rows, t, LIST_THREAT)
+    fix_object(plan, o, t, span)
+    if previous >= 0:
+        pair(plan, previous, t, span)
+    following = rows.link_after[LISTS * t + LIST_ORDER]
+    if following >= 0:
+        pair(plan, t, following, span)
+
+
+def fix_object(plan: Plan, o: int, t: int, span: int) -> None:
+    """Give `t` the object `o`, unless its object is decided."""
+    v = plan.rows.var0[t] + OBJECT
+    if not plan.engine.is_decided(v):
+        scope = plan.rows.new_scope(SCOPE_PLACE, t, NONE, NONE, 0, 0)
+        equate(plan, scope, v, plan.object_constant[o], span)
+
+
+def is_placed(rows: Rows, t: int) -> bool:
+    """Whether `t` is in the sequence of an object."""
+    return rows.link_head[LISTS * t + LIST_ORDER] >= 0
+
+
+def pair(plan: Plan, first: int, second: int, span: int) -> None:
+    """Post `first.end <= second.start`."""
+    rows = plan.rows
+    p = rows.free_pair
+    if p >= 0:
+        rows.free_pair = rows.pair_next_out[p]
+    else:
+        if rows.pair_count == rows.pair_capacity:
+            rows.grow_pairs()
+        p = rows.pair_count
+        rows.pair_count += 1
+    rows.pair_first[p] = first
+    rows.pair_second[p] = second
+    rows.pair_next_out[p] = rows.pairs_out[first]
+    rows.pairs_out[first] = p
+    rows.pair_next_in[p] = rows.pairs_in[second]
+    rows.pairs_in[second] = p
+    if rows.level:
+        rows.log(UNDO_NEW_PAIR, p, 0)
+    plan.engine.add_edge(rows.var0[second] + START, rows.var0[first] + END, 0, span, first)
+    rows.pair_edge[p] = plan.engine.newest_edge
+
+
+def has_pair(rows: Rows, first: int, second: int) -> bool:
+    """Whether `first.end <= second.start` is posted."""
+    p = rows.pairs_out[first]
+    while p >= 0 and rows.pair_second[p] != second:
+        p = rows.pair_next_out[p]
+    return p >= 0
+
+
+def drop_pair(rows: Rows, p: int) -> None:
+    """Take a pair off both lists."""
+    first = rows.pair_first[p]
+    if rows.pairs_out[first] == p:
+        rows.pairs_out[first] = rows.pair_next_out[p]
+    else:
+        other = rows.pairs_out[first]
+        while rows.pair_next_out[other] != p:
+            other = rows.pair_next_out[other]
+        rows.pair_next_out[other] = rows.pair_next_out[p]
+    second = rows.pair_second[p]
+    if rows.pairs_in[second] == p:
+        rows.pairs_in[second] = rows.pair_next_in[p]
+    else:
+        other = rows.pairs_in[second]
+        while rows.pair_next_in[other] != p:
+            other = rows.pair_next_in[other]
+        rows.pair_next_in[other] = rows.pair_next_in[p]
+    rows.pair_next_out[p] = rows.free_pair
+    rows.free_pair = p
+
+
+def unplace(plan: Plan, t: int, edges: list[int], span: int) -> None:
+    """Take `t` out of its sequence and close the gap (level 0); the edges that go are added to `edges`."""
+    rows = plan.rows
+    while rows.pairs_out[t] >= 0:
+        edges.append(rows.pair_edge[rows.pairs_out[t]])
+        drop_pair(rows, rows.pairs_out[t])
+    while rows.pairs_in[t] >= 0:
+        edges.append(rows.pair_edge[rows.pairs_in[t]])
+        drop_pair(rows, rows.pairs_in[t])
+    at = LISTS * t + LIST_ORDER
+    if rows.link_head[at] >= 0:
+        previous = rows.link_before[at]
+        following = rows.link_after[at]
+        unlink(rows, t, LIST_ORDER)
+        if previous >= 0 and following >= 0 and not has_pair(rows, previous, following):
+            pair(plan, previous, following, span)
+
+
+def has_any_pair(rows: Rows, t: int) -> bool:
+    """Whether `t` is ordered against another token."""
+    return rows.pairs_out[t] >= 0 or rows.pairs_in[t] >= 0
+
+
+def await_order(plan: Plan, t: int) -> None:
+    """Put an active token back among those that wait for a place."""
+    if plan.predicate_timeline[plan.rows.predicate[t]]:
+        link_by_key(plan.rows, t, LIST_THREAT, HEAD_THREAT)
+
+
+def assign_object(plan: Plan, o: int, t: int, span: int) -> bool:
+    """Fix the object of `t` without a place in the sequence, unless it is the first there."""
+    rows = plan.rows
+    if rows.head_first[plan.object_head[o]] < 0 and plan.object_timeline[o]:
+        insert(plan, o, t, NONE, span)
+    else:
+        fix_object(plan, o, t, span)
+    return bool(plan.engine.consistent)

@@ -1,0 +1,1 @@
+"""Solver configurations: XML or TOML in, handlers and filters out."""

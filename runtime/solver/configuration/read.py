@@ -1,0 +1,244 @@
+"""Read a solver's configuration: XML or TOML in, a configuration and diagnostics out."""
+
+from collections.abc import Iterator
+
+from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.source import Source
+from runtime.solver.configuration.codes import (
+    BOTH_LEVELS,
+    EMPTY_VALUES,
+    MISPLACED_HANDLER,
+    MISSING_ATTRIBUTE,
+    NOT_A_NUMBER,
+    UNKNOWN_ATTRIBUTE,
+    UNKNOWN_CHOICE,
+    UNKNOWN_ELEMENT,
+    UNKNOWN_FILTER,
+    UNKNOWN_HANDLER,
+    UNKNOWN_MANAGER,
+    WRONG_ROOT,
+)
+from runtime.solver.configuration.configuration import Configuration, FlawFilter, FlawHandler, FlawManager, Match
+from runtime.solver.configuration.element import Element
+from runtime.solver.configuration.read_toml import read_toml
+from runtime.solver.configuration.read_xml import read_xml
+from runtime.solver.configuration.words import (
+    CHOICES,
+    CONSTRAINTS,
+    INSTANT_ORDERS,
+    ITERATIONS,
+    KEEPS,
+    PAIR_ORDERS,
+    POLICIES,
+    TOKEN_ORDERS,
+)
+from runtime.solver.tags import MANAGER_NAMES, WORST_PRIORITY
+
+THREATS, OPEN_CONDITIONS, VARIABLES, RESOURCES = MANAGER_NAMES
+HANDLERS = {
+    "StandardVariableHandler": VARIABLES,
+    "Min": VARIABLES,
+    "Max": VARIABLES,
+    "Random": VARIABLES,
+    "ValEnum": VARIABLES,
+    "StandardOpenConditionHandler": OPEN_CONDITIONS,
+    "SupportedOpenConditionHandler": OPEN_CONDITIONS,
+    "BasicOpenConditionHandler": OPEN_CONDITIONS,
+    "HSTSOpenConditionDecisionPoint": OPEN_CONDITIONS,
+    "StandardThreatHandler": THREATS,
+    "HSTSThreatDecisionPoint": THREATS,
+    "ResourceThreatHandler": RESOURCES,
+}
+FILTERS = (
+    "FlawFilter",
+    "HorizonFilter",
+    "HorizonVariableFilter",
+    "GuardFilter",
+    "NotGuardFilter",
+    "ParameterFilter",
+    "LocalVariableFilter",
+    "Singleton",
+    "InfiniteDynamicFilter",
+    "MasterMustBeInsertedFilter",
+    "TokenMustBeAssignedFilter",
+    "ParentMustBeInsertedFilter",
+)
+MATCHES = {  # the ways to write an attribute, the one that counts first
+    "class_name": ("class-match", "class"),
+    "predicate": ("predicate-match", "predicate"),
+    "variable": ("var-match", "variable"),
+    "master_class": ("masterClass",),
+    "master_predicate": ("masterPredicate",),
+    "master_relation": ("masterRelation",),
+    "token_name": ("tokenName",),
+}
+MATCH_NAMES = {name for names in MATCHES.values() for name in names} | {"label", "component"}
+HANDLER_ATTRIBUTES = {
+    "HSTSOpenConditionDecisionPoint": {"choice", "order"},
+    "HSTSThreatDecisionPoint": {"order"},
+    "ResourceThreatHandler": {"order", "filter", "constraint", "iterate"},
+}
+
+
+def read_configuration(source: Source) -> tuple[Configuration | None, tuple[Diagnostic, ...]]:
+    """The configuration that `source` holds, TOML if its name ends so and XML otherwise, or None with an error."""
+    root, complaints = read_toml(source) if source.name.endswith(".toml") else read_xml(source)
+    if root is None:
+        return None, tuple(complaints)
+    reading = _Reading(complaints)
+    configuration = reading.solver(root)
+    refused = any(complaint.severity is Severity.ERROR for complaint in reading.complaints)
+    return None if refused else configuration, tuple(reading.complaints)
+
+
+class _Reading:
+    """Makes a configuration of elements and gathers what is wrong with them."""
+
+    def __init__(self, complaints: list[Diagnostic]) -> None:
+        self.complaints = complaints
+
+    def solver(self, root: Element) -> Configuration:
+        if root.tag != "Solver":
+            self.complaints.append(WRONG_ROOT.at(root.span, name=root.tag))
+            return Configuration("", (), ())
+        filters, managers = [], []
+        for child in root.children:
+            if child.tag == "FlawFilter":
+                filters.append(self.filter(child))
+            else:
+                managers.append(self.manager(child))
+        name = root.find("name")
+        return Configuration(name.value if name else "", tuple(filters), tuple(managers))
+
+    def manager(self, element: Element) -> FlawManager:
+        named = element.find("component")
+        component = named.value if named else element.tag
+        if component not in MANAGER_NAMES:
+            self.complaints.append(UNKNOWN_MANAGER.at(named.span if named else element.span, name=component))
+        known = {"component", "label", "defaultPriority"} | ({"order"} if component == RESOURCES else set())
+        self.spare(element, known)
+        default = self.number(element, "defaultPriority", WORST_PRIORITY)
+        filters = []
+        handlers: list[FlawHandler] = []
+        for child in element.children:
+            if child.tag == "FlawFilter":
+                filters.append(self.filter(child))
+            elif child.tag == "FlawHandler":
+                handlers += self.handler(child, component, default)
+            else:
+                self.complaints.append(UNKNOWN_ELEMENT.at(child.span, name=child.tag))
+        order = self.words(element, "order", INSTANT_ORDERS) or ("lower", "most", "earliest")
+        if "lower" in order and "upper" in order:
+            self.complaints.append(BOTH_LEVELS.at(element.span))
+        if not handlers:
+            handlers = [FlawHandler(standard(component), priority=default)]
+        return FlawManager(component, tuple(filters), tuple(handlers), order)
+
+    def filter(self, element: Element) -> FlawFilter:
+        component = element.find("component")
+        name = component.value if component else "FlawFilter"
+        if name not in FILTERS:
+            self.complaints.append(UNKNOWN_FILTER.at(component.span if component else element.span, name=name))
+        is_horizon = name in ("HorizonFilter", "HorizonVariableFilter")
+        self.spare(element, MATCH_NAMES | ({"policy"} if is_horizon else set()))
+        for child in element.children:
+            self.complaints.append(UNKNOWN_ELEMENT.at(child.span, name=child.tag))
+        return FlawFilter(name, match(element), self.word(element, "policy", POLICIES))
+
+    def handler(self, element: Element, manager: str, default: float) -> Iterator[FlawHandler]:
+        """The handler, unless it mends another kind of flaw."""
+        named = element.find("component")
+        name = named.value if named else standard(manager)
+        if name not in HANDLERS:
+            self.complaints.append(UNKNOWN_HANDLER.at(named.span if named else element.span, name=name))
+            return
+        if HANDLERS[name] != manager:
+            if manager in MANAGER_NAMES:
+                place = named.span if named else element.span
+                self.complaints.append(MISPLACED_HANDLER.at(place, name=name, manager=manager))
+            return
+        self.spare(element, MATCH_NAMES | {"priority", "maxChoices"} | HANDLER_ATTRIBUTES.get(name, set()))
+        guards, master_guards, values = [], [], []
+        for child in element.children:
+            if child.tag == "Guard":
+                guards.append(self.pair(child))
+            elif child.tag == "MasterGuard":
+                master_guards.append(self.pair(child))
+            elif child.tag == "Value" and name == "ValEnum":
+                values.append(self.required(child, "val"))
+            elif child.tag != "distribution" or name != "Random":
+                self.complaints.append(UNKNOWN_ELEMENT.at(child.span, name=child.tag))
+        if name == "ValEnum" and not values:
+            self.complaints.append(EMPTY_VALUES.at(element.span))
+        order = self.words(element, "order", PAIR_ORDERS if manager == RESOURCES else TOKEN_ORDERS)
+        if not order and name.startswith("HSTS"):
+            order = ("early",)
+        yield FlawHandler(
+            name,
+            match(element),
+            tuple(guards),
+            tuple(master_guards),
+            self.number(element, "priority", default),
+            int(self.number(element, "maxChoices", 0.0)),
+            order,
+            self.word(element, "choice", CHOICES),
+            tuple(values),
+            self.word(element, "filter", KEEPS),
+            self.word(element, "constraint", CONSTRAINTS),
+            self.word(element, "iterate", ITERATIONS),
+        )
+
+    def pair(self, element: Element) -> tuple[str, str]:
+        return self.required(element, "name"), self.required(element, "value")
+
+    def required(self, element: Element, name: str) -> str:
+        attribute = element.find(name)
+        if attribute is None:
+            self.complaints.append(MISSING_ATTRIBUTE.at(element.span, element=element.tag, name=name))
+        return attribute.value if attribute else ""
+
+    def number(self, element: Element, name: str, default: float) -> float:
+        attribute = element.find(name)
+        if attribute is None:
+            return default
+        try:
+            value = float(attribute.value)
+        except ValueError:
+            value = -1.0
+        if not 0.0 <= value <= WORST_PRIORITY:
+            self.complaints.append(NOT_A_NUMBER.at(attribute.span, name=name, most=int(WORST_PRIORITY)))
+            return default
+        return value
+
+    def word(self, element: Element, name: str, allowed: tuple[str, ...]) -> str:
+        """The value of an attribute that must be one of some words; the first of them where it is not given."""
+        return (self.words(element, name, allowed) or allowed)[0]
+
+    def words(self, element: Element, name: str, allowed: tuple[str, ...]) -> tuple[str, ...]:
+        attribute = element.find(name)
+        if attribute is None:
+            return ()
+        found = tuple(word.strip() for word in attribute.value.split(","))
+        for word in found:
+            if word not in allowed:
+                choices = ", ".join(f"`{choice}`" for choice in allowed)
+                complaint = UNKNOWN_CHOICE.at(attribute.span, value=word, name=name, allowed=choices)
+                self.complaints.append(complaint)
+        return tuple(word for word in found if word in allowed)
+
+    def spare(self, element: Element, known: set[str]) -> None:
+        """Complain of attributes that nobody reads: they are mostly misspelt."""
+        for attribute in element.attributes:
+            if attribute.name not in known:
+                self.complaints.append(UNKNOWN_ATTRIBUTE.at(attribute.span, name=attribute.name))
+
+
+def match(element: Element) -> Match:
+    """What the match attributes of a filter or handler say."""
+    found = {field: element.find(*names) for field, names in MATCHES.items()}
+    return Match(**{field: attribute.value for field, attribute in found.items() if attribute is not None})
+
+
+def standard(manager: str) -> str:
+    """The handler that a manager has where none is given."""
+    return next((name for name, mends in HANDLERS.items() if mends == manager and name != "Min"), "")

@@ -1,0 +1,1 @@
+"""Flaws: the agenda, its updates, filters and selection."""

@@ -1,0 +1,56 @@
+# The C types of `watching.py`.
+
+cimport cython
+from runtime.constraints.engine cimport Engine
+from runtime.plan.store.rows cimport Rows
+from runtime.solver.flaws.agenda cimport Queues
+
+cdef long long ACTIVE, BRANCH_WAITING, END, FLAG_EFFECT, INACTIVE, LISTS, LIST_ORDER, NONE, NO_KEY, OPEN_CONDITION, ROLE_GLOBAL
+cdef long long ROLE_INTERNAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START, THREAT, TRAIL_CONSTRAINT, TRAIL_EDGE
+cdef long long TRAIL_HOLES, TRAIL_REAL_UPPER, TRAIL_RESTRICTION, TRAIL_VARIABLE, UNBOUND_VARIABLE, UNDO_LINK
+cdef long long UNDO_NEW_TOKEN, UNDO_STATUS
+
+
+@cython.locals(t="long long", v="long long")
+cpdef long long fill(Queues q) except? -1
+
+
+@cython.locals(
+    at="long long", code="long long", engine=Engine, name="long long", rows=Rows, slot="long long", t="long long"
+)
+cpdef long long catch_up(Queues q, long long level) except? -1
+
+
+@cython.locals(at="long long", code="long long", engine=Engine, name="long long")
+cpdef long long note_levels(Queues q, long long level) except? -1
+
+
+@cython.locals(slot="long long")
+cpdef long long forget_slots(Queues q, long long v) except? -1
+
+
+@cython.locals(first="long long", v="long long")
+cpdef long long see_status(Queues q, long long t) except? -1
+
+
+@cython.locals(after="long long", place="long long", role="long long", t="long long", waiting="long long")
+cpdef long long see_change(Queues q, long long v) except? -1
+
+
+@cython.locals(master="long long", parent="long long", rows=Rows)
+cpdef long long kind_of(Queues q, long long t) except? -1
+
+
+@cython.locals(kind="long long", manager="long long", slot="long long")
+cpdef long long add_open(Queues q, long long t) except? -1
+
+
+@cython.locals(kind="long long", manager="long long", slot="long long")
+cpdef long long add_threat(Queues q, long long t) except? -1
+
+
+@cython.locals(
+    kind="long long", manager="long long", name="long long", owner="long long", role="long long", row="long long",
+    slot="long long"
+)
+cpdef long long add_variable(Queues q, long long v) except? -1

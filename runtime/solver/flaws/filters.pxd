@@ -1,0 +1,55 @@
+# The C types of `filters.py`.
+
+cimport cython
+from runtime.constraints.domains.base_domain cimport is_growing
+from runtime.constraints.domains.bitset cimport count_values
+from runtime.constraints.engine cimport Engine
+from runtime.plan.store.plan cimport Plan
+from runtime.plan.store.rows cimport Rows
+from runtime.solver.configuration.handler_table cimport Treatments
+
+cdef long long ACTIVE, END, FILTER_GUARD, FILTER_HORIZON, FILTER_HORIZON_VARIABLE, FILTER_MASTER_LOOSE
+cdef long long FILTER_NOT_GUARD, FILTER_NOT_SINGLETON, FILTER_TOKEN_LOOSE, HALF_INF, INF, KIND_FLOAT, KIND_INT
+cdef long long LISTS, LIST_ORDER, NONE, OBJECT, POLICY_PARTIAL, POLICY_POSSIBLE, ROLE_LOCAL, ROLE_TOKEN, START
+cdef double FLOAT_TOLERANCE
+
+
+cdef class Scope:
+
+    cpdef bint admits_token(self, long long t) except -1
+
+    cpdef bint admits_variable(self, long long v) except -1
+
+
+cdef class Filters:
+    cdef public Plan plan
+    cdef public Rows rows
+    cdef public Engine engine
+    cdef public Treatments treatments
+    cdef public long long lower, upper
+    cdef public bint has_scope
+    cdef public Scope scope
+
+    @cython.locals(code="long long", f="long long", first="long long", master="long long")
+    cpdef bint keeps_token(self, long long row, long long t) except -1
+
+    @cython.locals(code="long long", f="long long", first="long long", t="long long")
+    cpdef bint keeps_variable(self, long long row, long long v) except -1
+
+    @cython.locals(code="long long", f="long long", first="long long")
+    cpdef bint waits_for_times(self, long long row) except -1
+
+    @cython.locals(end="long long", engine=Engine, start="long long")
+    cpdef bint is_outside(self, long long t, long long policy) except -1
+
+    cpdef bint is_assigned(self, long long t) except -1
+
+    @cython.locals(role="long long")
+    cpdef long long token_of(self, long long v) except? -1
+
+    cpdef bint is_single(self, long long v) except -1
+
+    @cython.locals(engine=Engine, kind="long long")
+    cpdef bint is_finite(self, long long v) except -1
+
+    cpdef long long size(self, long long v) except? -1

@@ -1,0 +1,158 @@
+"""Test what a filter keeps back now: tokens outside the horizon, infinite domains, loose parents, the unscoped."""
+
+from runtime.constraints.domains.base_domain import is_growing
+from runtime.constraints.domains.bitset import count_values
+from runtime.constraints.domains.tags import FLOAT_TOLERANCE, HALF_INF, INF, KIND_FLOAT, KIND_INT
+from runtime.plan.store.plan import Plan
+from runtime.plan.tags import ACTIVE, END, LIST_ORDER, LISTS, NONE, OBJECT, ROLE_LOCAL, ROLE_TOKEN, START
+from runtime.solver.configuration.handler_table import Treatments
+from runtime.solver.tags import (
+    FILTER_GUARD,
+    FILTER_HORIZON,
+    FILTER_HORIZON_VARIABLE,
+    FILTER_MASTER_LOOSE,
+    FILTER_NOT_GUARD,
+    FILTER_NOT_SINGLETON,
+    FILTER_TOKEN_LOOSE,
+    POLICY_PARTIAL,
+    POLICY_POSSIBLE,
+)
+
+
+class Scope:
+    """What the search may mend at all; a synchroniser replaces it by one that knows the tick."""
+
+    def admits_token(self, t: int) -> bool:
+        """Whether flaws of token `t` are in scope; asked again when its times change."""
+        return t >= 0
+
+    def admits_variable(self, v: int) -> bool:
+        """Whether variable `v` may be decided; asked again when its domain or its token's times change."""
+        return v >= 0
+
+
+class Filters:
+    """The horizon, the scope, and the tests."""
+
+    def __init__(self, plan: Plan, treatments: Treatments, lower: int, upper: int) -> None:
+        self.plan = plan
+        self.rows = plan.rows
+        self.engine = plan.engine
+        self.treatments = treatments
+        self.lower = lower
+        self.upper = upper
+        self.has_scope = False
+        self.scope = Scope()
+
+    def keeps_token(self, row: int, t: int) -> bool:
+        """Whether a filter of `row` keeps token `t` back."""
+        if self.has_scope and not self.scope.admits_token(t):
+            return True
+        first = self.treatments.filter_first[row]
+        for f in range(first, first + self.treatments.filter_count[row]):
+            code = self.treatments.filter_code[f]
+            if code == FILTER_HORIZON:
+                if self.is_outside(t, self.treatments.filter_policy[f]):
+                    return True
+            elif code == FILTER_MASTER_LOOSE:
+                master = self.rows.master[t]
+                if master >= 0 and not self.is_assigned(master):
+                    return True
+        return False
+
+    def keeps_variable(self, row: int, v: int) -> bool:
+        """Whether variable `v` has no values to choose from, or a filter of `row` keeps it back."""
+        if not self.is_finite(v):
+            return True
+        if self.has_scope and not self.scope.admits_variable(v):
+            return True
+        t = self.token_of(v)
+        first = self.treatments.filter_first[row]
+        for f in range(first, first + self.treatments.filter_count[row]):
+            code = self.treatments.filter_code[f]
+            if code == FILTER_HORIZON or code == FILTER_HORIZON_VARIABLE:
+                if t >= 0 and self.is_outside(t, self.treatments.filter_policy[f]):
+                    return True
+            elif code == FILTER_NOT_SINGLETON:
+                if not self.is_single(v):
+                    return True
+            elif code == FILTER_GUARD:
+                if self.plan.variable_guards[v] > 0:
+                    return True
+            elif code == FILTER_NOT_GUARD:
+                if self.plan.variable_guards[v] == 0:
+                    return True
+            elif code == FILTER_TOKEN_LOOSE and t >= 0 and not self.is_assigned(t):
+                return True
+        return False
+
+    def waits_for_times(self, row: int) -> bool:
+        """Whether a filter of `row` reads the times of the token."""
+        if self.has_scope:
+            return True
+        first = self.treatments.filter_first[row]
+        for f in range(first, first + self.treatments.filter_count[row]):
+            code = self.treatments.filter_code[f]
+            if code == FILTER_HORIZON or code == FILTER_HORIZON_VARIABLE:
+                return True
+        return False
+
+    def is_outside(self, t: int, policy: int) -> bool:
+        """Whether the times of `t` do not lie in the horizon, in the sense of `policy`."""
+        start = self.rows.var0[t] + START
+        end = self.rows.var0[t] + END
+        engine = self.engine
+        if policy == POLICY_PARTIAL:
+            return engine.lb[end] <= self.lower or engine.ub[start] >= self.upper
+        if policy == POLICY_POSSIBLE:
+            return (
+                engine.lb[start] > self.upper
+                or engine.ub[start] < self.lower
+                or engine.lb[end] > self.upper
+                or engine.ub[end] < self.lower
+            )
+        return (
+            engine.lb[start] < self.lower
+            or engine.lb[start] > self.upper
+            or engine.ub[end] < self.lower
+            or engine.ub[end] > self.upper
+        )
+
+    def is_assigned(self, t: int) -> bool:
+        """Whether `t` is active, its object is known, and it has its place there if that is a timeline."""
+        if self.rows.status[t] != ACTIVE or not self.is_single(self.rows.var0[t] + OBJECT):
+            return False
+        if not self.plan.predicate_timeline[self.rows.predicate[t]]:
+            return True
+        return self.rows.link_head[LISTS * t + LIST_ORDER] >= 0
+
+    def token_of(self, v: int) -> int:
+        """The token that a variable belongs to, also one of its rules; NONE for globals and members."""
+        role = self.plan.variable_role[v]
+        return self.plan.variable_owner[v] if role == ROLE_TOKEN or role == ROLE_LOCAL else NONE
+
+    def is_single(self, v: int) -> bool:
+        """Whether only one value is left."""
+        if self.engine.kind[v] == KIND_FLOAT:
+            return self.engine.fhi[v] - self.engine.flo[v] <= FLOAT_TOLERANCE
+        return self.engine.lb[v] == self.engine.ub[v]
+
+    def is_finite(self, v: int) -> bool:
+        """Whether the values can be counted."""
+        engine = self.engine
+        if is_growing(engine, v):
+            return False
+        kind = engine.kind[v]
+        if kind == KIND_FLOAT:
+            return engine.word[v] >= 0 or self.is_single(v)
+        if kind == KIND_INT:
+            return engine.word[v] >= 0 or (engine.lb[v] > -HALF_INF and engine.ub[v] < HALF_INF)
+        return True
+
+    def size(self, v: int) -> int:
+        """How many values a variable has; INF if nobody can say."""
+        if not self.is_finite(v):
+            return INF
+        if self.engine.kind[v] == KIND_FLOAT:
+            return 1 if self.is_single(v) else self.engine.table_length[v]
+        return count_values(self.engine, v)

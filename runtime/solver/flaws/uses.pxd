@@ -1,0 +1,54 @@
+# The C types of `uses.py`.
+
+cimport cython
+from runtime.constraints.engine cimport Engine
+from runtime.plan.resources.envelope cimport Flaws
+from runtime.plan.lifecycle cimport settle
+from runtime.plan.store.plan cimport Plan
+from runtime.plan.resources.resources cimport Resources
+from runtime.constraints.stn.distances cimport Distances
+from runtime.constraints.stn.heap cimport Heap
+
+cdef long long INITIAL, LIMITS, MAXIMUM, MINIMUM, NONE
+cdef double FLOAT_TOLERANCE, inf
+
+
+cdef class Uses:
+    cdef public Plan plan
+    cdef public Engine engine
+    cdef public Resources resources
+    cdef public Distances distances
+    cdef public long long[::1] grounded, point, takes
+    cdef public Flaws flaws
+    cdef public Heap agenda
+    cdef public long long found_at, found_low, count
+    cdef public double found_excess
+    cdef public double[::1] amount_least, amount_most
+
+    @cython.locals(u="long long", uses=Resources)
+    cpdef long long gather(self, long long o) except? -1
+
+    @cython.locals(at="long long")
+    cpdef long long add(self, long long point, long long takes, double least, double most) except? -1
+
+    @cython.locals(v="long long")
+    cpdef double limit(self, long long o, long long which, long long side) except? -1
+
+    cpdef bint first_flaw(self, long long o) except -1
+
+    cpdef bint worst_flaw(self, long long o) except -1
+
+    @cython.locals(
+        agenda=Heap, capacity_high="double", capacity_low="double", engine=Engine, excess="double", high="double",
+        k="long long", low="double", lower="double", maximum="double", minimum="double", time="long long",
+        upper="double"
+    )
+    cpdef bint sweep(self, long long o, long long whole) except -1
+
+    @cython.locals(engine=Engine)
+    cpdef bint may_order(self, long long o, long long first, long long second) except -1
+
+    @cython.locals(v="long long")
+    cpdef bint is_seen(self, long long first, long long second) except -1
+
+    cpdef bint order(self, long long first, long long second, long long together) except -1

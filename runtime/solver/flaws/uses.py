@@ -1,0 +1,168 @@
+"""Find where uses might exceed a resource, and order two of them there.
+
+A use that lasts takes at its start and gives back at its end; an event of a reservoir does one of the two. What takes
+is to come after something that gives (or the other way round, where the level is too high): pairs of timepoints.
+"""
+
+from array import array
+from math import inf
+
+from runtime.constraints.domains.tags import FLOAT_TOLERANCE
+from runtime.constraints.stn.distances import Distances
+from runtime.constraints.stn.heap import Heap
+from runtime.plan.lifecycle import settle
+from runtime.plan.resources.envelope import Flaws
+from runtime.plan.store.plan import Plan
+from runtime.plan.tags import INITIAL, LIMITS, MAXIMUM, MINIMUM
+from runtime.solver.tags import NONE
+from runtime.solver.widening import widened
+
+
+class Uses:
+    """The levels of one resource after another, over arrays that are used again."""
+
+    def __init__(self, plan: Plan, distances: Distances, grounded: "array[int]") -> None:
+        self.plan = plan
+        self.engine = plan.engine
+        self.resources = plan.resources
+        self.distances = distances
+        self.grounded = grounded  # per object: whether its level is that of everything happening early
+        self.flaws = Flaws(plan.engine, plan.resources)
+        self.agenda = Heap()
+        self.found_at = 0
+        self.found_low = 0
+        self.found_excess = 0.0
+        # The timepoints of one resource: when something is taken (1) or given (0), and whose it is.
+        self.count = 0
+        self.point = array("q", [0]) * 64
+        self.takes = array("q", [0]) * 64
+        self.amount_least = array("d", [0.0]) * 64
+        self.amount_most = array("d", [0.0]) * 64
+
+    def gather(self, o: int) -> int:
+        """Collect the timepoints at which resource `o` is used."""
+        uses = self.resources
+        self.count = 0
+        for u in range(uses.count):
+            if uses.sign[u] != 0 and uses.on[u] == o:
+                self.add(uses.start[u], 1 if uses.sign[u] < 0 else 0, uses.least[u], uses.most[u])
+                if uses.end[u] >= 0:
+                    self.add(uses.end[u], 0, uses.least[u], uses.most[u])
+        return self.count
+
+    def add(self, point: int, takes: int, least: float, most: float) -> int:
+        """Collect one timepoint."""
+        at = self.count
+        if at == len(self.point):
+            self.point = widened(self.point, 2 * at, 0)
+            self.takes = widened(self.takes, 2 * at, 0)
+            self.amount_least = longer_reals(self.amount_least)
+            self.amount_most = longer_reals(self.amount_most)
+        self.point[at] = point
+        self.takes[at] = takes
+        self.amount_least[at] = least
+        self.amount_most[at] = most
+        self.count = at + 1
+        return 0
+
+    def limit(self, o: int, which: int, side: int) -> float:
+        """A bound of one of the limits of resource `o`."""
+        v = self.resources.limits[o * LIMITS + which]
+        if v < 0:
+            return 0.0 if which == INITIAL else (-inf if which == MINIMUM else inf)
+        return self.engine.flo[v] if side == 0 else self.engine.fhi[v]
+
+    # ---- flaws ----
+
+    def first_flaw(self, o: int) -> bool:
+        """The first instant at which resource `o` might be exceeded."""
+        if self.grounded[o]:
+            return self.sweep(o, 0)
+        if not self.flaws.find(o):
+            return False
+        self.found_at = self.flaws.at
+        self.found_low = self.flaws.is_low
+        self.found_excess = self.flaws.excess
+        return True
+
+    def worst_flaw(self, o: int) -> bool:
+        """The instant at which resource `o` might be exceeded most, the first of equals."""
+        return self.sweep(o, 1) if self.grounded[o] else self.first_flaw(o)
+
+    def sweep(self, o: int, whole: int) -> bool:
+        """Let all happen as early as it can, and look for the first instant out of bounds, or for the worst one."""
+        engine = self.engine
+        agenda = self.agenda
+        agenda.clear()
+        self.gather(o)
+        for k in range(self.count):
+            agenda.push(engine.lb[self.point[k]], k, k)
+        for k, step in enumerate(self.resources.steps.get(o, ())):
+            agenda.push(step[0], self.count + k, -k - 1)
+        low = self.limit(o, INITIAL, 0)
+        high = self.limit(o, INITIAL, 1)
+        minimum = self.limit(o, MINIMUM, 0)
+        maximum = self.limit(o, MAXIMUM, 1)
+        capacity_low = low
+        capacity_high = high
+        self.found_excess = 0.0
+        while agenda.length:
+            time = agenda.top_key()
+            while agenda.length and agenda.top_key() == time:
+                k = agenda.top_item()
+                agenda.pop()
+                if k < 0:
+                    _, lower, upper = self.resources.steps[o][-k - 1]
+                    low += lower - capacity_low
+                    high += upper - capacity_high
+                    capacity_low = lower
+                    capacity_high = upper
+                elif self.takes[k]:
+                    low -= self.amount_most[k]
+                    high -= self.amount_least[k]
+                else:
+                    low += self.amount_least[k]
+                    high += self.amount_most[k]
+            excess = max(minimum - low, high - maximum)
+            if excess > FLOAT_TOLERANCE and excess > self.found_excess + FLOAT_TOLERANCE:
+                self.found_at = time
+                self.found_low = 1 if minimum - low >= high - maximum else 0
+                self.found_excess = excess
+                if not whole:
+                    return True
+        return self.found_excess > 0.0
+
+    # ---- what may be ordered ----
+
+    def may_order(self, o: int, first: int, second: int) -> bool:
+        """Whether one timepoint of `o` may still be put before another: it is neither impossible nor seen already."""
+        engine = self.engine
+        if first == second or engine.lb[first] > engine.ub[second] or engine.ub[first] <= engine.lb[second]:
+            return False
+        if not self.distances.admits(second, first, 0):
+            return False
+        return self.distances.admits(first, second, -1) or not (self.grounded[o] or self.is_seen(first, second))
+
+    def is_seen(self, first: int, second: int) -> bool:
+        """Whether flaws see an order that the network knows: they do not follow edges with a positive weight."""
+        v = first
+        while v != second and self.engine.edge_weight[self.distances.via[v]] <= 0:
+            v = self.engine.edge_source[self.distances.via[v]]
+        if v == second:
+            return True
+        self.flaws.make_room(0)
+        self.flaws.walk_back(second)
+        return self.flaws.marks[first] == self.flaws.mark
+
+    def order(self, first: int, second: int, together: int) -> bool:
+        """Put one timepoint before another, or both at the same time."""
+        if not self.engine.add_edge(second, first, 0, NONE, NONE):
+            return False
+        if together and not self.engine.add_edge(first, second, 0, NONE, NONE):
+            return False
+        return settle(self.plan)
+
+
+def longer_reals(old: "array[float]") -> "array[float]":
+    """A copy twice as long."""
+    return array("d", bytes(old) + bytes(8 * len(old)))

@@ -1,0 +1,1 @@
+"""Conflict analysis, nogoods, and the failure log of a search."""

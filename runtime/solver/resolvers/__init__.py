@@ -1,0 +1,1 @@
+"""Resolvers: the choices that mend a flaw, and their order."""
