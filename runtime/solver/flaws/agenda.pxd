@@ -13,7 +13,7 @@ from runtime.solver.configuration.handler_table cimport HandlerTable
 from runtime.solver.flaws.uses cimport Uses
 from runtime.solver.flaws.restarts cimport Restarts
 
-cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FREED, LISTS, LIST_ORDER, NONE, NO_KEY, OBJECT, ROLE_TOKEN
+cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FREED, NONE, NO_KEY, OBJECT, ROLE_TOKEN
 cdef long long START, UNBOUND_VARIABLE, UNDO_BRANCH, UNDO_INPUTS
 
 
