@@ -7,7 +7,7 @@ from pathlib import Path
 from lsprotocol.types import Diagnostic as Shown
 from lsprotocol.types import Range
 
-from lsp.codes import Conversion
+from lsp.diagnostics import Conversion
 from lsp.places import key_of, path_of, uri_of
 from lsp.positions import Encoding, Lines, replaced
 from lsp.project import Project, Settings, Snapshot

@@ -5,8 +5,8 @@ from typing import assert_never
 
 from lsprotocol.types import Hover, MarkupContent, MarkupKind, Position
 
-from lsp.codes import Conversion
 from lsp.describe import Describer
+from lsp.diagnostics import Conversion
 from lsp.documents import View
 from lsp.meaning import WORDS, Meaning, Word, meaning_at
 from lsp.rows import (

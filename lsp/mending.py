@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from lsprotocol.types import CodeAction, CodeActionKind, Range, TextEdit, WorkspaceEdit
 
-from lsp.codes import Conversion
+from lsp.diagnostics import Conversion
 from lsp.documents import View
 from lsp.positions import Lines
 from nddl_lang.formatter.format import format_parse

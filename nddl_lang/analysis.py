@@ -7,11 +7,10 @@ from pathlib import Path
 
 from nddl_lang.semantics.allocation import settle
 from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
-from nddl_lang.semantics.names import UNKNOWN_NAME
+from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_TYPE
 from nddl_lang.semantics.schema import Schema, SideTables
 from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
-from nddl_lang.semantics.typenames import UNKNOWN_CLASS, UNKNOWN_TYPE
 from nddl_lang.semantics.world import Fact, World
 from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from nddl_lang.lint.codes import ALWAYS_TRUE, NEVER_DECIDED, NEVER_TRUE, SEVERAL_VALUES, VARYING_FIELD
 from nddl_lang.lint.logic import Known, assume, truth
 from nddl_lang.lint.part import Facts, Finding, Part
 from nddl_lang.lint.reading import declared, is_finite
@@ -21,13 +22,7 @@ from nddl_lang.syntax.nodes import (
     SetExpr,
 )
 from nddl_lang.syntax.walk import descendants
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
-
-NEVER_TRUE = Code("NDDL520", Severity.WARNING, "lint", "this condition can never hold")
-ALWAYS_TRUE = Code("NDDL521", Severity.WARNING, "lint", "this condition always holds")
-SEVERAL_VALUES = Code("NDDL522", Severity.WARNING, "lint", "a comparison with several values is never decided")
-NEVER_DECIDED = Code("NDDL523", Severity.WARNING, "lint", "`{name}` is only ever narrowed, so this is not decided")
-VARYING_FIELD = Code("NDDL524", Severity.WARNING, "lint", "EUROPA does not decide this while `{name}` may be several")
+from nddl_lang.text.diagnostic import Diagnostic, Note
 
 _ASKING = frozenset({"isSingleton", "isSpecified"})
 

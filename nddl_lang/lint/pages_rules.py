@@ -1,9 +1,22 @@
 """The pages of the findings about rules: conditions, times, and what asks for what."""
 
-from nddl_lang.lint.guards import ALWAYS_TRUE, NEVER_DECIDED, NEVER_TRUE, SEVERAL_VALUES, VARYING_FIELD
-from nddl_lang.lint.structure import CHAIN, ENDLESS, NEVER_FIRES, NO_EFFECT, UNREACHABLE
-from nddl_lang.lint.subgoals import ANY_OBJECT, ANY_OF_MANY
-from nddl_lang.lint.timing import CONTRADICTION, NO_DURATION, TOO_LONG
+from nddl_lang.lint.codes import (
+    ALWAYS_TRUE,
+    ANY_OBJECT,
+    ANY_OF_MANY,
+    CHAIN,
+    CONTRADICTION,
+    ENDLESS,
+    NEVER_DECIDED,
+    NEVER_FIRES,
+    NEVER_TRUE,
+    NO_DURATION,
+    NO_EFFECT,
+    SEVERAL_VALUES,
+    TOO_LONG,
+    UNREACHABLE,
+    VARYING_FIELD,
+)
 from nddl_lang.text.page import RulePage
 
 _GAUGE = "class Gauge extends Timeline { predicate shown { int level = [0 3]; } predicate dark { } }\n"

@@ -3,23 +3,15 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from nddl_lang.lint.codes import DRAWN_IN_VAIN, DRAWS_OUTSIDE, NEVER_VARIED, OTHER_RANGE
 from nddl_lang.lint.local_names import used_variables
 from nddl_lang.lint.part import Facts, Finding, Key, Part
 from nddl_lang.lint.reading import declared, domain_of, key_of
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.schema import Domain, GlobalReference, LocalReference, Reference, Variable
 from nddl_lang.syntax.nodes import BinaryExpr, CallConstraint, CallExpr, Expr, ExprConstraint, PathExpr, RuleDecl
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
+from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.source import Span
-
-DRAWN_IN_VAIN = Code("NDDL562", Severity.WARNING, "lint", "what is drawn for `{name}` is never used")
-DRAWS_OUTSIDE = Code(
-    "NDDL563", Severity.WARNING, "lint", "`{name}` is drawn from {range}, but {receiver} takes {domain}"
-)
-NEVER_VARIED = Code("NDDL564", Severity.WARNING, "lint", "the sampled parameter `{name}` has one value only, {value}")
-OTHER_RANGE = Code(
-    "NDDL565", Severity.WARNING, "lint", "`{name}` is drawn into {domain} here, and into {other} elsewhere"
-)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from nddl_lang.lint.codes import CHAIN, ENDLESS, NEVER_FIRES, NO_EFFECT, UNREACHABLE
 from nddl_lang.lint.declarations import AGENT_TIMELINE
 from nddl_lang.lint.part import Part
 from nddl_lang.lint.whole import Whole
@@ -21,13 +22,7 @@ from nddl_lang.syntax.nodes import (
     Relation,
     RuleDecl,
 )
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
-
-UNREACHABLE = Code("NDDL540", Severity.WARNING, "lint", "no goal leads to {what}")
-NEVER_FIRES = Code("NDDL541", Severity.WARNING, "lint", "no token of `{name}` is ever made, so this rule never runs")
-ENDLESS = Code("NDDL542", Severity.WARNING, "lint", "each `{name}` asks for another one, without an end")
-CHAIN = Code("NDDL547", Severity.HINT, "lint", "each `{name}` asks for a later one: the chain ends at the horizon")
-NO_EFFECT = Code("NDDL545", Severity.WARNING, "lint", "the action `{name}` has no effect, so no goal is achieved by it")
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note
 
 _FORWARD = frozenset({"meets", "before"})
 _BACKWARD = frozenset({"met_by", "after"})

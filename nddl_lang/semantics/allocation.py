@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from nddl_lang.semantics.codes import CLASS_IS_CLOSED, NO_BASE_CONSTRUCTOR, NO_CONSTRUCTOR
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.schema import Chosen, Class, Constructor, Kind, Type
 from nddl_lang.semantics.scope import Context, Deferred, Place, Scope
@@ -10,17 +11,8 @@ from nddl_lang.semantics.types import fits, object_type
 from nddl_lang.semantics.values import check_restriction
 from nddl_lang.semantics.world import World
 from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr
-from nddl_lang.text.diagnostic import Code, Note, Severity
+from nddl_lang.text.diagnostic import Note
 from nddl_lang.text.source import Span
-
-NO_CONSTRUCTOR = Code("NDDL323", Severity.ERROR, "arity", "class `{name}` has no constructor {arguments}")
-NO_BASE_CONSTRUCTOR = Code(
-    "NDDL324",
-    Severity.ERROR,
-    "arity",
-    "`{name}` cannot be made: its base `{base}` has no constructor without arguments",
-)
-CLASS_IS_CLOSED = Code("NDDL403", Severity.ERROR, "state", "no object of class `{name}` can join after `close()`")
 
 
 def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | None:

@@ -2,19 +2,14 @@
 
 from collections.abc import Sequence
 
+from nddl_lang.semantics.codes import ARGUMENTS_DIFFER, WRONG_ARGUMENT, WRONG_COUNT
 from nddl_lang.semantics.schema import Kind, Reference, TokenReference, Type
 from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.signature import Argument, ArgumentKind, Signature
 from nddl_lang.semantics.types import COUNTABLE, always_differ, comparable, phrase
 from nddl_lang.syntax.nodes import Expr
-from nddl_lang.text.diagnostic import Code, Note, Severity
+from nddl_lang.text.diagnostic import Note
 from nddl_lang.text.source import Span
-
-WRONG_COUNT = Code("NDDL320", Severity.ERROR, "arity", "`{name}` takes {expected}, found {found}")
-WRONG_ARGUMENT = Code("NDDL321", Severity.ERROR, "type", "`{name}` needs {expected} here; `{text}` is {found}")
-ARGUMENTS_DIFFER = Code(
-    "NDDL322", Severity.ERROR, "type", "`{name}` compares its arguments; `{text}` is {found}, `{other}` is {expected}"
-)
 
 _RESOURCE_CLASS = "CBReusable"
 

@@ -1,5 +1,13 @@
 """Declare classes with their members; tell the user where a declaration contradicts another."""
 
+from nddl_lang.semantics.codes import (
+    DUPLICATE_MEMBER,
+    DUPLICATE_TYPE,
+    ENUM_OF_THAT_NAME,
+    MEMBER_VALUE,
+    NATIVE_CLASS,
+    OWN_BASE,
+)
 from nddl_lang.semantics.constructors import check_constructor, declare_constructors
 from nddl_lang.semantics.natives import ROOT_CLASS
 from nddl_lang.semantics.predicates import check_predicate
@@ -17,18 +25,7 @@ from nddl_lang.syntax.nodes import (
     PredicateDecl,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Note, Severity
-
-DUPLICATE_TYPE = Code("NDDL220", Severity.ERROR, "duplicate", "`{name}` is declared twice")
-DUPLICATE_MEMBER = Code("NDDL221", Severity.ERROR, "duplicate", "class `{owner}` has a member `{name}` already")
-ENUM_OF_THAT_NAME = Code(
-    "NDDL235", Severity.WARNING, "duplicate", "`{name}` is an enum already; as a type it means the class from here on"
-)
-OWN_BASE = Code("NDDL236", Severity.ERROR, "name", "class `{name}` cannot extend itself")
-NATIVE_CLASS = Code("NDDL222", Severity.WARNING, "duplicate", "class `{name}` is built in; this text is not read")
-MEMBER_VALUE = Code(
-    "NDDL325", Severity.ERROR, "type", "the value of a member is written out; `{text}` depends on others"
-)
+from nddl_lang.text.diagnostic import Note
 
 
 def check_class(context: Context, node: ClassDecl) -> None:

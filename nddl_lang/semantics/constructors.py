@@ -9,6 +9,15 @@ from nddl_lang.semantics.allocation import (
     has_empty_constructor,
     signature_text,
 )
+from nddl_lang.semantics.codes import (
+    ASSIGNED_TWICE,
+    CONSTRUCTOR_NAME,
+    DUPLICATE_CONSTRUCTOR,
+    DUPLICATE_FORMAL,
+    MISSING_SUPER,
+    NOT_A_MEMBER,
+    SUPER_NOT_FIRST,
+)
 from nddl_lang.semantics.names import complain_unknown_member, follow, resolve
 from nddl_lang.semantics.schema import (
     Chosen,
@@ -24,18 +33,8 @@ from nddl_lang.semantics.scope import Context, Place, Scope
 from nddl_lang.semantics.typenames import find_type
 from nddl_lang.semantics.values import check_value, constant
 from nddl_lang.syntax.nodes import Assignment, BrokenStatement, ConstructorDecl, NewExpr, PathExpr, SuperCall
-from nddl_lang.text.diagnostic import Code, Edit, Fix, Note, Severity
+from nddl_lang.text.diagnostic import Edit, Fix, Note
 from nddl_lang.text.source import Span
-
-CONSTRUCTOR_NAME = Code("NDDL215", Severity.ERROR, "name", "a constructor is called like its class, `{owner}`")
-DUPLICATE_CONSTRUCTOR = Code("NDDL226", Severity.ERROR, "duplicate", "`{signature}` is declared twice")
-DUPLICATE_FORMAL = Code("NDDL227", Severity.ERROR, "duplicate", "two parameters are called `{name}`")
-MISSING_SUPER = Code(
-    "NDDL326", Severity.ERROR, "arity", "base `{base}` has no constructor without arguments: `super(...)` is needed"
-)
-ASSIGNED_TWICE = Code("NDDL327", Severity.ERROR, "domain", "`{name}` is {first} already, and cannot become {second}")
-SUPER_NOT_FIRST = Code("NDDL401", Severity.ERROR, "rule", "`super(...)` must be the first statement of a constructor")
-NOT_A_MEMBER = Code("NDDL402", Severity.ERROR, "rule", "a constructor can assign only members; `{name}` is none")
 
 
 def declare_constructors(context: Context, owner: Class, nodes: list[ConstructorDecl]) -> dict[ConstructorDecl, Scope]:

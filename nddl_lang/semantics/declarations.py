@@ -3,21 +3,14 @@
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.allocation import check_allocation
 from nddl_lang.semantics.classes import complain_taken
+from nddl_lang.semantics.codes import CLASS_TYPEDEF, DUPLICATE_NAME, DUPLICATE_VALUE
 from nddl_lang.semantics.schema import Domain, Enumeration, EnumValue, Kind, Type, Typedef, Values, Variable
 from nddl_lang.semantics.scope import Context, Place, Scope
 from nddl_lang.semantics.typenames import find_type
 from nddl_lang.semantics.types import TOKEN_STATES
 from nddl_lang.semantics.values import check_value, constant
 from nddl_lang.syntax.nodes import EnumDecl, Identifier, NewExpr, TypedefDecl, VariableDecl
-from nddl_lang.text.diagnostic import Code, Note, Severity
-
-DUPLICATE_NAME = Code("NDDL228", Severity.ERROR, "duplicate", "`{name}` is declared twice")
-DUPLICATE_VALUE = Code("NDDL230", Severity.ERROR, "duplicate", "`{name}` is a value of enum `{enum}` already")
-
-
-CLASS_TYPEDEF = Code(
-    "NDDL333", Severity.ERROR, "type", "a typedef restricts numbers, texts or an enum; `{name}` is a class"
-)
+from nddl_lang.text.diagnostic import Note
 
 
 def check_enum(context: Context, node: EnumDecl) -> None:

@@ -1,6 +1,16 @@
 """Check method calls: the method exists for what it is called on, fits, and is possible in the state reached."""
 
 from nddl_lang.semantics.arguments import check_count, check_types
+from nddl_lang.semantics.codes import (
+    CLOSED_TWICE,
+    MERGE_INACTIVE,
+    MERGE_OTHER,
+    NOT_INACTIVE,
+    NOT_REJECTABLE,
+    ORDER_INACTIVE,
+    UNKNOWN_METHOD,
+    WRONG_RECEIVER,
+)
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.functions import METHODS, MethodRow, Receiver
 from nddl_lang.semantics.names import resolve, suggest_name
@@ -19,19 +29,8 @@ from nddl_lang.semantics.script import check_domain, note_state
 from nddl_lang.semantics.types import STATE, reference_type
 from nddl_lang.semantics.values import check_value, domain_key
 from nddl_lang.syntax.nodes import MethodCall, PathExpr
-from nddl_lang.text.diagnostic import Code, Note, Severity
+from nddl_lang.text.diagnostic import Note
 from nddl_lang.text.source import Span
-
-UNKNOWN_METHOD = Code("NDDL234", Severity.ERROR, "name", "there is no method `{name}`")
-WRONG_RECEIVER = Code("NDDL332", Severity.ERROR, "type", "`{name}` is called on {wanted}; `{text}` is {found}")
-CLOSED_TWICE = Code("NDDL406", Severity.ERROR, "state", "{what} is closed already")
-NOT_INACTIVE = Code("NDDL407", Severity.ERROR, "state", "`{name}` cannot be {done}: it is {state}")
-MERGE_INACTIVE = Code("NDDL408", Severity.ERROR, "state", "`{name}` is not active, so nothing can be merged into it")
-MERGE_OTHER = Code(
-    "NDDL409", Severity.ERROR, "state", "`{name}` is a token of `{one}`; only another one of them can stand for it"
-)
-NOT_REJECTABLE = Code("NDDL410", Severity.ERROR, "state", "`{name}` is a {kind}, which cannot be rejected")
-ORDER_INACTIVE = Code("NDDL411", Severity.ERROR, "state", "`{name}` is not active, so it has no place on `{object}`")
 
 _STATE_WORDS = {"ACTIVE": "active", "INACTIVE": "inactive", "MERGED": "merged", "REJECTED": "rejected"}
 

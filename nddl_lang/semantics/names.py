@@ -6,6 +6,17 @@ globals, classes. Before a dot a token comes first: `x.y` is the token's variabl
 
 from collections.abc import Iterable, Sequence
 
+from nddl_lang.semantics.codes import (
+    CLASS_AS_VALUE,
+    DECLARED_BELOW,
+    MISPLACED_THIS,
+    NAME_OF_OTHER_BLOCK,
+    NOT_AN_OBJECT,
+    UNKNOWN_ENUM_VALUE,
+    UNKNOWN_MEMBER,
+    UNKNOWN_NAME,
+    UNKNOWN_TOKEN_VARIABLE,
+)
 from nddl_lang.semantics.natives import builtin_names, builtin_type
 from nddl_lang.semantics.schema import (
     ClassReference,
@@ -23,21 +34,10 @@ from nddl_lang.semantics.schema import (
 from nddl_lang.semantics.scope import Context, Place, Scope
 from nddl_lang.semantics.types import reference_type
 from nddl_lang.syntax.nodes import Identifier, PathExpr
-from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Note, Severity
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.nearest import nearest
 
-UNKNOWN_NAME = Code("NDDL201", Severity.ERROR, "name", "nothing named `{name}` is in scope here")
-DECLARED_BELOW = Code("NDDL202", Severity.ERROR, "name", "`{name}` is used above its declaration")
-NAME_OF_OTHER_BLOCK = Code(
-    "NDDL203", Severity.ERROR, "name", "`{name}` is known only inside the block that declares it"
-)
 TOKEN_OF_SCRIPT = "`{name}` is a token of the script; rules and predicates see only tokens of their own"
-UNKNOWN_MEMBER = Code("NDDL204", Severity.ERROR, "name", "class `{owner}` has no member `{name}`")
-UNKNOWN_TOKEN_VARIABLE = Code("NDDL205", Severity.ERROR, "name", "a token of `{predicate}` has no parameter `{name}`")
-UNKNOWN_ENUM_VALUE = Code("NDDL206", Severity.ERROR, "name", "`{name}` is no value of enum `{enum}`")
-MISPLACED_THIS = Code("NDDL207", Severity.ERROR, "name", "`this` has no meaning in {place}")
-NOT_AN_OBJECT = Code("NDDL301", Severity.ERROR, "type", "`{name}` is {type}, so `.{member}` finds nothing in it")
-CLASS_AS_VALUE = Code("NDDL302", Severity.ERROR, "type", "`{name}` is a class, not a value")
 
 _VALUE_TABLES = ("global", "goal", "value")
 _LITERALS = ("true", "false", "inf", "inff")

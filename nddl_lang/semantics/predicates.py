@@ -1,5 +1,6 @@
 """Declare predicates, and check their bodies: parameters, and constraints that hold for every token."""
 
+from nddl_lang.semantics.codes import BUILTIN_PARAMETER, DUPLICATE_PARAMETER, DUPLICATE_PREDICATE, FOREIGN_TARGET
 from nddl_lang.semantics.constraining import check_call_constraint, check_expression_constraint
 from nddl_lang.semantics.names import resolve
 from nddl_lang.semantics.natives import builtin_type
@@ -16,12 +17,7 @@ from nddl_lang.syntax.nodes import (
     PredicateDecl,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Note, Severity
-
-DUPLICATE_PREDICATE = Code("NDDL223", Severity.ERROR, "duplicate", "class `{owner}` has a predicate `{name}` already")
-DUPLICATE_PARAMETER = Code("NDDL224", Severity.ERROR, "duplicate", "`{owner}` has a parameter `{name}` already")
-BUILTIN_PARAMETER = Code("NDDL225", Severity.ERROR, "duplicate", "every token has a variable `{name}` of its own")
-FOREIGN_TARGET = Code("NDDL404", Severity.ERROR, "rule", "a predicate can restrict only the variables of its own token")
+from nddl_lang.text.diagnostic import Note
 
 
 def check_predicate(context: Context, owner: Class, node: PredicateDecl) -> None:

@@ -2,6 +2,7 @@
 
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.allocation import check_allocation
+from nddl_lang.semantics.codes import DUPLICATE_OBJECT, LEAVES_DOMAIN, NOT_A_VARIABLE
 from nddl_lang.semantics.names import resolve
 from nddl_lang.semantics.natives import LEAST_DURATION, SELF_ACTIVATING
 from nddl_lang.semantics.schema import (
@@ -31,11 +32,6 @@ from nddl_lang.syntax.nodes import (
     Relation,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Severity
-
-DUPLICATE_OBJECT = Code("NDDL233", Severity.ERROR, "duplicate", "an object called `{name}` exists already")
-NOT_A_VARIABLE = Code("NDDL331", Severity.ERROR, "type", "`{name}` is {what}, not a variable")
-LEAVES_DOMAIN = Code("NDDL314", Severity.ERROR, "domain", "`{text}` is outside the domain of `{name}`, {domain}")
 
 _GOAL_STATES = ("ACTIVE", "MERGED")
 _REJECTABLE_STATES = (*_GOAL_STATES, "REJECTED")

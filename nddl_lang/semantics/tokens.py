@@ -1,9 +1,21 @@
 """Check what creates tokens and relates them: instances such as `object.p q`, and relations."""
 
-from nddl_lang.semantics.arguments import WRONG_COUNT
+from nddl_lang.semantics.codes import (
+    DUPLICATE_TOKEN,
+    MISPLACED_THIS,
+    MISSING_OBJECT,
+    MISSING_ORIGIN,
+    NO_OBJECT_PREFIX,
+    NO_OBJECT_YET,
+    THIS_AS_OBJECT,
+    UNKNOWN_PREDICATE,
+    UNKNOWN_RELATION,
+    UNKNOWN_TOKEN,
+    WHOLE_BOUNDS,
+    WRONG_COUNT,
+)
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.names import (
-    MISPLACED_THIS,
     TOKEN_OF_SCRIPT,
     complain_unknown,
     find,
@@ -27,18 +39,7 @@ from nddl_lang.semantics.scope import Context, Place, Scope
 from nddl_lang.semantics.types import object_type, phrase, reference_type
 from nddl_lang.semantics.values import constant
 from nddl_lang.syntax.nodes import Identifier, Instance, IntervalExpr, PathExpr, Relation
-from nddl_lang.text.diagnostic import Code, Edit, Fix, Note, Severity
-
-UNKNOWN_PREDICATE = Code("NDDL216", Severity.ERROR, "name", "class `{owner}` has no predicate `{name}`")
-UNKNOWN_TOKEN = Code("NDDL217", Severity.ERROR, "name", "there is no token `{name}` here")
-UNKNOWN_RELATION = Code("NDDL218", Severity.ERROR, "name", "`{name}` names no relation")
-MISSING_ORIGIN = Code("NDDL219", Severity.ERROR, "name", "outside a rule a relation needs a token on its left")
-MISSING_OBJECT = Code("NDDL231", Severity.ERROR, "name", "outside a rule a token needs its object: `object.{name}`")
-THIS_AS_OBJECT = Code("NDDL232", Severity.ERROR, "name", "`this` is the token, not its object")
-NO_OBJECT_PREFIX = Code("NDDL328", Severity.ERROR, "type", "`{name}` is {type}, not an object")
-DUPLICATE_TOKEN = Code("NDDL229", Severity.ERROR, "duplicate", "`{name}` is declared twice")
-NO_OBJECT_YET = Code("NDDL405", Severity.ERROR, "state", "no object of class `{name}` exists yet to hold this token")
-WHOLE_BOUNDS = Code("NDDL329", Severity.ERROR, "type", "the bounds of a relation are whole numbers; `{text}` is not")
+from nddl_lang.text.diagnostic import Edit, Fix, Note
 
 
 def check_relation(context: Context, scope: Scope, node: Relation) -> list[Label | None]:

@@ -2,17 +2,14 @@
 
 from collections.abc import Iterable
 
+from nddl_lang.semantics.codes import UNDEFINED_CLASS, UNKNOWN_CLASS, UNKNOWN_TYPE
 from nddl_lang.semantics.names import suggest_name
 from nddl_lang.semantics.schema import Class, Type
 from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.types import BASIC_TYPES, enum_type, object_type
 from nddl_lang.syntax.nodes import Identifier
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note
 from nddl_lang.text.nearest import nearest
-
-UNKNOWN_TYPE = Code("NDDL212", Severity.ERROR, "name", "there is no type `{name}`")
-UNKNOWN_CLASS = Code("NDDL213", Severity.ERROR, "name", "there is no class `{name}`")
-UNDEFINED_CLASS = Code("NDDL214", Severity.ERROR, "name", "class `{name}` is announced, but not defined so far")
 
 _TYPE_TABLES = ("typedef", "enum", "class")
 # What other languages call the basic types.

@@ -1,6 +1,7 @@
 """Check that a value fits the variable that it is given to, and read the values that a text fixes."""
 
 from nddl_lang.semantics import domains
+from nddl_lang.semantics.codes import DOES_NOT_FIT, OUTSIDE_TYPE
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.literals import is_infinite, number
 from nddl_lang.semantics.schema import (
@@ -30,10 +31,7 @@ from nddl_lang.syntax.nodes import (
     StringLiteral,
     UnaryExpr,
 )
-from nddl_lang.text.diagnostic import Code, Edit, Fix, Severity
-
-DOES_NOT_FIT = Code("NDDL304", Severity.ERROR, "type", "`{text}` is {found}; `{name}` takes {wanted}")
-OUTSIDE_TYPE = Code("NDDL313", Severity.ERROR, "domain", "`{text}` lies outside `{type}`, which is {domain}")
+from nddl_lang.text.diagnostic import Edit, Fix
 
 
 def check_value(context: Context, scope: Scope, expression: Expr, target: Type, name: str) -> Type | None:
