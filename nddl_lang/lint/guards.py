@@ -6,7 +6,7 @@ from nddl_lang.lint.codes import ALWAYS_TRUE, NEVER_DECIDED, NEVER_TRUE, SEVERAL
 from nddl_lang.lint.logic import Known, assume, truth
 from nddl_lang.lint.part import Facts, Finding, Part
 from nddl_lang.lint.reading import declared, is_finite
-from nddl_lang.semantics.schema import Kind, LocalReference, MemberReference, TokenVariable, Variable
+from nddl_lang.semantics.schema import Kind, LocalReference, MemberReference, TokenVariableReference, Variable
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import (
     BinaryExpr,
@@ -68,7 +68,7 @@ def _notes(part: Part, condition: Expr) -> tuple[Note, ...]:
         variable: Variable | None = None
         if isinstance(reference, LocalReference):
             variable = reference.variable
-        elif isinstance(reference, TokenVariable):
+        elif isinstance(reference, TokenVariableReference):
             names = (p for p in reference.label.predicate.parameters if p.name == reference.name)
             variable = next(names, None)
         if variable is not None and variable.span is not None:
@@ -103,8 +103,12 @@ def _undecided_path(part: Part, path: PathExpr, sampled: set[object]) -> Iterato
             yield NEVER_DECIDED.at(path.span, help=help_, name=variable.name)
     elif isinstance(reference, MemberReference) and part.dialect is Dialect.NDDL3:
         base = reference.base
-        type_ = base.type if isinstance(base, TokenVariable) else getattr(getattr(base, "variable", None), "type", None)
-        if type_ is not None and isinstance(base, TokenVariable | LocalReference):
+        type_ = (
+            base.type
+            if isinstance(base, TokenVariableReference)
+            else getattr(getattr(base, "variable", None), "type", None)
+        )
+        if type_ is not None and isinstance(base, TokenVariableReference | LocalReference):
             yield _varying(path, type_.base)
 
 

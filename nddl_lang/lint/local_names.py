@@ -19,7 +19,7 @@ from nddl_lang.semantics.schema import (
     Kind,
     LocalReference,
     MemberReference,
-    TokenVariable,
+    TokenVariableReference,
     Variable,
 )
 from nddl_lang.syntax.nodes import (
@@ -45,7 +45,7 @@ def used_variables(part: Part) -> set[Variable]:
         base = reference.base if isinstance(reference, MemberReference) else reference
         if isinstance(base, LocalReference | GlobalReference):
             used.add(base.variable)
-        elif isinstance(base, TokenVariable):
+        elif isinstance(base, TokenVariableReference):
             used.update(p for p in base.label.predicate.parameters if p.name == base.name)
         if isinstance(reference, MemberReference):
             used.update(reference.members)

@@ -14,7 +14,7 @@ from nddl_lang.semantics.schema import (
     Schema,
     SideTables,
     TokenReference,
-    TokenVariable,
+    TokenVariableReference,
     Variable,
 )
 from nddl_lang.syntax.dialect import Dialect
@@ -80,7 +80,7 @@ def variable_of(reference: Reference | None) -> Variable | None:
             return variable
         case MemberReference(members=members) if members:
             return members[-1]
-        case TokenVariable(label=label, name=name):
+        case TokenVariableReference(label=label, name=name):
             return parameter_of(label.predicate, name)
         case _:
             return getattr(reference, "variable", None)
@@ -95,5 +95,5 @@ def mentioned_labels(part: Part) -> Iterator[Label]:
     """The tokens that a statement refers to after their creation."""
     for reference in part.tables.references.values():
         base = reference.base if isinstance(reference, MemberReference) else reference
-        if isinstance(base, TokenReference | TokenVariable):
+        if isinstance(base, TokenReference | TokenVariableReference):
             yield base.label

@@ -19,7 +19,7 @@ from nddl_lang.lint.whole import Whole
 from nddl_lang.semantics.constraints import CONSTRAINTS
 from nddl_lang.semantics.functions import FUNCTIONS
 from nddl_lang.semantics.relations import RELATIONS
-from nddl_lang.semantics.schema import Kind, MemberReference, TokenVariable
+from nddl_lang.semantics.schema import Kind, MemberReference, TokenVariableReference
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import (
     BoolLiteral,
@@ -107,7 +107,7 @@ def _predicates(part: Part) -> Iterator[Finding]:
     for predicate in part.all(PredicateDecl):
         for node in descendants(predicate):
             reference = part.reference(node) if isinstance(node, PathExpr) else None
-            if isinstance(reference, MemberReference) and isinstance(reference.base, TokenVariable):
+            if isinstance(reference, MemberReference) and isinstance(reference.base, TokenVariableReference):
                 help_ = f"`{node.span.text}` belongs into a rule"
                 yield OBJECT_IN_PREDICATE.at(node.span, help=help_, name=predicate.name.name)
 

@@ -8,7 +8,7 @@ from nddl_lang.lint.declarations import AGENT_TIMELINE
 from nddl_lang.lint.part import Part
 from nddl_lang.lint.whole import Whole
 from nddl_lang.semantics.literals import number
-from nddl_lang.semantics.schema import Predicate, TokenVariable
+from nddl_lang.semantics.schema import Predicate, TokenVariableReference
 from nddl_lang.syntax.nodes import (
     BinaryExpr,
     ClassDecl,
@@ -29,7 +29,7 @@ _BACKWARD = frozenset({"met_by", "after"})
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Request:
+class ChildRequest:
     """A rule asks for a token; not `is_certain` where that depends on a condition."""
 
     wanted: Predicate
@@ -39,7 +39,7 @@ class Request:
     is_other: bool  # whether it certainly differs from the one that asks, so that they cannot be merged
 
 
-Followers = dict[str, list[tuple[str, Request]]]
+Followers = dict[str, list[tuple[str, ChildRequest]]]
 
 
 class Graph:
@@ -49,7 +49,7 @@ class Graph:
         self.whole = whole
         self.schema = whole.analysis.schema
         self.rules: dict[str, list[Part]] = {}
-        self.requests: dict[Part, list[Request]] = {}
+        self.requests: dict[Part, list[ChildRequest]] = {}
         for part in whole.parts:
             if isinstance(part.node, RuleDecl) and part.node in part.tables.predicates:
                 self.rules.setdefault(part.tables.predicates[part.node].full_name, []).append(part)
@@ -82,7 +82,7 @@ class Graph:
         return found
 
 
-def _requests(part: Part, rule: RuleDecl) -> Iterator[Request]:
+def _requests(part: Part, rule: RuleDecl) -> Iterator[ChildRequest]:
     changed = _changed(part)
     pending = [(rule.body, True)]
     while pending:
@@ -93,7 +93,7 @@ def _requests(part: Part, rule: RuleDecl) -> Iterator[Request]:
                     for instance in statement.created:
                         if (predicate := part.predicate_of(instance)) is not None:
                             is_other = part.label_of(instance) in changed
-                            yield Request(predicate, statement, is_certain, instance.role == "effect", is_other)
+                            yield ChildRequest(predicate, statement, is_certain, instance.role == "effect", is_other)
                 case IfStatement(then=then, otherwise=otherwise):
                     pending += [(block, False) for block in (then, otherwise) if block]
                 case Foreach(body=inner):
@@ -109,10 +109,14 @@ def _changed(part: Part) -> set[object]:
             continue
         for path, other in ((expression.left, expression.right), (expression.right, expression.left)):
             one = part.reference(path) if isinstance(path, PathExpr) else None
-            if not isinstance(one, TokenVariable) or not isinstance(other, BinaryExpr) or other.op not in ("+", "-"):
+            if (
+                not isinstance(one, TokenVariableReference)
+                or not isinstance(other, BinaryExpr)
+                or other.op not in ("+", "-")
+            ):
                 continue
             source = part.reference(other.left) if isinstance(other.left, PathExpr) else None
-            if isinstance(source, TokenVariable) and source.label.name == "this" and source.name == one.name:
+            if isinstance(source, TokenVariableReference) and source.label.name == "this" and source.name == one.name:
                 if number(other.right) not in (None, 0):
                     found.add(one.label)
     return found
@@ -241,7 +245,7 @@ def _prune(followers: Followers) -> None:
                 pending.append(name)
 
 
-def _circle(name: str, followers: Followers) -> list[tuple[str, Request]]:
+def _circle(name: str, followers: Followers) -> list[tuple[str, ChildRequest]]:
     """The shortest way from a predicate back to itself."""
     ways: Followers = {}
     frontier: list[str] = [name]

@@ -42,7 +42,7 @@ def check_types(
                 complain_argument(context, name, argument, expression, phrase(type_))
         elif like is None:
             like = (expression, type_)
-        elif not comparable(like[1], type_, context.world.is_subclass):
+        elif not comparable(like[1], type_, context.symbols.is_subclass):
             if name == "neq" and always_differ(like[1], type_):
                 continue
             context.complain(
@@ -78,6 +78,6 @@ def _is_of_kind(context: Context, argument: Argument, type_: Type, reference: Re
         case ArgumentKind.TOKEN:
             return isinstance(reference, TokenReference)
         case ArgumentKind.RESOURCE:
-            return type_.kind is Kind.OBJECT and context.world.is_subclass(type_.base, _RESOURCE_CLASS)
+            return type_.kind is Kind.OBJECT and context.symbols.is_subclass(type_.base, _RESOURCE_CLASS)
         case ArgumentKind.PARAMETER | ArgumentKind.ANY | ArgumentKind.SAME:
             return True

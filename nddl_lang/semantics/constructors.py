@@ -29,7 +29,7 @@ from nddl_lang.semantics.schema import (
     Reference,
     Variable,
 )
-from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.typenames import find_type
 from nddl_lang.semantics.values import check_value, constant
 from nddl_lang.syntax.nodes import Assignment, BrokenStatement, ConstructorDecl, NewExpr, PathExpr, SuperCall
@@ -45,10 +45,10 @@ def declare_constructors(context: Context, owner: Class, nodes: list[Constructor
         if node.name.name != owner.name:
             fix = Fix(f"write `{owner.name}`", (Edit(node.name.span, owner.name),), safe=False)
             context.complain(CONSTRUCTOR_NAME.at(node.name.span, fixes=(fix,), owner=owner.name))
-        scope = scopes[node] = Scope(Place.CONSTRUCTOR, owner.name)
+        scope = scopes[node] = Scope(BlockKind.CONSTRUCTOR, owner.name)
         parameters = _declare_formals(context, scope, node)
         if parameters is None:
-            context.world.put_partial(owner.name)
+            context.symbols.put_partial(owner.name)
             continue
         constructor = Constructor(owner.name, tuple(parameters), node, node.name.span)
         key = tuple(parameter.type.name for parameter in parameters)
@@ -88,9 +88,9 @@ def _declare_formals(context: Context, scope: Scope, node: ConstructorDecl) -> l
 
 def check_constructor(context: Context, owner: Class, node: ConstructorDecl, scope: Scope) -> None:
     """Check the body of a constructor."""
-    base = context.world.find_class(owner.base) if owner.base is not None else None
+    base = context.symbols.find_class(owner.base) if owner.base is not None else None
     calls_super = any(isinstance(statement, SuperCall | BrokenStatement) for statement in node.body)
-    is_certain = not context.world.is_partial(owner.name)
+    is_certain = not context.symbols.is_partial(owner.name)
     if base is not None and not calls_super and is_certain and not has_empty_constructor(base):
         notes = constructor_notes(base)
         context.complain(MISSING_SUPER.at(node.name.span, notes=notes, base=base.name))
@@ -109,7 +109,7 @@ def check_constructor(context: Context, owner: Class, node: ConstructorDecl, sco
 
 def _check_super(context: Context, scope: Scope, base: Class | None, node: SuperCall) -> None:
     types = argument_types(context, scope, node.arguments)
-    if base is None or (scope.own_class is not None and context.world.is_partial(scope.own_class)):
+    if base is None or (scope.own_class is not None and context.symbols.is_partial(scope.own_class)):
         return
     constructor = choose(context, base, node.arguments, types, node.span)
     if constructor is not None:
@@ -147,10 +147,10 @@ def _resolve_target(context: Context, scope: Scope, path: PathExpr) -> Reference
     assert scope.own_class is not None
     if head.name == "this" and rest:
         head, *rest = rest
-        if context.world.find_member(scope.own_class, head.name) is None:
+        if context.symbols.find_member(scope.own_class, head.name) is None:
             complain_unknown_member(context, scope.own_class, head)
             return None
-    member = context.world.find_member(scope.own_class, head.name)
+    member = context.symbols.find_member(scope.own_class, head.name)
     if member is None:
         return resolve(context, scope, path)
     start = MemberReference(None, (member,))

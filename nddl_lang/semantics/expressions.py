@@ -25,7 +25,7 @@ from nddl_lang.semantics.schema import (
     EnumValue,
     GlobalReference,
     Kind,
-    TokenVariable,
+    TokenVariableReference,
     Type,
 )
 from nddl_lang.semantics.scope import Context, Scope
@@ -122,7 +122,7 @@ def _simple_type(context: Context, scope: Scope, expression: Expr) -> Type | Non
         type_ = _unary_type(context, scope, expression)
     else:
         assert isinstance(expression, NewExpr)
-        known = context.world.find_class(expression.class_name.name) is not None
+        known = context.symbols.find_class(expression.class_name.name) is not None
         type_ = object_type(expression.class_name.name) if known else None
     if type_ is not None:
         context.tables.types[expression] = type_
@@ -151,7 +151,7 @@ def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right:
 def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, right: Type | None) -> None:
     if left is None or right is None:
         return
-    if not comparable(left, right, context.world.is_subclass):
+    if not comparable(left, right, context.symbols.is_subclass):
         differing = binary.op == "!=" and always_differ(left, right)
         context.complain(
             (ALWAYS_DIFFERENT if differing else INCOMPARABLE).at(
@@ -169,7 +169,7 @@ def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, rig
 
 def _is_time(context: Context, expression: Expr) -> bool:
     reference = context.tables.references.get(expression)
-    return isinstance(reference, TokenVariable) and reference.name in TIME_NAMES
+    return isinstance(reference, TokenVariableReference) and reference.name in TIME_NAMES
 
 
 def _is_sum_of_times(context: Context, expression: Expr) -> bool:
@@ -268,7 +268,7 @@ def _set_type(context: Context, scope: Scope, values: SetExpr) -> Type | None:
             first, result = (item, type_), plain(type_)
         elif type_.kind in NUMBERS and result.kind in NUMBERS:
             result = FLOAT if Kind.FLOAT in (type_.kind, result.kind) else INT
-        elif type_.kind is not result.kind or not comparable(type_, result, context.world.is_subclass):
+        elif type_.kind is not result.kind or not comparable(type_, result, context.symbols.is_subclass):
             context.complain(
                 MIXED_SET.at(
                     item.span,
@@ -279,7 +279,7 @@ def _set_type(context: Context, scope: Scope, values: SetExpr) -> Type | None:
                 )
             )
             return None
-        elif type_.kind is Kind.OBJECT and context.world.is_subclass(result.base, type_.base):
+        elif type_.kind is Kind.OBJECT and context.symbols.is_subclass(result.base, type_.base):
             result = plain(type_)
     return result
 

@@ -36,7 +36,7 @@ def check_rule(context: Context, node: RuleDecl) -> None:
     if predicate is None:
         return
     context.tables.predicates[node] = predicate
-    context.world.put("rule", predicate.full_name, Rule(predicate, node))
+    context.symbols.put("rule", predicate.full_name, Rule(predicate, node))
     # Blocks are kept on a list and not on Python's stack: `else if` may go on for long.
     open_blocks: list[_Block] = [(iter(node.body), rule_scope(predicate, node))]
     while open_blocks:

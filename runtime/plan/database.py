@@ -8,12 +8,12 @@ from nddl_lang.text.diagnostic import Diagnostic
 from runtime.constraints.engine import Engine
 from runtime.plan import lifecycle
 from runtime.plan.loading import load_code, load_members, load_predicates, load_prototypes, load_relations
-from runtime.plan.resources.envelope import Flaws
-from runtime.plan.rules.rule_bytecode import Code
+from runtime.plan.resources.envelope import Envelope
+from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.script.codes import LOOSE_ITEM, NO_OBJECT
 from runtime.plan.script.objects import Objects
 from runtime.plan.script.script import Script
-from runtime.plan.script.user_constraints import WrittenConstraints
+from runtime.plan.script.user_constraints import UserConstraints
 from runtime.plan.store import marks
 from runtime.plan.store.names import Names
 from runtime.plan.store.plan import Plan
@@ -42,9 +42,9 @@ class PlanDatabase:
         self.relation_names = list(RELATIONS)
         relations = {name: number for number, name in enumerate(self.relation_names)}
         load_members(self.plan, program, self.prototypes, self.names)
-        self.written = WrittenConstraints(self.engine, self.prototypes, constraints)
+        self.written = UserConstraints(self.engine, self.prototypes, constraints)
         written = {constraint.name: number for number, constraint in enumerate(constraints)}
-        self.code = Code(self.prototypes, self.names, predicates, relations, written)
+        self.code = RuleBytecode(self.prototypes, self.names, predicates, relations, written)
         self.written.spans = self.code.spans
         load_prototypes(self.plan, program, self.prototypes)
         load_relations(self.plan)
@@ -55,7 +55,7 @@ class PlanDatabase:
         self.script = Script(self.plan, program, self.prototypes, self.code, predicates, self.objects)
         load_code(self.plan, self.code)
         self.plan.services = self
-        self.plan.envelope = Flaws(self.plan.engine, self.plan.resources)
+        self.plan.envelope = Envelope(self.plan.engine, self.plan.resources)
         self.plan.resources.grounded_text = self.prototypes.texts.number(GROUNDED)
         self.environment = environment
         self.ranges = {

@@ -6,7 +6,7 @@ from random import Random
 import pytest
 
 from runtime.plan.database import PlanDatabase
-from runtime.plan.resources.envelope import Flaws
+from runtime.plan.resources.envelope import Envelope
 from tests.plan.models import loaded, token
 
 
@@ -15,9 +15,9 @@ def consistent(text: str) -> bool:
     return loaded(text).is_consistent
 
 
-def flaw(database: PlanDatabase) -> Flaws | None:
+def flaw(database: PlanDatabase) -> Envelope | None:
     """The first flaw of the only resource."""
-    flaws = Flaws(database.plan.engine, database.plan.resources)
+    flaws = Envelope(database.plan.engine, database.plan.resources)
     return flaws if flaws.find(0) else None
 
 

@@ -8,7 +8,7 @@ from runtime.plan.tags import NONE
 
 
 @dataclass(frozen=True, slots=True)
-class Link:
+class ProvenanceStep:
     """One token of a chain; `statement` made it, in a rule that is `rule` (None: in the script, or from outside)."""
 
     token: int
@@ -18,7 +18,7 @@ class Link:
     rule: Span | None
 
 
-def chain(database: PlanDatabase, t: int) -> list[Link]:
+def chain(database: PlanDatabase, t: int) -> list[ProvenanceStep]:
     """The token, its master, its master's master, and so on."""
     rows = database.plan.rows
     links = []
@@ -26,7 +26,7 @@ def chain(database: PlanDatabase, t: int) -> list[Link]:
         creator = rows.creator[t]
         rule = NONE if creator < 0 else rows.scope_rule[creator]
         relation = rows.relation[t]
-        link = Link(
+        link = ProvenanceStep(
             t,
             database.program.predicates[rows.predicate[t]].name,
             None if relation < 0 else database.relation_names[relation],

@@ -9,14 +9,14 @@ have given back before. Order is read off the network: paths of edges whose weig
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
 from runtime.plan.arrays import blank, blank_reals, grown
-from runtime.plan.resources.profile import Levels
+from runtime.plan.resources.profile import Profile
 from runtime.plan.resources.resources import Resources
 from runtime.plan.tags import NONE
 
 ROOM = 64
 
 
-class Flaws:
+class Envelope:
     """A search for flaws, and what it found; its arrays are used again.
 
     A flaw is `resource`, the instant `at`, `is_low` and `excess`; the pairs are timepoints (and uses), the first of
@@ -26,7 +26,7 @@ class Flaws:
     def __init__(self, engine: Engine, resources: Resources) -> None:
         self.engine = engine
         self.resources = resources
-        self.levels = Levels()
+        self.levels = Profile()
         self.resource = NONE
         self.at = 0
         self.is_low = 1

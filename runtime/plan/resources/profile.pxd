@@ -6,7 +6,7 @@ cdef long long ROOM, TOO_FAST, TOO_HIGH, TOO_LOW, TOO_MUCH, TOO_TIGHT, HALF_INF,
 cdef double FLOAT_TOLERANCE, inf
 
 
-cdef class Levels:
+cdef class Profile:
     cdef public long long room, count, wrong, at, until
     cdef public long long[::1] use, sign, lasting, start_low
     cdef public long long[::1] start_high, end_low, end_high, length

@@ -13,7 +13,7 @@ ROOM = 16
 MOST_WINDOWS = 64  # above so many uses only windows from the earliest start on are looked at
 
 
-class Levels:
+class Profile:
     """The bounds of the uses of one resource at one moment, and the limits of its level.
 
     `sign` is -1 for what consumes, +1 for what produces. What is `lasting` has no end: an event of a reservoir. Of

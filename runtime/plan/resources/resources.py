@@ -10,8 +10,8 @@ from typing import Protocol
 from runtime.constraints.domains.tags import SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
 from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
-from runtime.plan.resources.profile import Levels
-from runtime.plan.resources.violation import Excess
+from runtime.plan.resources.profile import Profile
+from runtime.plan.resources.violation import Violation
 from runtime.plan.tags import (
     INITIAL,
     LIMITS,
@@ -30,7 +30,7 @@ from runtime.plan.tags import (
 ROOM = 32
 
 
-class Envelope(Protocol):
+class UseOrder(Protocol):
     """What knows the order of uses."""
 
     is_low: int
@@ -48,7 +48,7 @@ class Resources:
 
     def __init__(self, engine: Engine) -> None:
         self.engine = engine
-        self.levels = Levels()
+        self.levels = Profile()
         self.room = ROOM
         self.count = 0
         self.free: list[int] = []
@@ -208,7 +208,7 @@ class Resources:
                     self.pending = 1
         return not self.pending
 
-    def check(self, envelope: "Envelope", level: int) -> bool:
+    def check(self, envelope: "UseOrder", level: int) -> bool:
         """Refuse what certainly exceeds a resource; False if something does."""
         self.pending = 0
         for o in range(self.object_room):
@@ -235,7 +235,7 @@ class Resources:
             self.pending = 1
         return taken
 
-    def fill(self, levels: Levels, o: int) -> None:
+    def fill(self, levels: Profile, o: int) -> None:
         """Put the uses and limits of a resource into `levels`."""
         at = o * LIMITS
         low = self.lower(at + INITIAL, 0.0)
@@ -278,13 +278,13 @@ class Resources:
             self.changed[o] = 1
             self.pending = 1
 
-    def refuse(self, o: int, level: int, envelope: "Envelope | None") -> bool:
+    def refuse(self, o: int, level: int, envelope: "UseOrder | None") -> bool:
         """Post a constraint on the uses that exceed a resource: it finds the same, so that the engine can explain it.
 
         With an envelope the order of uses made it certain.
         """
         levels = self.levels
-        excess = Excess(o, levels.wrong, levels.at, levels.excess, list(self.steps.get(o, ())))
+        excess = Violation(o, levels.wrong, levels.at, levels.excess, list(self.steps.get(o, ())))
         excess.limit_steps = self.limit_steps.get(o, [])
         excess.room = levels.initial_high - levels.minimum
         excess.limit = levels.maximum if levels.wrong == TOO_HIGH else levels.minimum
@@ -321,7 +321,7 @@ class Resources:
             self.refusals.append(c)
         return self.engine.propagate()
 
-    def note_read(self, excess: Excess, i: int, u: int, by_order: bool) -> bool:
+    def note_read(self, excess: Violation, i: int, u: int, by_order: bool) -> bool:
         """Note which bounds of use `u`, row `i` of the levels, count for an excess; False if it has no part in it."""
         levels = self.levels
         start = 4 * self.start[u]

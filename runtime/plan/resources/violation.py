@@ -9,13 +9,13 @@ from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.constraints.propagators.external import External, argument, refuse
 from runtime.plan import tags
-from runtime.plan.resources.profile import Levels
+from runtime.plan.resources.profile import Profile
 from runtime.plan.tags import AS_IT_IS, LIMITS, TOO_HIGH, TOO_LOW, TOO_TIGHT
 
 Step = tuple[int, float, float]  # set_capacity: from when on, between what
 
 
-class Excess(External):
+class Violation(External):
     """The limits of a resource, then holder, quantity, start, end and duration (if any) of each use, are its arguments.
 
     `read` are the bounds (`v * 4 + side`) that make it certain, each with what would be `enough`; `uses` the rows that
@@ -97,7 +97,7 @@ class Excess(External):
         """Refuse if the level is certainly out of bounds."""
         if self.table is not None and self.judge is not None:
             return not self.is_out_by_order(s, c) or refuse(s, c)
-        levels = Levels()
+        levels = Profile()
         place = 0
         bounds = [(0.0, 0.0), (-inf, -inf), (inf, inf), (inf, inf), (inf, inf), (inf, inf), (inf, inf)]
         for k in self.limits:

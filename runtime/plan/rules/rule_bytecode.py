@@ -14,7 +14,6 @@ from compiler.program import (
     Constant,
     DomainConstant,
     Field,
-    Foreach,
     GlobalVariable,
     Guard,
     Instruction,
@@ -23,6 +22,7 @@ from compiler.program import (
     NewObject,
     NewToken,
     NewVariable,
+    ObjectLoop,
     Operand,
     Post,
     Relate,
@@ -69,7 +69,7 @@ from runtime.plan.tags import (
 DISTANCES = {"precedes": (0, INFINITY), "strictlyPrecedes": (1, INFINITY), "concurrent": (0, 0)}
 
 
-class Code:
+class RuleBytecode:
     """All bodies of a program as integers, with the tables that the integers point into."""
 
     def __init__(
@@ -150,7 +150,7 @@ class Code:
                 blocks = self.block(then), self.block(otherwise)
                 inputs = [number for operand in decided_by for number in self.operand(operand)]
                 self.write(DO_GUARD, span, *self.operand(condition), *blocks, len(decided_by), *inputs)
-            case Foreach(slot=slot, collection=collection, body=body):
+            case ObjectLoop(slot=slot, collection=collection, body=body):
                 self.write(DO_FOREACH, span, slot, *self.operand(collection), self.block(body))
             case NewObject(slot=slot):
                 self.objects.append(instruction)

@@ -6,7 +6,7 @@ from compiler.program import Assign, ClassCode, ConstructorCode, NewObject, Prog
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import KIND_FLOAT, KIND_OBJECT
-from runtime.plan.rules.rule_bytecode import Code
+from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.rules.rule_interpreter import run
 from runtime.plan.script.assignments import assign_domain, copy_current
 from runtime.plan.script.codes import CLOSED_CLASS, ENDLESS_OBJECT
@@ -55,7 +55,7 @@ class Fill:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Constructor:
+class PreparedConstructor:
     """A constructor ready to run: a step is one of the above or the number of a block."""
 
     parameters: tuple[int, ...]  # prototypes
@@ -66,7 +66,7 @@ class Constructor:
 class Objects:
     """All objects by number and name."""
 
-    def __init__(self, plan: Plan, program: Program, prototypes: Prototypes, code: Code) -> None:
+    def __init__(self, plan: Plan, program: Program, prototypes: Prototypes, code: RuleBytecode) -> None:
         self.plan = plan
         self.program = program
         self.prototypes = prototypes
@@ -80,7 +80,7 @@ class Objects:
 
     # ---- preparing ----
 
-    def prepare(self, constructor: ConstructorCode) -> Constructor:
+    def prepare(self, constructor: ConstructorCode) -> PreparedConstructor:
         """Flatten a constructor."""
         steps: list[Super | Fill | int] = []
         for step in constructor.body:
@@ -93,7 +93,7 @@ class Objects:
                 case _:
                     steps.append(self.code.body((step,)))
         parameters = tuple(self.prototypes.of(bare(type_), None) for type_ in constructor.parameters)
-        return Constructor(parameters, tuple(steps), max(constructor.slots, len(parameters)))
+        return PreparedConstructor(parameters, tuple(steps), max(constructor.slots, len(parameters)))
 
     def prepare_fill(self, step: Assign) -> Fill:
         """Flatten an assignment."""

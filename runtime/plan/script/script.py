@@ -7,13 +7,13 @@ from compiler.program import (
     Assign,
     Call,
     Child,
-    Foreach,
     Guard,
     Instruction,
     NewGlobal,
     NewObject,
     NewToken,
     NewVariable,
+    ObjectLoop,
     Post,
     Program,
     Relate,
@@ -21,7 +21,7 @@ from compiler.program import (
 )
 from nddl_lang.text.diagnostic import Diagnostic
 from runtime.plan.lifecycle import settle
-from runtime.plan.rules.rule_bytecode import Code
+from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.script.calls import Calls
 from runtime.plan.script.codes import NO_OBJECT
 from runtime.plan.script.objects import Objects
@@ -45,7 +45,7 @@ class Script:
         plan: Plan,
         program: Program,
         prototypes: Prototypes,
-        code: Code,
+        code: RuleBytecode,
         predicates: dict[str, int],
         objects: Objects,
     ) -> None:
@@ -96,7 +96,7 @@ class Script:
                 return self.prepare_token(instruction)
             case Call():
                 return self.calls.prepare(instruction)
-            case Post() | Sample() | Relate() | NewVariable() | Guard() | Foreach() | Child():
+            case Post() | Sample() | Relate() | NewVariable() | Guard() | ObjectLoop() | Child():
                 block = self.code.body((instruction,))
                 return lambda: self.push(block)
             case _:

@@ -11,7 +11,7 @@ from runtime.user.constraint import Constraint
 from runtime.user.written import Written
 
 
-class WrittenConstraints:
+class UserConstraints:
     """A modeler's constraints by number, over the names of one plan."""
 
     def __init__(self, engine: Engine, prototypes: Prototypes, constraints: Sequence[Constraint]) -> None:

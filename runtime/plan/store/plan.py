@@ -5,7 +5,7 @@ from typing import Protocol
 
 from runtime.constraints.engine import Engine
 from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
-from runtime.plan.resources.resources import Envelope, Resources
+from runtime.plan.resources.resources import Resources, UseOrder
 from runtime.plan.store.rows import Rows
 from runtime.plan.tags import NONE
 
@@ -157,7 +157,7 @@ class Plan:
         self.unions: list[tuple[tuple[int, int], ...]] = []
         self.services: Services
         self.resources = Resources(engine)
-        self.envelope: Envelope
+        self.envelope: UseOrder
 
     def set_globals(self, count: int) -> None:
         """Make room for the global variables, none of which exists yet."""

@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
-from runtime.plan.resources.envelope cimport Flaws
+from runtime.plan.resources.envelope cimport Envelope
 from runtime.plan.lifecycle cimport settle
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.resources.resources cimport Resources
@@ -19,7 +19,7 @@ cdef class Uses:
     cdef public Resources resources
     cdef public Distances distances
     cdef public long long[::1] grounded, point, takes
-    cdef public Flaws flaws
+    cdef public Envelope flaws
     cdef public Heap agenda
     cdef public long long found_at, found_low, count
     cdef public double found_excess

@@ -11,7 +11,7 @@ from runtime.constraints.domains.tags import FLOAT_TOLERANCE
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
 from runtime.plan.lifecycle import settle
-from runtime.plan.resources.envelope import Flaws
+from runtime.plan.resources.envelope import Envelope
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import INITIAL, LIMITS, MAXIMUM, MINIMUM
 from runtime.solver.tags import NONE
@@ -27,7 +27,7 @@ class Uses:
         self.resources = plan.resources
         self.distances = distances
         self.grounded = grounded  # per object: whether its level is that of everything happening early
-        self.flaws = Flaws(plan.engine, plan.resources)
+        self.flaws = Envelope(plan.engine, plan.resources)
         self.agenda = Heap()
         self.found_at = 0
         self.found_low = 0

@@ -9,7 +9,7 @@ too many.
 
 from typing import Any
 
-from compiler.program import Foreach, Guard, Instruction, NewObject, Program
+from compiler.program import Guard, Instruction, NewObject, ObjectLoop, Program
 from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.plan.tags import ACTIVE, LIST_ORDER, LISTS, MERGED, NONE, OBJECT, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.flaws.agenda import Queues
@@ -27,7 +27,7 @@ class Nogoods:
         self.queues = queues
         self.stack = stack
         # One name means many things in a loop, and where objects are made.
-        self.is_usable = not any(has_any(rule.body, (Foreach, NewObject)) for rule in program.rules)
+        self.is_usable = not any(has_any(rule.body, (ObjectLoop, NewObject)) for rule in program.rules)
         self.clear()
 
     def clear(self) -> None:

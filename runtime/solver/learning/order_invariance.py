@@ -4,7 +4,7 @@ As long as no token comes in, the order changes nothing: what is left after all 
 come in when guards fire. Then who is there first may merge with fewer others, or take from a tank before it is filled.
 """
 
-from compiler.program import Foreach, Program
+from compiler.program import ObjectLoop, Program
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import RESOURCE_CONSUMES, RESOURCE_PRODUCES
 from runtime.solver.configuration.handler_table import Treatments
@@ -15,7 +15,7 @@ from runtime.solver.tags import HANDLER_HSTS
 
 def has_loops(program: Program) -> bool:
     """Whether some rule has a `foreach`: it settles what its variable may be, so that all hangs on what came before."""
-    return any(has_any(rule.body, (Foreach,)) for rule in program.rules)
+    return any(has_any(rule.body, (ObjectLoop,)) for rule in program.rules)
 
 
 def is_any_order_right(program: Program, plan: Plan, treatments: Treatments, supports: Supports) -> bool:

@@ -17,7 +17,7 @@ from runtime.constraints.propagators.operations import OPERATIONS
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.provenance import span_of
 from runtime.plan.readout.readout import live_tokens, token_names
-from runtime.plan.resources.violation import Excess
+from runtime.plan.resources.violation import Violation
 from runtime.plan.store.domain_texts import base_text, domain_text
 from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
 from runtime.solver.configuration.handler_matching import BUILT_IN
@@ -94,7 +94,7 @@ class Wording:
                 text = self.restriction(cause.id)
             case CauseKind.CONSTRAINT:
                 text = self.constraint(cause.id)
-        if cause.kind is CauseKind.CONSTRAINT and isinstance(self.engine.externals.get(cause.id), Excess):
+        if cause.kind is CauseKind.CONSTRAINT and isinstance(self.engine.externals.get(cause.id), Violation):
             return Line(None, "", text, "so")
         is_declared = cause.kind is CauseKind.RESTRICTION and not self.is_decision(cause.id)
         return Line(span_of(self.database, cause.span), owner, text, "declared" if is_declared else "decided")
@@ -139,7 +139,7 @@ class Wording:
             names = [self.variable(v) for v in arguments]
             return f"{names[0]} + {names[1]} = {names[2]}, {names[1]} is {self.value(arguments[1])}"
         external = engine.externals.get(c)
-        if isinstance(external, Excess):
+        if isinstance(external, Violation):
             return external.words(self.database.objects.names[external.resource], self.user)
         name = external.name if isinstance(external, Written) else NAMES.get(engine.op[c], "constraint")
         return f"{name}({', '.join(self.variable(v) for v in arguments)})"
