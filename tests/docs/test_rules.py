@@ -8,12 +8,12 @@ import pytest
 
 import runtime.build_form
 from checker.mission_pages import MISSION_PAGES
+from checker.rulebook import PAGES
 from nddl_lang.lint.configuration import read_configuration
 from nddl_lang.lint.pages_settings import SETTINGS_PAGES
 from nddl_lang.text.page import RulePage
 from nddl_lang.text.source import Source
-from nddlc.loading import load
-from nddlc.rulebook import PAGES
+from runtime.loading import load
 from runtime.plan.script.pages import SCRIPT_PAGES
 from runtime.solver.configuration.pages import SOLVER_PAGES
 from runtime.solver.configuration.read import read_configuration as read_solver

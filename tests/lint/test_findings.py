@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
+from checker.rulebook import PAGES as ALL_PAGES
+from checker.rulebook import files
 from nddl_lang.analysis import analyse_file, analyse_text
 from nddl_lang.lint import codes
 from nddl_lang.lint.linter import lint
 from nddl_lang.lint.pages import PAGES
 from nddl_lang.text.diagnostic import Code, Severity
 from nddl_lang.text.page import RulePage
-from nddlc.rulebook import PAGES as ALL_PAGES
-from nddlc.rulebook import files
 from tests.semantics.marked import marked, unmarked
 
 ROOT = Path(__file__).resolve().parents[2]

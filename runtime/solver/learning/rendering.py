@@ -80,9 +80,7 @@ class Wording:
 
     def value(self, v: int) -> str:
         """The domain of a variable, without its type."""
-        text = domain_text(self.database.prototypes, self.engine, v, self.database.objects.names, "x")
-        text = text.removesuffix(" open").removesuffix(" x").rpartition(" ")[0] or text.removesuffix(" x")
-        return text[1:-1] if text.startswith("{") and "," not in text else text
+        return domain_text(self.database.prototypes, self.engine, v, self.database.objects.names, None).brief
 
     def line(self, cause: Cause) -> Line:
         """A cause as a line of the model."""
