@@ -21,10 +21,10 @@ from checker.report.html import html_report
 from checker.report.junit import junit_report
 from checker.report.sarif import sarif_report
 from checker.report.text import text_report
-from checker.report.write import write_whole
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import as_dict, render
+from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
 from runtime.user.library import library_of
 

@@ -7,7 +7,6 @@ from typing import Any, TypeVar
 from nddl_lang.semantics.schema import (
     Domain,
     Label,
-    LocalReference,
     MemberReference,
     Predicate,
     Reference,
@@ -71,19 +70,6 @@ class Facts:
 Conditional = Callable[[Facts], Diagnostic | None]
 Finding = Diagnostic | Conditional
 PartLint = Callable[[Part], Iterable[Finding]]
-
-
-def variable_of(reference: Reference | None) -> Variable | None:
-    """The variable that a reference ends in, None for what is no variable with a declaration of its own."""
-    match reference:
-        case LocalReference(variable=variable):
-            return variable
-        case MemberReference(members=members) if members:
-            return members[-1]
-        case TokenVariableReference(label=label, name=name):
-            return parameter_of(label.predicate, name)
-        case _:
-            return getattr(reference, "variable", None)
 
 
 def parameter_of(predicate: Predicate, name: str) -> Variable | None:

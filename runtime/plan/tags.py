@@ -66,7 +66,6 @@ TOO_LOW, TOO_HIGH, TOO_FAST, TOO_MUCH, TOO_TIGHT = range(1, 6)
 # ---- trail entries: a field's old value, or something to take back ----
 (
     UNDO_STATUS,
-    UNDO_FLAGS,
     UNDO_BRANCH,
     UNDO_INPUTS,
     UNDO_MERGED,
@@ -77,7 +76,7 @@ TOO_LOW, TOO_HIGH, TOO_FAST, TOO_MUCH, TOO_TIGHT = range(1, 6)
     UNDO_LINK,
     UNDO_UNLINK,
     UNDO_NEW_PAIR,
-) = range(12)
+) = range(11)
 
 # ---- lists that tokens are on ----
 LIST_OPEN, LIST_THREAT, LIST_PREDICATE, LIST_ORDER = range(4)

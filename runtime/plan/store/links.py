@@ -12,7 +12,6 @@ from runtime.plan.tags import (
     NONE,
     SHORT,
     UNDO_BRANCH,
-    UNDO_FLAGS,
     UNDO_INPUTS,
     UNDO_LINK,
     UNDO_MERGED,
@@ -129,8 +128,6 @@ def undo(rows: Rows, length: int) -> None:
         elif code == UNDO_INPUTS:
             rows.scope_inputs[index] = NONE
             rows.scope_watch[index] = NONE
-        elif code == UNDO_FLAGS:
-            rows.flags[index] = old
         elif code == UNDO_MERGED:
             rows.merged[old] = rows.merged_next[index]
             rows.merged_into[index] = NONE

@@ -2,7 +2,7 @@
 
 cimport cython
 
-cdef long long FREED, INACTIVE, NONE, SHORT, UNDO_BRANCH, UNDO_FLAGS, UNDO_INPUTS, UNDO_MERGED, UNDO_NEW_CELLS
+cdef long long FREED, INACTIVE, NONE, SHORT, UNDO_BRANCH, UNDO_INPUTS, UNDO_MERGED, UNDO_NEW_CELLS
 cdef long long UNDO_NEW_HOLD, UNDO_NEW_SCOPE, UNDO_NEW_TOKEN, UNDO_STATUS
 
 
@@ -41,8 +41,6 @@ cdef class Rows:
     cpdef int release_token(self, long long t) except -1
 
     cpdef int set_status(self, long long t, long long status) except -1
-
-    cpdef int set_flags(self, long long t, long long flags) except -1
 
     cpdef int set_merged(self, long long t, long long other) except -1
 

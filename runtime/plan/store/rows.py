@@ -15,7 +15,6 @@ from runtime.plan.tags import (
     NONE,
     SHORT,
     UNDO_BRANCH,
-    UNDO_FLAGS,
     UNDO_INPUTS,
     UNDO_MERGED,
     UNDO_NEW_CELLS,
@@ -188,12 +187,6 @@ class Rows:
         if self.level:
             self.log(UNDO_STATUS, t, self.status[t])
         self.status[t] = status
-
-    def set_flags(self, t: int, flags: int) -> None:
-        """Change the flags of `t`."""
-        if self.level:
-            self.log(UNDO_FLAGS, t, self.flags[t])
-        self.flags[t] = flags
 
     def set_merged(self, t: int, other: int) -> None:
         """Note that `t` is merged into `other`."""
