@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
-from nddl_lang.semantics.allocation import settle
+from nddl_lang.semantics.allocation import check_deferred
 from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
 from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_TYPE
 from nddl_lang.semantics.schema import Schema, SideTables
@@ -92,7 +92,7 @@ class Analyser:
             self._units, self._dialect = {}, loaded.dialect
         statements = loaded.module.statements
         symbols = SymbolTable()
-        _foresee(symbols, loaded)
+        _note_declarations(symbols, loaded)
         units: dict[Statement, _Unit] = {}
         for statement in statements:
             unit = self._units.get(statement)
@@ -104,7 +104,10 @@ class Analyser:
         self._units = units
         echoes = _Echoes(loaded)
         complaints = [
-            (statement, tuple(echoes.without((*unit.complaints, *_settle(symbols, unit, loaded, self._callables)))))
+            (
+                statement,
+                tuple(echoes.without((*unit.complaints, *_deferred(symbols, unit, loaded, self._callables)))),
+            )
             for statement, unit in units.items()
         ]
         tables = SideTables()
@@ -153,18 +156,18 @@ def _check(symbols: SymbolTable, statement: Statement, dialect: Dialect, callabl
     return _Unit(symbols.reads, symbols.writes, context.tables, tuple(context.complaints), tuple(context.deferred))
 
 
-def _settle(symbols: SymbolTable, unit: _Unit, loaded: LoadedModules, callables: Callables) -> tuple[Diagnostic, ...]:
+def _deferred(symbols: SymbolTable, unit: _Unit, loaded: LoadedModules, callables: Callables) -> tuple[Diagnostic, ...]:
     """What had to wait until the whole script was read."""
     if not unit.deferred:
         return ()
     symbols.begin()
     context = Context(symbols, loaded.dialect, unit.tables, callables=callables)
     for deferred in unit.deferred:
-        settle(context, deferred)
+        check_deferred(context, deferred)
     return tuple(context.complaints)
 
 
-def _foresee(symbols: SymbolTable, loaded: LoadedModules) -> None:
+def _note_declarations(symbols: SymbolTable, loaded: LoadedModules) -> None:
     """Note what is declared where, and which names are doubtful because text was not understood or is missing."""
     for statement in loaded.module.statements:
         if isinstance(statement, BrokenStatement):

@@ -128,24 +128,24 @@ def _difference(whole: Whole, node: MethodCall, one: Label, other: Label) -> Ite
 def _facts(whole: Whole, goals: list[tuple[Part, GoalStatement]]) -> Iterator[Diagnostic]:
     if not whole.is_whole:
         return
-    settled: set[Label] = set()
+    planned: set[Label] = set()
     for part in whole.parts:
         node = part.node
         if isinstance(node, MethodCall) and node.method.name in ("activate", "merge", "constrain"):
             for path in (node.target, *node.arguments):
                 reference = part.reference(path)
                 if isinstance(reference, TokenReference):
-                    settled.add(reference.label)
+                    planned.add(reference.label)
         elif isinstance(node, Assignment) and node.target.parts[-1].name == "state":
             label = getattr(part.reference(node.target), "label", None)
             if isinstance(label, Label):
-                settled.add(label)
+                planned.add(label)
     for part, node in goals:
         if node.kind != "fact" or not whole.is_own(node.span):
             continue
         for instance in node.instances:
             label = part.label_of(instance)
-            if label is None or label not in settled:
+            if label is None or label not in planned:
                 how = f"`{label.name}.activate();`" if label is not None else "a name, and `activate()`"
                 yield IDLE_FACT.at(instance.span, help=f"to put it into the plan, add {how}")
 

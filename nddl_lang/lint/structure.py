@@ -205,32 +205,32 @@ def _endless(graph: Graph) -> Iterator[Diagnostic]:
                 later.setdefault(own.full_name, []).append((request.wanted.full_name, request))
             elif word not in _BACKWARD:
                 same.setdefault(own.full_name, []).append((request.wanted.full_name, request))
-    yield from _circles(graph, same, ENDLESS)
-    yield from _circles(graph, later, CHAIN)
+    yield from _cycles(graph, same, ENDLESS)
+    yield from _cycles(graph, later, CHAIN)
 
 
-def _circles(graph: Graph, followers: Followers, code: Code) -> Iterator[Diagnostic]:
+def _cycles(graph: Graph, followers: Followers, code: Code) -> Iterator[Diagnostic]:
     _prune(followers)
     told: set[str] = set()
     for name in followers:
         owner, _, word = name.partition(".")
         if name in told:
             continue
-        circle = _circle(name, followers)
-        told.update(each for each, _ in circle)
-        if not circle or not graph.whole.is_own(circle[0][1].relation.span):
+        cycle = _cycle(name, followers)
+        told.update(each for each, _ in cycle)
+        if not cycle or not graph.whole.is_own(cycle[0][1].relation.span):
             continue
         # Tokens that may be equal are merged; and what an agent plans ends with how far it looks ahead.
-        if code is ENDLESS and not any(request.is_other for _, request in circle):
+        if code is ENDLESS and not any(request.is_other for _, request in cycle):
             continue
         if code is CHAIN and AGENT_TIMELINE in graph.schema.ancestry(owner):
             continue
-        notes = tuple(Note(f"which asks for `{each}` here", request.relation.span) for each, request in circle[1:])
-        yield code.at(circle[0][1].relation.span, notes=notes, name=word)
+        notes = tuple(Note(f"which asks for `{each}` here", request.relation.span) for each, request in cycle[1:])
+        yield code.at(cycle[0][1].relation.span, notes=notes, name=word)
 
 
 def _prune(followers: Followers) -> None:
-    """Leave out what leads to no circle."""
+    """Leave out what leads to no cycle."""
     before: dict[str, list[str]] = {}
     count = {name: len(requests) for name, requests in followers.items()}
     for name, requests in followers.items():
@@ -245,7 +245,7 @@ def _prune(followers: Followers) -> None:
                 pending.append(name)
 
 
-def _circle(name: str, followers: Followers) -> list[tuple[str, ChildRequest]]:
+def _cycle(name: str, followers: Followers) -> list[tuple[str, ChildRequest]]:
     """The shortest way from a predicate back to itself."""
     ways: Followers = {}
     frontier: list[str] = [name]

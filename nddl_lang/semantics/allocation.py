@@ -39,7 +39,7 @@ def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | No
     return owner if is_sound else None
 
 
-def settle(context: Context, deferred: Deferred) -> None:
+def check_deferred(context: Context, deferred: Deferred) -> None:
     """Choose the constructor of a `new` whose class was not defined above it, now that the script is read."""
     context.tables.constructors.pop(deferred.new, None)
     owner = find_defined_class(context, deferred.new.class_name)

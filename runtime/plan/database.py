@@ -1,4 +1,4 @@
-"""The plan database: a program in; tokens, timelines and rules at work, and everything that changes them."""
+"""Plan database: the face of the room; a program in, tokens, timelines and rules changed by its methods."""
 
 from collections.abc import Callable, Sequence
 
@@ -115,14 +115,14 @@ class PlanDatabase:
         """Whether nothing contradicts anything so far."""
         return bool(self.engine.consistent)
 
-    def settle(self) -> bool:
-        """Propagate, and let guards fire, until nothing is left to do; False on a conflict."""
-        return lifecycle.settle(self.plan)
+    def fire(self) -> bool:
+        """Fire rules and propagate to the fixpoint of both; False on a conflict."""
+        return lifecycle.fire(self.plan)
 
     # ---- time ----
 
     def mark(self) -> int:
-        """Remember the present state, which must be settled; what `rewind` and `release` take."""
+        """Remember the present state, which must be a fixpoint; what `rewind` and `release` take."""
         return marks.mark(self.plan)
 
     def rewind(self, mark: int) -> None:
@@ -140,7 +140,7 @@ class PlanDatabase:
     # ---- tokens: False on a conflict; undone by `rewind`, or at level 0 by `cancel`, `free` and `remove_tokens` ----
 
     def new_token(self, predicate: int, o: int, flags: int, span: int) -> int:
-        """Make a token of predicate number `predicate` on object `o` (NONE: on any); settle it yourself."""
+        """Make a token of predicate number `predicate` on object `o` (NONE: on any); call `fire` behind it."""
         given = NONE if o < 0 else self.plan.object_constant[o]
         return make_token(self.plan, predicate, flags, NONE, NONE, given, span)
 
@@ -158,29 +158,29 @@ class PlanDatabase:
 
     def cancel(self, t: int) -> bool:
         """Make a token inactive again (level 0)."""
-        return retraction.cancel(self.plan, t) and self.settle()
+        return retraction.cancel(self.plan, t) and self.fire()
 
     def remove_tokens(self, tokens: list[int]) -> bool:
         """Take tokens away with all that followed from them (level 0)."""
-        return retraction.remove_tokens(self.plan, tokens) and self.settle()
+        return retraction.remove_tokens(self.plan, tokens) and self.fire()
 
     def order(self, o: int, before: int, after: int, span: int = NONE) -> bool:
         """Put `before` in front of `after` on object `o`; the same token twice: it alone, behind what is there."""
-        return timelines.order(self.plan, o, before, after, span) and self.settle()
+        return timelines.order(self.plan, o, before, after, span) and self.fire()
 
     def free(self, before: int, after: int) -> bool:
         """Undo `order` (level 0)."""
-        return retraction.free(self.plan, before, after, NONE) and self.settle()
+        return retraction.free(self.plan, before, after, NONE) and self.fire()
 
     # ---- variables ----
 
     def specify(self, v: int, value: float, span: int = NONE) -> bool:
         """Decide a variable."""
-        return self.engine.decide(v, value, span, NONE) and self.settle()
+        return self.engine.decide(v, value, span, NONE) and self.fire()
 
     def reset(self, v: int) -> bool:
         """Undo the decision of a variable (level 0)."""
-        return retraction.reset(self.plan, v) and self.settle()
+        return retraction.reset(self.plan, v) and self.fire()
 
     # ---- names ----
 

@@ -1,4 +1,4 @@
-"""Fill a plan's tables from a program: predicates, rules, relations, members, flattened code, prototypes."""
+"""Tables of a plan, filled from a program: predicates, rules, relations, members, bytecode, prototypes."""
 
 from array import array
 from collections.abc import Iterable
@@ -185,7 +185,7 @@ def load_kinds(plan: Plan, program: Program, prototypes: Prototypes) -> None:
 
 
 def load_code(plan: Plan, code: RuleBytecode) -> None:
-    """Hand the flattened code over."""
+    """Hand the bytecode over."""
     plan.code = packed(code.cells)
     plan.block_start = packed(code.block_start)
     plan.block_end = packed(code.block_end)

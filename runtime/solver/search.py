@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from runtime.plan.database import PlanDatabase
-from runtime.plan.lifecycle import settle
+from runtime.plan.lifecycle import fire
 from runtime.plan.store.marks import commit, mark, release, rewind
 from runtime.plan.tags import REJECTED
 from runtime.solver.configuration.configuration import Configuration, with_resources
@@ -116,7 +116,7 @@ class Solver:
             self.look_closer()  # what does not fit at all needs no further reasons
         self.nogoods.clear()
         self.queues.weights.clear()
-        self.is_exhausted = not settle(self.plan)
+        self.is_exhausted = not fire(self.plan)
         if self.is_exhausted and self.account is not None:
             self.account.contradicted()
         fill(self.queues)

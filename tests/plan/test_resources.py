@@ -60,7 +60,7 @@ def test_two_uses_that_may_overlap_are_a_flaw_until_they_are_ordered() -> None:
     database = loaded(text)
     found = flaw(database)
     assert found is not None
-    assert (found.at, found.is_low, found.excess, found.find_pairs()) == (0, 1, 1.0, 2)
+    assert (found.at, found.is_low, found.amount, found.find_pairs()) == (0, 1, 1.0, 2)
     assert flaw(loaded(text + "a before b;")) is None
 
 

@@ -1,4 +1,4 @@
-"""Tell why a token is there: the rule that asked for it, the token that fired the rule, and so on up to the goal."""
+"""Provenance of a token: the rule that asked for it, its parent, and so on up to the goal."""
 
 from dataclasses import dataclass
 
@@ -19,7 +19,7 @@ class ProvenanceStep:
 
 
 def chain(database: PlanDatabase, t: int) -> list[ProvenanceStep]:
-    """The token, its master, its master's master, and so on."""
+    """The token, its parent, its parent's parent, and so on."""
     rows = database.plan.rows
     links = []
     while t >= 0:
@@ -34,7 +34,7 @@ def chain(database: PlanDatabase, t: int) -> list[ProvenanceStep]:
             None if rule < 0 else database.program.rules[rule].span,
         )
         links.append(link)
-        t = rows.master[t]
+        t = rows.parent[t]
     return links
 
 

@@ -126,7 +126,7 @@ def token_state(database: PlanDatabase, t: int, names: dict[int, str]) -> TokenS
     """One token."""
     rows = database.plan.rows
     predicate = database.program.predicates[rows.predicate[t]]
-    parent, merged, relation = rows.master[t], rows.merged_into[t], rows.relation[t]
+    parent, merged, relation = rows.parent[t], rows.merged_into[t], rows.relation[t]
     return TokenState(
         names[t],
         predicate.name,

@@ -1,6 +1,6 @@
-"""Flatten the bodies of a program to integers: instructions in blocks, operands as pairs, everything else as numbers.
+"""Bytecode of rules, predicate bodies and constructors: instructions in blocks, operands as pairs, all integers.
 
-An operand is `(kind, value)`, see `codes.IN_*`. A block is a stretch of `cells`; guards and loops name their blocks by
+An operand is `(kind, value)`, see `tags.IN_*`. A block is a stretch of `cells`; guards and loops name their blocks by
 number. Nothing runs here.
 """
 
@@ -70,7 +70,7 @@ DISTANCES = {"precedes": (0, INFINITY), "strictlyPrecedes": (1, INFINITY), "conc
 
 
 class RuleBytecode:
-    """All bodies of a program as integers, with the tables that the integers point into."""
+    """Bytecode of a program, with the tables that its integers point into."""
 
     def __init__(
         self,
@@ -110,7 +110,7 @@ class RuleBytecode:
         return number
 
     def body(self, instructions: tuple[Instruction, ...]) -> int:
-        """Flatten a body with all that is nested in it; the number of its block."""
+        """Compile a body with all that is nested in it; the number of its block."""
         number = self.block(instructions)
         while self.pending:
             block, body = self.pending.popleft()

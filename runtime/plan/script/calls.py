@@ -1,4 +1,4 @@
-"""Carry out the method calls of the script: transactions on tokens, variables, objects and classes."""
+"""Method calls of the script: transactions on tokens, variables, objects and classes."""
 
 from collections.abc import Callable
 

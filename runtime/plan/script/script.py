@@ -1,4 +1,4 @@
-"""Carry out the script: prepare each statement once, execute it, propagate, stop at the first that is not allowed."""
+"""Script: each statement prepared once, executed and propagated; the first that is not allowed ends it."""
 
 from collections.abc import Callable
 from typing import assert_never
@@ -20,7 +20,7 @@ from compiler.program import (
     Sample,
 )
 from nddl_lang.text.diagnostic import Diagnostic
-from runtime.plan.lifecycle import settle
+from runtime.plan.lifecycle import fire
 from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.script.calls import Calls
 from runtime.plan.script.codes import NO_OBJECT
@@ -73,7 +73,7 @@ class Script:
             withdraw_refusals(self.plan)
             fault = action()
             if fault is None:
-                settle(self.plan)
+                fire(self.plan)
                 fault = self.objects.fault
             if fault is not None:
                 self.next = len(self.actions)
@@ -103,7 +103,7 @@ class Script:
                 assert_never(instruction)
 
     def push(self, block: int) -> Diagnostic | None:
-        """Have a block run by the next `settle`."""
+        """Have a block run by the next `fire`."""
         self.plan.push(self.plan.block_start[block], self.plan.block_end[block], self.scope, NONE, NONE)
         return None
 

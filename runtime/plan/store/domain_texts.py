@@ -1,4 +1,4 @@
-"""Write domains in the notation of the conformance suite: `[1, 3] int`, `{red, green} Color`, `{a} T open`."""
+"""Domains as text in the notation of the conformance suite: `[1, 3] int`, `{red, green} Color`, `{a} T open`."""
 
 import json
 from collections.abc import Sequence

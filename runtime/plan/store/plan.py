@@ -1,4 +1,4 @@
-"""Hold everything that the functions of this room work on: engine, rows, flattened code, tables, queues."""
+"""Tables of the plan: engine, rows, bytecode, predicates, objects, agenda of rules and guards."""
 
 from array import array
 from typing import Protocol
@@ -44,7 +44,7 @@ class Plan:
     def __init__(self, engine: Engine) -> None:
         self.engine = engine
         self.rows = Rows()
-        # Flattened bodies.
+        # Bytecode.
         self.code = blank(1)
         self.block_start = blank(1)
         self.block_end = blank(1)

@@ -172,7 +172,7 @@ def see_change(q: Queues, v: int) -> int:
 def kind_of(q: Queues, t: int) -> int:
     """The kind that the configuration sees in a token."""
     rows = q.rows
-    master = rows.master[t]
+    master = rows.parent[t]
     parent = rows.predicate[master] if master >= 0 else NONE
     return q.treatments.token_kind(rows.predicate[t], parent, rows.relation[t], rows.label[t])
 

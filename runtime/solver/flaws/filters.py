@@ -55,7 +55,7 @@ class Filters:
                 if self.is_outside(t, self.treatments.filter_policy[f]):
                     return True
             elif code == FILTER_MASTER_LOOSE:
-                master = self.rows.master[t]
+                master = self.rows.parent[t]
                 if master >= 0 and not self.is_assigned(master):
                     return True
         return False

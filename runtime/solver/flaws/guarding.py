@@ -13,7 +13,7 @@ def guards_hold(filters: Filters, handler: int, t: int) -> bool:
     if said.guards and (t < 0 or not all(has_value(filters, t, *pair) for pair in said.guards)):
         return False
     if said.master_guards:
-        master = filters.rows.master[t] if t >= 0 else NONE
+        master = filters.rows.parent[t] if t >= 0 else NONE
         return master >= 0 and all(has_value(filters, master, *pair) for pair in said.master_guards)
     return True
 

@@ -3,7 +3,7 @@
 cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.resources.envelope cimport Envelope
-from runtime.plan.lifecycle cimport settle
+from runtime.plan.lifecycle cimport fire
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.resources.resources cimport Resources
 from runtime.constraints.stn.distances cimport Distances

@@ -10,7 +10,7 @@ from math import inf
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
-from runtime.plan.lifecycle import settle
+from runtime.plan.lifecycle import fire
 from runtime.plan.resources.envelope import Envelope
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import INITIAL, LIMITS, MAXIMUM, MINIMUM
@@ -82,7 +82,7 @@ class Uses:
             return False
         self.found_at = self.flaws.at
         self.found_low = self.flaws.is_low
-        self.found_excess = self.flaws.excess
+        self.found_excess = self.flaws.amount
         return True
 
     def worst_flaw(self, o: int) -> bool:
@@ -160,7 +160,7 @@ class Uses:
             return False
         if together and not self.engine.add_edge(first, second, 0, NONE, NONE):
             return False
-        return settle(self.plan)
+        return fire(self.plan)
 
 
 def longer_reals(old: "array[float]") -> "array[float]":

@@ -105,8 +105,8 @@ def blame_scope(b: Blame, row: int, t: int) -> bool:
                 blame_all_times(b, t)
         if code == FILTER_TOKEN_LOOSE and t >= 0:
             blame_assigned(b, t)
-        if code == FILTER_MASTER_LOOSE and t >= 0 and q.rows.master[t] >= 0:
-            blame_assigned(b, q.rows.master[t])
+        if code == FILTER_MASTER_LOOSE and t >= 0 and q.rows.parent[t] >= 0:
+            blame_assigned(b, q.rows.parent[t])
     return True
 
 

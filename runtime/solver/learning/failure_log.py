@@ -10,7 +10,7 @@ from typing import Protocol
 from runtime.constraints.explanation.cause import Cause
 from runtime.constraints.minimisation.minimise import minimise
 from runtime.plan.database import PlanDatabase
-from runtime.plan.lifecycle import merge, settle
+from runtime.plan.lifecycle import fire, merge
 from runtime.plan.tags import MERGED, NONE, OBJECT, REJECTED
 from runtime.plan.tokens.predicate_hierarchy import first_active, next_active
 from runtime.plan.tokens.timelines import order
@@ -198,7 +198,7 @@ class Recorder:
                 if trials > MOST_TRIALS:
                     return
                 mark = self.database.mark()
-                if not (order(self.plan, o, before, after, NONE) and settle(self.plan)):
+                if not (order(self.plan, o, before, after, NONE) and fire(self.plan)):
                     self.note(d, Attempt(self.place(o, before, after, t, wording), self.lines(wording)))
                 self.database.release(mark)
 

@@ -47,7 +47,7 @@ class Nogoods:
         rows = self.queues.rows
         if t < 0 or self.queues.token_level[t] == 0:
             return t
-        parent = self.token(rows.master[t]) if rows.master[t] >= 0 else None
+        parent = self.token(rows.parent[t]) if rows.parent[t] >= 0 else None
         return None if parent is None else (parent, rows.span[t], rows.predicate[t])
 
     def variable(self, v: int) -> Any:

@@ -54,7 +54,7 @@ class Wording:
 
     def user(self, t: int) -> str:
         """The name of a token that uses something, with that of the token whose rule asks for it."""
-        master = self.plan.rows.master[t]
+        master = self.plan.rows.parent[t]
         return f"{self.token(t)} of {self.token(master)}" if master >= 0 else self.token(t)
 
     def variable(self, v: int) -> str:

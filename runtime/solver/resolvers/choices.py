@@ -2,7 +2,7 @@
 
 from runtime.constraints.domains.bitset import next_value, previous_value
 from runtime.constraints.domains.tags import KIND_FLOAT, NEVER
-from runtime.plan.lifecycle import settle
+from runtime.plan.lifecycle import fire
 from runtime.plan.tokens.timelines import order
 from runtime.solver.flaws.agenda import Queues
 from runtime.solver.flaws.decisions import Decisions
@@ -73,7 +73,7 @@ def mend_variable(q: Queues, stack: Decisions, d: int) -> int:
     stack.cursor[d] = x
     stack.tries[d] += 1
     q.engine.decide(v, x, NONE, NONE)
-    return APPLIED if settle(q.plan) else FAILED_CHOICE
+    return APPLIED if fire(q.plan) else FAILED_CHOICE
 
 
 def value_above(q: Queues, v: int, x: int) -> int:
@@ -131,7 +131,7 @@ def mend_by_list(q: Queues, stack: Decisions, d: int) -> int:
     x = values[stack.tries[d]]
     stack.tries[d] += 1
     q.engine.decide(v, x, NONE, NONE)
-    return APPLIED if settle(q.plan) else FAILED_CHOICE
+    return APPLIED if fire(q.plan) else FAILED_CHOICE
 
 
 def mend_threat(q: Queues, stack: Decisions, d: int) -> int:
@@ -154,6 +154,6 @@ def mend_threat(q: Queues, stack: Decisions, d: int) -> int:
             stack.tries[d] += 1
             if not order(q.plan, stack.pool_object[at], before, after, NONE):
                 return FAILED_CHOICE
-            return APPLIED if settle(q.plan) else FAILED_CHOICE
+            return APPLIED if fire(q.plan) else FAILED_CHOICE
         place += 1
     return NO_CHOICE
