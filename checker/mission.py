@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import cast
 
 from checker.codes import CIRCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE
-from checker.mission_table import MissionText, Table, nearest
+from checker.mission_table import MissionText, Table
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source, Span
 from nddl_lang.text.toml_places import find_places, split_error, toml_of

@@ -13,7 +13,6 @@ from compiler.program import (
     Constant,
     DomainConstant,
     Field,
-    Foreach,
     GlobalVariable,
     Guard,
     Instruction,
@@ -22,6 +21,7 @@ from compiler.program import (
     NewObject,
     NewToken,
     NewVariable,
+    ObjectLoop,
     Operand,
     ParameterCode,
     Post,
@@ -95,7 +95,7 @@ def body(code: tuple[SuperCode | Instruction, ...], depth: int) -> Iterator[str]
                 if otherwise:
                     yield INDENT * depth + "else"
                     yield from body(otherwise, depth + 1)
-            case Foreach(body=inner):
+            case ObjectLoop(body=inner):
                 yield from body(inner, depth + 1)
             case _:
                 pass
@@ -123,7 +123,7 @@ def instruction_text(instruction: SuperCode | Instruction) -> str:
             return f"t{instruction.origin} {instruction.relation}{_bounds(instruction.bounds)} t{instruction.target}"
         case Guard(condition=condition, decided_by=decided_by):
             return f"if {operand_text(condition)} decided by ({_operands(decided_by)})"
-        case Foreach(slot=slot, collection=collection):
+        case ObjectLoop(slot=slot, collection=collection):
             return f"foreach v{slot} in {operand_text(collection)}"
         case NewGlobal(index=index, name=name, type=type_, domain=domain, copy_of=copy_of):
             return f"g{index}: {type_text(type_)} {name}{_given(domain, copy_of)}"

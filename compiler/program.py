@@ -201,7 +201,7 @@ class Guard:
 
 
 @dataclass(frozen=True, slots=True)
-class Foreach:
+class ObjectLoop:
     """Run `body` once per object in the collection's domain now, with the object in `slot`; freeze the domain."""
 
     slot: int
@@ -272,7 +272,7 @@ class Call:
 
 
 Instruction = (
-    NewVariable | NewObject | Post | Sample | Child | Relate | Guard | Foreach | NewGlobal | Assign | NewToken | Call
+    NewVariable | NewObject | Post | Sample | Child | Relate | Guard | ObjectLoop | NewGlobal | Assign | NewToken | Call
 )
 
 

@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
-from runtime.plan.lifecycle cimport settle
+from runtime.plan.lifecycle cimport fire
 from runtime.plan.store.marks cimport commit, mark, release, rewind
 from runtime.plan.store.plan cimport Plan
 from runtime.solver.learning.conflict_analysis cimport ConflictAnalysis

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from runtime.plan.database import PlanDatabase
-from runtime.plan.lifecycle import settle
+from runtime.plan.lifecycle import fire
 from runtime.plan.store.marks import commit, mark, release, rewind
 from runtime.plan.tags import REJECTED
 from runtime.solver.configuration.configuration import Configuration, with_resources
@@ -101,7 +101,7 @@ class Solver:
             self.check_overload()  # an overload needs no further reasons
         self.nogoods.clear()
         self.agenda.restarts.clear()
-        self.is_exhausted = not settle(self.plan)
+        self.is_exhausted = not fire(self.plan)
         if self.is_exhausted and self.failure_log is not None:
             self.failure_log.note_contradiction()
         rebuild(self.agenda)

@@ -3,16 +3,16 @@
 from typing import assert_never
 
 from runtime.plan import tags
-from runtime.plan.readout.terms import Term, Violation
+from runtime.plan.readout.terms import ResourceTerm, Term
 
 _INFIX = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 _SIGNS = {"addEq": "+", "mulEq": "*", "temporalDistance": "+"}
 
 
-def words(cause: Term | Violation) -> str:
+def words(cause: Term | ResourceTerm) -> str:
     """What a cause says, as a modeler would write it."""
     match cause:
-        case Violation():
+        case ResourceTerm():
             return _violation(cause)
         case Term("precedence", (source, target, weight)):
             return _precedence(str(source), str(target), weight)
@@ -54,7 +54,7 @@ def _constraint(name: str, texts: list[str]) -> str:
     return f"{name}({', '.join(texts)})"
 
 
-def _violation(found: Violation) -> str:
+def _violation(found: ResourceTerm) -> str:
     """What is wrong with a resource, and who uses it."""
     name, at, amount, limit = found.resource, found.at, found.amount, found.limit
     users = ", ".join(f"{user} {used:g}" for user, used in found.users)

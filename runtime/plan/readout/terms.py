@@ -9,7 +9,7 @@ from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, 
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.propagators.operations import OPERATIONS
 from runtime.plan.database import PlanDatabase
-from runtime.plan.resources.violation import Excess
+from runtime.plan.resources.violation import Violation
 from runtime.plan.store.domain_texts import domain_text, set_text
 from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
 from runtime.user.written import Written
@@ -36,8 +36,8 @@ class Term:
 
 
 @dataclass(frozen=True, slots=True)
-class Violation:
-    """A resource, or a timeline, that is certainly exceeded; fields as in `Excess`, `users` are tokens with amounts."""
+class ResourceTerm:
+    """A resource or timeline that is certainly exceeded; fields as in `Violation`, `users` are tokens with amounts."""
 
     resource: str
     wrong: int
@@ -60,7 +60,7 @@ class TermReader:
         self.engine = database.engine
         self.token = token_name
 
-    def term(self, cause: Cause) -> Term | Violation:
+    def term(self, cause: Cause) -> Term | ResourceTerm:
         """What a cause says."""
         match cause.kind:
             case CauseKind.EDGE:
@@ -92,9 +92,7 @@ class TermReader:
 
     def value(self, v: int) -> str:
         """The domain of a variable, without its type."""
-        text = domain_text(self.database.prototypes, self.engine, v, self.database.objects.names, "x")
-        text = text.removesuffix(" open").removesuffix(" x").rpartition(" ")[0] or text.removesuffix(" x")
-        return text[1:-1] if text.startswith("{") and "," not in text else text
+        return domain_text(self.database.prototypes, self.engine, v, self.database.objects.names, None).brief
 
     def argument(self, v: int) -> Argument:
         """The name of a variable, or the value of a constant."""
@@ -124,18 +122,18 @@ class TermReader:
             shown.sort()
         return Term("bounds", (self.argument(v), _number(lower, kind), _number(upper, kind)), tuple(shown))
 
-    def _constraint(self, c: int) -> Term | Violation:
+    def _constraint(self, c: int) -> Term | ResourceTerm:
         engine = self.engine
         external = engine.externals.get(c)
-        if isinstance(external, Excess):
+        if isinstance(external, Violation):
             return self._violation(external)
         code = engine.op[c]
         name = external.name if isinstance(external, Written) else _NAMES.get(code, f"constraint {code}")
         return Term(name, tuple(self.argument(v) for v in engine.arguments(c)))
 
-    def _violation(self, excess: Excess) -> Violation:
+    def _violation(self, excess: Violation) -> ResourceTerm:
         users = tuple((self._user(t), amount) for t, amount in excess.charged if t >= 0)
-        return Violation(
+        return ResourceTerm(
             self.database.objects.names[excess.resource],
             excess.wrong,
             excess.at,
@@ -150,7 +148,7 @@ class TermReader:
 
     def _user(self, t: int) -> str:
         """The name of a token that uses something, with that of the token whose rule asks for it."""
-        parent = self.plan.rows.master[t]
+        parent = self.plan.rows.parent[t]
         return f"{self.token(t)} of {self.token(parent)}" if parent >= 0 else self.token(t)
 
 

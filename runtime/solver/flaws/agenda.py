@@ -168,7 +168,7 @@ class Agenda:
         if not self.exact or self.engine.decided[v] or self.plan.variable_role[v] != ROLE_TOKEN:
             return True
         t = self.plan.variable_owner[v]
-        if self.rows.master[t] < 0 or v - self.rows.var0[t] != OBJECT:
+        if self.rows.parent[t] < 0 or v - self.rows.var0[t] != OBJECT:
             return True
         objects = self.plan.class_prototype[self.plan.predicate_class[self.rows.predicate[t]]]
         if self.engine.is_open[objects]:

@@ -172,7 +172,7 @@ def _update_domain(agenda: Agenda, v: int) -> int:
 def _kind_of(agenda: Agenda, t: int) -> int:
     """The kind of a token by predicate, parent, relation and name."""
     rows = agenda.rows
-    parent = rows.master[t]
+    parent = rows.parent[t]
     asker = rows.predicate[parent] if parent >= 0 else NONE
     return agenda.table.token_kind(rows.predicate[t], asker, rows.relation[t], rows.label[t])
 

@@ -55,7 +55,7 @@ class Filters:
                 if self._is_outside(t, self.table.filter_policy[f]):
                     return True
             elif code == FILTER_PARENT_NOT_ASSIGNED:
-                parent = self.rows.master[t]
+                parent = self.rows.parent[t]
                 if parent >= 0 and not self._is_assigned(parent):
                     return True
         return False

@@ -13,7 +13,7 @@ def guards_hold(filters: Filters, handler: int, t: int) -> bool:
     if said.guards and (t < 0 or not all(_has_value(filters, t, *pair) for pair in said.guards)):
         return False
     if said.parent_guards:
-        parent = filters.rows.master[t] if t >= 0 else NONE
+        parent = filters.rows.parent[t] if t >= 0 else NONE
         return parent >= 0 and all(_has_value(filters, parent, *pair) for pair in said.parent_guards)
     return True
 

@@ -4,7 +4,7 @@ from array import array
 from collections import Counter
 from collections.abc import Iterable, Iterator
 
-from compiler.program import Child, Foreach, Guard, Instruction, Program
+from compiler.program import Child, Guard, Instruction, ObjectLoop, Program
 
 
 class Supports:
@@ -73,7 +73,7 @@ def _children(body: Iterable[Instruction], owner: str, index: dict[str, int]) ->
             yield name if instruction.object == "own" and name in index else instruction.predicate
         elif isinstance(instruction, Guard):
             yield from _children((*instruction.then, *instruction.otherwise), owner, index)
-        elif isinstance(instruction, Foreach):
+        elif isinstance(instruction, ObjectLoop):
             yield from _children(instruction.body, owner, index)
 
 
@@ -82,5 +82,5 @@ def _guarded_children(body: Iterable[Instruction], owner: str, index: dict[str, 
     for instruction in body:
         if isinstance(instruction, Guard):
             yield from _children((*instruction.then, *instruction.otherwise), owner, index)
-        elif isinstance(instruction, Foreach):
+        elif isinstance(instruction, ObjectLoop):
             yield from _guarded_children(instruction.body, owner, index)

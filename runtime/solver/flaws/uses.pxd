@@ -2,8 +2,8 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
-from runtime.plan.resources.envelope cimport Flaws
-from runtime.plan.lifecycle cimport settle
+from runtime.plan.resources.envelope cimport Envelope
+from runtime.plan.lifecycle cimport fire
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.resources.resources cimport Resources
 from runtime.constraints.stn.distances cimport Distances
@@ -19,7 +19,7 @@ cdef class Uses:
     cdef public Resources resources
     cdef public Distances distances
     cdef public long long[::1] grounded, point, takes
-    cdef public Flaws flaws
+    cdef public Envelope envelope
     cdef public Heap events
     cdef public long long found_at, found_low, count
     cdef public double found_excess

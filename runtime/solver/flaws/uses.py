@@ -10,8 +10,8 @@ from math import inf
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
-from runtime.plan.lifecycle import settle
-from runtime.plan.resources.envelope import Flaws
+from runtime.plan.lifecycle import fire
+from runtime.plan.resources.envelope import Envelope
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import INITIAL, LIMITS, MAXIMUM, MINIMUM
 from runtime.solver.tags import NONE
@@ -27,7 +27,7 @@ class Uses:
         self.resources = plan.resources
         self.distances = distances
         self.grounded = grounded  # per object: whether its level is that of everything happening early
-        self.flaws = Flaws(plan.engine, plan.resources)
+        self.envelope = Envelope(plan.engine, plan.resources)
         self.events = Heap()
         self.found_at = 0
         self.found_low = 0
@@ -78,11 +78,11 @@ class Uses:
         """The first instant at which resource `o` might be exceeded."""
         if self.grounded[o]:
             return self._sweep(o, 0)
-        if not self.flaws.find(o):
+        if not self.envelope.find(o):
             return False
-        self.found_at = self.flaws.at
-        self.found_low = self.flaws.is_low
-        self.found_excess = self.flaws.excess
+        self.found_at = self.envelope.at
+        self.found_low = self.envelope.is_low
+        self.found_excess = self.envelope.amount
         return True
 
     def worst_flaw(self, o: int) -> bool:
@@ -150,9 +150,9 @@ class Uses:
             v = self.engine.edge_source[self.distances.via[v]]
         if v == second:
             return True
-        self.flaws.make_room(0)
-        self.flaws.walk_back(second)
-        return self.flaws.marks[first] == self.flaws.mark
+        self.envelope.make_room(0)
+        self.envelope.walk_back(second)
+        return self.envelope.marks[first] == self.envelope.mark
 
     def order(self, first: int, second: int, together: int) -> bool:
         """Post that one timepoint precedes another, or that both coincide."""
@@ -160,7 +160,7 @@ class Uses:
             return False
         if together and not self.engine.add_edge(first, second, 0, NONE, NONE):
             return False
-        return settle(self.plan)
+        return fire(self.plan)
 
 
 def _longer_reals(old: "array[float]") -> "array[float]":

@@ -8,7 +8,7 @@ do no harm: the search then goes back less far.
 """
 
 from runtime.constraints.domains.tags import CONFLICT_DOMAIN, FLOAT_TOLERANCE, OP_EXTERNAL, SIDE_LOWER, SIDE_UPPER
-from runtime.plan.resources.violation import Excess
+from runtime.plan.resources.violation import Violation
 from runtime.plan.tags import (
     ACTIVE,
     END,
@@ -48,7 +48,7 @@ class ConflictAnalysis(Walk):
             self.ask_reasons(support, v, side, NOW)
             if engine.conflict_kind == CONFLICT_DOMAIN:
                 self.ask_domain(v)
-        elif engine.op[support >> 2] == OP_EXTERNAL and isinstance(engine.externals[support >> 2], Excess):
+        elif engine.op[support >> 2] == OP_EXTERNAL and isinstance(engine.externals[support >> 2], Violation):
             if not self.blame_excess(support >> 2, d):
                 self.stack.reasons[d] = EVERYTHING
                 return False
@@ -169,7 +169,7 @@ class ConflictAnalysis(Walk):
         self.is_local = True  # in another order it may come before what it would have helped
         return True
 
-    def blame_window(self, excess: Excess) -> int:
+    def blame_window(self, excess: Violation) -> int:
         """Why tokens lie in a window that is too narrow: the widest such, that of before the search if it will do."""
         var0 = self.agenda.rows.var0
         needed = int(excess.amount) + excess.until - excess.at

@@ -105,8 +105,8 @@ def _explain_scope(analysis: ConflictAnalysis, row: int, t: int) -> bool:
                 _explain_times(analysis, t)
         if code == FILTER_NOT_ASSIGNED and t >= 0:
             _explain_assigned(analysis, t)
-        if code == FILTER_PARENT_NOT_ASSIGNED and t >= 0 and agenda.rows.master[t] >= 0:
-            _explain_assigned(analysis, agenda.rows.master[t])
+        if code == FILTER_PARENT_NOT_ASSIGNED and t >= 0 and agenda.rows.parent[t] >= 0:
+            _explain_assigned(analysis, agenda.rows.parent[t])
     return True
 
 

@@ -7,7 +7,7 @@ filter, now or later. Windows run from an earliest start to a latest end.
 from array import array
 
 from runtime.constraints.domains.tags import HALF_INF, KIND_FLOAT, SIDE_LOWER
-from runtime.plan.resources.violation import Excess
+from runtime.plan.resources.violation import Violation
 from runtime.plan.tags import (
     DURATION,
     END,
@@ -178,7 +178,7 @@ class Disjunctive:
         if self.one < 0:
             self.one = engine.new_constant(KIND_FLOAT, 1.0, 1.0)
             self.zero = engine.new_constant(KIND_FLOAT, 0.0, 0.0)
-        excess = Excess(o, TOO_TIGHT, self.found_start, 0.0, [])
+        excess = Violation(o, TOO_TIGHT, self.found_start, 0.0, [])
         excess.until = self.found_end
         excess.room = 1.0
         excess.limits = [INITIAL, MINIMUM]

@@ -12,11 +12,11 @@ from runtime.constraints.domains.tags import FLAG_DECISION
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.minimisation.minimise import minimise
 from runtime.plan.database import PlanDatabase
-from runtime.plan.lifecycle import merge, settle
+from runtime.plan.lifecycle import fire, merge
 from runtime.plan.readout.cause_rendering import words
 from runtime.plan.readout.provenance import span_of
 from runtime.plan.readout.readout import live_tokens, token_names
-from runtime.plan.readout.terms import Term, TermReader, Violation
+from runtime.plan.readout.terms import ResourceTerm, Term, TermReader
 from runtime.plan.tags import MERGED, NONE, OBJECT, REJECTED
 from runtime.plan.tokens.predicate_hierarchy import first_active, next_active
 from runtime.plan.tokens.timelines import order
@@ -42,7 +42,7 @@ class FoundCause:
 
     span: Span | None
     owner: str
-    term: Term | Violation
+    term: Term | ResourceTerm
     origin: CauseOrigin = CauseOrigin.DECIDED
 
 
@@ -166,7 +166,7 @@ class FailureLog:
 
     def _cause(self, cause: Cause, reader: TermReader) -> FoundCause:
         term = reader.term(cause)
-        if isinstance(term, Violation):
+        if isinstance(term, ResourceTerm):
             return FoundCause(None, "", term, CauseOrigin.IMPLIED)
         flags = self.database.engine.restriction_flags
         is_declared = cause.kind is CauseKind.RESTRICTION and not flags[cause.id] & FLAG_DECISION
@@ -253,7 +253,7 @@ class FailureLog:
                 if trials > _MOST_TRIALS:
                     return
                 mark = self.database.mark()
-                if not (order(self.plan, o, before, after, NONE) and settle(self.plan)):
+                if not (order(self.plan, o, before, after, NONE) and fire(self.plan)):
                     self._add(d, Attempt(self._insertion(o, before, after, t, reader), self._causes(reader)))
                 self.database.release(mark)
 

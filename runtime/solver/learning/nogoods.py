@@ -9,7 +9,7 @@ too many.
 
 from typing import Any
 
-from compiler.program import Foreach, Guard, Instruction, NewObject, Program
+from compiler.program import Guard, Instruction, NewObject, ObjectLoop, Program
 from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.plan.tags import ACTIVE, LIST_ORDER, LISTS, MERGED, NONE, OBJECT, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.flaws.agenda import Agenda
@@ -27,7 +27,7 @@ class Nogoods:
         self.agenda = agenda
         self.stack = stack
         # One name means many things in a loop, and where objects are made.
-        self.is_usable = not any(has_any(rule.body, (Foreach, NewObject)) for rule in program.rules)
+        self.is_usable = not any(has_any(rule.body, (ObjectLoop, NewObject)) for rule in program.rules)
         self.clear()
 
     def clear(self) -> None:
@@ -47,7 +47,7 @@ class Nogoods:
         rows = self.agenda.rows
         if t < 0 or self.agenda.token_level[t] == 0:
             return t
-        parent = self._token(rows.master[t]) if rows.master[t] >= 0 else None
+        parent = self._token(rows.parent[t]) if rows.parent[t] >= 0 else None
         return None if parent is None else (parent, rows.span[t], rows.predicate[t])
 
     def _variable(self, v: int) -> Any:

@@ -4,7 +4,7 @@ The order matters only where guards bring new tokens: an earlier one may have fe
 tank before it is filled.
 """
 
-from compiler.program import Foreach, Program
+from compiler.program import ObjectLoop, Program
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import RESOURCE_CONSUMES, RESOURCE_PRODUCES
 from runtime.solver.configuration.handler_table import HandlerTable
@@ -15,7 +15,7 @@ from runtime.solver.tags import HANDLER_HSTS
 
 def has_loops(program: Program) -> bool:
     """Whether some rule has a `foreach`, whose iterations depend on the decisions before it."""
-    return any(has_any(rule.body, (Foreach,)) for rule in program.rules)
+    return any(has_any(rule.body, (ObjectLoop,)) for rule in program.rules)
 
 
 def is_order_invariant(program: Program, plan: Plan, table: HandlerTable, supports: Supports) -> bool:

@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.domains.bitset cimport next_value, previous_value
-from runtime.plan.lifecycle cimport settle
+from runtime.plan.lifecycle cimport fire
 from runtime.plan.tokens.timelines cimport order
 from runtime.solver.resolvers.conditions cimport mend_open_condition
 from runtime.solver.flaws.decisions cimport Decisions

@@ -2,7 +2,7 @@
 
 from runtime.constraints.domains.bitset import next_value, previous_value
 from runtime.constraints.domains.tags import KIND_FLOAT, NEVER
-from runtime.plan.lifecycle import settle
+from runtime.plan.lifecycle import fire
 from runtime.plan.tokens.timelines import order
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
@@ -59,7 +59,7 @@ def _mend_variable(agenda: Agenda, stack: Decisions, d: int) -> int:
         return APPLIED
     stack.choose(d, x)
     agenda.engine.decide(v, x, NONE, NONE)
-    return APPLIED if settle(agenda.plan) else FAILED_CHOICE
+    return APPLIED if fire(agenda.plan) else FAILED_CHOICE
 
 
 def _value_above(agenda: Agenda, v: int, x: int) -> int:
@@ -116,7 +116,7 @@ def _mend_by_list(agenda: Agenda, stack: Decisions, d: int) -> int:
         return APPLIED
     stack.choose(d, stack.tries[d])
     agenda.engine.decide(v, values[stack.cursor[d]], NONE, NONE)
-    return APPLIED if settle(agenda.plan) else FAILED_CHOICE
+    return APPLIED if fire(agenda.plan) else FAILED_CHOICE
 
 
 def _mend_threat(agenda: Agenda, stack: Decisions, d: int) -> int:
@@ -137,6 +137,6 @@ def _mend_threat(agenda: Agenda, stack: Decisions, d: int) -> int:
             stack.choose(d, step)
             if not order(agenda.plan, stack.pool_object[at], before, after, NONE):
                 return FAILED_CHOICE
-            return APPLIED if settle(agenda.plan) else FAILED_CHOICE
+            return APPLIED if fire(agenda.plan) else FAILED_CHOICE
         step += 1
     return NO_CHOICE
