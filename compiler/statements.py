@@ -51,11 +51,11 @@ def statement(node: RuleStatement, body: Body) -> None:
     match node:
         case VariableDecl(declarators=declarators):
             for declarator in declarators:
-                local(declarator, body)
+                _local(declarator, body)
         case CallConstraint() | ExprConstraint():
             constraint(node, body)
         case Relation():
-            relation(node, body)
+            _relation(node, body)
         case IfStatement():
             _guard(node, body)
         case nodes.Foreach():
@@ -106,7 +106,7 @@ def _charge(
 # ---- variables ----
 
 
-def local(declarator: Declarator, body: Body) -> None:
+def _local(declarator: Declarator, body: Body) -> None:
     """Append the declaration of a rule's local variable."""
     variable = body.model.tables.locals[declarator]
     type_ = constants.type_code(variable.type)
@@ -191,7 +191,7 @@ def new_object(
 # ---- tokens ----
 
 
-def relation(node: Relation, body: Body) -> None:
+def _relation(node: Relation, body: Body) -> None:
     """Append a relation of a rule: new children, or two tokens that exist."""
     tables, frame = body.model.tables, body.frame
     origin = 0 if node.origin is None else frame.token(tables.origins[node])

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from compiler.listing import body
+from tests.compiler.listing import body
 from compiler.lower import compile_model
 from compiler.program import Child, Guard, Instruction, NewVariable, ObjectLoop, Program
 from nddl_lang.analysis import analyse_text

@@ -15,8 +15,7 @@ from runtime.constraints.domains.tags import (
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.propagators.operations import OPERATIONS
 from runtime.plan.database import PlanDatabase
-from runtime.plan.readout.provenance import span_of
-from runtime.plan.readout.readout import live_tokens, token_names
+from runtime.plan.readout.readout import live_tokens, span_of, token_names
 from runtime.plan.resources.violation import Violation
 from runtime.plan.store.domain_texts import base_text, domain_text
 from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
