@@ -233,6 +233,7 @@ class Assign:
     """
 
     target: Operand
+    name: str  # of the target, for messages
     domain: DomainConstant | None
     value: "Operand | NewObject | None"
     span: Span
@@ -267,6 +268,7 @@ class Call:
     variable: Operand | None
     class_name: str | None
     arguments: tuple[Operand, ...]
+    name: str  # of the target, for messages
     span: Span
 
 

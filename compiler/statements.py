@@ -153,20 +153,24 @@ def link(target: Operand, initialiser: Expr | None, body: Body) -> dict[Operand,
 
 def assign(node: nodes.Assignment, target: Operand, type_: TypeCode, body: Body) -> None:
     """Append `target = value;`."""
-    name = ".".join(part.name for part in node.target.parts if part.name != "this")
-    assign_to(target, type_, node.value, name, node.span, body)
+    assign_to(target, type_, node.value, path_name(node.target), node.span, body)
+
+
+def path_name(path: PathExpr) -> str:
+    """The name of what a path denotes, seen from its owner."""
+    return ".".join(part.name for part in path.parts if part.name != "this")
 
 
 def assign_to(target: Operand, type_: TypeCode, given_value: Expr, name: str, span: Span, body: Body) -> None:
     """Append the assignment of a value to `target`; a new object is called `name`."""
     if isinstance(given_value, NewExpr):
-        body.emit(Assign(target, None, new_object(given_value, name, body), span))
+        body.emit(Assign(target, name, None, new_object(given_value, name, body), span))
         return
     domain, other = given(given_value, type_, body)
     if domain is None and other is None:
         link(target, given_value, body)
     else:
-        body.emit(Assign(target, domain, other, span))
+        body.emit(Assign(target, name, domain, other, span))
 
 
 def new_object(

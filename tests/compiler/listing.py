@@ -8,7 +8,6 @@ from compiler.program import (
     Assign,
     Call,
     Child,
-    ClassCode,
     Constant,
     DomainConstant,
     Field,
@@ -22,10 +21,7 @@ from compiler.program import (
     NewVariable,
     ObjectLoop,
     Operand,
-    ParameterCode,
     Post,
-    PredicateCode,
-    Program,
     Relate,
     Sample,
     SuperCode,
@@ -36,16 +32,6 @@ from compiler.program import (
 
 BUILT_IN = ("state", "object", "duration", "start", "end")
 INDENT = "  "
-
-
-
-
-
-
-
-
-
-
 
 
 def body(code: tuple[SuperCode | Instruction, ...], depth: int) -> Iterator[str]:

@@ -169,7 +169,7 @@ class Calls:
     ) -> Diagnostic | None:
         """A call on a variable, or on the object that it holds."""
         v = operand(self.plan, self.scope, kind, value, span)
-        name = call.span.text.rpartition(f".{call.method}")[0]
+        name = call.name
         match call.method:
             case "specify":
                 return self.specify(v, operand(self.plan, self.scope, *arguments[0], span), name, call.span, span)

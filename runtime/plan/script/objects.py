@@ -102,7 +102,7 @@ class Objects:
             value = self.prepare_new(step.value)
         else:
             value = self.code.given(step.domain, step.value)
-        return Fill(self.code.operand(step.target), value, step.span.text.partition("=")[0].strip(), step.span)
+        return Fill(self.code.operand(step.target), value, step.name, step.span)
 
     def prepare_new(self, new: NewObject) -> New:
         """Compile a `new`, the ones among its arguments included."""
