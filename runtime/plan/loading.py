@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from math import inf
 
 from compiler.program import DomainConstant, Program, TypeCode
+from nddl_lang.semantics.natives import SELF_ACTIVATING
 from nddl_lang.semantics.relations import RELATIONS, DurationRule, Point
 from runtime.constraints.domains.tags import KIND_INT
 from runtime.plan.rules.rule_bytecode import RuleBytecode
@@ -29,7 +30,6 @@ from runtime.plan.tags import (
     START,
 )
 
-RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
 DURATIONS = {
     DurationRule.NONE: DURATION_FREE,
     DurationRule.EQUAL: DURATION_EQUAL,
@@ -118,7 +118,7 @@ def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: 
     for predicate in program.predicates:
         number = numbers[predicate.class_name]
         native = program.classes[number].native
-        is_resource = native in RESOURCES
+        is_resource = native in SELF_ACTIVATING
         flag = FLAG_ACTION if predicate.is_action else 0
         flag |= FLAG_EVENT if predicate.is_event else 0
         flags.append(flag | (FLAG_NATIVE if is_resource else 0))
