@@ -136,7 +136,7 @@ class Body:
             case schema.TokenReference(label=label):
                 return TokenVariable(self.frame.token(label), STATE)
             case schema.TokenVariableReference(label=label, name=name):
-                return TokenVariable(self.frame.token(label), variable_number(label.predicate, name))
+                return TokenVariable(self.frame.token(label), _variable_number(label.predicate, name))
             case schema.MemberReference(base=base, members=members):
                 names = tuple(member.name for member in members)
                 return Field(None if base is None else self.operand(base), names)
@@ -146,7 +146,7 @@ class Body:
                 assert_never(reference)
 
 
-def variable_number(predicate: Predicate, name: str) -> int:
+def _variable_number(predicate: Predicate, name: str) -> int:
     """The number of variable `name` among those of a token of `predicate`; a parameter hides nothing built in."""
     for position, parameter in enumerate(predicate.parameters):
         if parameter.name == name:

@@ -19,6 +19,7 @@ from compiler.program import (
     TokenVariable,
 )
 from compiler.statements import assign, assign_to, constraint, given, link, statement
+from nddl_lang.semantics.natives import SELF_ACTIVATING
 from nddl_lang.semantics.schema import Class, Constructor, MemberReference, Predicate, Rule, Schema
 from nddl_lang.syntax.nodes import (
     Assignment,
@@ -32,7 +33,7 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 
-NATIVE = ("Timeline", "Reservoir", "Reusable", "CBReusable", "Unary")
+NATIVE = ("Timeline", *sorted(SELF_ACTIVATING))
 
 
 # ---- classes ----

@@ -73,7 +73,7 @@ def _compare(op: str, left: Expr, right: Expr, message: str | None, span: Span, 
         left, right = right, left
     if op == "==" and is_compound(right, body):
         target = value(left, body)
-        if not is_truth(right, body) or _is_truth_holder(left, body):
+        if not _is_truth(right, body) or _is_truth_holder(left, body):
             define(right, target, message, body)
             return
         body.emit(Post("eq", (target, value(right, body)), message, span))
@@ -117,7 +117,7 @@ def is_compound(expr: Expr, body: Body) -> bool:
             return False
 
 
-def is_truth(expr: Expr, body: Body) -> bool:
+def _is_truth(expr: Expr, body: Body) -> bool:
     """Whether a constraint computes a truth value for `expr`."""
     match expr:
         case BinaryExpr(op=op):
@@ -131,7 +131,7 @@ def is_truth(expr: Expr, body: Body) -> bool:
 
 
 def _is_truth_holder(expr: Expr, body: Body) -> bool:
-    return is_truth(expr, body) or body.model.type_of(expr).kind is Kind.BOOL
+    return _is_truth(expr, body) or body.model.type_of(expr).kind is Kind.BOOL
 
 
 def value(expr: Expr, body: Body) -> Operand:
@@ -148,7 +148,7 @@ def value(expr: Expr, body: Body) -> Operand:
             sample(drawn, expr, body)
             return body.read(drawn)
         case BinaryExpr() | UnaryExpr() | CallExpr():
-            result = body.implicit(result_type(expr, body), expr.span)
+            result = body.implicit(_result_type(expr, body), expr.span)
             define(expr, result, None, body)
             return result
         case IntervalExpr() | NewExpr() | IntLiteral() | FloatLiteral() | BoolLiteral() | StringLiteral():
@@ -162,9 +162,9 @@ def union(items: tuple[Expr, ...], body: Body) -> UnionOf:
     return UnionOf(tuple(value(item, body) for item in items))
 
 
-def result_type(expr: BinaryExpr | UnaryExpr | CallExpr, body: Body) -> TypeCode:
+def _result_type(expr: BinaryExpr | UnaryExpr | CallExpr, body: Body) -> TypeCode:
     """The type of an intermediate result; a typedef among the operands does not restrict it."""
-    if is_truth(expr, body):
+    if _is_truth(expr, body):
         return BOOL
     found: Type = body.model.type_of(expr)
     return TypeCode(found.kind.value, found.base, None)

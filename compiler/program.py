@@ -234,6 +234,7 @@ class Assign:
     """
 
     target: Operand
+    name: str  # of the target, for messages
     domain: DomainConstant | None
     value: "Operand | NewObject | None"
     span: Span
@@ -268,6 +269,7 @@ class Call:
     variable: Operand | None
     class_name: str | None
     arguments: tuple[Operand, ...]
+    name: str  # of the target, for messages
     span: Span
 
 

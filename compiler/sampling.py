@@ -14,7 +14,7 @@ def note_use(node: CallExpr | CallConstraint, model: Model) -> str:
     reference = model.tables.sampled[node]
     match reference:
         case GlobalReference(variable=variable):
-            name, default = variable.name, default_range(variable, model)
+            name, default = variable.name, _default_range(variable, model)
         case EnumValue(value=value):
             name, default = value, None
         case _:
@@ -28,7 +28,7 @@ def note_use(node: CallExpr | CallConstraint, model: Model) -> str:
     return name
 
 
-def default_range(variable: Variable, model: Model) -> DomainConstant | None:
+def _default_range(variable: Variable, model: Model) -> DomainConstant | None:
     """The base domain of a global variable, if the text gives it one."""
     code = constants.type_code(variable.type)
     if variable.initialiser is not None and (domain := model.constant(variable.initialiser)) is not None:

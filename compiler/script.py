@@ -15,7 +15,7 @@ from compiler.program import (
     Relate,
     TokenVariable,
 )
-from compiler.statements import assign, constraint, given, instance_object, link, new_object, relation_bounds
+from compiler.statements import assign, constraint, given, instance_object, link, new_object, path_name, relation_bounds
 from nddl_lang.semantics.schema import ClassReference, TokenReference
 from nddl_lang.syntax.nodes import (
     Allocation,
@@ -88,7 +88,7 @@ def _assignment(node: Assignment, body: Body) -> None:
     target = body.operand(body.model.tables.references[node.target])
     domain = body.model.constant(node.value)
     if isinstance(target, TokenVariable) and target.variable == STATE and constants.single(domain) == ACTIVE:
-        body.emit(Call("activate", target.token, None, None, (), node.span))
+        body.emit(Call("activate", target.token, None, None, (), path_name(node.target), node.span))
         return
     assign(node, target, constants.type_code(body.model.type_of(node.target)), body)
 
@@ -123,20 +123,20 @@ def _restriction(node: MethodCall, body: Body) -> Assign | None:
         return None
     target = body.operand(body.model.tables.references[node.target])
     type_ = constants.type_code(body.model.type_of(node.target))
-    return Assign(target, constants.converted(domain, type_), None, node.span)
+    return Assign(target, path_name(node.target), constants.converted(domain, type_), None, node.span)
 
 
 def _call(node: MethodCall, body: Body) -> Call:
     """A method call; what it is called on decides which of the three targets is set."""
     arguments = tuple(value(argument, body) for argument in node.arguments)
-    method = node.method.name
+    method, written = node.method.name, path_name(node.target)
     if not node.target.parts:
-        return Call(method, None, None, None, arguments, node.span)
+        return Call(method, None, None, None, arguments, written, node.span)
     reference = body.model.tables.references[node.target]
     match reference:
         case ClassReference(name=name):
-            return Call(method, None, None, name, arguments, node.span)
+            return Call(method, None, None, name, arguments, written, node.span)
         case TokenReference(label=label):
-            return Call(method, body.frame.token(label), None, None, arguments, node.span)
+            return Call(method, body.frame.token(label), None, None, arguments, written, node.span)
         case _:
-            return Call(method, None, body.operand(reference), None, arguments, node.span)
+            return Call(method, None, body.operand(reference), None, arguments, written, node.span)

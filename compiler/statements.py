@@ -51,11 +51,11 @@ def statement(node: RuleStatement, body: Body) -> None:
     match node:
         case VariableDecl(declarators=declarators):
             for declarator in declarators:
-                local(declarator, body)
+                _local(declarator, body)
         case CallConstraint() | ExprConstraint():
             constraint(node, body)
         case Relation():
-            relation(node, body)
+            _relation(node, body)
         case IfStatement():
             _guard(node, body)
         case nodes.Foreach():
@@ -106,7 +106,7 @@ def _charge(
 # ---- variables ----
 
 
-def local(declarator: Declarator, body: Body) -> None:
+def _local(declarator: Declarator, body: Body) -> None:
     """Append the declaration of a rule's local variable."""
     variable = body.model.tables.locals[declarator]
     type_ = constants.type_code(variable.type)
@@ -153,20 +153,24 @@ def link(target: Operand, initialiser: Expr | None, body: Body) -> dict[Operand,
 
 def assign(node: nodes.Assignment, target: Operand, type_: TypeCode, body: Body) -> None:
     """Append `target = value;`."""
-    name = ".".join(part.name for part in node.target.parts if part.name != "this")
-    assign_to(target, type_, node.value, name, node.span, body)
+    assign_to(target, type_, node.value, path_name(node.target), node.span, body)
+
+
+def path_name(path: PathExpr) -> str:
+    """The name of what a path denotes, seen from its owner."""
+    return ".".join(part.name for part in path.parts if part.name != "this")
 
 
 def assign_to(target: Operand, type_: TypeCode, given_value: Expr, name: str, span: Span, body: Body) -> None:
     """Append the assignment of a value to `target`; a new object is called `name`."""
     if isinstance(given_value, NewExpr):
-        body.emit(Assign(target, None, new_object(given_value, name, body), span))
+        body.emit(Assign(target, name, None, new_object(given_value, name, body), span))
         return
     domain, other = given(given_value, type_, body)
     if domain is None and other is None:
         link(target, given_value, body)
     else:
-        body.emit(Assign(target, domain, other, span))
+        body.emit(Assign(target, name, domain, other, span))
 
 
 def new_object(
@@ -191,7 +195,7 @@ def new_object(
 # ---- tokens ----
 
 
-def relation(node: Relation, body: Body) -> None:
+def _relation(node: Relation, body: Body) -> None:
     """Append a relation of a rule: new children, or two tokens that exist."""
     tables, frame = body.model.tables, body.frame
     origin = 0 if node.origin is None else frame.token(tables.origins[node])

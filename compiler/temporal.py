@@ -23,8 +23,8 @@ class Difference:
 
 def comparison(op: str, first: Operand, second: Operand) -> str:
     """The constraint for `first op second` over integers: a temporal one where a timepoint takes part."""
-    temporal = is_timepoint(first) or is_timepoint(second)
-    both = is_timepoint(first) and is_timepoint(second)
+    temporal = _is_timepoint(first) or _is_timepoint(second)
+    both = _is_timepoint(first) and _is_timepoint(second)
     match op:
         case "==":
             return "concurrent" if temporal else "eq"
@@ -69,21 +69,21 @@ def difference(op: str, left: Expr, right: Expr, message: str | None, span: Span
 
 def assignment(expr: BinaryExpr, target: Operand, message: str | None, body: Body) -> Post | None:
     """`target == end - start`: the target is the distance."""
-    if expr.op != "-" or not (is_time(expr.left, body) and is_time(expr.right, body)):
+    if expr.op != "-" or not (_is_time(expr.left, body) and _is_time(expr.right, body)):
         return None
     later, earlier = body.read(_operand(expr.left, body)), body.read(_operand(expr.right, body))
     return Post("temporalDistance", (earlier, target, later), message, expr.span)
 
 
-def is_timepoint(operand: Operand) -> bool:
+def _is_timepoint(operand: Operand) -> bool:
     """Whether `operand` is the start or end of a token."""
     return isinstance(operand, TokenVariable) and operand.variable in (START, END)
 
 
-def is_time(expr: Expr, body: Body) -> bool:
+def _is_time(expr: Expr, body: Body) -> bool:
     """Whether `expr` names the start, end or time of a token."""
     reference: Reference | None = body.model.tables.references.get(expr)
-    return isinstance(reference, TokenVariableReference) and is_timepoint(body.operand(reference))
+    return isinstance(reference, TokenVariableReference) and _is_timepoint(body.operand(reference))
 
 
 def is_integer(expr: Expr, body: Body) -> bool:
@@ -120,7 +120,7 @@ def _difference(
         value = single(body.model.constant(expr))
         if isinstance(value, int):
             offset += sign * value
-        elif is_time(expr, body):
+        elif _is_time(expr, body):
             (plus if sign > 0 else minus).append(expr)
         else:
             others.append((sign, expr))

@@ -31,7 +31,7 @@ def definition_of(analysis: Analysis, meaning: Meaning) -> Span | None:
             owner = analysis.schema.classes.get(class_name)
             return span or (owner.span if owner is not None else None)
         case EnumValue(enum=enum, value=value):
-            return value_span(analysis, enum, value)
+            return _value_span(analysis, enum, value)
         case TokenVariableReference() as variable:
             found = parameter_of(variable)
             return found.span if found is not None else None
@@ -41,7 +41,7 @@ def definition_of(analysis: Analysis, meaning: Meaning) -> Span | None:
             return None
 
 
-def value_span(analysis: Analysis, enum: str, value: str) -> Span | None:
+def _value_span(analysis: Analysis, enum: str, value: str) -> Span | None:
     """Where a value of an enum is declared."""
     found = analysis.schema.enums.get(enum)
     if found is None or found.node is None:

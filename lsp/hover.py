@@ -46,14 +46,14 @@ def hover_at(view: DocumentContext, position: Position, conversion: Conversion) 
     meaning = meaning_at(view.snapshot.analysis, view.parse, lines.offset(position))
     if meaning is None:
         return None
-    parts = [part for part in describe(view.snapshot.analysis, meaning, conversion) if part]
+    parts = [part for part in _describe(view.snapshot.analysis, meaning, conversion) if part]
     if not parts:
         return None
     content = MarkupContent(MarkupKind.Markdown, "\n\n".join(parts))
     return Hover(content, lines.range(meaning.begin, meaning.finish))
 
 
-def describe(analysis: Analysis, meaning: Meaning, conversion: Conversion) -> Iterable[str]:
+def _describe(analysis: Analysis, meaning: Meaning, conversion: Conversion) -> Iterable[str]:
     """The paragraphs about what stands at a place."""
     describer = Describer(analysis, lambda span: _link(conversion, span))
     match meaning.thing:

@@ -89,12 +89,12 @@ def meaning_at(analysis: Analysis, parse: Parse, offset: int) -> Meaning | None:
     piece = piece_at(parse, offset)
     if piece is None:
         return None
-    around = nodes_at(piece, offset)
+    around = _nodes_at(piece, offset)
     thing = _thing(analysis, around) if around else None
     if thing is not None:
         span = around[0].span
         return Meaning(thing, span.begin, span.finish, around[1:])
-    lexeme = lexeme_at(piece, offset)
+    lexeme = _lexeme_at(piece, offset)
     if lexeme is None:
         return None
     begin, finish, text = lexeme
@@ -107,12 +107,12 @@ def piece_at(parse: Parse, offset: int) -> Piece | None:
     index = bisect_right(parse.pieces, offset, key=lambda piece: piece.anchor.offset) - 1
     if index < 0:
         return None
-    if index > 0 and parse.pieces[index].anchor.offset == offset and lexeme_at(parse.pieces[index], offset) is None:
+    if index > 0 and parse.pieces[index].anchor.offset == offset and _lexeme_at(parse.pieces[index], offset) is None:
         index -= 1
     return parse.pieces[index]
 
 
-def nodes_at(piece: Piece, offset: int) -> tuple[Any, ...]:
+def _nodes_at(piece: Piece, offset: int) -> tuple[Any, ...]:
     """The nodes that `offset` stands in, the innermost first."""
     at = offset - piece.anchor.offset
     found: list[Any] = []
@@ -133,7 +133,7 @@ def _containing(nodes: Iterator[Any], at: int) -> Any:
     return touching
 
 
-def lexeme_at(piece: Piece, offset: int) -> tuple[int, int, str] | None:
+def _lexeme_at(piece: Piece, offset: int) -> tuple[int, int, str] | None:
     """Begin, end and text of the lexeme that `offset` stands in, or at the end of."""
     base = piece.anchor.offset
     index = bisect_right(piece.starts, offset - base) - 1
@@ -188,7 +188,7 @@ def _named(analysis: Analysis, name: Identifier) -> Thing | None:
     if (type_ := tables.type_names.get(name)) is not None:
         return _of_type(analysis, type_)
     if (reference := tables.references.get(name)) is not None:
-        return referred(analysis, reference)
+        return _referred(analysis, reference)
     return _by_word(analysis, name.name)
 
 
@@ -201,14 +201,14 @@ def _part(analysis: Analysis, part: Identifier, path: PathExpr, owner: Any) -> T
     if reference is None and len(path.parts) == 1:
         reference = analysis.tables.references.get(path)
     if reference is not None:
-        return referred(analysis, reference)
+        return _referred(analysis, reference)
     whole = analysis.tables.references.get(path)
     if isinstance(whole, EnumValue):
         return whole if part is path.parts[-1] else analysis.schema.enums.get(whole.enum)
     return _by_word(analysis, part.name) if part is path.parts[0] else None
 
 
-def referred(analysis: Analysis, reference: Reference) -> Thing | None:
+def _referred(analysis: Analysis, reference: Reference) -> Thing | None:
     """What a reference leads to."""
     match reference:
         case EnumValue() | TokenVariableReference():

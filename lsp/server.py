@@ -71,7 +71,7 @@ def _version() -> str:
         return "unknown"
 
 
-def make_server(settings: ServerSettings) -> Server:
+def _make_server(settings: ServerSettings) -> Server:
     """A server that knows what to answer."""
     server = Server(settings)
     _answer_lifecycle(server)
@@ -82,7 +82,7 @@ def make_server(settings: ServerSettings) -> Server:
 
 def serve(settings: ServerSettings) -> bool:
     """Serve until the editor leaves or is gone; whether it said goodbye first, as it should."""
-    server = make_server(settings)
+    server = _make_server(settings)
     server.start_io()
     return server.is_dismissed
 

@@ -106,7 +106,7 @@ class Analyser:
         complaints = [
             (
                 statement,
-                tuple(echoes.without((*unit.complaints, *_deferred(symbols, unit, loaded, self._callables)))),
+                tuple(echoes._without((*unit.complaints, *_deferred(symbols, unit, loaded, self._callables)))),
             )
             for statement, unit in units.items()
         ]
@@ -244,7 +244,7 @@ class _Echoes:
             places.sort()
         self._unknown: set[str] = set()
 
-    def without(self, complaints: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
+    def _without(self, complaints: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
         """The complaints that say something new."""
         for complaint in complaints:
             if self._mended and self._is_mended(complaint.span):

@@ -157,10 +157,10 @@ def _tell(found: list[Diagnostic], files: list[str], style: str, mended: int, st
                     click.echo(f"{count:6}  {code}  {message}")
             if mended:
                 click.echo(f"{_counted(mended, 'fix', 'fixes')} carried out")
-            click.echo(summary(found, len(files)))
+            click.echo(_summary(found, len(files)))
 
 
-def summary(found: Sequence[Diagnostic], files: int) -> str:
+def _summary(found: Sequence[Diagnostic], files: int) -> str:
     """How many findings of each weight there are, in one line."""
     counts = Counter(each.severity for each in found)
     words = [_counted(counts[severity], WORDS[severity]) for severity in Severity if counts[severity]]

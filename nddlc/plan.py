@@ -35,7 +35,7 @@ from runtime.view.plan_text import INTERRUPTED, PlanReport, found_values, lines,
 DEFAULT_HORIZON = (0, 1000)
 
 
-def tick(text: str) -> int:
+def _tick(text: str) -> int:
     """A whole number, or `inf` and `-inf` for no end and no beginning, which lie beyond all ticks."""
     if text.lower().lstrip("+") in ("inf", "-inf"):
         return -INF if text.startswith("-") else INF
@@ -53,7 +53,7 @@ def tick(text: str) -> int:
 @click.option("-I", "--include", "directories", multiple=True, metavar="DIR", help="Look for included files here too.")
 @click.option("--dialect", type=click.Choice(["nddl3", "nddlc"]), help="The same option as before the command.")
 @click.option("--config", "config", metavar="FILE", help="What to mend and how, in EUROPA's XML or in TOML.")
-@click.option("--horizon", nargs=2, type=tick, metavar="LO HI", help="Plan what lies between these ticks (or inf).")
+@click.option("--horizon", nargs=2, type=_tick, metavar="LO HI", help="Plan what lies between these ticks (or inf).")
 @click.option("--max-steps", type=click.IntRange(0), help="Stop after so many steps.")
 @click.option("--max-depth", type=click.IntRange(0), help="Stop when so many decisions are in force.")
 @click.option("--max-seconds", type=click.FloatRange(0, min_open=True), help="Stop after so many seconds.")

@@ -42,7 +42,7 @@ class Loaded:
 
 
 @contextmanager
-def no_collecting() -> Iterator[None]:
+def _no_collecting() -> Iterator[None]:
     """Look for no garbage: what a model is made of stays, and looking through it again and again is half the work."""
     was_enabled = gc.isenabled()
     gc.disable()
@@ -53,7 +53,7 @@ def no_collecting() -> Iterator[None]:
             gc.enable()
 
 
-@no_collecting()
+@_no_collecting()
 def load(
     path: Path,
     directories: tuple[str, ...] = (),

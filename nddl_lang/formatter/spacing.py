@@ -13,7 +13,7 @@ _TAKES_ARGUMENTS = frozenset(("IDENT", "RELATION", "GOAL", "super", "close"))
 def has_blank(kinds: list[str], index: int, bracket: str | None) -> bool:
     """Whether a blank stands before the lexeme `index`; `bracket` is the innermost one that is open before it."""
     before, kind = kinds[index - 1], kinds[index]
-    if is_sign(kinds, index - 1, bracket):
+    if _is_sign(kinds, index - 1, bracket):
         # `- 1` is an operator and a number, `-1` is one lexeme.
         return kind in ("INT", "FLOAT")
     if kind in _NO_BLANK_BEFORE or before in _NO_BLANK_AFTER:
@@ -23,7 +23,7 @@ def has_blank(kinds: list[str], index: int, bracket: str | None) -> bool:
     return not (kind == "}" and bracket == "SET")
 
 
-def is_sign(kinds: list[str], index: int, bracket: str | None) -> bool:
+def _is_sign(kinds: list[str], index: int, bracket: str | None) -> bool:
     """Whether the lexeme `index` is a minus with one operand, which stands close to it."""
     if kinds[index] != "-":
         return False

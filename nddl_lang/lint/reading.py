@@ -35,7 +35,7 @@ from nddl_lang.syntax.nodes import (
 BOOLEANS = Values((False, True))
 
 
-def written(expression: Expr, kind: Kind) -> Domain | None:
+def _written(expression: Expr, kind: Kind) -> Domain | None:
     """The values that an expression of literals stands for; in an enum's variable names are its values."""
     if (value := number(expression)) is not None:
         return Values((value,))
@@ -50,7 +50,7 @@ def written(expression: Expr, kind: Kind) -> Domain | None:
         case SetExpr(items=items):
             values: list[float | int | bool | str] = []
             for item in items:
-                domain = written(item, kind)
+                domain = _written(item, kind)
                 if not isinstance(domain, Values):
                     return None
                 values += domain.items
@@ -64,7 +64,7 @@ def declared(variable: Variable) -> Domain | None:
     known = variable.type.restriction
     if known is None and variable.type.kind is Kind.BOOL:
         known = BOOLEANS
-    given = written(variable.initialiser, variable.type.kind) if variable.initialiser is not None else None
+    given = _written(variable.initialiser, variable.type.kind) if variable.initialiser is not None else None
     if given is None or known is None:
         return given if known is None else known
     return domains.intersect(known, given, variable.type.kind) or known
@@ -106,7 +106,7 @@ def _written_in(part: Part, expression: Expr) -> Domain | None:
                 return None
             values += domain.items
         return Values(tuple(values))
-    return written(expression, Kind.INT)
+    return _written(expression, Kind.INT)
 
 
 def token_domain(predicate: Predicate, name: str, type_: Type) -> Domain | None:
@@ -118,24 +118,24 @@ def token_domain(predicate: Predicate, name: str, type_: Type) -> Domain | None:
         known = LEAST_DURATION
     elif (parameter := parameter_of(predicate, name)) is not None:
         known = declared(parameter)
-    for given in body_domains(predicate, name, type_.kind):
+    for given in _body_domains(predicate, name, type_.kind):
         known = given if known is None else domains.intersect(known, given, type_.kind) or known
     return known
 
 
-def body_domains(predicate: Predicate, name: str, kind: Kind) -> list[Domain]:
+def _body_domains(predicate: Predicate, name: str, kind: Kind) -> list[Domain]:
     """What assignments and plain comparisons in the bodies of a predicate say about one variable of its tokens."""
     found: list[Domain] = []
     for node in predicate.nodes:
         for statement in node.body:
             given: Domain | None = None
             match statement:
-                case Assignment(target=target, value=value) if is_bare(target, name):
-                    given = written(value, kind)
+                case Assignment(target=target, value=value) if _is_bare(target, name):
+                    given = _written(value, kind)
                 case CallConstraint(name=call, arguments=(PathExpr() as first, second)) if call.name == "eq":
-                    given = written(second, kind) if is_bare(first, name) else None
+                    given = _written(second, kind) if _is_bare(first, name) else None
                 case ExprConstraint(expression=expression):
-                    given = compared(expression, name)
+                    given = _compared(expression, name)
                 case VariableDecl():
                     pass
             if given is not None:
@@ -143,18 +143,18 @@ def body_domains(predicate: Predicate, name: str, kind: Kind) -> list[Domain]:
     return found
 
 
-def is_bare(path: Expr, name: str) -> bool:
+def _is_bare(path: Expr, name: str) -> bool:
     """Whether an expression is just this name."""
     return isinstance(path, PathExpr) and len(path.parts) == 1 and path.parts[0].name == name
 
 
-def compared(expression: Expr, name: str) -> Domain | None:
+def _compared(expression: Expr, name: str) -> Domain | None:
     """What `name op number` leaves to `name`."""
     op, left, right = (getattr(expression, each, None) for each in ("op", "left", "right"))
-    if left is None or right is None or not is_bare(left, name):
+    if left is None or right is None or not _is_bare(left, name):
         return None
     if op == "==":
-        return written(right, Kind.INT)
+        return _written(right, Kind.INT)
     value = number(right)
     return None if value is None else bounded(str(op), value)
 

@@ -26,7 +26,7 @@ class DrawSite:
     domain: Domain | None
 
 
-def draws(part: Part) -> Iterator[DrawSite]:
+def _draws(part: Part) -> Iterator[DrawSite]:
     """The draws of a statement."""
     tables = part.tables
     if not tables.sampled:
@@ -57,7 +57,7 @@ def lint_draws(part: Part) -> Iterator[Finding]:
         reference = part.reference(path)
         if isinstance(reference, LocalReference):
             mentions[reference.variable] = mentions.get(reference.variable, 0) + 1
-    for draw in draws(part):
+    for draw in _draws(part):
         if draw.receiver is not None and isinstance(part.node, RuleDecl):
             receiver = draw.receiver[0]
             if isinstance(receiver, Variable) and receiver in used_variables(part) and mentions.get(receiver) == 1:
@@ -100,7 +100,7 @@ def compare_draws(parts: list[Part]) -> Iterator[Diagnostic]:
     """A parameter without a range of its own that is drawn into variables with different ranges."""
     first: dict[object, DrawSite] = {}
     for part in parts:
-        for draw in draws(part):
+        for draw in _draws(part):
             if isinstance(draw.parameter, GlobalReference) and declared(draw.parameter.variable) is not None:
                 continue
             if draw.domain is None:

@@ -49,7 +49,7 @@ def lint_script(whole: Whole) -> Iterator[Diagnostic]:
 # ---- the horizon ----
 
 
-def horizon_of(whole: Whole) -> tuple[Interval, NewExpr] | None:
+def _horizon_of(whole: Whole) -> tuple[Interval, NewExpr] | None:
     """The planning horizon that the model itself sets, None where it sets none or several."""
     made = whole.objects.get("PlannerConfig", [])
     if len(made) != 1:
@@ -64,7 +64,7 @@ def horizon_of(whole: Whole) -> tuple[Interval, NewExpr] | None:
 
 
 def _horizon(whole: Whole, goals: list[tuple[Part, GoalStatement]]) -> Iterator[Diagnostic]:
-    found = horizon_of(whole)
+    found = _horizon_of(whole)
     if found is None:
         return
     horizon, config = found

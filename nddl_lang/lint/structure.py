@@ -55,12 +55,12 @@ class Graph:
                 self.rules.setdefault(part.tables.predicates[part.node].full_name, []).append(part)
                 self.requests[part] = list(_requests(part, part.node))
 
-    def rules_for(self, class_name: str, predicate: str) -> Iterator[Part]:
+    def _rules_for(self, class_name: str, predicate: str) -> Iterator[Part]:
         """The rules that run for a token: those of its class and of the ancestors."""
         for owner in self.schema.ancestry(class_name):
             yield from self.rules.get(f"{owner}.{predicate}", ())
 
-    def reached(self, roots: list[Predicate]) -> set[str]:
+    def _reached(self, roots: list[Predicate]) -> set[str]:
         """The full names of the predicates that the roots lead to."""
         producers: dict[str, list[Predicate]] = {}
         for part, requests in self.requests.items():
@@ -77,7 +77,7 @@ class Graph:
                 continue
             found.add(predicate.full_name)
             pending += producers.get(predicate.name, ())
-            for part in self.rules_for(predicate.class_name, predicate.name):
+            for part in self._rules_for(predicate.class_name, predicate.name):
                 pending += (request.wanted for request in self.requests[part])
         return found
 
@@ -149,7 +149,7 @@ def _unreachable(graph: Graph, roots: list[Predicate], idle: set[str]) -> Iterat
     for owner in schema.classes.values():
         if AGENT_TIMELINE in schema.ancestry(owner.name) or owner.is_native:
             roots += (*owner.predicates.values(), *owner.inherited.values())
-    reached = graph.reached(roots)
+    reached = graph._reached(roots)
     names: dict[str, set[str]] = {}
     for full_name in reached:
         owner_name, _, name = full_name.partition(".")
@@ -272,7 +272,7 @@ def _without_effect(graph: Graph) -> Iterator[tuple[PredicateDecl, Predicate]]:
             predicate = _declared(graph, part, node)
             if predicate is None or predicate.name in whole.requested:
                 continue  # what is asked for by its name need not bring anything about
-            rules = list(graph.rules_for(predicate.class_name, predicate.name))
+            rules = list(graph._rules_for(predicate.class_name, predicate.name))
             below = [
                 rule
                 for name in graph.rules

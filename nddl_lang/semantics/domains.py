@@ -37,7 +37,7 @@ def intersect(one: Domain, other: Domain, kind: Kind) -> Domain | None:
     if isinstance(other, Values):
         kept = _common_items(one.items, other.items, TOLERANCE if kind is Kind.FLOAT else 0)
     else:
-        kept = tuple(item for item in one.items if contains(other, item, kind))
+        kept = tuple(item for item in one.items if _contains(other, item, kind))
     return Values(kept) if kept else None
 
 
@@ -54,7 +54,7 @@ def _common_items(some: tuple[_Item, ...], others: tuple[_Item, ...], slack: flo
     return tuple(item for item in some if item in known or is_near(item))
 
 
-def contains(domain: Domain, value: float | int | bool | str, kind: Kind) -> bool:
+def _contains(domain: Domain, value: float | int | bool | str, kind: Kind) -> bool:
     """Whether `domain` has `value`."""
     slack = TOLERANCE if kind is Kind.FLOAT else 0
     if isinstance(domain, Interval):
@@ -69,10 +69,10 @@ def contains(domain: Domain, value: float | int | bool | str, kind: Kind) -> boo
 def is_within(inner: Domain, outer: Domain, kind: Kind) -> bool:
     """Whether `outer` has every value of `inner`."""
     if isinstance(inner, Values):
-        return all(contains(outer, item, kind) for item in inner.items)
+        return all(_contains(outer, item, kind) for item in inner.items)
     if isinstance(outer, Values):
         return False
-    return contains(outer, inner.lower, kind) and contains(outer, inner.upper, kind)
+    return _contains(outer, inner.lower, kind) and _contains(outer, inner.upper, kind)
 
 
 def text(domain: Domain) -> str:

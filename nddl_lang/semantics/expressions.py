@@ -296,7 +296,7 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
             complaint = UNKNOWN_FUNCTION.at(call.function.span, help=help_, name=name)
         context.complain(suggest_name(complaint, call.function, context.callables.functions))
         return None
-    check_dialect(context, call, row)
+    _check_dialect(context, call, row)
     if row.result is ResultKind.SAMPLED:
         return _sampled_type(context, scope, call, row)
     types = [type_of(context, scope, argument) for argument in call.arguments]
@@ -308,7 +308,7 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
     return _result_type(context, row, types)
 
 
-def check_dialect(context: Context, call: CallExpr, row: FunctionRow) -> None:
+def _check_dialect(context: Context, call: CallExpr, row: FunctionRow) -> None:
     """Complain about a function that only the dialect nddlc has."""
     if row.origin is Origin.NDDLC and context.dialect is Dialect.NDDL3:
         context.complain(NOT_IN_NDDL3.at(call.function.span, help=NO_ENVIRONMENT, name=row.name))

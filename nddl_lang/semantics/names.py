@@ -101,7 +101,7 @@ def resolve_dotted(context: Context, scope: Scope, parts: Sequence[Identifier]) 
             label = goal
     if label is not None:
         context.tables.references[head] = TokenReference(label)
-        start = find_token_variable(context, label, rest[0])
+        start = _find_token_variable(context, label, rest[0])
         if start is None:
             return None
         head = rest.pop(0)
@@ -159,7 +159,7 @@ def follow(
     return reference
 
 
-def find_token_variable(context: Context, label: Label, name: Identifier) -> TokenVariableReference | None:
+def _find_token_variable(context: Context, label: Label, name: Identifier) -> TokenVariableReference | None:
     """The variable `name` of a token; a complaint where it has none."""
     predicate = label.predicate
     type_ = builtin_type(name.name, predicate)
@@ -171,7 +171,7 @@ def find_token_variable(context: Context, label: Label, name: Identifier) -> Tok
         return variable
     if not context.symbols.is_partial(predicate.class_name) and not context.symbols.is_doubtful(name.name):
         complaint = UNKNOWN_TOKEN_VARIABLE.at(
-            name.span, notes=declared_note(predicate), predicate=predicate.full_name, name=name.name
+            name.span, notes=_declared_note(predicate), predicate=predicate.full_name, name=name.name
         )
         if predicate.is_event and name.name in ("start", "end"):
             fix = Fix("write `time`", (Edit(name.span, "time"),))
@@ -183,7 +183,7 @@ def find_token_variable(context: Context, label: Label, name: Identifier) -> Tok
     return None
 
 
-def declared_note(predicate: Predicate) -> tuple[Note, ...]:
+def _declared_note(predicate: Predicate) -> tuple[Note, ...]:
     """A note that points at the declaration of a predicate."""
     if predicate.span is None:
         return ()

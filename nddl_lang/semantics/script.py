@@ -67,7 +67,7 @@ def check_assignment(context: Context, node: Assignment) -> None:
         check_allocation(context, scope, node.value)
         if isinstance(reference, GlobalReference):
             _note_object(context, reference.variable.name, node)
-    type_ = target_type(context, node.target, reference)
+    type_ = _target_type(context, node.target, reference)
     if type_ is None or check_value(context, scope, node.value, type_, node.target.span.text) is None:
         return
     left = check_domain(context, node.target, type_, node.value)
@@ -78,7 +78,7 @@ def check_assignment(context: Context, node: Assignment) -> None:
         note_state(context, reference.label, left)
 
 
-def target_type(context: Context, target: PathExpr, reference: Reference | None) -> Type | None:
+def _target_type(context: Context, target: PathExpr, reference: Reference | None) -> Type | None:
     """The type of the variable that `reference` denotes; a complaint where it is no variable."""
     if reference is None:
         return None
@@ -100,7 +100,7 @@ def check_domain(context: Context, target: PathExpr, type_: Type, value: Expr) -
     given = constant(context, value)
     if given is None:
         return None
-    known = known_domain(context, target, type_)
+    known = _known_domain(context, target, type_)
     if known is None:
         return given
     left = domains.intersect(known, given, type_.kind)
@@ -110,7 +110,7 @@ def check_domain(context: Context, target: PathExpr, type_: Type, value: Expr) -
     return left
 
 
-def known_domain(context: Context, target: PathExpr, type_: Type) -> Domain | None:
+def _known_domain(context: Context, target: PathExpr, type_: Type) -> Domain | None:
     """What the base domain of a variable of the script lies within, None where nothing is known."""
     key = domain_key(context, target)
     known = context.symbols.base_domain(key) if key is not None else None

@@ -78,7 +78,7 @@ def check_instance(context: Context, scope: Scope, instance: Instance) -> Label 
     return label
 
 
-def find_token(context: Context, scope: Scope, name: Identifier) -> Label | None:
+def _find_token(context: Context, scope: Scope, name: Identifier) -> Label | None:
     """The token of that name; a complaint where there is none."""
     label = scope.find_label(name.name) or find_script_token(context, scope, name.name)
     if label is not None:
@@ -142,7 +142,7 @@ def _find_relation(context: Context, name: Identifier) -> RelationRow | None:
 
 def _find_origin(context: Context, scope: Scope, node: Relation) -> Label | None:
     if node.origin is not None:
-        return find_token(context, scope, node.origin)
+        return _find_token(context, scope, node.origin)
     if scope.own is None:
         context.complain(MISSING_ORIGIN.at(node.relation.span))
     return scope.own
@@ -171,7 +171,7 @@ def _check_existing(context: Context, scope: Scope, node: Relation, path: PathEx
         name = Identifier(path.span.text, path.span)
         context.complain(UNKNOWN_TOKEN.at(path.span, help="a token is known by a single name", name=name.name))
         return
-    label = find_token(context, scope, path.parts[0])
+    label = _find_token(context, scope, path.parts[0])
     if label is not None:
         context.tables.existing[node] = label
         context.tables.references[path] = TokenReference(label)

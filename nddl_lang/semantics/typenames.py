@@ -33,7 +33,7 @@ def find_type(context: Context, name: Identifier) -> Type | None:
         known = [*BASIC_TYPES, *context.symbols.names(*_TYPE_TABLES)]
         word = name.name.casefold()
         meant = word if word in _ELSEWHERE else nearest(name.name, [*known, *_ELSEWHERE])
-        complain_missing(context, name, UNKNOWN_TYPE, known, _ELSEWHERE.get(meant or ""))
+        _complain_missing(context, name, UNKNOWN_TYPE, known, _ELSEWHERE.get(meant or ""))
         return None
     context.tables.type_names[name] = type_
     return type_
@@ -55,7 +55,7 @@ def find_class(context: Context, name: Identifier) -> Class | None:
     """The class of that name; a complaint where there is none."""
     found = context.symbols.find_class(name.name)
     if found is None:
-        complain_missing(context, name, UNKNOWN_CLASS, context.symbols.names("class"))
+        _complain_missing(context, name, UNKNOWN_CLASS, context.symbols.names("class"))
         return None
     context.tables.type_names[name] = object_type(name.name)
     return found
@@ -75,7 +75,7 @@ def find_defined_class(context: Context, name: Identifier) -> Class | None:
     return found
 
 
-def complain_missing(
+def _complain_missing(
     context: Context, name: Identifier, code: Code, candidates: Iterable[str], meant: str | None = None
 ) -> None:
     """Say that there is no such type or class, unless an earlier mistake may be the reason.

@@ -78,10 +78,10 @@ def fits(value: Type, target: Type, is_subclass: IsSubclass) -> bool:
         case Kind.ENUM:
             return value.kind is Kind.SYMBOL or (value.kind is Kind.ENUM and value.base == target.base)
         case Kind.OBJECT:
-            return value.kind is Kind.OBJECT and related(value.base, target.base, is_subclass)
+            return value.kind is Kind.OBJECT and _related(value.base, target.base, is_subclass)
 
 
-def related(one: str, other: str, is_subclass: IsSubclass) -> bool:
+def _related(one: str, other: str, is_subclass: IsSubclass) -> bool:
     """Whether an object can belong to both classes."""
     return one == other or is_subclass(one, other) or is_subclass(other, one)
 

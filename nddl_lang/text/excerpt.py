@@ -13,7 +13,7 @@ MOST_LINES = 6
 _EDGE = 2
 
 
-def width(letter: str) -> int:
+def _width(letter: str) -> int:
     """How many columns of a terminal `letter` takes."""
     if letter.isascii():
         return 1
@@ -32,8 +32,8 @@ def shown(line: str) -> tuple[str, list[int]]:
         if letter == "\t":
             advance = TAB - column % TAB
             letters.append(" " * advance)
-        elif letter.isprintable() or width(letter) == 0:
-            advance = width(letter)
+        elif letter.isprintable() or _width(letter) == 0:
+            advance = _width(letter)
             letters.append(letter if letter.isprintable() else "")
         else:
             advance = 1
@@ -43,7 +43,7 @@ def shown(line: str) -> tuple[str, list[int]]:
     return "".join(letters), columns
 
 
-def bounds(span: Span) -> tuple[tuple[int, int], tuple[int, int]]:
+def _bounds(span: Span) -> tuple[tuple[int, int], tuple[int, int]]:
     """Line and column where `span` begins and where it ends, the end not included but in the line of the last one."""
     source = span.source
     first = source.locate(span.begin)
@@ -55,7 +55,7 @@ def bounds(span: Span) -> tuple[tuple[int, int], tuple[int, int]]:
 
 def excerpt(span: Span, mark: str = "^") -> Iterator[tuple[int | None, str, str]]:
     """The lines that show `span`: a number or None, the text, and the carets under it (empty: none)."""
-    (first, start), (last, end) = bounds(span)
+    (first, start), (last, end) = _bounds(span)
     if first == last:
         yield _single(span.source, first, start, end, mark)
         return

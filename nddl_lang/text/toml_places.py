@@ -50,12 +50,12 @@ class _Scan:
     def document(self) -> None:
         table: Path = ()
         while True:
-            self.skip_blank(lines=True)
+            self._skip_blank(lines=True)
             if self.at >= len(self.text):
                 return
-            table = self.header() if self.text[self.at] == "[" else self.pair(table)
+            table = self._header() if self.text[self.at] == "[" else self.pair(table)
 
-    def header(self) -> Path:
+    def _header(self) -> Path:
         is_array = self.text.startswith("[[", self.at)
         self.at += 2 if is_array else 1
         names, stretch = self.key()
@@ -74,7 +74,7 @@ class _Scan:
     def pair(self, table: Path) -> Path:
         names, stretch = self.key()
         self.at = self.text.index("=", self.at) + 1
-        self.skip_blank()
+        self._skip_blank()
         begin = self.at
         path = (*table, *names)
         self.value(path)
@@ -85,13 +85,13 @@ class _Scan:
     def key(self) -> tuple[tuple[str, ...], tuple[int, int]]:
         """A possibly dotted key; the offsets span all of it."""
         names: list[str] = []
-        self.skip_blank()
+        self._skip_blank()
         begin = finish = self.at
         while True:
-            self.skip_blank()
+            self._skip_blank()
             if self.text[self.at] in "\"'":
                 start = self.at
-                self.skip_string()
+                self._skip_string()
                 names.append(self.text[start + 1 : self.at - 1])
             else:
                 start = self.at
@@ -99,7 +99,7 @@ class _Scan:
                     self.at += 1
                 names.append(self.text[start : self.at])
             finish = self.at
-            self.skip_blank()
+            self._skip_blank()
             if self.at >= len(self.text) or self.text[self.at] != ".":
                 return tuple(names), (begin, finish)
             self.at += 1
@@ -107,22 +107,22 @@ class _Scan:
     def value(self, path: Path) -> None:
         match self.text[self.at]:
             case '"' | "'":
-                self.skip_string()
+                self._skip_string()
             case "[":
-                self.array(path)
+                self._array(path)
             case "{":
-                self.inline_table(path)
+                self._inline_table(path)
             case _:
                 while self.at < len(self.text) and self.text[self.at] not in ",]}#\r\n":
                     self.at += 1
                 while self.text[self.at - 1] in " \t":
                     self.at -= 1
 
-    def array(self, path: Path) -> None:
+    def _array(self, path: Path) -> None:
         self.at += 1
         index = 0
         while True:
-            self.skip_blank(lines=True)
+            self._skip_blank(lines=True)
             if self.text[self.at] == "]":
                 self.at += 1
                 return
@@ -130,14 +130,14 @@ class _Scan:
             self.value((*path, index))
             self.places.setdefault((*path, index), Stretch((begin, self.at), (begin, self.at)))
             index += 1
-            self.skip_blank(lines=True)
+            self._skip_blank(lines=True)
             if self.text[self.at] == ",":
                 self.at += 1
 
-    def inline_table(self, path: Path) -> None:
+    def _inline_table(self, path: Path) -> None:
         self.at += 1
         while True:
-            self.skip_blank(lines=True)
+            self._skip_blank(lines=True)
             if self.text[self.at] == "}":
                 self.at += 1
                 return
@@ -146,7 +146,7 @@ class _Scan:
                 continue
             self.pair(path)
 
-    def skip_string(self) -> None:
+    def _skip_string(self) -> None:
         quote = self.text[self.at]
         mark = quote * 3 if self.text.startswith(quote * 3, self.at) else quote
         self.at += len(mark)
@@ -156,7 +156,7 @@ class _Scan:
         while len(mark) == 3 and self.text.startswith(quote, self.at):  # """a"""" ends with a quote of its own
             self.at += 1
 
-    def skip_blank(self, *, lines: bool = False) -> None:
+    def _skip_blank(self, *, lines: bool = False) -> None:
         blank = " \t\r\n" if lines else " \t"
         while self.at < len(self.text):
             if self.text[self.at] in blank:

@@ -24,7 +24,7 @@ cpdef bint fire(Plan plan) except -1
     at="long long", b="long long", block="long long", branch="long long", old="long long", rows=Rows,
     t="long long"
 )
-cpdef void decide_guard(Plan plan, long long s) except *
+cpdef void _decide_guard(Plan plan, long long s) except *
 
 
 cpdef bint activate(Plan plan, long long t, long long span) except -1

@@ -42,14 +42,14 @@ def fire(plan: Plan) -> bool:
             continue
         count = plan.queue_length
         for i in range(count):
-            decide_guard(plan, plan.queue[i])
+            _decide_guard(plan, plan.queue[i])
         plan.keep_queued(count)
         if not run(plan):
             break
     return False
 
 
-def decide_guard(plan: Plan, s: int) -> None:
+def _decide_guard(plan: Plan, s: int) -> None:
     """Put the branch that guard `s` asks for on the stack, and take back another one that ran before (level 0)."""
     rows = plan.rows
     if rows.scope_watch[s] < 0:

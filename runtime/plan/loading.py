@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from math import inf
 
 from compiler.program import DomainConstant, Program, TypeCode
+from nddl_lang.semantics.natives import SELF_ACTIVATING
 from nddl_lang.semantics.relations import RELATIONS, DurationRule, Point
 from runtime.constraints.domains.tags import KIND_INT
 from runtime.plan.rules.rule_bytecode import RuleBytecode
@@ -29,7 +30,6 @@ from runtime.plan.tags import (
     START,
 )
 
-RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
 DURATIONS = {
     DurationRule.NONE: DURATION_FREE,
     DurationRule.EQUAL: DURATION_EQUAL,
@@ -44,7 +44,7 @@ POINTS = {
 }
 
 
-def packed(numbers: Iterable[int]) -> "array[int]":
+def _packed(numbers: Iterable[int]) -> "array[int]":
     """Numbers as an array that is never empty."""
     return array("q", [*numbers, 0])
 
@@ -73,18 +73,18 @@ def load_members(plan: Plan, program: Program, prototypes: Prototypes, names: Na
 
 def load_prototypes(plan: Plan, program: Program, prototypes: Prototypes) -> None:
     """Prototypes of the built-in variables of tokens, and of the objects of each class."""
-    plan.state_prototype = states(prototypes, "ACTIVE", "MERGED")
-    plan.rejectable_prototype = states(prototypes, "ACTIVE", "MERGED", "REJECTED")
-    plan.native_prototype = states(prototypes, "ACTIVE")
+    plan.state_prototype = _states(prototypes, "ACTIVE", "MERGED")
+    plan.rejectable_prototype = _states(prototypes, "ACTIVE", "MERGED", "REJECTED")
+    plan.native_prototype = _states(prototypes, "ACTIVE")
     plan.duration_prototype = plan.engine.new_interval(KIND_INT, 1, inf, NONE, NONE)
     plan.instant_prototype = plan.engine.new_interval(KIND_INT, 0, 0, NONE, NONE)
     plan.time_prototype = plan.engine.new_interval(KIND_INT, -inf, inf, NONE, NONE)
     classes = [prototypes.of(TypeCode("object", class_.name, None), None) for class_ in program.classes]
-    plan.class_prototype = packed(classes)
-    plan.class_closed = packed(0 for _ in classes)
+    plan.class_prototype = _packed(classes)
+    plan.class_closed = _packed(0 for _ in classes)
 
 
-def states(prototypes: Prototypes, *names: str) -> int:
+def _states(prototypes: Prototypes, *names: str) -> int:
     """The prototype of a token's state."""
     return prototypes.of_domain(DomainConstant("symbol", STATES, None, names))
 
@@ -99,9 +99,9 @@ def load_relations(plan: Plan) -> None:
         for distance in row.distances:
             cells += [*POINTS[distance.earlier], *POINTS[distance.later], distance.lower, distance.upper]
         durations.append(DURATIONS[row.duration])
-    plan.relation_start = packed([*starts, len(cells)])
-    plan.relation_distance = packed(cells)
-    plan.relation_duration = packed(durations)
+    plan.relation_start = _packed([*starts, len(cells)])
+    plan.relation_distance = _packed(cells)
+    plan.relation_duration = _packed(durations)
 
 
 def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: RuleBytecode) -> None:
@@ -118,7 +118,7 @@ def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: 
     for predicate in program.predicates:
         number = numbers[predicate.class_name]
         native = program.classes[number].native
-        is_resource = native in RESOURCES
+        is_resource = native in SELF_ACTIVATING
         flag = FLAG_ACTION if predicate.is_action else 0
         flag |= FLAG_EVENT if predicate.is_event else 0
         flags.append(flag | (FLAG_NATIVE if is_resource else 0))
@@ -134,32 +134,32 @@ def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: 
             copies.append(code.optional(parameter.copy_of))
         first_rule.append(len(rules))
         rules += predicate.rules
-    plan.predicate_class = packed(numbers[predicate.class_name] for predicate in program.predicates)
-    plan.predicate_flags = packed(flags)
-    plan.predicate_timeline = packed(timeline)
-    plan.predicate_resource = packed(resource)
-    plan.parameter_start = packed(starts)
-    plan.parameter_count = packed(len(predicate.parameters) for predicate in program.predicates)
-    plan.parameter_prototype = packed(parameters)
-    plan.parameter_copy_kind = packed(kind for kind, _ in copies)
-    plan.parameter_copy_value = packed(value for _, value in copies)
-    plan.body_block = packed(code.body(predicate.body) for predicate in program.predicates)
-    plan.body_slots = packed(predicate.body_slots for predicate in program.predicates)
-    plan.body_tokens = packed(max(predicate.body_tokens, 1) for predicate in program.predicates)
-    plan.first_rule = packed([*first_rule, len(rules)])
-    plan.rule_number = packed(rules)
-    plan.rule_block = packed(code.body(rule.body) for rule in program.rules)
-    plan.rule_slots = packed(rule.slots for rule in program.rules)
-    plan.rule_tokens = packed(max(rule.tokens, 1) for rule in program.rules)
-    plan.rule_declared = packed(rule.declared_at for rule in program.rules)
-    plan.rule_span = packed(code.span(rule.span) for rule in program.rules)
-    load_kinds(plan, program, prototypes)
+    plan.predicate_class = _packed(numbers[predicate.class_name] for predicate in program.predicates)
+    plan.predicate_flags = _packed(flags)
+    plan.predicate_timeline = _packed(timeline)
+    plan.predicate_resource = _packed(resource)
+    plan.parameter_start = _packed(starts)
+    plan.parameter_count = _packed(len(predicate.parameters) for predicate in program.predicates)
+    plan.parameter_prototype = _packed(parameters)
+    plan.parameter_copy_kind = _packed(kind for kind, _ in copies)
+    plan.parameter_copy_value = _packed(value for _, value in copies)
+    plan.body_block = _packed(code.body(predicate.body) for predicate in program.predicates)
+    plan.body_slots = _packed(predicate.body_slots for predicate in program.predicates)
+    plan.body_tokens = _packed(max(predicate.body_tokens, 1) for predicate in program.predicates)
+    plan.first_rule = _packed([*first_rule, len(rules)])
+    plan.rule_number = _packed(rules)
+    plan.rule_block = _packed(code.body(rule.body) for rule in program.rules)
+    plan.rule_slots = _packed(rule.slots for rule in program.rules)
+    plan.rule_tokens = _packed(max(rule.tokens, 1) for rule in program.rules)
+    plan.rule_declared = _packed(rule.declared_at for rule in program.rules)
+    plan.rule_span = _packed(code.span(rule.span) for rule in program.rules)
+    _load_kinds(plan, program, prototypes)
     for head in range(HEAD_PREDICATE + len(program.predicates)):
         new_head(plan.rows, head)
     plan.first_object_head = HEAD_PREDICATE + len(program.predicates)
 
 
-def load_kinds(plan: Plan, program: Program, prototypes: Prototypes) -> None:
+def _load_kinds(plan: Plan, program: Program, prototypes: Prototypes) -> None:
     """How predicates of one name are related through their classes."""
     suffixes: dict[str, int] = {}
     suffix = [suffixes.setdefault(each.name.rpartition(".")[2], len(suffixes)) for each in program.predicates]
@@ -178,25 +178,25 @@ def load_kinds(plan: Plan, program: Program, prototypes: Prototypes) -> None:
             line.append(above)
         parents.append(line[1] if len(line) > 1 else NONE)
         roots.append(line[-1])
-    plan.predicate_suffix = packed(suffix)
+    plan.predicate_suffix = _packed(suffix)
     plan.predicate_at = at
-    plan.predicate_parent = packed(parents)
-    plan.predicate_root = packed(roots)
+    plan.predicate_parent = _packed(parents)
+    plan.predicate_root = _packed(roots)
 
 
 def load_code(plan: Plan, code: RuleBytecode) -> None:
     """Hand the bytecode over."""
-    plan.code = packed(code.cells)
-    plan.block_start = packed(code.block_start)
-    plan.block_end = packed(code.block_end)
-    plan.field_kind = packed(kind for kind, _ in code.field_base)
-    plan.field_value = packed(value for _, value in code.field_base)
+    plan.code = _packed(code.cells)
+    plan.block_start = _packed(code.block_start)
+    plan.block_end = _packed(code.block_end)
+    plan.field_kind = _packed(kind for kind, _ in code.field_base)
+    plan.field_value = _packed(value for _, value in code.field_base)
     starts: list[int] = []
     cells: list[int] = []
     for members in code.field_members:
         starts.append(len(cells))
         cells += members
-    plan.field_start = packed(starts)
-    plan.field_length = packed(len(members) for members in code.field_members)
-    plan.field_names = packed(cells)
+    plan.field_start = _packed(starts)
+    plan.field_length = _packed(len(members) for members in code.field_members)
+    plan.field_names = _packed(cells)
     plan.unions = code.unions

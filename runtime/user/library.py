@@ -59,8 +59,8 @@ def load_library(
     texts: dict[str, str] = {}
     for name in dict.fromkeys(files):
         path = root / name
-        module = load_module(path)
-        own = list_of(path.as_posix(), getattr(module, LIST, None))
+        module = _load_module(path)
+        own = _list_of(path.as_posix(), getattr(module, LIST, None))
         found += [(path.as_posix(), each) for each in own]
         _note_texts(texts, name, path, own)
     for point in sorted(packages, key=lambda each: (each.name, each.value)):
@@ -72,7 +72,7 @@ def load_library(
             raise
         except BaseException as problem:
             raise failed(f"the {place}", problem, (), verb=NOT_LOADED) from problem
-        own = list_of(place, getattr(loaded, LIST, None) if isinstance(loaded, ModuleType) else loaded)
+        own = _list_of(place, getattr(loaded, LIST, None) if isinstance(loaded, ModuleType) else loaded)
         found += [(place, each) for each in own]
         for each in own:
             module_file = getattr(sys.modules.get(type(each).__module__), "__file__", None)
@@ -93,7 +93,7 @@ def _library(modules: tuple[Path, ...], seconds: float) -> Library:
     return load_library(Path(), [name.as_posix() for name in names], seconds=seconds)
 
 
-def load_module(path: Path) -> ModuleType:
+def _load_module(path: Path) -> ModuleType:
     """Run the Python file at `path` as a module of its own."""
     name = f"nddlc_user_{sha256(str(path.resolve()).encode()).hexdigest()[:16]}"
     module = ModuleType(name)
@@ -113,7 +113,7 @@ def load_module(path: Path) -> ModuleType:
     return module
 
 
-def list_of(place: str, found: object) -> list[Constraint]:
+def _list_of(place: str, found: object) -> list[Constraint]:
     """What a module or entry point offers: one constraint, or several."""
     if isinstance(found, Constraint):
         return [found]

@@ -56,7 +56,7 @@ class Plain:
 Call = tuple[Caller, Store | None, int]  # who calls, and from which constraint of which engine
 
 
-def print_last_words(problem: UserCodeError) -> None:
+def _print_last_words(problem: UserCodeError) -> None:
     """Tell on standard error why the process ends, past any lock that the hanging code may hold."""
     os.write(2, f"nddlc: {problem}\n  help: {problem.advice}\n".encode())
 
@@ -80,7 +80,7 @@ class Watch:
 
     def __init__(self) -> None:
         self.seconds = USUAL
-        self.last_words: Callable[[UserCodeError], None] = print_last_words
+        self.last_words: Callable[[UserCodeError], None] = _print_last_words
         # The call that is under way, and after it what was there before; set by whoever calls, as it must cost nothing.
         self.call: Call | None = None
         self._thread = 0  # the one that calls
@@ -114,7 +114,7 @@ class Watch:
         if self._has_alarm and hasattr(signal, "setitimer"):
             signal.setitimer(signal.ITIMER_REAL, self.step, self.step)
 
-    def note_fork(self) -> None:
+    def _note_fork(self) -> None:
         """This process is a copy of the one that was here; it has no thread that watches."""
         self._is_watching = False
         if self.call is not None:
@@ -194,4 +194,4 @@ def watched(what: str, files: tuple[str, ...] = ()) -> Iterator[None]:
 
 
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=WATCH.note_fork)
+    os.register_at_fork(after_in_child=WATCH._note_fork)

@@ -48,11 +48,11 @@ def check_sound(
     for sample in solutions:
         if has_test(constraint) and not constraint.holds(sample):
             raise UnsoundError(f"`{constraint.name}`: `holds` denies the sample {_listed(sample)}")
-        bench.keeps(sample, [(value, value) for value in sample], None)
+        bench._keeps(sample, [(value, value) for value in sample], None)
         for number in range(rounds):
-            bench.keeps(sample, *bench.domains(sample, number))
+            bench._keeps(sample, *bench.domains(sample, number))
     for each in wrong:
-        bench.refuses(tuple(each))
+        bench._refuses(tuple(each))
 
 
 class _Bench:
@@ -83,7 +83,7 @@ class _Bench:
 
     # ---- checks ----
 
-    def keeps(self, sample: tuple[Value, ...], domains: list[tuple[Value, Value]], listed: int | None) -> None:
+    def _keeps(self, sample: tuple[Value, ...], domains: list[tuple[Value, Value]], listed: int | None) -> None:
         """Propagate over domains that hold the sample; it must still be there."""
         engine, variables = self.engine(sample, domains, listed)
         before = [self.shown(engine, v) for v in variables]
@@ -93,11 +93,11 @@ class _Bench:
         if not holds:
             raise UnsoundError(f"{case} was refused, but {_listed(sample)} is a solution")
         for place, (v, value) in enumerate(zip(variables, sample, strict=True)):
-            if not engine.contains(v, self.coded(value)):
+            if not engine.contains(v, self._coded(value)):
                 left = self.shown(engine, v)
                 raise UnsoundError(f"{case} left {left} for argument {place}, but {_listed(sample)} is a solution")
 
-    def refuses(self, values: tuple[Value, ...]) -> None:
+    def _refuses(self, values: tuple[Value, ...]) -> None:
         """Propagate over single values that are wrong; that must be found."""
         engine, variables = self.engine(values, [(value, value) for value in values], None)
         engine.post_external(Written(self.constraint, self), variables, -1, -1)
@@ -129,7 +129,7 @@ class _Bench:
         variables = []
         for place, (value, (low, high)) in enumerate(zip(sample, domains, strict=True)):
             kind = self.kind(place, value)
-            code = self.coded(value)
+            code = self._coded(value)
             if kind in (KIND_SYMBOL, KIND_OBJECT, KIND_STRING):
                 values = [code] if low == high else [float(each) for each in range(len(self.names))]
                 variables.append(engine.new_values(kind, values, -1, -1))
@@ -150,7 +150,7 @@ class _Bench:
             return KIND_BOOL
         return KIND_INT if isinstance(value, int) else KIND_FLOAT
 
-    def coded(self, value: Value) -> float:
+    def _coded(self, value: Value) -> float:
         """A value as the engine keeps it."""
         return float(self.names.index(value)) if isinstance(value, str) else float(value)
 

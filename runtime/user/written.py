@@ -35,7 +35,7 @@ class Written(External):
     @property
     def files(self) -> tuple[str, ...]:
         """The file in which it is written."""
-        return files_of(self.constraint)
+        return _files_of(self.constraint)
 
     def propagate(self, s: Store, c: int) -> bool:
         """Run the constraint; False on a conflict."""
@@ -46,17 +46,17 @@ class Written(External):
         step = "propagate"
         try:
             WATCH.call = call
-            if not answered(self.constraint.propagate(view)) or view.has_failed:
+            if not _answered(self.constraint.propagate(view)) or view.has_failed:
                 return view.fail()
             if not has_test(self.constraint) or not all(view.is_single(i) for i in range(view.count)):
                 return True
             step = "holds"
-            return answered(self.constraint.holds([view.value(i) for i in range(view.count)])) or view.fail()
+            return _answered(self.constraint.holds([view.value(i) for i in range(view.count)])) or view.fail()
         except KeyboardInterrupt:
             raise
         except BaseException as problem:
             raise failed(
-                f"`{step}` of {self.told(s, c)}", problem, self.files, line_of(self.constraint, step)
+                f"`{step}` of {self.told(s, c)}", problem, self.files, _line_of(self.constraint, step)
             ) from problem
         finally:
             if WATCH.call is not call:
@@ -73,7 +73,7 @@ class Written(External):
         except KeyboardInterrupt:
             raise
         except BaseException as problem:
-            raise failed(what, problem, self.files, line_of(self.constraint, "terms")) from problem
+            raise failed(what, problem, self.files, _line_of(self.constraint, "terms")) from problem
 
 
 def has_test(constraint: Constraint) -> bool:
@@ -81,21 +81,21 @@ def has_test(constraint: Constraint) -> bool:
     return type(constraint).holds is not Constraint.holds
 
 
-def answered(answer: object) -> bool:
+def _answered(answer: object) -> bool:
     """What a method said; a forgotten `return` must not pass for an answer."""
     if answer is None:
         raise TypeError("it returned None instead of True or False")
     return bool(answer)
 
 
-def files_of(constraint: Constraint) -> tuple[str, ...]:
+def _files_of(constraint: Constraint) -> tuple[str, ...]:
     """The file in which a constraint is written."""
     places = [type(constraint).__module__, getattr(getattr(constraint, "compute", None), "__module__", None)]
     modules = [sys.modules.get(name) for name in places if name is not None and not name.startswith("runtime.user")]
     return tuple(str(module.__file__) for module in modules if module is not None and getattr(module, "__file__", None))
 
 
-def line_of(constraint: Constraint, method: str) -> int:
+def _line_of(constraint: Constraint, method: str) -> int:
     """The line in which a method begins."""
     code = getattr(getattr(type(constraint), method), "__code__", None)
     return 1 if code is None else int(code.co_firstlineno)

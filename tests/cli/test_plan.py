@@ -208,3 +208,15 @@ def test_an_interrupted_search_shows_how_far_it_came(tmp_path: Path) -> None:
     assert re.search(r"^v0 +1\n", done.stdout, re.M)
     assert re.search(r"no plan found yet: interrupted after \d+ steps, \d+ decisions in force\n$", done.stdout)
     assert done.returncode == 130
+
+
+def test_variables_of_tokens_that_rules_made_are_shown_with_the_token_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert planned(tmp_path, TANK) == 0
+    assert "variable" not in capsys.readouterr().out
+    (tmp_path / "active.nddl").write_text(TANK + "a.activate();\n")
+    assert run(["load", str(tmp_path / "active.nddl")]) == 0
+    told = capsys.readouterr().out
+    assert "\nTank.consume#1 " in told
+    assert "Tank.consume#1.start" not in told

@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 import pytest
 
-from compiler.listing import body
 from compiler.lower import compile_model
 from compiler.program import Child, Guard, Instruction, NewVariable, ObjectLoop, Program
 from nddl_lang.analysis import analyse_text
 from nddl_lang.syntax.dialect import Dialect
+from tests.compiler.listing import body
 
 WORLD = """
 enum Color { red, green }

@@ -4,6 +4,7 @@ from math import inf
 from typing import Any
 
 from compiler.program import PredicateCode
+from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.state import Interval, PlanState, TokenExtent, TokenState
@@ -39,13 +40,13 @@ def read_state(database: PlanDatabase) -> PlanState:
     variables: dict[str, DomainText] = {}
     of_tokens: dict[str, DomainText] = {}
     of_rules: dict[str, DomainText] = {}
-    read_globals(database, variables)
+    _read_globals(database, variables)
     for t in tokens:
         if database.plan.rows.status[t] != MERGED:
-            read_token_domains(database, t, names[t], of_tokens)
-        read_locals(database, t, names[t], of_rules)
-    states = tuple(token_state(database, t, names) for t in tokens)
-    return PlanState(database.is_consistent, variables, of_tokens, of_rules, states, sequences(database, names))
+            _read_token_domains(database, t, names[t], of_tokens)
+        _read_locals(database, t, names[t], of_rules)
+    states = tuple(_token_state(database, t, names) for t in tokens)
+    return PlanState(database.is_consistent, variables, of_tokens, of_rules, states, _sequences(database, names))
 
 
 def live_tokens(database: PlanDatabase) -> list[int]:
@@ -69,7 +70,7 @@ def token_names(database: PlanDatabase, tokens: list[int]) -> dict[int, str]:
     return names
 
 
-def read_globals(database: PlanDatabase, domains: dict[str, DomainText]) -> None:
+def _read_globals(database: PlanDatabase, domains: dict[str, DomainText]) -> None:
     """Global variables and members of objects."""
     plan = database.plan
     for index, (name, type_) in enumerate(database.program.globals):
@@ -87,7 +88,7 @@ def text(database: PlanDatabase, v: int, kind: str, type_name: str) -> DomainTex
     return domain_text(database.prototypes, database.plan.engine, v, database.objects.names, shown)
 
 
-def read_token_domains(database: PlanDatabase, t: int, name: str, domains: dict[str, DomainText]) -> None:
+def _read_token_domains(database: PlanDatabase, t: int, name: str, domains: dict[str, DomainText]) -> None:
     """The variables of a token."""
     rows = database.plan.rows
     first = rows.var0[t]
@@ -105,7 +106,7 @@ def read_token_domains(database: PlanDatabase, t: int, name: str, domains: dict[
         domains[f"{name}.{parameter.name}"] = text(database, v, parameter.type.kind, parameter.type.type_name)
 
 
-def read_locals(database: PlanDatabase, t: int, name: str, domains: dict[str, DomainText]) -> None:
+def _read_locals(database: PlanDatabase, t: int, name: str, domains: dict[str, DomainText]) -> None:
     """The named variables of the rules that ran for a token; of several with one name, the latest."""
     plan, rows = database.plan, database.plan.rows
     s = rows.scopes[t]
@@ -122,7 +123,7 @@ def read_locals(database: PlanDatabase, t: int, name: str, domains: dict[str, Do
         s = rows.scope_next[s]
 
 
-def token_state(database: PlanDatabase, t: int, names: dict[int, str]) -> TokenState:
+def _token_state(database: PlanDatabase, t: int, names: dict[int, str]) -> TokenState:
     """One token."""
     rows = database.plan.rows
     predicate = database.program.predicates[rows.predicate[t]]
@@ -131,7 +132,7 @@ def token_state(database: PlanDatabase, t: int, names: dict[int, str]) -> TokenS
         names[t],
         predicate.name,
         STATE_NAMES[rows.status[t]],
-        None if rows.status[t] == MERGED else token_extent(database, t, predicate),
+        None if rows.status[t] == MERGED else _token_extent(database, t, predicate),
         bool(rows.flags[t] & FLAG_FACT),
         names.get(parent) if parent >= 0 else None,
         database.relation_names[relation] if relation >= 0 else None,
@@ -139,14 +140,14 @@ def token_state(database: PlanDatabase, t: int, names: dict[int, str]) -> TokenS
     )
 
 
-def token_extent(database: PlanDatabase, t: int, predicate: PredicateCode) -> TokenExtent:
+def _token_extent(database: PlanDatabase, t: int, predicate: PredicateCode) -> TokenExtent:
     """The variables of a token."""
     first = database.plan.rows.var0[t]
     return TokenExtent(
         text(database, first + OBJECT, "object", predicate.class_name),
-        interval(database, first + START),
-        interval(database, first + DURATION),
-        interval(database, first + END),
+        _interval(database, first + START),
+        _interval(database, first + DURATION),
+        _interval(database, first + END),
         {
             parameter.name: text(database, first + FIRST_PARAMETER + k, parameter.type.kind, parameter.type.type_name)
             for k, parameter in enumerate(predicate.parameters)
@@ -154,18 +155,18 @@ def token_extent(database: PlanDatabase, t: int, predicate: PredicateCode) -> To
     )
 
 
-def interval(database: PlanDatabase, v: int) -> Interval:
+def _interval(database: PlanDatabase, v: int) -> Interval:
     """The bounds of a time."""
     engine = database.plan.engine
-    return bound(engine.lb[v]), bound(engine.ub[v])
+    return _bound(engine.lb[v]), _bound(engine.ub[v])
 
 
-def bound(moment: int) -> float:
+def _bound(moment: int) -> float:
     """A moment, infinite where the engine counts it as infinite."""
     return moment if abs(moment) < HALF_INF else inf if moment > 0 else -inf
 
 
-def sequences(database: PlanDatabase, names: dict[int, str]) -> dict[str, list[str]]:
+def _sequences(database: PlanDatabase, names: dict[int, str]) -> dict[str, list[str]]:
     """The sequence on each timeline that has one."""
     plan, rows = database.plan, database.plan.rows
     found: dict[str, list[str]] = {}
@@ -178,3 +179,8 @@ def sequences(database: PlanDatabase, names: dict[int, str]) -> dict[str, list[s
         if sequence:
             found[name] = sequence
     return found
+
+
+def span_of(database: PlanDatabase, number: int) -> Span | None:
+    """The stretch of text that has a number; None where there is no text."""
+    return database.code.spans[number] if 0 <= number < len(database.code.spans) else None

@@ -30,19 +30,19 @@ cdef class Envelope:
     cpdef bint find_certain(self, long long o) except -1
 
     @cython.locals(i="long long", profile=Profile)
-    cpdef bint envelope_is_outside(self, long long sign) except -1
+    cpdef bint _envelope_is_outside(self, long long sign) except -1
 
     @cython.locals(i="long long", profile=Profile, total=double)
     cpdef double change(self, long long sign) except? -1.0
 
     @cython.locals(count="long long", grounded=bint, k="long long", level=double, profile=Profile)
-    cpdef bint find_side(self, long long o, long long is_low) except -1
+    cpdef bint _find_side(self, long long o, long long is_low) except -1
 
     @cython.locals(
         count="long long", i="long long", j="long long", k="long long", profile=Profile, sign="long long",
         t="long long"
     )
-    cpdef long long collect_instants(self) except? -1
+    cpdef long long _collect_instants(self) except? -1
 
     @cython.locals(
         i="long long", j="long long", known=bint, profile=Profile, n="long long", resources=Resources,
@@ -59,10 +59,10 @@ cdef class Envelope:
         cell="long long", i="long long", j="long long", profile=Profile, n="long long", pushed=double, t="long long",
         total=double
     )
-    cpdef double given_back(self) except? -1.0
+    cpdef double _given_back(self) except? -1.0
 
     @cython.locals(first="long long", i="long long", j="long long", k="long long", last="long long", n="long long")
-    cpdef double augment(self, long long source) except? -1.0
+    cpdef double _augment(self, long long source) except? -1.0
 
     @cython.locals(amount=double, i="long long", j="long long")
     cpdef double push(self, long long source, long long giver) except? -1.0
@@ -74,10 +74,10 @@ cdef class Envelope:
     cpdef long long find_pairs(self) except? -1
 
     @cython.locals(profile=Profile)
-    cpdef bint is_charged(self, long long j) except -1
+    cpdef bint _is_charged(self, long long j) except -1
 
     @cython.locals(profile=Profile)
-    cpdef bint may_give(self, long long i) except -1
+    cpdef bint _may_give(self, long long i) except -1
 
     @cython.locals(k="long long")
-    cpdef int add_pair(self, long long before, long long after, long long giver, long long taker) except -1
+    cpdef int _add_pair(self, long long before, long long after, long long giver, long long taker) except -1

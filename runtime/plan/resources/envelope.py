@@ -62,9 +62,9 @@ class Envelope:
         profile = self.profile
         resources.fill(profile, o)
         self.resource = o
-        if profile.initial_low + self.change(-1) < profile.minimum - FLOAT_TOLERANCE and self.find_side(o, 1):
+        if profile.initial_low + self.change(-1) < profile.minimum - FLOAT_TOLERANCE and self._find_side(o, 1):
             return True
-        return profile.initial_high + self.change(1) > profile.maximum + FLOAT_TOLERANCE and self.find_side(o, 0)
+        return profile.initial_high + self.change(1) > profile.maximum + FLOAT_TOLERANCE and self._find_side(o, 0)
 
     def find_certain(self, o: int) -> bool:
         """Whether the order of uses makes certain what their times alone leave open: the whole envelope is outside."""
@@ -73,12 +73,12 @@ class Envelope:
         self.resource = o
         self.grounded = False
         self.is_low = 0
-        if self.envelope_is_outside(-1):
+        if self._envelope_is_outside(-1):
             return True
         self.is_low = 1
-        return self.envelope_is_outside(1)
+        return self._envelope_is_outside(1)
 
-    def envelope_is_outside(self, sign: int) -> bool:
+    def _envelope_is_outside(self, sign: int) -> bool:
         """Whether at some instant the highest level is below the minimum (or the lowest above the maximum)."""
         profile = self.profile
         self.prepare()
@@ -89,7 +89,7 @@ class Envelope:
                     self.amount = profile.minimum - profile.best_for_consumers(self.at)
                 else:
                     self.amount = profile.worst_for_consumers(self.at) - profile.maximum
-                self.amount += self.given_back()
+                self.amount += self._given_back()
                 if self.amount > FLOAT_TOLERANCE:
                     return True
         return False
@@ -103,7 +103,7 @@ class Envelope:
                 total += sign * profile.most[i]
         return total
 
-    def find_side(self, o: int, is_low: int) -> bool:
+    def _find_side(self, o: int, is_low: int) -> bool:
         """The first instant at which the level may be too low (or too high)."""
         profile = self.profile
         self.is_low = is_low
@@ -111,7 +111,7 @@ class Envelope:
         self.grounded = grounded
         if not grounded:
             self.prepare()
-        count = self.collect_instants()
+        count = self._collect_instants()
         for k in range(count):
             self.at = self.instants[k]
             if grounded:
@@ -121,12 +121,12 @@ class Envelope:
                 level = profile.worst_for_consumers(self.at) if is_low else profile.best_for_consumers(self.at)
                 self.amount = profile.minimum - level if is_low else level - profile.maximum
                 if self.amount > FLOAT_TOLERANCE:
-                    self.amount -= self.given_back()
+                    self.amount -= self._given_back()
             if self.amount > FLOAT_TOLERANCE:
                 return True
         return False
 
-    def collect_instants(self) -> int:
+    def _collect_instants(self) -> int:
         """The instants at which the level may change for the worse, in order; their number."""
         profile = self.profile
         sign = -1 if self.is_low else 1
@@ -217,7 +217,7 @@ class Envelope:
 
     # ---- the envelope ----
 
-    def given_back(self) -> float:
+    def _given_back(self) -> float:
         """How much of what may be taken at the instant must have been given back before: the greatest flow."""
         profile = self.profile
         n = profile.count
@@ -243,13 +243,13 @@ class Envelope:
         total = 0.0
         for j in range(n):
             while self.supply[j] > FLOAT_TOLERANCE:
-                pushed = self.augment(j)
+                pushed = self._augment(j)
                 if pushed <= 0.0:
                     break
                 total += pushed
         return total
 
-    def augment(self, source: int) -> float:
+    def _augment(self, source: int) -> float:
         """Push along one shortest path from taker `source` to a giver with demand left; how much."""
         n = self.profile.count
         for k in range(n):
@@ -329,17 +329,17 @@ class Envelope:
         if self.grounded:
             self.prepare()
         for j in range(n):
-            if self.takes[j] < 0 or not self.is_charged(j):
+            if self.takes[j] < 0 or not self._is_charged(j):
                 continue
             for i in range(n):
                 v = self.gives[i]
-                if i == j or v < 0 or self.ordered[j * self.use_room + i] or not self.may_give(i):
+                if i == j or v < 0 or self.ordered[j * self.use_room + i] or not self._may_give(i):
                     continue
                 if self.engine.lb[v] <= self.engine.ub[self.takes[j]]:
-                    self.add_pair(v, self.takes[j], profile.use[i], profile.use[j])
+                    self._add_pair(v, self.takes[j], profile.use[i], profile.use[j])
         return self.pair_count
 
-    def is_charged(self, j: int) -> bool:
+    def _is_charged(self, j: int) -> bool:
         """Whether use `j` counts at the instant of the flaw."""
         profile = self.profile
         if profile.start_low[j] > self.at:
@@ -350,14 +350,14 @@ class Envelope:
             return profile.end_low[j] > self.at
         return profile.end_high[j] > self.at
 
-    def may_give(self, i: int) -> bool:
+    def _may_give(self, i: int) -> bool:
         """Whether use `i` could give back before, and has not certainly done so."""
         profile = self.profile
         if self.takes[i] >= 0:
-            return self.is_charged(i)
+            return self._is_charged(i)
         return profile.start_high[i] > self.at or self.grounded
 
-    def add_pair(self, before: int, after: int, giver: int, taker: int) -> None:
+    def _add_pair(self, before: int, after: int, giver: int, taker: int) -> None:
         """Note one possible order."""
         k = self.pair_count
         if k == self.pair_room:

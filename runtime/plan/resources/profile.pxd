@@ -43,16 +43,16 @@ cdef class Profile:
     cpdef long long violation(self) except? -1
 
     @cython.locals(i="long long", least_consumed=double, least_produced=double)
-    cpdef long long level_violation(self) except? -1
+    cpdef long long _level_violation(self) except? -1
 
     @cython.locals(first_maximum=double, first_minimum=double, i="long long", instants=set, steps=list, t="long long")
-    cpdef long long violation_of_steps(self) except? -1
+    cpdef long long _violation_of_steps(self) except? -1
 
     @cython.locals(consumed=double, flow=double, i="long long", produced=double)
-    cpdef long long flow_violation(self) except? -1
+    cpdef long long _flow_violation(self) except? -1
 
     @cython.locals(flow=double, j="long long", same=bint)
-    cpdef double together(self, long long i) except? -1.0
+    cpdef double _together(self, long long i) except? -1.0
 
     @cython.locals(
         end="long long", first="long long", i="long long", j="long long", last="long long", room=double,
@@ -61,7 +61,7 @@ cdef class Profile:
     cpdef long long overload(self) except? -1
 
     @cython.locals(amount=double, k="long long")
-    cpdef bint is_overloaded(self, long long start, long long end, double room) except -1
+    cpdef bint _is_overloaded(self, long long start, long long end, double room) except -1
 
     @cython.locals(early="long long", late="long long")
     cpdef long long share(self, long long k, long long start, long long end) except? -1

@@ -135,15 +135,15 @@ class Profile:
 
     def violation(self) -> int:
         """The violation that is certain (0: none); `at` and `amount` tell when and by how much."""
-        self.wrong = self.flow_violation()
+        self.wrong = self._flow_violation()
         if self.wrong == 0:
-            self.wrong = self.level_violation()
+            self.wrong = self._level_violation()
         return self.wrong
 
-    def level_violation(self) -> int:
+    def _level_violation(self) -> int:
         """Whether the level is certainly out of bounds somewhere."""
         if self.limit_steps:
-            return self.violation_of_steps()
+            return self._violation_of_steps()
         least_consumed = 0.0
         least_produced = 0.0
         for i in range(self.count):
@@ -167,7 +167,7 @@ class Profile:
                         return TOO_HIGH
         return 0
 
-    def violation_of_steps(self) -> int:
+    def _violation_of_steps(self) -> int:
         """Whether the level is certainly out of bounds somewhere, where the bounds change over time (`limit_steps`)."""
         steps = self.limit_steps
         instants = {step[0] for step in steps}
@@ -193,7 +193,7 @@ class Profile:
         self.maximum = first_maximum
         return 0
 
-    def flow_violation(self) -> int:
+    def _flow_violation(self) -> int:
         """Whether what flows at one instant, or altogether, is certainly too much."""
         if min(self.rate, self.total, self.production_rate, self.production_total) == inf:
             return 0
@@ -201,7 +201,7 @@ class Profile:
         produced = 0.0
         for i in range(self.count):
             self.at = self.start_high[i]
-            flow = max(self.least[i], self.together(i))
+            flow = max(self.least[i], self._together(i))
             if self.sign[i] < 0:
                 consumed += self.least[i]
                 self.amount = flow - self.rate
@@ -213,7 +213,7 @@ class Profile:
         self.amount = max(consumed - self.total, produced - self.production_total)
         return TOO_MUCH if self.amount > FLOAT_TOLERANCE else 0
 
-    def together(self, i: int) -> float:
+    def _together(self, i: int) -> float:
         """What certainly flows at the same instant as use `i`, with it."""
         if self.start_low[i] != self.start_high[i]:
             return 0.0
@@ -242,7 +242,7 @@ class Profile:
                 return 0
             first = min(first, self.start_low[i])
             last = max(last, self.end_high[i])
-        if self.is_overloaded(first, last, room):  # the widest window has the simplest reasons
+        if self._is_overloaded(first, last, room):  # the widest window has the simplest reasons
             return TOO_TIGHT
         for i in range(self.count):
             start = self.start_low[i]
@@ -250,13 +250,13 @@ class Profile:
                 continue
             for j in range(self.count):
                 end = self.end_high[j]
-                if self.is_overloaded(start, end, room):
+                if self._is_overloaded(start, end, room):
                     return TOO_TIGHT
             if self.count > MOST_WINDOWS:
                 break
         return 0
 
-    def is_overloaded(self, start: int, end: int, room: float) -> bool:
+    def _is_overloaded(self, start: int, end: int, room: float) -> bool:
         """Whether more must lie in a window than it holds."""
         if start <= -HALF_INF or end >= HALF_INF or start >= end:
             return False

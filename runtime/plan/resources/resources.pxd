@@ -40,7 +40,7 @@ cdef class Resources:
 
     cpdef int truncate(self, long long count) except -1
 
-    cpdef int grow_uses(self) except -1
+    cpdef int _grow_uses(self) except -1
 
     cpdef int set_capacity(self, long long o, long long start, double lower, double upper) except -1
 
@@ -78,7 +78,7 @@ cdef class Resources:
         end="long long", harms="long long", is_certain=bint, profile=Profile, quantity="long long", side="long long",
         start="long long", t="long long"
     )
-    cpdef bint note_read(self, violation, long long i, long long u, bint by_order) except -1
+    cpdef bint _note_read(self, violation, long long i, long long u, bint by_order) except -1
 
 
-cpdef long long step_start(tuple step) except? -1
+cpdef long long _step_start(tuple step) except? -1

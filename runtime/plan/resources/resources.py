@@ -111,7 +111,7 @@ class Resources:
             u = self.free.pop()
         else:
             if self.count == self.room:
-                self.grow_uses()
+                self._grow_uses()
             u = self.count
             self.count += 1
         self.token[u] = token
@@ -142,7 +142,7 @@ class Resources:
         """Forget the uses that a search has added."""
         self.count = count
 
-    def grow_uses(self) -> None:
+    def _grow_uses(self) -> None:
         """Double the rows."""
         self.room *= 2
         self.token = grown(self.token, self.room)
@@ -168,7 +168,7 @@ class Resources:
 
     def set_limit(self, o: int, start: int, lower: float, upper: float) -> None:
         """Change the bounds of the level from a time on."""
-        self.limit_steps[o] = sorted([*self.limit_steps.get(o, ()), (start, lower, upper)], key=step_start)
+        self.limit_steps[o] = sorted([*self.limit_steps.get(o, ()), (start, lower, upper)], key=_step_start)
         self.changed[o] = 1
         self.pending = 1
 
@@ -306,7 +306,7 @@ class Resources:
         span_owner = NONE
         for i in range(profile.count):
             u = profile.use[i]
-            if u >= 0 and self.note_read(violation, i, u, envelope is not None):
+            if u >= 0 and self._note_read(violation, i, u, envelope is not None):
                 violation.uses.append(u)
                 sign = self.sign[u] * (1 if self.end[u] < 0 else 2 if self.duration[u] < 0 else 3)
                 violation.signs.append(sign)
@@ -321,7 +321,7 @@ class Resources:
             self.refusals.append(c)
         return self.engine.propagate()
 
-    def note_read(self, violation: Violation, i: int, u: int, by_order: bool) -> bool:
+    def _note_read(self, violation: Violation, i: int, u: int, by_order: bool) -> bool:
         """Note which bounds of use `u`, row `i` of the profile, count for a violation; False if none does."""
         profile = self.profile
         start = 4 * self.start[u]
@@ -371,6 +371,6 @@ class Resources:
         return True
 
 
-def step_start(step: tuple[int, float, float]) -> int:
+def _step_start(step: tuple[int, float, float]) -> int:
     """From when on a change holds; those of one time keep the order of the script."""
     return step[0]

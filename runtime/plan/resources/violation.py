@@ -70,7 +70,7 @@ class Violation(External):
     def propagate(self, s: Store, c: int) -> bool:
         """Refuse if the level is certainly out of bounds."""
         if self.table is not None and self.judge is not None:
-            return not self.is_out_by_order(s, c) or refuse(s, c)
+            return not self._is_out_by_order(s, c) or refuse(s, c)
         profile = Profile()
         position = 0
         bounds = [(0.0, 0.0), (-inf, -inf), (inf, inf), (inf, inf), (inf, inf), (inf, inf), (inf, inf)]
@@ -103,7 +103,7 @@ class Violation(External):
         found = profile.overload() if self.wrong == TOO_TIGHT else profile.violation()
         return refuse(s, c) if found else True
 
-    def is_out_by_order(self, s: Store, c: int) -> bool:
+    def _is_out_by_order(self, s: Store, c: int) -> bool:
         """Whether the order of the uses in `s` makes certain that the level is out of bounds."""
         assert self.table is not None and self.judge is not None
         table = self.table(s)

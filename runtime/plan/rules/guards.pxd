@@ -21,11 +21,11 @@ cpdef int wait(
 
 
 @cython.locals(x="long long")
-cpdef int listen(Plan plan, long long v) except -1
+cpdef int _listen(Plan plan, long long v) except -1
 
 
 @cython.locals(t="long long")
-cpdef long long standing(Plan plan, long long v) except? -1
+cpdef long long _standing(Plan plan, long long v) except? -1
 
 
 @cython.locals(c="long long")
@@ -37,11 +37,11 @@ cpdef list deciders(Plan plan, long long c)
 
 
 @cython.locals(x="long long")
-cpdef bint is_bound(Plan plan, long long v) except -1
+cpdef bint _is_bound(Plan plan, long long v) except -1
 
 
 @cython.locals(engine=Engine, first="long long", v="long long")
-cpdef bint agree(Plan plan, long long x, long long name) except -1
+cpdef bint _agree(Plan plan, long long x, long long name) except -1
 
 
 @cython.locals(condition="long long", engine=Engine, holds=bint, i="long long", inputs="long long", rows=Rows)

@@ -22,9 +22,9 @@ def wait(plan: Plan, scope: int, at: int, condition: int, first: int, span: int)
     for i in range(count):
         rows.cells[inputs + 2 + i] = plan.operands[first + i]
     plan.operands_used = first
-    listen(plan, condition)
+    _listen(plan, condition)
     for i in range(count):
-        listen(plan, rows.cells[inputs + 2 + i])
+        _listen(plan, rows.cells[inputs + 2 + i])
     for position in range(first, plan.operands_used):
         plan.await_variable(plan.operands[position])
     watch = constraint(plan, s, OP_WATCH, first, span)
@@ -34,7 +34,7 @@ def wait(plan: Plan, scope: int, at: int, condition: int, first: int, span: int)
     plan.enqueue(s)
 
 
-def listen(plan: Plan, v: int) -> None:
+def _listen(plan: Plan, v: int) -> None:
     """Note `v` among the operands unless it is a constant; for a proxy its object, and the members it may be."""
     if not plan.engine.constant[v]:
         while plan.proxy_index[v] >= 0:
@@ -43,11 +43,11 @@ def listen(plan: Plan, v: int) -> None:
                 plan.add_operand(member(plan, int(o), plan.proxy_member[v]))
             v = x
         plan.add_operand(v)
-        if standing(plan, v) != v:
-            plan.add_operand(standing(plan, v))
+        if _standing(plan, v) != v:
+            plan.add_operand(_standing(plan, v))
 
 
-def standing(plan: Plan, v: int) -> int:
+def _standing(plan: Plan, v: int) -> int:
     """The variable that stands for `v`: another one if its token is merged."""
     if plan.variable_role[v] == ROLE_TOKEN:
         t = plan.variable_owner[v]
@@ -70,13 +70,13 @@ def deciders(plan: Plan, c: int) -> list[int]:
     found: list[int] = []
     for v in plan.engine.arguments(c):
         found.append(v)
-        if standing(plan, v) != v:
-            found.append(standing(plan, v))
+        if _standing(plan, v) != v:
+            found.append(_standing(plan, v))
             found.append(plan.rows.var0[plan.variable_owner[v]] + STATE)
     return found
 
 
-def is_bound(plan: Plan, v: int) -> bool:
+def _is_bound(plan: Plan, v: int) -> bool:
     """Whether `v` is decided; a proxy is once its object and the member it then stands for are.
 
     It also is while all objects agree: their members have the same single value. Recursion is as deep as the path.
@@ -85,17 +85,17 @@ def is_bound(plan: Plan, v: int) -> bool:
     """
     if plan.engine.constant[v]:
         return plan.engine.is_decided(v)
-    if standing(plan, v) != v:
-        return plan.engine.is_decided(standing(plan, v))
+    if _standing(plan, v) != v:
+        return plan.engine.is_decided(_standing(plan, v))
     x = plan.proxy_index[v]
     if x < 0:
         return v == plan.clock or plan.engine.is_decided(v)
-    if is_bound(plan, x):
+    if _is_bound(plan, x):
         return plan.engine.is_decided(member(plan, plan.engine.lb[x], plan.proxy_member[v]))
-    return plan.proxy_index[x] < 0 and agree(plan, x, plan.proxy_member[v])
+    return plan.proxy_index[x] < 0 and _agree(plan, x, plan.proxy_member[v])
 
 
-def agree(plan: Plan, x: int, name: int) -> bool:
+def _agree(plan: Plan, x: int, name: int) -> bool:
     """Whether the members called `name` of all objects that `x` may be are decided and equal."""
     engine = plan.engine
     first = NONE
@@ -116,7 +116,7 @@ def choice(plan: Plan, s: int) -> int:
     if engine.lb[condition] != engine.ub[condition]:
         return BRANCH_WAITING
     for i in range(inputs + 2, inputs + 2 + rows.cells[inputs]):
-        if not is_bound(plan, rows.cells[i]):
+        if not _is_bound(plan, rows.cells[i]):
             return BRANCH_WAITING
     # An object that is known is there, whatever its number.
     holds = engine.kind[condition] == KIND_OBJECT or engine.lb[condition] != 0

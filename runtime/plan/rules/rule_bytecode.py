@@ -116,7 +116,7 @@ class RuleBytecode:
             block, body = self.pending.popleft()
             self.block_start[block] = len(self.cells)
             for instruction in body:
-                self.instruction(instruction)
+                self._instruction(instruction)
             self.block_end[block] = len(self.cells)
         return number
 
@@ -128,7 +128,7 @@ class RuleBytecode:
         self.pending.append((number, instructions))
         return number
 
-    def instruction(self, instruction: Instruction) -> None:
+    def _instruction(self, instruction: Instruction) -> None:
         """Write one instruction."""
         span = self.span(instruction.span)
         match instruction:
@@ -145,7 +145,7 @@ class RuleBytecode:
             case Child():
                 self.child(instruction, span)
             case Relate(relation=relation, origin=origin, target=target, bounds=bounds):
-                self.write(DO_RELATE, span, self.relations[relation], origin, target, *flat_bounds(bounds))
+                self.write(DO_RELATE, span, self.relations[relation], origin, target, *_flat_bounds(bounds))
             case Guard(condition=condition, decided_by=decided_by, then=then, otherwise=otherwise):
                 blocks = self.block(then), self.block(otherwise)
                 inputs = [number for operand in decided_by for number in self.operand(operand)]
@@ -175,7 +175,7 @@ class RuleBytecode:
             return
         pairs = [self.operand(operand) for operand in operands]
         distance = DISTANCES.get(name)
-        if name == "temporalDistance" and (given := fixed_distance(operands[1])) is not None:
+        if name == "temporalDistance" and (given := _fixed_distance(operands[1])) is not None:
             distance = given
             del pairs[1]
         flat = [number for pair in pairs for number in pair]
@@ -198,7 +198,7 @@ class RuleBytecode:
         role = {None: 0, "condition": 1, "effect": 2}[child.role]
         label = NONE if child.label is None else self.names.number(child.label)
         made = (self.predicates[child.predicate], label, role, mode, *given)
-        relation = (self.relations[child.relation], child.origin, *flat_bounds(child.bounds))
+        relation = (self.relations[child.relation], child.origin, *_flat_bounds(child.bounds))
         self.write(DO_CHILD, span, child.slot, *made, *relation)
 
     def given(self, domain: DomainConstant | None, value: Operand | None) -> tuple[int, int]:
@@ -215,7 +215,7 @@ class RuleBytecode:
         """Where the variable of `operand` is found."""
         match operand:
             case Constant(domain=domain):
-                if is_single(domain):
+                if _is_single(domain):
                     return IN_CONSTANT, self.prototypes.constant(domain)
                 return IN_PROTOTYPE, self.prototypes.of_domain(domain)
             case GlobalVariable(index=index):
@@ -241,14 +241,14 @@ class RuleBytecode:
         self.cells.extend(numbers)
 
 
-def is_single(domain: DomainConstant) -> bool:
+def _is_single(domain: DomainConstant) -> bool:
     """Whether a constant has one value."""
     if domain.values is not None:
         return len(domain.values) == 1
     return domain.interval is not None and domain.interval[0] == domain.interval[1]
 
 
-def fixed_distance(operand: Operand) -> tuple[int, int] | None:
+def _fixed_distance(operand: Operand) -> tuple[int, int] | None:
     """The bounds of a distance that is an interval of whole numbers fixed by the text."""
     if not isinstance(operand, Constant) or operand.domain.kind != "int":
         return None
@@ -260,6 +260,6 @@ def fixed_distance(operand: Operand) -> tuple[int, int] | None:
     return None
 
 
-def flat_bounds(bounds: tuple[tuple[int, int], ...]) -> list[int]:
+def _flat_bounds(bounds: tuple[tuple[int, int], ...]) -> list[int]:
     """Relation bounds with their count in front."""
     return [len(bounds), *(bound for pair in bounds for bound in pair)]

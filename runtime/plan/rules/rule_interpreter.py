@@ -52,7 +52,7 @@ def run(plan: Plan) -> bool:
         if at == plan.stack_end[top]:
             plan.stack_length = top
             continue
-        plan.stack_at[top] = at + step(plan, scope, at)
+        plan.stack_at[top] = at + _step(plan, scope, at)
         if rows.level and not plan.engine.consistent:
             plan.stack_length = 0
             plan.operands_used = 0
@@ -60,30 +60,30 @@ def run(plan: Plan) -> bool:
     return plan.engine.consistent
 
 
-def step(plan: Plan, scope: int, at: int) -> int:
+def _step(plan: Plan, scope: int, at: int) -> int:
     """Carry out the instruction at `at`; the number of its cells."""
     code = plan.code[at]
     span = plan.code[at + 1]
     if code == DO_POST:
-        return post(plan, scope, at, span)
+        return _post(plan, scope, at, span)
     if code == DO_CHILD:
-        return child(plan, scope, at, span)
+        return _child(plan, scope, at, span)
     if code == DO_BETWEEN:
-        return distance(plan, scope, at, span)
+        return _distance(plan, scope, at, span)
     if code == DO_VARIABLE:
-        return variable(plan, scope, at, span)
+        return _variable(plan, scope, at, span)
     if code == DO_GUARD:
-        return guard(plan, scope, at, span)
+        return _guard(plan, scope, at, span)
     if code == DO_RELATE:
-        return relation(plan, scope, at, span)
+        return _relation(plan, scope, at, span)
     if code == DO_ASSIGN:
-        return assign(plan, scope, at, span)
+        return _assign(plan, scope, at, span)
     if code == DO_SAMPLE:
-        return sample(plan, scope, at, span)
+        return _sample(plan, scope, at, span)
     if code == DO_FOREACH:
-        return loop(plan, scope, at, span)
+        return _loop(plan, scope, at, span)
     if code == DO_USE:
-        return use(plan, scope, at, span)
+        return _use(plan, scope, at, span)
     slot = plan.code[at + 2]
     v = plan.services.make_object(scope, plan.code[at + 3])
     if slot >= 0:
@@ -91,7 +91,7 @@ def step(plan: Plan, scope: int, at: int) -> int:
     return 4
 
 
-def variable(plan: Plan, scope: int, at: int, span: int) -> int:
+def _variable(plan: Plan, scope: int, at: int, span: int) -> int:
     """Make a local variable."""
     name = plan.code[at + 3]
     v = copy_variable(plan, scope, plan.code[at + 4], ROLE_INTERNAL if name < 0 else ROLE_LOCAL, name)
@@ -102,15 +102,15 @@ def variable(plan: Plan, scope: int, at: int, span: int) -> int:
     return 7
 
 
-def post(plan: Plan, scope: int, at: int, span: int) -> int:
+def _post(plan: Plan, scope: int, at: int, span: int) -> int:
     """Post a constraint."""
     count = plan.code[at + 3]
-    first = collect(plan, scope, at + 4, count, span)
+    first = _collect(plan, scope, at + 4, count, span)
     constraint(plan, scope, plan.code[at + 2], first, span)
     return 4 + 2 * count
 
 
-def collect(plan: Plan, scope: int, at: int, count: int, span: int) -> int:
+def _collect(plan: Plan, scope: int, at: int, count: int, span: int) -> int:
     """Put the variables of `count` operands behind the collected ones; finding one may post something itself."""
     first = plan.operands_used
     for i in range(count):
@@ -118,7 +118,7 @@ def collect(plan: Plan, scope: int, at: int, count: int, span: int) -> int:
     return first
 
 
-def distance(plan: Plan, scope: int, at: int, span: int) -> int:
+def _distance(plan: Plan, scope: int, at: int, span: int) -> int:
     """Post a distance between two timepoints, or the comparison that it stands for where one is no whole number."""
     a = operand(plan, scope, plan.code[at + 2], plan.code[at + 3], span)
     b = operand(plan, scope, plan.code[at + 4], plan.code[at + 5], span)
@@ -130,7 +130,7 @@ def distance(plan: Plan, scope: int, at: int, span: int) -> int:
     return 9
 
 
-def relation(plan: Plan, scope: int, at: int, span: int) -> int:
+def _relation(plan: Plan, scope: int, at: int, span: int) -> int:
     """Relate two tokens that exist."""
     rows = plan.rows
     tokens = rows.scope_frame[scope] + rows.scope_slots[scope]
@@ -140,7 +140,7 @@ def relation(plan: Plan, scope: int, at: int, span: int) -> int:
     return 6 + 2 * plan.code[at + 5]
 
 
-def child(plan: Plan, scope: int, at: int, span: int) -> int:
+def _child(plan: Plan, scope: int, at: int, span: int) -> int:
     """Make a token that the rule asks for."""
     rows = plan.rows
     role = plan.code[at + 5]
@@ -166,7 +166,7 @@ def child(plan: Plan, scope: int, at: int, span: int) -> int:
     return 12 + 2 * plan.code[at + 11]
 
 
-def assign(plan: Plan, scope: int, at: int, span: int) -> int:
+def _assign(plan: Plan, scope: int, at: int, span: int) -> int:
     """Restrict the base domain of a variable of the token."""
     v = operand(plan, scope, plan.code[at + 2], plan.code[at + 3], span)
     source = operand(plan, scope, plan.code[at + 4], plan.code[at + 5], span)
@@ -174,7 +174,7 @@ def assign(plan: Plan, scope: int, at: int, span: int) -> int:
     return 6
 
 
-def sample(plan: Plan, scope: int, at: int, span: int) -> int:
+def _sample(plan: Plan, scope: int, at: int, span: int) -> int:
     """Bind a variable to what the environment draws; without a draw it keeps its range."""
     v = operand(plan, scope, plan.code[at + 3], plan.code[at + 4], span)
     value = plan.services.draw(plan.code[at + 2], v)
@@ -187,7 +187,7 @@ def sample(plan: Plan, scope: int, at: int, span: int) -> int:
     return 5
 
 
-def loop(plan: Plan, scope: int, at: int, span: int) -> int:
+def _loop(plan: Plan, scope: int, at: int, span: int) -> int:
     """Run a block once per object of a domain, in the order of their making, and freeze the domain.
 
     What stands above the loop counts, so it is propagated first. An open domain stays open.
@@ -211,9 +211,9 @@ def loop(plan: Plan, scope: int, at: int, span: int) -> int:
     return 6
 
 
-def use(plan: Plan, scope: int, at: int, span: int) -> int:
+def _use(plan: Plan, scope: int, at: int, span: int) -> int:
     """Charge a resource without a token."""
-    first = collect(plan, scope, at + 2, 4, span)
+    first = _collect(plan, scope, at + 2, 4, span)
     owner = plan.rows.scope_token[scope]
     holder = plan.operands[first]
     quantity = plan.operands[first + 1]
@@ -229,10 +229,10 @@ def use(plan: Plan, scope: int, at: int, span: int) -> int:
     return 10
 
 
-def guard(plan: Plan, scope: int, at: int, span: int) -> int:
+def _guard(plan: Plan, scope: int, at: int, span: int) -> int:
     """Make a guard; `fire` runs its branches."""
     count = plan.code[at + 6]
     condition = operand(plan, scope, plan.code[at + 2], plan.code[at + 3], span)
-    first = collect(plan, scope, at + 7, count, span)
+    first = _collect(plan, scope, at + 7, count, span)
     wait(plan, scope, at, condition, first, span)
     return 7 + 2 * count

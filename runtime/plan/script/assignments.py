@@ -31,7 +31,7 @@ def copy_current(plan: Plan, prototype: int, source: int) -> int:
     return v
 
 
-def overlap(engine: Engine, v: int, source: int) -> bool:
+def _overlap(engine: Engine, v: int, source: int) -> bool:
     """Whether two base domains have a value in common."""
     if is_base_growing(engine, v) or is_base_growing(engine, source):
         return True
@@ -62,7 +62,7 @@ def assign_domain(
 ) -> Diagnostic | None:
     """Intersect the base domain of `v` with that of `source`; what is wrong if they have no value in common."""
     engine = plan.engine
-    if not overlap(engine, v, source):
+    if not _overlap(engine, v, source):
         return OUTSIDE_DOMAIN.at(span, value=base_text(prototypes, engine, source, objects), name=name)
     engine.restrict_base_to(v, source, number, NONE)
     return None

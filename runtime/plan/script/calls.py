@@ -42,7 +42,7 @@ from runtime.plan.tokens.predicate_hierarchy import is_kind_of
 Action = Callable[[], Diagnostic | None]
 
 
-def is_activation(call: Call) -> bool:
+def _is_activation(call: Call) -> bool:
     """Whether a call is `token.state.specify(ACTIVE)`."""
     if call.method != "specify" or not isinstance(call.variable, TokenVariable) or call.variable.variable != STATE:
         return False
@@ -75,8 +75,8 @@ class Calls:
         """What a call does when its turn comes."""
         span = self.code.span(call.span)
         if call.token is not None:
-            return self.of_token(call, call.token, span)
-        if is_activation(call):
+            return self._of_token(call, call.token, span)
+        if _is_activation(call):
             assert isinstance(call.variable, TokenVariable)
             slot = call.variable.token
             return lambda: self.activate(self.token(slot), call.span, span)
@@ -86,7 +86,7 @@ class Calls:
             tokens = [
                 each.token for each in call.arguments if isinstance(each, TokenVariable) and each.variable == STATE
             ]
-            return lambda: self.of_variable(call, kind, value, arguments, tokens, span)
+            return lambda: self._of_variable(call, kind, value, arguments, tokens, span)
         return lambda: self.of_class(call)
 
     def token(self, slot: int) -> int:
@@ -100,7 +100,7 @@ class Calls:
 
     # ---- tokens ----
 
-    def of_token(self, call: Call, slot: int, span: int) -> Action:
+    def _of_token(self, call: Call, slot: int, span: int) -> Action:
         """A call on a token."""
         match call.method:
             case "activate":
@@ -115,7 +115,7 @@ class Calls:
                 assert call.method == "cancel", f"no method {call.method} of tokens"
                 return lambda: self.cancel(self.token(slot), call.span)
 
-    def wrong_state(self, t: int, wanted: int, symbol: int, action: str, span: Span) -> Diagnostic | None:
+    def _wrong_state(self, t: int, wanted: int, symbol: int, action: str, span: Span) -> Diagnostic | None:
         """What is wrong if a token is in another state than an action needs."""
         status = self.plan.rows.status[t]
         if status != wanted:
@@ -128,7 +128,7 @@ class Calls:
         """Activate; once more is no mistake."""
         if self.plan.rows.status[t] == ACTIVE:
             return None
-        if (wrong := self.wrong_state(t, INACTIVE, NONE, "activated", span)) is not None:
+        if (wrong := self._wrong_state(t, INACTIVE, NONE, "activated", span)) is not None:
             return wrong
         lifecycle.activate(self.plan, t, number)
         return None
@@ -136,8 +136,8 @@ class Calls:
     def merge(self, t: int, other: int, span: Span, number: int) -> Diagnostic | None:
         """Merge into an active token of the same predicate."""
         rows = self.plan.rows
-        wrong = self.wrong_state(t, INACTIVE, SYMBOL_MERGED, "merged", span)
-        wrong = wrong or self.wrong_state(other, ACTIVE, NONE, "merged into", span)
+        wrong = self._wrong_state(t, INACTIVE, SYMBOL_MERGED, "merged", span)
+        wrong = wrong or self._wrong_state(other, ACTIVE, NONE, "merged into", span)
         if wrong is not None:
             return wrong
         if not is_kind_of(self.plan, rows.predicate[other], rows.predicate[t]):
@@ -150,7 +150,7 @@ class Calls:
         """Reject a rejectable token."""
         if not self.plan.rows.flags[t] & FLAG_REJECTABLE:
             return NOT_REJECTABLE.at(span, name=self.name(t))
-        if (wrong := self.wrong_state(t, INACTIVE, SYMBOL_REJECTED, "rejected", span)) is not None:
+        if (wrong := self._wrong_state(t, INACTIVE, SYMBOL_REJECTED, "rejected", span)) is not None:
             return wrong
         lifecycle.reject(self.plan, t, number)
         return None
@@ -164,12 +164,12 @@ class Calls:
 
     # ---- variables and objects ----
 
-    def of_variable(
+    def _of_variable(
         self, call: Call, kind: int, value: int, arguments: list[tuple[int, int]], tokens: list[int], span: int
     ) -> Diagnostic | None:
         """A call on a variable, or on the object that it holds."""
         v = operand(self.plan, self.scope, kind, value, span)
-        name = call.span.text.rpartition(f".{call.method}")[0]
+        name = call.name
         match call.method:
             case "specify":
                 return self.specify(v, operand(self.plan, self.scope, *arguments[0], span), name, call.span, span)
@@ -187,7 +187,7 @@ class Calls:
         chosen = [self.token(slot) for slot in tokens]
         match call.method:
             case "constrain":
-                return self.constrain(o, chosen, call.span, span)
+                return self._constrain(o, chosen, call.span, span)
             case "free":
                 return self.free(o, chosen[0], chosen[-1], call.span, span)
             case _:
@@ -217,10 +217,10 @@ class Calls:
         engine.decide(v, value, number, NONE)
         return None
 
-    def constrain(self, o: int, tokens: list[int], span: Span, number: int) -> Diagnostic | None:
+    def _constrain(self, o: int, tokens: list[int], span: Span, number: int) -> Diagnostic | None:
         """Order two tokens on an object, or put one on it."""
         for t in tokens:
-            if (wrong := self.wrong_state(t, ACTIVE, NONE, "put on an object", span)) is not None:
+            if (wrong := self._wrong_state(t, ACTIVE, NONE, "put on an object", span)) is not None:
                 return wrong
             if not self.plan.engine.contains(self.plan.rows.var0[t] + OBJECT, o):
                 return WRONG_OBJECT.at(span, name=self.name(t), object=self.objects.names[o])

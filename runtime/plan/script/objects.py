@@ -92,7 +92,7 @@ class Objects:
                     steps.append(self.prepare_fill(step))
                 case _:
                     steps.append(self.code.body((step,)))
-        parameters = tuple(self.prototypes.of(bare(type_), None) for type_ in constructor.parameters)
+        parameters = tuple(self.prototypes.of(_bare(type_), None) for type_ in constructor.parameters)
         return PreparedConstructor(parameters, tuple(steps), max(constructor.slots, len(parameters)))
 
     def prepare_fill(self, step: Assign) -> Fill:
@@ -102,7 +102,7 @@ class Objects:
             value = self.prepare_new(step.value)
         else:
             value = self.code.given(step.domain, step.value)
-        return Fill(self.code.operand(step.target), value, step.span.text.partition("=")[0].strip(), step.span)
+        return Fill(self.code.operand(step.target), value, step.name, step.span)
 
     def prepare_new(self, new: NewObject) -> New:
         """Compile a `new`, the ones among its arguments included."""
@@ -113,13 +113,13 @@ class Objects:
 
     # ---- making ----
 
-    def allocate(self, number: int, name: str | None) -> int:
+    def _allocate(self, number: int, name: str | None) -> int:
         """Make an object with unrestricted members."""
         plan, engine = self.plan, self.plan.engine
         class_ = self.program.classes[number]
         o = plan.new_object(number, class_.native == "Timeline")
         new_head(plan.rows, plan.object_head[o])
-        label = self.unique(name, o)
+        label = self._unique(name, o)
         self.names.append(label)
         self.numbers[label] = o
         if len(class_.members) > 1:
@@ -132,7 +132,7 @@ class Objects:
         plan.object_constant[o] = constant
         plan.note_variable(constant, ROLE_INTERNAL, NONE, NONE)
         if class_.native in LIMITS_OF:
-            self.make_resource(o, class_)
+            self._make_resource(o, class_)
         for ancestor in self.prototypes.ancestry(number):
             self.prototypes.objects[ancestor].append(o)
             if plan.rows.level == 0:
@@ -149,7 +149,7 @@ class Objects:
                 self.prototypes.objects[ancestor].remove(o)
         self.plan.object_count = count
 
-    def unique(self, name: str | None, o: int) -> str:
+    def _unique(self, name: str | None, o: int) -> str:
         """A name that no other object has."""
         if name is None:
             return f"__Object_{o}"
@@ -181,20 +181,20 @@ class Objects:
                 arguments.append(operand(plan, scope, each[0], each[1], span))
         if self.prototypes.is_closed[new.class_number]:
             return CLOSED_CLASS.at(new.span, name=self.program.classes[new.class_number].name)
-        o = self.allocate(new.class_number, new.name if parent is None or new.name is None else f"{parent}.{new.name}")
+        o = self._allocate(new.class_number, new.name if parent is None or new.name is None else f"{parent}.{new.name}")
         if self.depth == DEEPEST:
             return ENDLESS_OBJECT.at(new.span, name=self.program.classes[new.class_number].name)
         self.depth += 1
-        fault = self.construct(new.class_number, new.constructor, o, arguments)
+        fault = self._construct(new.class_number, new.constructor, o, arguments)
         self.depth -= 1
         return fault or o
 
-    def construct(self, number: int, chosen: int, o: int, arguments: list[int]) -> Diagnostic | None:
+    def _construct(self, number: int, chosen: int, o: int, arguments: list[int]) -> Diagnostic | None:
         """Run a constructor of class `number` on object `o`; arguments pass their current domains."""
         plan = self.plan
         name = self.program.classes[number].name
         if name in DEFAULTS:
-            self.fill_native(name, o, arguments)
+            self._fill_native(name, o, arguments)
             return None
         constructor = self.constructors[number][chosen]
         scope = plan.rows.new_scope(SCOPE_SCRIPT, NONE, NONE, NONE, constructor.slots, constructor.slots)
@@ -208,7 +208,7 @@ class Objects:
             match step:
                 case Super(class_number=base, constructor=of_base, arguments=codes, span=span):
                     passed = [operand(plan, scope, kind, value, self.code.span(span)) for kind, value in codes]
-                    fault = self.construct(base, of_base, o, passed)
+                    fault = self._construct(base, of_base, o, passed)
                 case Fill():
                     fault = self.fill(step, scope, o)
                 case _:
@@ -241,7 +241,7 @@ class Objects:
         """Intersect the base domain of `v` with that of `source`; what is wrong if they have no value in common."""
         return assign_domain(self.prototypes, self.names, self.plan, v, source, name, span, self.code.span(span))
 
-    def fill_native(self, name: str, o: int, arguments: list[int]) -> None:
+    def _fill_native(self, name: str, o: int, arguments: list[int]) -> None:
         """Give the members of a resource their values."""
         plan, engine = self.plan, self.plan.engine
         members = self.program.classes[plan.object_class[o]].members
@@ -253,7 +253,7 @@ class Objects:
             if member not in filled:
                 engine.restrict_base(where[member], value, value, NONE, NONE)
 
-    def make_resource(self, o: int, class_: ClassCode) -> None:
+    def _make_resource(self, o: int, class_: ClassCode) -> None:
         """Have the levels of a resource watched."""
         where = {member.name: self.plan.object_var0[o] + k for k, member in enumerate(class_.members)}
         assert class_.native is not None
@@ -274,6 +274,6 @@ class Objects:
                 self.prototypes.openings[other] = []
 
 
-def bare(type_: TypeCode) -> TypeCode:
+def _bare(type_: TypeCode) -> TypeCode:
     """A type without the restriction of its typedef: arguments are checked by the front end."""
     return TypeCode(type_.kind, type_.type_name, None)

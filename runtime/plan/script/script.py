@@ -86,14 +86,14 @@ class Script:
         """What a statement does when its turn comes."""
         match instruction:
             case NewGlobal():
-                return self.prepare_global(instruction)
+                return self._prepare_global(instruction)
             case NewObject():
-                return self.prepare_object(instruction)
+                return self._prepare_object(instruction)
             case Assign():
                 fill = self.objects.prepare_fill(instruction)
                 return lambda: self.objects.fill(fill, self.scope, None)
             case NewToken():
-                return self.prepare_token(instruction)
+                return self._prepare_token(instruction)
             case Call():
                 return self.calls.prepare(instruction)
             case Post() | Sample() | Relate() | NewVariable() | Guard() | ObjectLoop() | Child():
@@ -107,7 +107,7 @@ class Script:
         self.plan.push(self.plan.block_start[block], self.plan.block_end[block], self.scope, NONE, NONE)
         return None
 
-    def prepare_global(self, new: NewGlobal) -> Action:
+    def _prepare_global(self, new: NewGlobal) -> Action:
         """A global variable with its base domain."""
         prototype = self.prototypes.of(new.type, new.domain)
         kind, value = self.code.optional(new.copy_of)
@@ -124,7 +124,7 @@ class Script:
 
         return act
 
-    def prepare_object(self, new: NewObject) -> Action:
+    def _prepare_object(self, new: NewObject) -> Action:
         """An object, and the global variable that holds it."""
         ready = self.objects.prepare_new(new)
 
@@ -140,7 +140,7 @@ class Script:
 
         return act
 
-    def prepare_token(self, new: NewToken) -> Action:
+    def _prepare_token(self, new: NewToken) -> Action:
         """A goal, a fact or a rejectable token."""
         predicate = self.predicates[new.predicate]
         kind, value = (NONE, NONE) if isinstance(new.object, str) else self.code.operand(new.object)

@@ -46,12 +46,12 @@ def domain_text(
     name = NAMES.get(kind, type_name)
     if is_growing(engine, v):
         values = engine.values_of(v)
-        return DomainText(set_text(prototypes, kind, values, names), str(name), len(values) > 1, is_open=True)
-    lower, upper = wide(engine.lower(v)), wide(engine.upper(v))
-    between = f"[{number_text(lower, kind)}, {number_text(upper, kind)}]"
+        return DomainText(_set_text(prototypes, kind, values, names), str(name), len(values) > 1, is_open=True)
+    lower, upper = _wide(engine.lower(v)), _wide(engine.upper(v))
+    between = f"[{_number_text(lower, kind)}, {_number_text(upper, kind)}]"
     if kind in (KIND_INT, KIND_FLOAT):
         if lower == upper or (kind == KIND_FLOAT and engine.is_singleton(v)):
-            return DomainText(f"{{{number_text(lower, kind)}}}", str(name), is_several=False)
+            return DomainText(f"{{{_number_text(lower, kind)}}}", str(name), is_several=False)
         if lower > upper:
             return DomainText("{}", str(name), is_several=False)
         if engine.word[v] < 0:
@@ -60,25 +60,25 @@ def domain_text(
     if kind == KIND_INT and len(values) > 1 and values[-1] - values[0] + 1 == len(values):
         return DomainText(between, str(name), is_several=True)
     if name is None:
-        name = symbol_type(prototypes, values)
-    return DomainText(set_text(prototypes, kind, values, names), name, len(values) > 1)
+        name = _symbol_type(prototypes, values)
+    return DomainText(_set_text(prototypes, kind, values, names), name, len(values) > 1)
 
 
-def wide(x: float) -> float:
+def _wide(x: float) -> float:
     """A bound, infinite where the engine counts it as infinite."""
     return inf if x >= HALF_INF else -inf if x <= -HALF_INF else x
 
 
-def symbol_type(prototypes: Prototypes, values: Sequence[float]) -> str:
+def _symbol_type(prototypes: Prototypes, values: Sequence[float]) -> str:
     """The enum of some symbols."""
     enum = prototypes.symbol_enum[int(values[0])] if values else STATES
     return "symbol" if enum == STATES else enum
 
 
-def set_text(prototypes: Prototypes, kind: int, values: Sequence[float], names: Sequence[str]) -> str:
+def _set_text(prototypes: Prototypes, kind: int, values: Sequence[float], names: Sequence[str]) -> str:
     """The values of a set; those with names are sorted by name."""
     if kind in (KIND_INT, KIND_FLOAT):
-        texts = [number_text(x, kind) for x in values]
+        texts = [_number_text(x, kind) for x in values]
     elif kind == KIND_BOOL:
         texts = ["true" if x else "false" for x in values]
     elif kind == KIND_STRING:
@@ -90,7 +90,7 @@ def set_text(prototypes: Prototypes, kind: int, values: Sequence[float], names: 
     return f"{{{', '.join(texts)}}}"
 
 
-def number_text(x: float, kind: int) -> str:
+def _number_text(x: float, kind: int) -> str:
     """A number; floats have a decimal point."""
     if x == inf:
         return "+inf"
@@ -104,11 +104,11 @@ def base_text(prototypes: Prototypes, engine: Engine, v: int, names: Sequence[st
     kind = engine.kind[v]
     values = engine.base_values(v)
     if values is not None:
-        text = set_text(prototypes, kind, values, names)
+        text = _set_text(prototypes, kind, values, names)
         return text[1:-1] if len(values) == 1 else text
     lower, upper = engine.base_lower(v), engine.base_upper(v)
     if kind not in (KIND_INT, KIND_FLOAT):
-        return set_text(prototypes, kind, list(range(int(lower), int(upper) + 1)), names)
+        return _set_text(prototypes, kind, list(range(int(lower), int(upper) + 1)), names)
     if lower == upper:
-        return set_text(prototypes, kind, [lower], names)[1:-1]
-    return f"[{number_text(lower, kind)}, {number_text(upper, kind)}]"
+        return _set_text(prototypes, kind, [lower], names)[1:-1]
+    return f"[{_number_text(lower, kind)}, {_number_text(upper, kind)}]"

@@ -23,11 +23,11 @@ cpdef int unlink(Rows rows, long long t, long long kind) except -1
 
 
 @cython.locals(at="long long", before="long long")
-cpdef int attach(Rows rows, long long t, long long kind, long long head, long long after) except -1
+cpdef int _attach(Rows rows, long long t, long long kind, long long head, long long after) except -1
 
 
 @cython.locals(after="long long", at="long long", before="long long", head="long long")
-cpdef int detach(Rows rows, long long t, long long kind) except -1
+cpdef int _detach(Rows rows, long long t, long long kind) except -1
 
 
 @cython.locals(at="long long", code="long long", index="long long", old="long long")
@@ -35,13 +35,13 @@ cpdef int undo(Rows rows, long long length) except -1
 
 
 @cython.locals(parent="long long")
-cpdef int undo_token(Rows rows, long long t) except -1
+cpdef int _undo_token(Rows rows, long long t) except -1
 
 
-cpdef int undo_scope(Rows rows, long long s) except -1
+cpdef int _undo_scope(Rows rows, long long s) except -1
 
 
-cpdef int undo_pair(Rows rows, long long p) except -1
+cpdef int _undo_pair(Rows rows, long long p) except -1
 
 
-cpdef int undo_cells(Rows rows, long long start, long long size) except -1
+cpdef int _undo_cells(Rows rows, long long start, long long size) except -1

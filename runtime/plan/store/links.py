@@ -41,7 +41,7 @@ def new_head(rows: Rows, head: int) -> None:
 
 def link(rows: Rows, t: int, kind: int, head: int, after: int) -> None:
     """Put `t` on list `head` behind token `after` (NONE: in front)."""
-    attach(rows, t, kind, head, after)
+    _attach(rows, t, kind, head, after)
     if rows.level:
         rows.log(UNDO_LINK, LISTS * t + kind, 0)
 
@@ -58,12 +58,12 @@ def unlink(rows: Rows, t: int, kind: int) -> None:
     """Take `t` off its list of that kind, if it is on one."""
     head = rows.link_head[LISTS * t + kind]
     if head >= 0:
-        detach(rows, t, kind)
+        _detach(rows, t, kind)
         if rows.level:
             rows.log(UNDO_UNLINK, LISTS * t + kind, head)
 
 
-def attach(rows: Rows, t: int, kind: int, head: int, after: int) -> None:
+def _attach(rows: Rows, t: int, kind: int, head: int, after: int) -> None:
     """Link without a trail."""
     at = LISTS * t + kind
     before = rows.head_first[head] if after < 0 else rows.link_after[LISTS * after + kind]
@@ -81,7 +81,7 @@ def attach(rows: Rows, t: int, kind: int, head: int, after: int) -> None:
     rows.head_length[head] += 1
 
 
-def detach(rows: Rows, t: int, kind: int) -> None:
+def _detach(rows: Rows, t: int, kind: int) -> None:
     """Unlink without a trail; the names of the neighbours stay."""
     at = LISTS * t + kind
     head = rows.link_head[at]
@@ -110,17 +110,17 @@ def undo(rows: Rows, length: int) -> None:
         if code == UNDO_NEW_HOLD:
             rows.drop_hold(index)
         elif code == UNDO_LINK:
-            detach(rows, index // LISTS, index % LISTS)
+            _detach(rows, index // LISTS, index % LISTS)
         elif code == UNDO_UNLINK:
-            attach(rows, index // LISTS, index % LISTS, old, rows.link_before[index])
+            _attach(rows, index // LISTS, index % LISTS, old, rows.link_before[index])
         elif code == UNDO_NEW_TOKEN:
-            undo_token(rows, index)
+            _undo_token(rows, index)
         elif code == UNDO_NEW_SCOPE:
-            undo_scope(rows, index)
+            _undo_scope(rows, index)
         elif code == UNDO_NEW_CELLS:
-            undo_cells(rows, index, old)
+            _undo_cells(rows, index, old)
         elif code == UNDO_NEW_PAIR:
-            undo_pair(rows, index)
+            _undo_pair(rows, index)
         elif code == UNDO_STATUS:
             rows.status[index] = old
         elif code == UNDO_BRANCH:
@@ -135,7 +135,7 @@ def undo(rows: Rows, length: int) -> None:
     rows.trail_length = length
 
 
-def undo_token(rows: Rows, t: int) -> None:
+def _undo_token(rows: Rows, t: int) -> None:
     """Take back the making of `t`, the latest token."""
     parent = rows.parent[t]
     if parent >= 0:
@@ -150,7 +150,7 @@ def undo_token(rows: Rows, t: int) -> None:
         rows.free_token = t
 
 
-def undo_scope(rows: Rows, s: int) -> None:
+def _undo_scope(rows: Rows, s: int) -> None:
     """Take back the making of `s`, the latest scope."""
     rows.scope_watch[s] = NONE
     if rows.scope_token[s] >= 0:
@@ -162,7 +162,7 @@ def undo_scope(rows: Rows, s: int) -> None:
         rows.free_scope = s
 
 
-def undo_pair(rows: Rows, p: int) -> None:
+def _undo_pair(rows: Rows, p: int) -> None:
     """Take back the making of pair `p`, the latest of both its tokens."""
     rows.pairs_out[rows.pair_first[p]] = rows.pair_next_out[p]
     rows.pairs_in[rows.pair_second[p]] = rows.pair_next_in[p]
@@ -173,7 +173,7 @@ def undo_pair(rows: Rows, p: int) -> None:
         rows.free_pair = p
 
 
-def undo_cells(rows: Rows, start: int, size: int) -> None:
+def _undo_cells(rows: Rows, start: int, size: int) -> None:
     """Take back the taking of cells."""
     if start + size == rows.cell_count:
         rows.cell_count = start

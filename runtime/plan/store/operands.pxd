@@ -16,7 +16,7 @@ cpdef long long operand(Plan plan, long long scope, long long kind, long long va
 
 
 @cython.locals(name="long long", o="long long", position="long long", start="long long", v="long long")
-cpdef long long field(Plan plan, long long scope, long long number, long long span) except? -1
+cpdef long long _field(Plan plan, long long scope, long long number, long long span) except? -1
 
 
 @cython.locals(k="long long")
@@ -27,12 +27,12 @@ cpdef long long member(Plan plan, long long o, long long name) except? -1
     c="long long", o="long long", objects=list, owner="long long", prototype="long long", result="long long",
     rows="long long", v="long long", x=double
 )
-cpdef long long proxy(Plan plan, long long scope, long long index, long long name, long long span) except? -1
+cpdef long long _proxy(Plan plan, long long scope, long long index, long long name, long long span) except? -1
 
 
 @cython.locals(engine=Engine, lower=double, upper=double, values=list)
-cpdef list base_listed(Plan plan, long long v)
+cpdef list _base_listed(Plan plan, long long v)
 
 
 @cython.locals(engine=Engine, kind="long long", owner="long long", v="long long", values=list)
-cpdef long long unite(Plan plan, long long scope, long long number, long long span) except? -1
+cpdef long long _unite(Plan plan, long long scope, long long number, long long span) except? -1

@@ -34,17 +34,17 @@ def operand(plan: Plan, scope: int, kind: int, value: int, span: int) -> int:
     if kind == IN_GLOBAL:
         return plan.globals[value]
     if kind == IN_FIELD:
-        return field(plan, scope, value, span)
+        return _field(plan, scope, value, span)
     if kind == IN_PROTOTYPE:
         return copy_variable(plan, scope, value, ROLE_INTERNAL, NONE)
     if kind == IN_SELF:
         return plan.object_constant[plan.self_object]
     if kind == IN_UNION:
-        return unite(plan, scope, value, span)
+        return _unite(plan, scope, value, span)
     return NONE
 
 
-def field(plan: Plan, scope: int, number: int, span: int) -> int:
+def _field(plan: Plan, scope: int, number: int, span: int) -> int:
     """The variable at the end of a member path; each object on the way that is not fixed gives a proxy."""
     v = operand(plan, scope, plan.field_kind[number], plan.field_value[number], span)
     start = plan.field_start[number]
@@ -54,7 +54,7 @@ def field(plan: Plan, scope: int, number: int, span: int) -> int:
             o = int(plan.engine.base_lower(v))
             v = member(plan, o, name)
         else:
-            v = proxy(plan, scope, v, name, span)
+            v = _proxy(plan, scope, v, name, span)
     return v
 
 
@@ -64,10 +64,10 @@ def member(plan: Plan, o: int, name: int) -> int:
     return NONE if k < 0 else plan.object_var0[o] + k
 
 
-def proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
+def _proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
     """A variable that equals the member called `name` of the object that `index` turns out to be."""
     prototype = plan.name_prototype[name]
-    objects = base_listed(plan, index)
+    objects = _base_listed(plan, index)
     rows = 0
     for x in objects:
         o = int(x)
@@ -91,7 +91,7 @@ def proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
     return result
 
 
-def base_listed(plan: Plan, v: int) -> list[float]:
+def _base_listed(plan: Plan, v: int) -> list[float]:
     """The values of a base domain; of an interval of numbers its two ends."""
     engine = plan.engine
     values = engine.base_values(v)
@@ -104,7 +104,7 @@ def base_listed(plan: Plan, v: int) -> list[float]:
     return [float(x) for x in range(int(lower), int(upper) + 1)]
 
 
-def unite(plan: Plan, scope: int, number: int, span: int) -> int:
+def _unite(plan: Plan, scope: int, number: int, span: int) -> int:
     """A variable whose domain is the union of several others, as they are now; in the script each must be known."""
     engine = plan.engine
     values: list[float] = []
@@ -116,7 +116,7 @@ def unite(plan: Plan, scope: int, number: int, span: int) -> int:
         if engine.is_singleton(v):
             values.append(engine.lower(v))
         else:
-            values += base_listed(plan, v)
+            values += _base_listed(plan, v)
             if owner < 0:
                 plan.services.note_loose_item(span)
     v = engine.new_values(kind, values, span, owner)

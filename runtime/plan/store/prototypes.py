@@ -45,13 +45,13 @@ class Prototypes:
         self.objects: list[list[float]] = [[] for _ in program.classes]  # of each class, subclasses included
         self.is_closed = [False for _ in program.classes]
         for symbol in STATE_SYMBOLS:
-            self.add_symbol(symbol, STATES)
+            self._add_symbol(symbol, STATES)
         self.enum_values[STATES] = tuple(range(len(STATE_SYMBOLS)))
         for name, values in program.enums:
             if name != STATES:
-                self.enum_values[name] = tuple(self.add_symbol(value, name) for value in values)
+                self.enum_values[name] = tuple(self._add_symbol(value, name) for value in values)
 
-    def add_symbol(self, name: str, enum: str) -> int:
+    def _add_symbol(self, name: str, enum: str) -> int:
         """Give a value of an enum its number."""
         number = self.symbols.number(name)
         if number == len(self.symbol_enum):
@@ -81,7 +81,7 @@ class Prototypes:
             if type_.kind == "string" and restrictions:
                 v = self.listed(restrictions.pop(0))
             else:
-                v = self.full(type_.kind, type_.type_name)
+                v = self._full(type_.kind, type_.type_name)
             for restriction in restrictions:
                 self.restrict(v, restriction)
             self.made[key] = v
@@ -114,7 +114,7 @@ class Prototypes:
         number = self.value(value, domain.kind)
         return self.engine.new_constant(KINDS[domain.kind], number, number)
 
-    def full(self, kind: str, name: str) -> int:
+    def _full(self, kind: str, name: str) -> int:
         """A variable with all values of a type."""
         engine = self.engine
         match kind:
@@ -156,11 +156,11 @@ def restrict_constant(prototypes: Prototypes, v: int, domain: DomainConstant, sp
         return engine.restrict_base_values(v, values, span, owner)
     if domain.interval is not None:
         lower, upper = domain.interval
-        return engine.restrict_base(v, limit(lower), limit(upper), span, owner)
+        return engine.restrict_base(v, _limit(lower), _limit(upper), span, owner)
     return True
 
 
-def limit(bound: float) -> float:
+def _limit(bound: float) -> float:
     """A bound as the engine takes it."""
     if bound >= INF:
         return inf

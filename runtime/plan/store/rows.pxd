@@ -27,10 +27,10 @@ cdef class Rows:
     cdef public long long[::1] scope_next, scope_at, scope_branch, scope_watch
     cdef public long long[::1] scope_inputs
 
-    cpdef int make_tokens(self, long long capacity) except -1
+    cpdef int _make_tokens(self, long long capacity) except -1
 
     @cython.locals(size="long long")
-    cpdef int grow_tokens(self) except -1
+    cpdef int _grow_tokens(self) except -1
 
     @cython.locals(at="long long", t="long long")
     cpdef long long new_token(
@@ -47,10 +47,10 @@ cdef class Rows:
     @cython.locals(other="long long", previous="long long")
     cpdef int unset_merged(self, long long t) except -1
 
-    cpdef int make_scopes(self, long long capacity) except -1
+    cpdef int _make_scopes(self, long long capacity) except -1
 
     @cython.locals(size="long long")
-    cpdef int grow_scopes(self) except -1
+    cpdef int _grow_scopes(self) except -1
 
     @cython.locals(frame="long long", offset="long long", s="long long", source="long long")
     cpdef long long new_scope(
@@ -76,7 +76,7 @@ cdef class Rows:
     @cython.locals(start="long long")
     cpdef long long new_cells(self, long long size) except? -1
 
-    cpdef int release_cells(self, long long start, long long size) except -1
+    cpdef int _release_cells(self, long long start, long long size) except -1
 
     @cython.locals(at="long long")
     cpdef int log(self, long long code, long long index, long long old) except -1

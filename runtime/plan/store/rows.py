@@ -29,8 +29,8 @@ class Rows:
     """Tokens `t`, scopes `s` and holds `h` as rows of arrays; cells of frames; lists of tokens; the trail."""
 
     def __init__(self) -> None:
-        self.make_tokens(64)
-        self.make_scopes(64)
+        self._make_tokens(64)
+        self._make_scopes(64)
         self.hold_capacity = 256
         self.hold_count = 0
         self.free_hold = NONE
@@ -63,7 +63,7 @@ class Rows:
 
     # ---- tokens ----
 
-    def make_tokens(self, capacity: int) -> None:
+    def _make_tokens(self, capacity: int) -> None:
         """Make the empty token table."""
         self.token_capacity = capacity
         self.token_count = 0
@@ -94,7 +94,7 @@ class Rows:
         self.link_before = blank(capacity * LISTS)
         self.link_after = blank(capacity * LISTS)
 
-    def grow_tokens(self) -> None:
+    def _grow_tokens(self) -> None:
         """Double the token table."""
         size = 2 * self.token_capacity
         self.token_capacity = size
@@ -129,7 +129,7 @@ class Rows:
             self.free_token = self.sibling[t]
         else:
             if self.token_count == self.token_capacity:
-                self.grow_tokens()
+                self._grow_tokens()
             t = self.token_count
             self.token_count += 1
         self.status[t] = INACTIVE
@@ -211,7 +211,7 @@ class Rows:
 
     # ---- scopes ----
 
-    def make_scopes(self, capacity: int) -> None:
+    def _make_scopes(self, capacity: int) -> None:
         """Make the empty scope table."""
         self.scope_capacity = capacity
         self.scope_count = 0
@@ -230,7 +230,7 @@ class Rows:
         self.scope_watch = blank(capacity)
         self.scope_inputs = blank(capacity)
 
-    def grow_scopes(self) -> None:
+    def _grow_scopes(self) -> None:
         """Double the scope table."""
         size = 2 * self.scope_capacity
         self.scope_capacity = size
@@ -258,7 +258,7 @@ class Rows:
             self.free_scope = self.scope_next[s]
         else:
             if self.scope_count == self.scope_capacity:
-                self.grow_scopes()
+                self._grow_scopes()
             s = self.scope_count
             self.scope_count += 1
         frame = self.new_cells(size)
@@ -290,10 +290,10 @@ class Rows:
 
     def release_scope(self, s: int) -> None:
         """Give back the row, the frame and the inputs of `s`, which is on its token's list no more (level 0)."""
-        self.release_cells(self.scope_frame[s], self.scope_size[s])
+        self._release_cells(self.scope_frame[s], self.scope_size[s])
         inputs = self.scope_inputs[s]
         if inputs >= 0:
-            self.release_cells(inputs, self.cells[inputs] + 2)
+            self._release_cells(inputs, self.cells[inputs] + 2)
         self.scope_watch[s] = NONE
         self.scope_next[s] = self.free_scope
         self.free_scope = s
@@ -371,7 +371,7 @@ class Rows:
             self.log(UNDO_NEW_CELLS, start, size)
         return start
 
-    def release_cells(self, start: int, size: int) -> None:
+    def _release_cells(self, start: int, size: int) -> None:
         """Give cells back."""
         if 0 < size < SHORT:
             self.cells[start] = self.free_cells[size]

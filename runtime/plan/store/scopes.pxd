@@ -17,7 +17,7 @@ cpdef bint between(
 
 
 @cython.locals(holds=bint, owner="long long", rows=Rows)
-cpdef bint edge(
+cpdef bint _edge(
     Plan plan, long long scope, long long source, long long target, long long weight, long long span
 ) except -1
 
@@ -64,11 +64,11 @@ cpdef long long make_closed(
 
 
 @cython.locals(engine=Engine, kind="long long", values=list)
-cpdef long long copy(Plan plan, long long prototype) except? -1
+cpdef long long _copy(Plan plan, long long prototype) except? -1
 
 
-cpdef bint is_gapless(long long kind, list values) except -1
+cpdef bint _is_gapless(long long kind, list values) except -1
 
 
 @cython.locals(count="long long", twin="long long")
-cpdef long long closed_twin(Plan plan, long long prototype, list values) except? -1
+cpdef long long _closed_twin(Plan plan, long long prototype, list values) except? -1

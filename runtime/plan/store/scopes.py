@@ -18,13 +18,13 @@ def between(plan: Plan, scope: int, a: int, b: int, lower: int, upper: int, span
     """Demand that b - a lies in [lower, upper]."""
     holds = True
     if upper < INFINITY:
-        holds = edge(plan, scope, a, b, upper, span)
+        holds = _edge(plan, scope, a, b, upper, span)
     if lower > -INFINITY and (holds or not plan.rows.level):
-        holds = edge(plan, scope, b, a, -lower, span) and holds
+        holds = _edge(plan, scope, b, a, -lower, span) and holds
     return holds
 
 
-def edge(plan: Plan, scope: int, source: int, target: int, weight: int, span: int) -> bool:
+def _edge(plan: Plan, scope: int, source: int, target: int, weight: int, span: int) -> bool:
     """Demand `target - source <= weight`."""
     rows = plan.rows
     owner = rows.scope_token[scope]
@@ -94,7 +94,7 @@ def copy_variable(plan: Plan, scope: int, prototype: int, role: int, name: int) 
 
 def make_variable(plan: Plan, prototype: int, role: int, owner: int, name: int) -> int:
     """Make a variable like a prototype."""
-    v = copy(plan, prototype)
+    v = _copy(plan, prototype)
     plan.note_variable(v, role, owner, name)
     if plan.engine.is_open[v]:
         plan.services.note_open(v, prototype)
@@ -108,14 +108,14 @@ def make_closed(plan: Plan, prototype: int, role: int, owner: int, name: int) ->
         return make_variable(plan, prototype, role, owner, name)
     values = engine.base_values(prototype) or []
     if plan.rows.level and values:  # nothing joins it in a search
-        v = engine.new_like(closed_twin(plan, prototype, values), NONE, NONE)
+        v = engine.new_like(_closed_twin(plan, prototype, values), NONE, NONE)
     else:
         v = engine.new_values(engine.kind[prototype], values, NONE, NONE)
     plan.note_variable(v, role, owner, name)
     return v
 
 
-def closed_twin(plan: Plan, prototype: int, values: list[float]) -> int:
+def _closed_twin(plan: Plan, prototype: int, values: list[float]) -> int:
     """A constant with the values that an open prototype lists; it serves until more are listed."""
     twin, count = plan.twins.get(prototype, (NONE, 0))
     if count != len(values):
@@ -124,7 +124,7 @@ def closed_twin(plan: Plan, prototype: int, values: list[float]) -> int:
     return int(twin)
 
 
-def copy(plan: Plan, prototype: int) -> int:
+def _copy(plan: Plan, prototype: int) -> int:
     """Make a variable with the base domain of another one, which does not change once it is closed."""
     engine = plan.engine
     kind = engine.kind[prototype]
@@ -133,7 +133,7 @@ def copy(plan: Plan, prototype: int) -> int:
     values = engine.base_values(prototype)
     if is_base_growing(engine, prototype):
         return engine.new_open(kind, values or [], NONE, NONE)
-    if values is not None and not is_gapless(kind, values):
+    if values is not None and not _is_gapless(kind, values):
         return engine.new_like(prototype, NONE, NONE)
     lower = values[0] if values else engine.base_lower(prototype)
     upper = values[len(values) - 1] if values else engine.base_upper(prototype)
@@ -141,6 +141,6 @@ def copy(plan: Plan, prototype: int) -> int:
     return engine.new_interval(kind, lower, upper, NONE, NONE)
 
 
-def is_gapless(kind: int, values: list[float]) -> bool:
+def _is_gapless(kind: int, values: list[float]) -> bool:
     """Whether a sorted set of whole numbers is an interval."""
     return kind != KIND_FLOAT and len(values) > 0 and values[len(values) - 1] - values[0] + 1 == len(values)

@@ -26,32 +26,32 @@ from runtime.plan.tokens.retraction import remove_tokens, scopes_of
 
 def archive(plan: Plan, tokens: list[int], tick: int) -> int:
     """Take out those of `tokens`, which are over at `tick`, that may go; how many went."""
-    doomed = removable(plan, tokens, tick)
+    doomed = _removable(plan, tokens, tick)
     if not doomed:
         return 0
-    freeze(plan, doomed)
+    _freeze(plan, doomed)
     for t in doomed:
-        orphan(plan, t, doomed)
+        _orphan(plan, t, doomed)
     remove_tokens(plan, list(doomed))
     return len(doomed)
 
 
-def removable(plan: Plan, tokens: list[int], tick: int) -> dict[int, None]:
+def _removable(plan: Plan, tokens: list[int], tick: int) -> dict[int, None]:
     """The largest part of `tokens` of which no member is needed by a token outside."""
     rows = plan.rows
     doomed = dict.fromkeys(
-        t for t in tokens if not plan.predicate_resource[rows.predicate[t]] and not has_waiting_guard(plan, t)
+        t for t in tokens if not plan.predicate_resource[rows.predicate[t]] and not _has_waiting_guard(plan, t)
     )
     changed = True
     while changed:
-        needed = [t for t in doomed if not is_free(plan, t, doomed, tick)]
+        needed = [t for t in doomed if not _is_free(plan, t, doomed, tick)]
         for t in needed:
             del doomed[t]
         changed = bool(needed)
     return doomed
 
 
-def is_free(plan: Plan, t: int, doomed: dict[int, None], tick: int) -> bool:
+def _is_free(plan: Plan, t: int, doomed: dict[int, None], tick: int) -> bool:
     """Whether `t` can go together with the other `doomed` tokens."""
     rows = plan.rows
     if rows.parent[t] >= 0 and rows.parent[t] not in doomed:
@@ -73,13 +73,13 @@ def is_free(plan: Plan, t: int, doomed: dict[int, None], tick: int) -> bool:
     return True
 
 
-def has_waiting_guard(plan: Plan, t: int) -> bool:
+def _has_waiting_guard(plan: Plan, t: int) -> bool:
     """Whether a part of the rules of `t` may still come."""
     rows = plan.rows
     return any(rows.scope_kind[s] == SCOPE_GUARD and rows.scope_branch[s] == BRANCH_WAITING for s in scopes_of(plan, t))
 
 
-def orphan(plan: Plan, t: int, doomed: dict[int, None]) -> None:
+def _orphan(plan: Plan, t: int, doomed: dict[int, None]) -> None:
     """Let the children of `t` that stay stand by themselves."""
     rows = plan.rows
     kept: list[int] = []
@@ -116,10 +116,10 @@ def detach(plan: Plan, t: int) -> None:
     rows.sibling[t] = NONE
 
 
-def freeze(plan: Plan, doomed: dict[int, None]) -> None:
+def _freeze(plan: Plan, doomed: dict[int, None]) -> None:
     """Put into base domains what edges and constraints that go with the `doomed` tokens say of other variables."""
     engine = plan.engine
-    edges, constraints, restrictions, gone = belongings(plan, doomed)
+    edges, constraints, restrictions, gone = _belongings(plan, doomed)
     near: dict[int, None] = {}
     for e in edges:
         near[engine.edge_source[e]] = None
@@ -132,10 +132,10 @@ def freeze(plan: Plan, doomed: dict[int, None]) -> None:
     supports.update(r * 4 + SUPPORT_RESTRICTION for r in restrictions)
     for v in near:
         if v not in gone and not engine.constant[v]:
-            keep_domain(plan, v, supports)
+            _keep_domain(plan, v, supports)
 
 
-def belongings(
+def _belongings(
     plan: Plan, doomed: dict[int, None]
 ) -> tuple[dict[int, None], dict[int, None], dict[int, None], dict[int, None]]:
     """The edges, constraints, restrictions and variables that go with tokens."""
@@ -167,7 +167,7 @@ def belongings(
     return edges, constraints, restrictions, gone
 
 
-def keep_domain(plan: Plan, v: int, supports: set[int]) -> None:
+def _keep_domain(plan: Plan, v: int, supports: set[int]) -> None:
     """Restrict `v` to its present domain where that rests on one of `supports`; the token of `v` answers for it."""
     engine = plan.engine
     owner = plan.variable_owner[v] if plan.variable_role[v] in (ROLE_TOKEN, ROLE_LOCAL) else NONE
@@ -176,19 +176,19 @@ def keep_domain(plan: Plan, v: int, supports: set[int]) -> None:
         base = engine.base_values(v)
         values = [float(x) for x in engine.values_of(v)]
         if base is None or len(values) < len(base):
-            span = span_of(plan, lower if lower in supports else upper)
+            span = _span_of(plan, lower if lower in supports else upper)
             engine.restrict_base_values(v, values, span, owner)
         return
     is_real = engine.kind[v] == KIND_FLOAT
     if lower in supports:
         bound = engine.flo[v] if is_real else engine.lower(v)
-        engine.restrict_base(v, bound, float("inf"), span_of(plan, lower), owner)
+        engine.restrict_base(v, bound, float("inf"), _span_of(plan, lower), owner)
     if upper in supports:
         bound = engine.fhi[v] if is_real else engine.upper(v)
-        engine.restrict_base(v, -float("inf"), bound, span_of(plan, upper), owner)
+        engine.restrict_base(v, -float("inf"), bound, _span_of(plan, upper), owner)
 
 
-def span_of(plan: Plan, support: int) -> int:
+def _span_of(plan: Plan, support: int) -> int:
     """The span of an edge, a constraint or a restriction."""
     engine = plan.engine
     kind, identity = support & 3, support >> 2

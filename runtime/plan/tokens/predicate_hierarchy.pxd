@@ -22,4 +22,4 @@ cpdef long long first_active(Plan plan, long long predicate) except? -1
 cpdef long long next_active(Plan plan, long long t, long long predicate) except? -1
 
 
-cpdef long long on_list(Plan plan, long long t, long long predicate) except? -1
+cpdef long long _on_list(Plan plan, long long t, long long predicate) except? -1

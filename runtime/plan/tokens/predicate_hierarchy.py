@@ -31,15 +31,15 @@ def active_head(plan: Plan, predicate: int) -> int:
 
 def first_active(plan: Plan, predicate: int) -> int:
     """The active token of `predicate` with the lowest key."""
-    return on_list(plan, plan.rows.head_first[active_head(plan, predicate)], predicate)
+    return _on_list(plan, plan.rows.head_first[active_head(plan, predicate)], predicate)
 
 
 def next_active(plan: Plan, t: int, predicate: int) -> int:
     """The active token of `predicate` that comes after `t`."""
-    return on_list(plan, plan.rows.link_after[LISTS * t + LIST_PREDICATE], predicate)
+    return _on_list(plan, plan.rows.link_after[LISTS * t + LIST_PREDICATE], predicate)
 
 
-def on_list(plan: Plan, t: int, predicate: int) -> int:
+def _on_list(plan: Plan, t: int, predicate: int) -> int:
     """`t`, or the next token on its list that is one of `predicate`."""
     while t >= 0 and not is_kind_of(plan, plan.rows.predicate[t], predicate):
         t = plan.rows.link_after[LISTS * t + LIST_PREDICATE]

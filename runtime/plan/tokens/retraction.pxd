@@ -34,23 +34,23 @@ cpdef list scopes_of(Plan plan, long long t)
 
 
 @cython.locals(rows=Rows, status="long long", v="long long")
-cpdef void deactivate(Plan plan, long long t, sweep) except *
+cpdef void _deactivate(Plan plan, long long t, sweep) except *
 
 
 @cython.locals(c="long long")
-cpdef void wake_guards(Plan plan, long long v) except *
+cpdef void _wake_guards(Plan plan, long long v) except *
 
 
 @cython.locals(child="long long", following="long long", last="long long", rows=Rows, s="long long")
-cpdef void drop_scopes(Plan plan, long long t, set doomed, sweep) except *
+cpdef void _drop_scopes(Plan plan, long long t, set doomed, sweep) except *
 
 
 @cython.locals(c="long long", h="long long", kind="long long", rows=Rows)
-cpdef int collect_holds(Plan plan, long long s, sweep) except -1
+cpdef int _collect_holds(Plan plan, long long s, sweep) except -1
 
 
-cpdef list decisions_of(Plan plan, long long v)
+cpdef list _decisions_of(Plan plan, long long v)
 
 
 @cython.locals(done="long long", freed=list, gone=set, r="long long", restrictions=list, rows=Rows)
-cpdef bint finish(Plan plan, sweep) except -1
+cpdef bint _finish(Plan plan, sweep) except -1

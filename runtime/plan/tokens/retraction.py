@@ -46,15 +46,15 @@ class Sweep:
 def cancel(plan: Plan, t: int) -> bool:
     """Make `t` inactive again, with all that followed from its state."""
     sweep = Sweep()
-    deactivate(plan, t, sweep)
-    return finish(plan, sweep)
+    _deactivate(plan, t, sweep)
+    return _finish(plan, sweep)
 
 
 def remove_tokens(plan: Plan, tokens: list[int]) -> bool:
     """Take tokens away with all that came with them."""
     sweep = Sweep()
     sweep.tokens += tokens
-    return finish(plan, sweep)
+    return _finish(plan, sweep)
 
 
 def retract_branch(plan: Plan, s: int) -> bool:
@@ -67,16 +67,16 @@ def retract_branch(plan: Plan, s: int) -> bool:
         if rows.scope_parent[each] in doomed:
             doomed.add(each)
     doomed.discard(s)
-    drop_scopes(plan, t, doomed, sweep)
+    _drop_scopes(plan, t, doomed, sweep)
     rows.set_branch(s, BRANCH_WAITING)
-    return finish(plan, sweep)
+    return _finish(plan, sweep)
 
 
 def reset(plan: Plan, v: int) -> bool:
     """Undo the decision of a variable."""
     sweep = Sweep()
     sweep.undecided.append(v)
-    return finish(plan, sweep)
+    return _finish(plan, sweep)
 
 
 def free(plan: Plan, first: int, second: int, span: int) -> bool:
@@ -92,11 +92,11 @@ def free(plan: Plan, first: int, second: int, span: int) -> bool:
         p = after
     for t in (first, second):
         if not has_any_pair(rows, t):
-            drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_INSERTION}, sweep)
+            _drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_INSERTION}, sweep)
             if rows.link_head[LISTS * t + LIST_ORDER] >= 0:
                 leave_sequence(plan, t, sweep.edges, span)
                 await_order(plan, t)
-    return finish(plan, sweep)
+    return _finish(plan, sweep)
 
 
 def withdraw_refusals(plan: Plan) -> None:
@@ -117,7 +117,7 @@ def scopes_of(plan: Plan, t: int) -> list[int]:
     return found
 
 
-def deactivate(plan: Plan, t: int, sweep: Sweep) -> None:
+def _deactivate(plan: Plan, t: int, sweep: Sweep) -> None:
     """Collect what the state of `t` brought: rules, merge, insertion into a timeline, tokens merged into it."""
     rows = plan.rows
     status = rows.status[t]
@@ -128,20 +128,20 @@ def deactivate(plan: Plan, t: int, sweep: Sweep) -> None:
         unlink(rows, t, LIST_PREDICATE)
         unlink(rows, t, LIST_THREAT)
         while rows.merged[t] >= 0:
-            deactivate(plan, rows.merged[t], sweep)
+            _deactivate(plan, rows.merged[t], sweep)
         if plan.predicate_resource[rows.predicate[t]]:
             plan.resources.remove_token(t)
     elif status == MERGED:
         rows.unset_merged(t)
         for v in range(rows.var0[t], rows.var0[t] + rows.width[t]):
-            wake_guards(plan, v)
+            _wake_guards(plan, v)
     rows.set_status(t, INACTIVE)
     sweep.undecided.append(rows.var0[t] + STATE)
     sweep.reopened.append(t)
-    drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] != SCOPE_BODY}, sweep)
+    _drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] != SCOPE_BODY}, sweep)
 
 
-def wake_guards(plan: Plan, v: int) -> None:
+def _wake_guards(plan: Plan, v: int) -> None:
     """Have the guards looked at that wait for `v`: it may be decided no more, even if its values stay as they are."""
     if plan.variable_guards[v]:
         for c in plan.engine.constraints_of(v):
@@ -149,7 +149,7 @@ def wake_guards(plan: Plan, v: int) -> None:
                 plan.enqueue(plan.guard_of[c])
 
 
-def drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: Sweep) -> None:
+def _drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: Sweep) -> None:
     """Collect what scopes of `t` hold, and the children that they made; take the scopes off the token's list."""
     if not doomed:
         return
@@ -163,7 +163,7 @@ def drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: Sweep) -> None:
                 rows.scopes[t] = following
             else:
                 rows.scope_next[last] = following
-            collect_holds(plan, s, sweep)
+            _collect_holds(plan, s, sweep)
             sweep.scopes.append(s)
         else:
             last = s
@@ -175,7 +175,7 @@ def drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: Sweep) -> None:
         child = rows.sibling[child]
 
 
-def collect_holds(plan: Plan, s: int, sweep: Sweep) -> None:
+def _collect_holds(plan: Plan, s: int, sweep: Sweep) -> None:
     """Collect what one scope holds, and give the holds back."""
     rows = plan.rows
     if rows.scope_watch[s] >= 0:
@@ -200,12 +200,12 @@ def collect_holds(plan: Plan, s: int, sweep: Sweep) -> None:
         rows.drop_hold(s)
 
 
-def decisions_of(plan: Plan, v: int) -> list[int]:
+def _decisions_of(plan: Plan, v: int) -> list[int]:
     """The restrictions that decide a variable."""
     return [r for r in plan.engine.restrictions_of(v) if plan.engine.restriction_flags[r] & FLAG_DECISION]
 
 
-def finish(plan: Plan, sweep: Sweep) -> bool:
+def _finish(plan: Plan, sweep: Sweep) -> bool:
     """Take tokens apart, one after the other with all their children; then let the engine forget everything."""
     rows = plan.rows
     done = 0
@@ -216,17 +216,17 @@ def finish(plan: Plan, sweep: Sweep) -> bool:
         if rows.status[t] == FREED:
             continue  # named both by itself and as a child of another
         freed.append(t)
-        deactivate(plan, t, sweep)
-        drop_scopes(plan, t, set(scopes_of(plan, t)), sweep)
+        _deactivate(plan, t, sweep)
+        _drop_scopes(plan, t, set(scopes_of(plan, t)), sweep)
         unlink(rows, t, LIST_OPEN)
         rows.set_status(t, FREED)
         sweep.variables += range(rows.var0[t], rows.var0[t] + rows.width[t])
     gone = set(sweep.variables)
     for v in sweep.undecided:
-        sweep.restrictions += decisions_of(plan, v)
+        sweep.restrictions += _decisions_of(plan, v)
     restrictions = [r for r in dict.fromkeys(sweep.restrictions) if plan.engine.restriction_variable[r] not in gone]
     for r in restrictions:
-        wake_guards(plan, plan.engine.restriction_variable[r])
+        _wake_guards(plan, plan.engine.restriction_variable[r])
     sweep.constraints += plan.resources.take_refusals()
     plan.engine.retract(sweep.constraints, sweep.edges, restrictions, sweep.variables)
     for s in sweep.scopes:

@@ -14,18 +14,18 @@ cpdef bint order(Plan plan, long long o, long long before, long long after, long
 
 
 @cython.locals(following="long long", head="long long", rows=Rows)
-cpdef int insert(Plan plan, long long o, long long t, long long previous, long long span) except -1
+cpdef int _insert(Plan plan, long long o, long long t, long long previous, long long span) except -1
 
 
 @cython.locals(scope="long long", v="long long")
-cpdef int fix_object(Plan plan, long long o, long long t, long long span) except -1
+cpdef int _fix_object(Plan plan, long long o, long long t, long long span) except -1
 
 
-cpdef bint is_sequenced(Rows rows, long long t) except -1
+cpdef bint _is_sequenced(Rows rows, long long t) except -1
 
 
 @cython.locals(p="long long", rows=Rows)
-cpdef int pair(Plan plan, long long first, long long second, long long span) except -1
+cpdef int _pair(Plan plan, long long first, long long second, long long span) except -1
 
 
 @cython.locals(p="long long")

@@ -30,42 +30,42 @@ def order(plan: Plan, o: int, before: int, after: int, span: int) -> bool:
     rows = plan.rows
     head = plan.object_head[o]
     if not plan.object_timeline[o]:
-        fix_object(plan, o, before, span)
+        _fix_object(plan, o, before, span)
         if before != after:
-            fix_object(plan, o, after, span)
-            pair(plan, before, after, span)
+            _fix_object(plan, o, after, span)
+            _pair(plan, before, after, span)
         return plan.engine.consistent
     if before == after:
-        if not is_sequenced(rows, before):
-            insert(plan, o, before, rows.head_last[head], span)
+        if not _is_sequenced(rows, before):
+            _insert(plan, o, before, rows.head_last[head], span)
         return plan.engine.consistent
-    if not is_sequenced(rows, before):
-        if is_sequenced(rows, after):
-            insert(plan, o, before, rows.link_before[LISTS * after + LIST_ORDER], span)
+    if not _is_sequenced(rows, before):
+        if _is_sequenced(rows, after):
+            _insert(plan, o, before, rows.link_before[LISTS * after + LIST_ORDER], span)
         else:
-            insert(plan, o, before, rows.head_last[head], span)
-    if not is_sequenced(rows, after):
-        insert(plan, o, after, before, span)
+            _insert(plan, o, before, rows.head_last[head], span)
+    if not _is_sequenced(rows, after):
+        _insert(plan, o, after, before, span)
     elif rows.link_after[LISTS * before + LIST_ORDER] != after or not has_pair(rows, before, after):
-        pair(plan, before, after, span)
+        _pair(plan, before, after, span)
     return plan.engine.consistent
 
 
-def insert(plan: Plan, o: int, t: int, previous: int, span: int) -> None:
+def _insert(plan: Plan, o: int, t: int, previous: int, span: int) -> None:
     """Put `t` into the sequence of `o` behind `previous` (NONE: in front), between its neighbours' times."""
     rows = plan.rows
     head = plan.object_head[o]
     link(rows, t, LIST_ORDER, head, previous)
     unlink(rows, t, LIST_THREAT)
-    fix_object(plan, o, t, span)
+    _fix_object(plan, o, t, span)
     if previous >= 0:
-        pair(plan, previous, t, span)
+        _pair(plan, previous, t, span)
     following = rows.link_after[LISTS * t + LIST_ORDER]
     if following >= 0:
-        pair(plan, t, following, span)
+        _pair(plan, t, following, span)
 
 
-def fix_object(plan: Plan, o: int, t: int, span: int) -> None:
+def _fix_object(plan: Plan, o: int, t: int, span: int) -> None:
     """Give `t` the object `o`, unless its object is decided."""
     v = plan.rows.var0[t] + OBJECT
     if not plan.engine.is_decided(v):
@@ -73,12 +73,12 @@ def fix_object(plan: Plan, o: int, t: int, span: int) -> None:
         equate(plan, scope, v, plan.object_constant[o], span)
 
 
-def is_sequenced(rows: Rows, t: int) -> bool:
+def _is_sequenced(rows: Rows, t: int) -> bool:
     """Whether `t` is in the sequence of an object."""
     return rows.link_head[LISTS * t + LIST_ORDER] >= 0
 
 
-def pair(plan: Plan, first: int, second: int, span: int) -> None:
+def _pair(plan: Plan, first: int, second: int, span: int) -> None:
     """Post `first.end <= second.start`."""
     rows = plan.rows
     p = rows.free_pair
@@ -146,7 +146,7 @@ def leave_sequence(plan: Plan, t: int, edges: list[int], span: int) -> None:
         following = rows.link_after[at]
         unlink(rows, t, LIST_ORDER)
         if previous >= 0 and following >= 0 and not has_pair(rows, previous, following):
-            pair(plan, previous, following, span)
+            _pair(plan, previous, following, span)
 
 
 def has_any_pair(rows: Rows, t: int) -> bool:
@@ -164,7 +164,7 @@ def assign_object(plan: Plan, o: int, t: int, span: int) -> bool:
     """Fix the object of `t` without an insertion into the sequence, unless it is the first there."""
     rows = plan.rows
     if rows.head_first[plan.object_head[o]] < 0 and plan.object_timeline[o]:
-        insert(plan, o, t, NONE, span)
+        _insert(plan, o, t, NONE, span)
     else:
-        fix_object(plan, o, t, span)
+        _fix_object(plan, o, t, span)
     return bool(plan.engine.consistent)
