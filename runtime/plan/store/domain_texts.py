@@ -46,7 +46,7 @@ def domain_text(
     name = NAMES.get(kind, type_name)
     if is_growing(engine, v):
         values = engine.values_of(v)
-        return DomainText(_set_text(prototypes, kind, values, names), str(name), len(values) > 1, is_open=True)
+        return DomainText(set_text(prototypes, kind, values, names), str(name), len(values) > 1, is_open=True)
     lower, upper = _wide(engine.lower(v)), _wide(engine.upper(v))
     between = f"[{_number_text(lower, kind)}, {_number_text(upper, kind)}]"
     if kind in (KIND_INT, KIND_FLOAT):
@@ -61,7 +61,7 @@ def domain_text(
         return DomainText(between, str(name), is_several=True)
     if name is None:
         name = _symbol_type(prototypes, values)
-    return DomainText(_set_text(prototypes, kind, values, names), name, len(values) > 1)
+    return DomainText(set_text(prototypes, kind, values, names), name, len(values) > 1)
 
 
 def _wide(x: float) -> float:
@@ -75,7 +75,7 @@ def _symbol_type(prototypes: Prototypes, values: Sequence[float]) -> str:
     return "symbol" if enum == STATES else enum
 
 
-def _set_text(prototypes: Prototypes, kind: int, values: Sequence[float], names: Sequence[str]) -> str:
+def set_text(prototypes: Prototypes, kind: int, values: Sequence[float], names: Sequence[str]) -> str:
     """The values of a set; those with names are sorted by name."""
     if kind in (KIND_INT, KIND_FLOAT):
         texts = [_number_text(x, kind) for x in values]
@@ -104,11 +104,11 @@ def base_text(prototypes: Prototypes, engine: Engine, v: int, names: Sequence[st
     kind = engine.kind[v]
     values = engine.base_values(v)
     if values is not None:
-        text = _set_text(prototypes, kind, values, names)
+        text = set_text(prototypes, kind, values, names)
         return text[1:-1] if len(values) == 1 else text
     lower, upper = engine.base_lower(v), engine.base_upper(v)
     if kind not in (KIND_INT, KIND_FLOAT):
-        return _set_text(prototypes, kind, list(range(int(lower), int(upper) + 1)), names)
+        return set_text(prototypes, kind, list(range(int(lower), int(upper) + 1)), names)
     if lower == upper:
-        return _set_text(prototypes, kind, [lower], names)[1:-1]
+        return set_text(prototypes, kind, [lower], names)[1:-1]
     return f"[{_number_text(lower, kind)}, {_number_text(upper, kind)}]"
