@@ -17,6 +17,7 @@ from checker.oracle import Verdict
 from checker.simplest import shortest_decimal
 from checker.smt.edges import Edge, find_failing_range
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.distributions import DISTRIBUTIONS
 
 Refly = Callable[[AgentConfiguration, int, int], MissionResult]  # agent, number, seed
 HALVINGS = 30
@@ -88,7 +89,7 @@ def find_thresholds(
     example = by_number[bucket.example]
     found: list[Threshold] = []
     for parameter in agent.parameters:
-        if parameter.distribution == "fixed":
+        if DISTRIBUTIONS[parameter.distribution].is_constant:
             continue
         failing = [_in_force(by_number[number], parameter.name) for number in bucket.missions]
         passing = [

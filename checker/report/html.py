@@ -15,6 +15,7 @@ from checker.report.wording import blamed, decision, missions, percent, rate_lin
 from checker.sampling.wording import describe, number
 from checker.story import Step, StepKind, Story
 from runtime.executive.configuration import ParameterConfiguration
+from runtime.executive.distributions import DISTRIBUTIONS
 from runtime.executive.outcome import SourcePlace
 
 MOST_ROWS = 1000
@@ -125,7 +126,7 @@ def _excerpt(place: SourcePlace, excerpts: Excerpts, *, marked: bool) -> str:
 
 
 def _parameters(findings: Findings) -> list[str]:
-    drawn = [one for one in findings.agent.parameters if one.distribution != "fixed"]
+    drawn = [one for one in findings.agent.parameters if not DISTRIBUTIONS[one.distribution].is_constant]
     if not drawn or not findings.results:
         return []
     by_name = {parameter.name: _dots(findings, parameter) for parameter in drawn}
