@@ -8,15 +8,8 @@ from dataclasses import dataclass
 
 import networkx as nx
 
-from runtime.executive.outcome import (
-    Conflict,
-    ConflictElement,
-    ElementKind,
-    Event,
-    Outcome,
-    SourcePlace,
-    VariableName,
-)
+from runtime.executive.outcome import Conflict, ConflictElement, ElementKind, Event, Outcome, SourcePlace
+from runtime.plan.readout.names import VariableName
 
 # Kinds of elements that no line of the model can help.
 WORLD = (
@@ -26,7 +19,7 @@ WORLD = (
     ElementKind.CLOCK,
 )
 VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
-LIMITS = ("leq", "lt", "neq", "bounds", "member", "withinBounds", "precedes", "strictlyPrecedes")
+LIMITS = ("leq", "lt", "neq", "bounds", "withinBounds", "precedes", "strictlyPrecedes")
 MOST_EVENTS = 8  # of the way to the abort, the last ones
 
 

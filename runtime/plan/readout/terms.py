@@ -9,6 +9,7 @@ from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, 
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.propagators.operations import OPERATIONS
 from runtime.plan.database import PlanDatabase
+from runtime.plan.readout.names import VariableName
 from runtime.plan.resources.violation import Excess
 from runtime.plan.store.domain_texts import domain_text, set_text
 from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
@@ -17,7 +18,7 @@ from runtime.user.written import Written
 _NAMES = {code: name for name, code in reversed(OPERATIONS.items())}
 _NAMES |= {OP_PLUS: "addEq", OP_FREEZE: "foreach", OP_SAMPLE: "sampledParameter"}
 
-Argument = str | float | int
+Argument = VariableName | str | float | int
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +27,8 @@ class Term:
 
     `name` is a row of the constraint table (`eq`, `mulEq`, `leq`, ...), `precedence` (arguments source, target,
     bound: target - source <= bound), or `bounds` (arguments variable, lower, upper: a base domain; `values` lists its
-    members where they are names). Arguments are variable names or numbers. A `sampledParameter` term has the variable,
-    the parameter name and the value drawn.
+    members where they are names). Arguments are variables, numbers, or names of values. A `sampledParameter` term has
+    the variable, the parameter name and the value drawn.
     """
 
     name: str
@@ -75,12 +76,7 @@ class TermReader:
         plan, program = self.plan, self.database.program
         role, owner, name = plan.variable_role[v], plan.variable_owner[v], plan.variable_name[v]
         if role == ROLE_TOKEN:
-            number = v - plan.rows.var0[owner]
-            if number >= FIRST_PARAMETER:
-                code = program.predicates[plan.rows.predicate[owner]]
-                return f"{self.token(owner)}.{code.parameters[number - FIRST_PARAMETER].name}"
-            is_time = plan.rows.flags[owner] & FLAG_EVENT and number in (START, END)
-            return f"{self.token(owner)}.{'time' if is_time else TOKEN_VARIABLES[number]}"
+            return f"{self.token(owner)}.{self.part(v, owner)}"
         if role == ROLE_GLOBAL:
             return program.globals[name][0]
         if role == ROLE_MEMBER:
@@ -102,6 +98,15 @@ class TermReader:
         if engine.constant[v] and engine.kind[v] in (KIND_INT, KIND_FLOAT) and engine.lower(v) == engine.upper(v):
             return _number(engine.lower(v), engine.kind[v])
         return self.variable(v)
+
+    def part(self, v: int, owner: int) -> str:
+        """The name of a token's variable without that of the token."""
+        number = v - self.plan.rows.var0[owner]
+        if number >= FIRST_PARAMETER:
+            code = self.database.program.predicates[self.plan.rows.predicate[owner]]
+            return str(code.parameters[number - FIRST_PARAMETER].name)
+        is_time = self.plan.rows.flags[owner] & FLAG_EVENT and number in (START, END)
+        return "time" if is_time else TOKEN_VARIABLES[number]
 
     def _edge(self, e: int) -> Term:
         engine = self.engine

@@ -4,6 +4,7 @@ For explanations only: each failure is explained and minimised, which costs far 
 `_MOST` failures the log stays as it is.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
@@ -44,6 +45,7 @@ class FoundCause:
     owner: str
     term: Term | Violation
     origin: CauseOrigin = CauseOrigin.DECIDED
+    number: int = NONE  # of the span; others than NONE below 0 tell the reasons of who posts without a source
 
 
 class ResolverKind(Enum):
@@ -102,11 +104,19 @@ class FailedFlaw:
 class FailureLog:
     """The failures of one search: why it ended, and why tokens were rejected."""
 
-    def __init__(self, database: PlanDatabase, agenda: Agenda, stack: Decisions) -> None:
+    def __init__(
+        self,
+        database: PlanDatabase,
+        agenda: Agenda,
+        stack: Decisions,
+        reader: Callable[[], TermReader] | None = None,
+    ) -> None:
+        """`reader` gives names as the plan stands when it is called; by default they are those of the script."""
         self.database = database
         self.plan = database.plan
         self.agenda = agenda
         self.stack = stack
+        self._reader = reader or self._script_reader
         self.count = 0
         self.attempts: dict[int, list[Attempt]] = {}
         self.rejections: dict[str, FailedFlaw] = {}
@@ -150,7 +160,7 @@ class FailureLog:
         if attempt not in known:
             known.append(attempt)
 
-    def _reader(self) -> TermReader:
+    def _script_reader(self) -> TermReader:
         """Names as the plan stands now."""
         names = token_names(self.database, live_tokens(self.database))
         return TermReader(self.database, lambda t: names.get(t, f"token {t}"))
@@ -172,7 +182,7 @@ class FailureLog:
         is_declared = cause.kind is CauseKind.RESTRICTION and not flags[cause.id] & FLAG_DECISION
         owner = reader.token(cause.owner) if cause.owner >= 0 else ""
         origin = CauseOrigin.DECLARED if is_declared else CauseOrigin.DECIDED
-        return FoundCause(span_of(self.database, cause.span), owner, term, origin)
+        return FoundCause(span_of(self.database, cause.span), owner, term, origin, cause.span)
 
     def _flaw(self, d: int, reader: TermReader) -> Flaw:
         """The flaw of decision `d`."""
