@@ -31,7 +31,7 @@ from runtime.executive.rendering import (
     token_text,
 )
 
-ORIGINS = {
+_ORIGINS = {
     ElementKind.CLOCK: " (by the clock)",
     ElementKind.OBSERVATION: " (as observed)",
     ElementKind.REQUEST: " (as asked for)",
@@ -130,7 +130,7 @@ def _element_text(element: ConflictElement) -> str:
     text = element_text(element)
     if element.token is not None and not element.names(element.token):
         text = f"{element.token}: {text}"
-    return text + ORIGINS.get(element.kind, "")
+    return text + _ORIGINS.get(element.kind, "")
 
 
 def _end_text(abort: Abort | None, story: Story) -> str:

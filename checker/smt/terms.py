@@ -16,8 +16,8 @@ from runtime.executive.outcome import Conflict
 from runtime.plan.readout.names import VariableName
 from runtime.plan.readout.terms import Argument, Term
 
-ENGINE_INFINITY = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
-NAMED = ("symbol", "object", "string")  # kinds whose values are names
+_ENGINE_INFINITY = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
+_NAMED = ("symbol", "object", "string")  # kinds whose values are names
 Number = Any  # z3.ArithRef: z3 tells type checkers nothing
 Claim = Any  # z3.BoolRef
 Encoder = Callable[[Sequence[Number]], Claim | None]
@@ -70,12 +70,12 @@ class Vocabulary:
     def _bounds(self, term: Term) -> Claim:
         variable, lower, upper = term.arguments
         number = self.number(variable)
-        if term.values and isinstance(variable, VariableName) and variable.kind in NAMED:
+        if term.values and isinstance(variable, VariableName) and variable.kind in _NAMED:
             return z3.Or(*[number == self.number(value) for value in term.values])
         parts = []
-        if not (isinstance(lower, int | float) and lower <= -ENGINE_INFINITY):
+        if not (isinstance(lower, int | float) and lower <= -_ENGINE_INFINITY):
             parts.append(number >= self.number(lower))
-        if not (isinstance(upper, int | float) and upper >= ENGINE_INFINITY):
+        if not (isinstance(upper, int | float) and upper >= _ENGINE_INFINITY):
             parts.append(number <= self.number(upper))
         return z3.And(*parts)
 

@@ -24,8 +24,8 @@ from runtime.plan.readout.terms import Argument
 from runtime.solver.learning.failure_log import Resolver
 from runtime.solver.learning.rendering import flaw_words, resolver_words
 
-HALF_INFINITY = 2**51  # bounds beyond count as infinite (docs/engine.md)
-REASONS = {
+_HALF_INFINITY = 2**51  # bounds beyond count as infinite (docs/engine.md)
+_REASONS = {
     ReasonKind.NO_LOOKAHEAD: "its owner does not look ahead and takes no goals",
     ReasonKind.NO_OWNER: "nobody owns `{timeline}` any more",
     ReasonKind.UNKNOWN_PREDICATE: "`{timeline}` has no predicate `{predicate}`",
@@ -70,14 +70,14 @@ def token_text(predicate: str, arguments: Arguments) -> str:
     return f"{predicate}({inside})" if inside else predicate
 
 
-def draw_text(draw: Draw) -> str:
+def _draw_text(draw: Draw) -> str:
     """A drawn value: `GPS_HIT_RATE = 3.9 (drawn 4.2)`."""
     clipped = "" if draw.raw == draw.value else f" (drawn {draw.raw!r})"
     return f"{draw.parameter} = {draw.value!r}{clipped}"
 
 
 def _bound(value: float | int) -> str:
-    return "+inf" if value >= HALF_INFINITY else "-inf" if value <= -HALF_INFINITY else repr(value)
+    return "+inf" if value >= _HALF_INFINITY else "-inf" if value <= -_HALF_INFINITY else repr(value)
 
 
 def _value(value: float | int | bool | str) -> str:
@@ -96,7 +96,7 @@ def event_text(event: Event) -> str:
     match event.kind:
         case EventKind.SAMPLE:
             assert event.draw is not None
-            return draw_text(event.draw)
+            return _draw_text(event.draw)
         case EventKind.RELAX:
             return ": ".join(filter(None, (event.stage, why)))
         case EventKind.END:
@@ -112,7 +112,7 @@ def trace_line(event: Event) -> str:
 
 def reason_text(reason: Reason) -> str:
     """A reason as a clause."""
-    return REASONS[reason.kind].format(
+    return _REASONS[reason.kind].format(
         token=reason.token,
         predicate=reason.predicate,
         timeline=reason.timeline,
@@ -187,7 +187,7 @@ def event_data(event: Event) -> dict[str, Any]:
         "reactor": event.reactor,
         "timeline": event.timeline,
         "predicate": event.predicate,
-        "arguments": {name: domain_data(domain) for name, domain in event.arguments},
+        "arguments": {name: _domain_data(domain) for name, domain in event.arguments},
         "causes": list(event.causes),
     }
     if event.token is not None:
@@ -205,15 +205,15 @@ def event_data(event: Event) -> dict[str, Any]:
     if event.code:
         data["code"] = event.code
     if event.reason is not None:
-        data["reason"] = reason_data(event.reason)
+        data["reason"] = _reason_data(event.reason)
     if event.conflict is not None:
-        data["conflict"] = [element_data(element) for element in event.conflict.elements]
+        data["conflict"] = [_element_data(element) for element in event.conflict.elements]
     if event.deadlock is not None:
-        data["tried"] = deadlock_data(event.deadlock)
+        data["tried"] = _deadlock_data(event.deadlock)
     return data
 
 
-def domain_data(domain: DomainConstant) -> Any:
+def _domain_data(domain: DomainConstant) -> Any:
     """A domain: a value, `[lo, hi]` or a list; infinite bounds are `-inf` and `inf`."""
     if domain.interval is not None:
         lower, upper = domain.interval
@@ -222,7 +222,7 @@ def domain_data(domain: DomainConstant) -> Any:
     return values[0] if len(values) == 1 else values
 
 
-def reason_data(reason: Reason) -> dict[str, Any]:
+def _reason_data(reason: Reason) -> dict[str, Any]:
     """A reason: its kind, what it is about, and the words for it."""
     found: dict[str, Any] = {"kind": reason.kind.value}
     if reason.token is not None:
@@ -233,7 +233,7 @@ def reason_data(reason: Reason) -> dict[str, Any]:
     return found | {"words": reason_text(reason)}
 
 
-def element_data(element: ConflictElement) -> dict[str, Any]:
+def _element_data(element: ConflictElement) -> dict[str, Any]:
     """An element of a conflict."""
     place = element.place
     return {
@@ -246,15 +246,15 @@ def element_data(element: ConflictElement) -> dict[str, Any]:
     }
 
 
-def deadlock_data(deadlock: Deadlock) -> dict[str, Any]:
+def _deadlock_data(deadlock: Deadlock) -> dict[str, Any]:
     """A flaw, with each choice that was tried and why it failed."""
     return {
         "flaw": deadlock_text(deadlock),
         "choices": [
             {
                 "choice": choice_text(one.choice),
-                "conflict": None if one.conflict is None else [element_data(each) for each in one.conflict.elements],
-                "leads_to": None if one.leads_to is None else deadlock_data(one.leads_to),
+                "conflict": None if one.conflict is None else [_element_data(each) for each in one.conflict.elements],
+                "leads_to": None if one.leads_to is None else _deadlock_data(one.leads_to),
             }
             for one in deadlock.tried
         ],
@@ -272,4 +272,4 @@ def _argument_data(argument: Argument) -> Any:
 
 
 def _number_data(value: float | int) -> float | int | str:
-    return "inf" if value >= HALF_INFINITY else "-inf" if value <= -HALF_INFINITY else value
+    return "inf" if value >= _HALF_INFINITY else "-inf" if value <= -_HALF_INFINITY else value

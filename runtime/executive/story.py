@@ -30,8 +30,8 @@ from runtime.solver.learning.failure_log import CauseOrigin, FailedFlaw, Failure
 from runtime.solver.search import Solver
 from runtime.user.written import Written
 
-KINDS = {KIND_INT: "int", KIND_FLOAT: "float", KIND_BOOL: "bool", KIND_OBJECT: "object", KIND_STRING: "string"}
-ORIGINS = {
+_KINDS = {KIND_INT: "int", KIND_FLOAT: "float", KIND_BOOL: "bool", KIND_OBJECT: "object", KIND_STRING: "string"}
+_ORIGINS = {
     SPAN_OBSERVATION: ElementKind.OBSERVATION,
     SPAN_CLOCK: ElementKind.CLOCK,
     SPAN_EXECUTIVE: ElementKind.ORDER,
@@ -63,7 +63,7 @@ def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
             continue
         elements[element] = None
         if link.side == SIDE_UPPER:
-            tight += used_up(element)
+            tight += _used_up(element)
     token = bench.name_of(bench.database.plan.variable_owner[v])
     policy = ConflictElement(ElementKind.LONGEST, None, "", token, None, tuple(dict.fromkeys(tight)))
     chain = list(reversed(elements))
@@ -72,7 +72,7 @@ def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
     return reader.name(v), Conflict(tuple(chain))
 
 
-def used_up(element: ConflictElement) -> list[Term]:
+def _used_up(element: ConflictElement) -> list[Term]:
     """Terms that say that an upper limit is reached: a difference is all its weight, `a <= b` leaves no whole step."""
     found = []
     for term in element.terms:
@@ -134,7 +134,7 @@ class ElementReader(TermReader):
     def name(self, v: int) -> VariableName:
         """The name of a variable, in fields."""
         plan, reactor = self.plan, self.bench.name
-        kind = KINDS.get(self.engine.kind[v], "symbol")
+        kind = _KINDS.get(self.engine.kind[v], "symbol")
         is_known = v < plan.variable_capacity
         role = plan.variable_role[v] if is_known else -1
         owner = plan.variable_owner[v] if is_known else -1
@@ -209,10 +209,10 @@ def _element_kind(found: Term | Violation, span: int, *, is_declared: bool) -> E
         return ElementKind.RESOURCE
     match found.name:
         case "precedence":
-            return ElementKind.RELATION if span >= 0 else ORIGINS.get(span, ElementKind.ORDER)
+            return ElementKind.RELATION if span >= 0 else _ORIGINS.get(span, ElementKind.ORDER)
         case "bounds":
             written = ElementKind.DECLARATION if is_declared else ElementKind.DECISION
-            return ElementKind.ASSIGNMENT if span >= 0 else ORIGINS.get(span, written)
+            return ElementKind.ASSIGNMENT if span >= 0 else _ORIGINS.get(span, written)
         case "sampledParameter":
             return ElementKind.SAMPLE
         case _:
