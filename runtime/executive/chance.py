@@ -42,7 +42,7 @@ def draw(seed: int, name: str, index: int) -> float:
     return (draw_bits(seed, name, index) >> 11) / 9007199254740992.0
 
 
-def _update_index(parameter: ParameterConfiguration, tick: int) -> int:
+def update_index(parameter: ParameterConfiguration, tick: int) -> int:
     """How often `parameter` has been redrawn by `tick` (reference of T-REX, 3.4)."""
     return 0 if parameter.mode == "inter" else max(tick, 0) // parameter.update
 
@@ -52,7 +52,7 @@ def sample(parameter: ParameterConfiguration, seed: int, tick: int) -> Draw:
 
     `raw` is what the distribution gave, `value` the same rounded (whole parameters) and then clipped.
     """
-    index = _update_index(parameter, tick)
+    index = update_index(parameter, tick)
     raw = DISTRIBUTIONS[parameter.distribution].quantile(parameter, draw(seed, parameter.name, index))
     value = float(floor(raw + 0.5)) if parameter.is_whole else raw
     if parameter.clip is not None:
