@@ -14,7 +14,7 @@ import z3
 
 from runtime.executive.outcome import Conflict
 from runtime.plan.readout.names import VariableName
-from runtime.plan.readout.terms import Argument, Term
+from runtime.plan.readout.statements import Argument, Term
 
 _ENGINE_INFINITY = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
 _NAMED = ("symbol", "object", "string")  # kinds whose values are names

@@ -19,7 +19,7 @@ from runtime.executive.outcome import (
 )
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import VariableName
-from runtime.plan.readout.terms import Term
+from runtime.plan.readout.statements import Term
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,8 @@ from enum import StrEnum
 
 from runtime.executive.messages import Arguments
 from runtime.plan.readout.names import TokenName, VariableName
-from runtime.plan.readout.terms import Term, Violation
-from runtime.solver.learning.failure_log import Flaw, Resolver
+from runtime.plan.readout.statements import Term, Violation
+from runtime.solver.learning.attempts import Flaw, Resolver
 
 # ---- names ----
 

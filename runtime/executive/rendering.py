@@ -20,8 +20,8 @@ from runtime.executive.outcome import (
 )
 from runtime.plan.readout.cause_rendering import words
 from runtime.plan.readout.names import VariableName
-from runtime.plan.readout.terms import Argument
-from runtime.solver.learning.failure_log import Resolver
+from runtime.plan.readout.statements import Argument
+from runtime.solver.learning.attempts import Resolver
 from runtime.solver.learning.rendering import flaw_words, resolver_words
 
 _HALF_INFINITY = 2**51  # bounds beyond count as infinite (docs/engine.md)

@@ -24,9 +24,11 @@ from runtime.executive.outcome import (
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST
 from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import TokenName, VariableName
-from runtime.plan.readout.terms import Argument, Term, TermReader, Violation
+from runtime.plan.readout.statements import Argument, Term, Violation
+from runtime.plan.readout.terms import TermReader
 from runtime.plan.tags import ROLE_LOCAL, ROLE_TOKEN
-from runtime.solver.learning.failure_log import CauseOrigin, FailedFlaw, FailureLog, FoundCause
+from runtime.solver.learning.attempts import CauseOrigin, FailedFlaw, FoundCause
+from runtime.solver.learning.failure_log import FailureLog
 from runtime.solver.search import Solver
 from runtime.user.written import Written
 

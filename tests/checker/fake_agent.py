@@ -24,7 +24,7 @@ from runtime.executive.outcome import (
     SourcePlace,
 )
 from runtime.plan.readout.names import TokenName, VariableName
-from runtime.plan.readout.terms import Term
+from runtime.plan.readout.statements import Term
 
 SURFACE_MAX = 63  # less 25 ticks of ascent: fails when 10 * rate > 38
 ASCENT = 25

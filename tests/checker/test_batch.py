@@ -39,8 +39,8 @@ from runtime.executive.outcome import (
     TimeBounds,
 )
 from runtime.plan.readout.names import TokenName, VariableName
-from runtime.plan.readout.terms import Term, Violation
-from runtime.solver.learning.failure_log import Flaw, Resolver, ResolverKind
+from runtime.plan.readout.statements import Term, Violation
+from runtime.solver.learning.attempts import Flaw, Resolver, ResolverKind
 from tests.checker.fake_agent import load_linked, load_nothing, load_slow, load_troubled
 
 

@@ -10,7 +10,7 @@ from checker.smt.confirm import Finding, confirm
 from checker.smt.edges import Edge, find_failing_range
 from runtime.executive.outcome import Conflict, ConflictElement, ElementKind
 from runtime.plan.readout.names import VariableName
-from runtime.plan.readout.terms import Argument, Term
+from runtime.plan.readout.statements import Argument, Term
 from tests.checker.fake_agent import linked_conflict, split_conflict
 
 

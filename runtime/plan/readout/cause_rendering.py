@@ -3,7 +3,7 @@
 from typing import assert_never
 
 from runtime.plan import tags
-from runtime.plan.readout.terms import Argument, Term, Violation
+from runtime.plan.readout.statements import Argument, Term, Violation
 
 _INFIX = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 _SIGNS = {"addEq": "+", "mulEq": "*", "temporalDistance": "+"}

@@ -1,7 +1,6 @@
 """Causes as terms: an edge, restriction or constraint of the engine in, names and numbers that outlive it out."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import inf
 
 from compiler.program import TOKEN_VARIABLES
@@ -9,7 +8,7 @@ from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, 
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.propagators.operations import OPERATIONS
 from runtime.plan.database import PlanDatabase
-from runtime.plan.readout.names import VariableName
+from runtime.plan.readout.statements import Argument, Term, Violation
 from runtime.plan.resources.violation import Excess
 from runtime.plan.store.domain_texts import domain_text, set_text
 from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
@@ -17,39 +16,6 @@ from runtime.user.written import Written
 
 _NAMES = {code: name for name, code in reversed(OPERATIONS.items())}
 _NAMES |= {OP_PLUS: "addEq", OP_FREEZE: "foreach", OP_SAMPLE: "sampledParameter"}
-
-Argument = VariableName | str | float | int
-
-
-@dataclass(frozen=True, slots=True)
-class Term:
-    """One constraint of a conflict, without ids of the engine.
-
-    `name` is a row of the constraint table (`eq`, `mulEq`, `leq`, ...), `precedence` (arguments source, target,
-    bound: target - source <= bound), or `bounds` (arguments variable, lower, upper: a base domain; `values` lists its
-    members where they are names). Arguments are variables, numbers, or names of values. A `sampledParameter` term has
-    the variable, the parameter name and the value drawn.
-    """
-
-    name: str
-    arguments: tuple[Argument, ...]
-    values: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Violation:
-    """A resource, or a timeline, that is certainly exceeded; fields as in `Excess`, `users` are tokens with amounts."""
-
-    resource: str
-    wrong: int
-    at: int
-    until: int
-    amount: float
-    limit: float
-    room: float
-    has_helper: bool
-    in_any_order: bool
-    users: tuple[tuple[str, float], ...]
 
 
 class TermReader:

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any, assert_never
 
 from runtime.plan.readout.cause_rendering import words
-from runtime.solver.learning.failure_log import Attempt, FailedFlaw, Flaw, FoundCause, Resolver, ResolverKind
+from runtime.solver.learning.attempts import Attempt, FailedFlaw, Flaw, FoundCause, Resolver, ResolverKind
 from runtime.solver.tags import OPEN_CONDITION, RESOURCE_THREAT, THREAT, UNBOUND_VARIABLE
 
 _MOST_LINES = 60
