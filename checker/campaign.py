@@ -7,7 +7,7 @@ from pathlib import Path
 from checker.batch.identity import engine_digest, model_digest, run_id
 from checker.batch.pool import Flyer, fly_all
 from checker.batch.result import MissionResult
-from checker.batch.store import Run, Store
+from checker.batch.store import Run, RunStore
 from checker.batch.worker import Load, Task
 from checker.findings import Fault, Findings, assess
 from checker.mission import Mission
@@ -15,7 +15,7 @@ from checker.models import ModelSet
 from checker.sampling.seeds import mission_seed
 from checker.story import Story, tell
 
-MOST_STORIES = 8
+_MOST_STORIES = 8
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -42,7 +42,7 @@ class Campaign:
     def fly(
         self,
         workers: int,
-        store: Store | None,
+        store: RunStore | None,
         *,
         resume: bool,
         progress: Callable[[int, int], None],
@@ -99,6 +99,6 @@ class Campaign:
         """The story of each fault's example; of very many faults, of the first ones."""
         by_number = {result.number: result for result in findings.results}
         return [
-            self.story(by_number[fault.bucket.example], fault) if index < MOST_STORIES else None
+            self.story(by_number[fault.bucket.example], fault) if index < _MOST_STORIES else None
             for index, fault in enumerate(findings.faults)
         ]

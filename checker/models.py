@@ -1,6 +1,6 @@
 """The models of a mission, read and checked: programs, what they sample, and all that is wrong with them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from checker.influence import Influence, lines_of_influence
@@ -13,7 +13,6 @@ from nddl_lang.analysis import Analysis, analyse_file
 from nddl_lang.semantics.callables import Callables
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.outcome import Place
 from runtime.user.library import load_library
 
 
@@ -44,7 +43,7 @@ def load_models(mission: Mission) -> ModelSet:
     agent = mission.agent
     root = Path(agent.root)
     library = load_library(root, agent.constraints, seconds=agent.constraint_seconds)
-    analyses = analyse_models(agent, library.callables)
+    analyses = _analyse_models(agent, library.callables)
     texts = library.texts | {
         relative_name(source.name, root): source.text
         for analysis in analyses.values()
@@ -63,7 +62,7 @@ def load_models(mission: Mission) -> ModelSet:
     return ModelSet(completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits))
 
 
-def analyse_models(agent: AgentConfiguration, callables: Callables) -> dict[str, Analysis]:
+def _analyse_models(agent: AgentConfiguration, callables: Callables) -> dict[str, Analysis]:
     """The meaning of each model of an agent, by its path in the mission file."""
     names = dict.fromkeys(reactor.model for reactor in agent.reactors)
     return {name: analyse_file(Path(agent.root) / name, callables=callables) for name in names}
@@ -83,9 +82,9 @@ def _sites(programs: dict[str, Program]) -> dict[str, ParameterSite]:
 def _influence(programs: dict[str, Program], sites: dict[str, ParameterSite], root: Path) -> Influence:
     return {
         name: tuple(
-            (rule, Place(relative_name(place.file, root), place.line, place.column, place.text))
+            replace(line, place=replace(line.place, file=relative_name(line.place.file, root)))
             for program in programs.values()
-            for rule, place in lines_of_influence(program, name)
+            for line in lines_of_influence(program, name)
         )
         for name in sites
     }

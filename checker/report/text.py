@@ -1,13 +1,14 @@
 """Findings in, the summary that a terminal or a CI log shows out: some 25 lines."""
 
 from checker.excerpts import Excerpts
-from checker.explain import confirmation_text, excerpt_lines, threshold_text
+from checker.explain import excerpt_lines
 from checker.findings import Findings
+from checker.rendering import confirmation_text, failure_text, threshold_text
 from checker.report.wording import blamed, decision, fault_title, headline, rate_line
 from checker.sampling.wording import describe
 
-MOST_FAULTS = 5
-MOST_ERRORS = 3
+_MOST_FAULTS = 5
+_MOST_ERRORS = 3
 
 
 def text_report(findings: Findings, excerpts: Excerpts) -> str:
@@ -15,21 +16,25 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
     lines = [headline(findings), f"  {decision(findings)}", f"  {rate_line(findings.rate)}"]
     lines.append(f"  run {findings.run_id}, seed {findings.seed}")
     lines += [f"  {parameter.name}: {describe(parameter)}" for parameter in findings.agent.parameters]
-    for index, fault in enumerate(findings.faults[:MOST_FAULTS]):
+    for index, fault in enumerate(findings.faults[:_MOST_FAULTS]):
         bucket = fault.bucket
-        lines += ["", f"{index + 1}. {fault_title(findings, index)}", f"   {bucket.reason}"]
-        if bucket.blame.place is not None:
-            lines += excerpt_lines(bucket.blame.place, excerpts, marked=True, indent="   ")
-        for limit in bucket.blame.limits:
+        lines += [
+            "",
+            f"{index + 1}. {fault_title(findings, index)}",
+            f"   {failure_text(bucket.judgement, bucket.open_goals)}",
+        ]
+        if bucket.culprit.place is not None:
+            lines += excerpt_lines(bucket.culprit.place, excerpts, marked=True, indent="   ")
+        for limit in bucket.culprit.limits:
             lines += excerpt_lines(limit, excerpts, marked=True, indent="   ")
         lines += [f"   fails when {threshold_text(threshold)}" for threshold in fault.thresholds[:2]]
         if fault.confirmation is not None:
             lines.append(f"   z3 {confirmation_text(fault)}")
         lines.append(f"   why: nddlc explain {findings.run_id}#{bucket.example}")
-    if len(findings.faults) > MOST_FAULTS:
-        lines += ["", f"{len(findings.faults) - MOST_FAULTS} more kinds of failure are in the report"]
+    if len(findings.faults) > _MOST_FAULTS:
+        lines += ["", f"{len(findings.faults) - _MOST_FAULTS} more kinds of failure are in the report"]
     if findings.errors:
         lines += ["", f"errors {blamed(findings)}, counted nowhere: {len(findings.errors)}"]
-        for error in findings.errors[:MOST_ERRORS]:
-            lines.append(f"   mission {error.number} (seed {error.seed}): {error.judgement.reason}")
+        for error in findings.errors[:_MOST_ERRORS]:
+            lines.append(f"   mission {error.number} (seed {error.seed}): {failure_text(error.judgement)}")
     return "\n".join(lines) + "\n"

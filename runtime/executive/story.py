@@ -1,40 +1,44 @@
-"""Turn a conflict of the engine into the outcome's: causes with places in the model, reasons in words, and terms."""
+"""Turn a conflict of the engine, or the failure log of a search, into the outcome's typed data, with source places."""
 
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import (
-    FLAG_VALUES,
-    HALF_INF,
     KIND_BOOL,
     KIND_FLOAT,
     KIND_INT,
     KIND_OBJECT,
     KIND_STRING,
-    OP_FREEZE,
-    OP_PLUS,
     OP_SAMPLE,
     OP_TEMPORAL_DISTANCE,
     SIDE_UPPER,
 )
-from runtime.constraints.explanation.cause import Cause as EngineCause
-from runtime.constraints.explanation.cause import CauseKind
+from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.minimisation.minimise import minimise
-from runtime.constraints.propagators.operations import OPERATIONS
-from runtime.executive.outcome import Cause, Conflict, Place, Term, VariableInfo
+from runtime.executive.outcome import (
+    Conflict,
+    ConflictElement,
+    Deadlock,
+    ElementKind,
+    FailedChoice,
+    SourcePlace,
+)
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST
 from runtime.executive.workbench import Workbench
-from runtime.plan.tags import DURATION, END, FIRST_PARAMETER, OBJECT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_TOKEN, START, STATE
+from runtime.plan.readout.names import TokenName, VariableName
+from runtime.plan.readout.statements import Argument, ResourceTerm, Term
+from runtime.plan.readout.terms import TermReader
+from runtime.plan.tags import ROLE_LOCAL, ROLE_TOKEN
+from runtime.solver.learning.attempts import CauseOrigin, FailedFlaw, FoundCause
+from runtime.solver.learning.failure_log import FailureLog
+from runtime.solver.search import Solver
 from runtime.user.written import Written
 
-NAMES = {code: name for name, code in reversed(OPERATIONS.items())}
-NAMES |= {OP_FREEZE: "foreach", OP_PLUS: "addEq", OP_SAMPLE: "sampledParameter"}
-BUILT_IN = {STATE: "state", OBJECT: "object", DURATION: "duration", START: "start", END: "end"}
-KINDS = {KIND_INT: "int", KIND_FLOAT: "float", KIND_BOOL: "bool", KIND_OBJECT: "object", KIND_STRING: "string"}
-REASONS = {
-    SPAN_OBSERVATION: "observation",
-    SPAN_CLOCK: "clock",
-    SPAN_EXECUTIVE: "order",
-    SPAN_REQUEST: "observation",
-    SPAN_MISSION: "declaration",
+_KINDS = {KIND_INT: "int", KIND_FLOAT: "float", KIND_BOOL: "bool", KIND_OBJECT: "object", KIND_STRING: "string"}
+_ORIGINS = {
+    SPAN_OBSERVATION: ElementKind.OBSERVATION,
+    SPAN_CLOCK: ElementKind.CLOCK,
+    SPAN_EXECUTIVE: ElementKind.ORDER,
+    SPAN_REQUEST: ElementKind.REQUEST,
+    SPAN_MISSION: ElementKind.DECLARATION,
 }
 
 
@@ -43,201 +47,189 @@ def conflict_of(bench: Workbench) -> Conflict | None:
     engine = bench.engine
     if engine.consistent:
         return None
-    return told(bench, minimise(engine, engine.explain()))
+    reader = ElementReader(bench)
+    return Conflict(tuple(reader.element(cause) for cause in minimise(engine, engine.explain())))
 
 
-def told(bench: Workbench, causes: list[EngineCause]) -> Conflict:
-    """Causes of the engine as data that outlives it."""
-    teller = Teller(bench)
-    return Conflict(tuple(teller.cause(cause) for cause in causes), tuple(teller.variables.values()))
-
-
-def latest(bench: Workbench, v: int) -> tuple[str, Conflict]:
+def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
     """What sets the latest value of `v`, and that nothing ends it earlier: each link of the chain is used up.
 
-    The root comes first; that a token lasts as long as it may is told right after the limit that it uses up.
+    The root comes first; that a token lasts as long as it may comes right after the limit that it uses up.
     """
-    teller = Teller(bench)
-    engine = bench.engine
-    causes: dict[Cause, None] = {}
+    reader = ElementReader(bench)
+    elements: dict[ConflictElement, None] = {}
     tight: list[Term] = []
-    for link in engine.support_chain(v, SIDE_UPPER):
-        told_cause = teller.cause(link.cause)
-        if told_cause in causes:
+    for link in bench.engine.support_chain(v, SIDE_UPPER):
+        element = reader.element(link.cause)
+        if element in elements:
             continue
-        causes[told_cause] = None
+        elements[element] = None
         if link.side == SIDE_UPPER:
-            tight += used_up(teller, told_cause)
-    name = str(teller.argument(v))
-    token = teller.token(bench.database.plan.variable_owner[v])
-    words = f"{token} lasts as long as the model lets it"
-    policy = Cause("model", None, "", token, words, tuple(dict.fromkeys(tight)))
-    chain = list(reversed(causes))
-    limits = [k for k, cause in enumerate(chain) if any(term.name == "leq" for term in cause.terms)]
+            tight += _used_up(element)
+    token = bench.name_of(bench.database.plan.variable_owner[v])
+    policy = ConflictElement(ElementKind.LONGEST, None, "", token, None, tuple(dict.fromkeys(tight)))
+    chain = list(reversed(elements))
+    limits = [k for k, element in enumerate(chain) if any(term.name == "leq" for term in element.terms)]
     chain.insert(limits[-1] + 1 if limits else len(chain), policy)
-    return name, Conflict(tuple(chain), tuple(teller.variables.values()))
+    return reader.name(v), Conflict(tuple(chain))
 
 
-def used_up(teller: "Teller", cause: Cause) -> list[Term]:
+def _used_up(element: ConflictElement) -> list[Term]:
     """Terms that say that an upper limit is reached: a difference is all its weight, `a <= b` leaves no whole step."""
     found = []
-    for term in cause.terms:
-        if term.name == "precedence":
-            source, target, weight = term.arguments
-            found.append(Term("precedence", (target, source, -int(weight))))
-        elif term.name == "leq":
-            a, b = term.arguments
-            more = f"{a}+1"
-            teller.variables[more] = VariableInfo(more, "int")
-            found += [Term("addEq", (a, 1, more)), Term("lt", (b, more))]
+    for term in element.terms:
+        match term.name, term.arguments:
+            case "precedence", (source, target, int(weight)):
+                found.append(Term("precedence", (target, source, -weight)))
+            case "leq", (a, b):
+                named = a if isinstance(a, VariableName) else VariableName(str(a), "int")
+                more = VariableName(f"{named.name} + 1", "int", named.token, named.is_local, named.reactor)
+                found += [Term("addEq", (a, 1, more)), Term("lt", (b, more))]
     return found
 
 
-class Teller:
-    """Names tokens, variables and places of one reactor."""
+class ElementReader(TermReader):
+    """Reads elements of conflicts off the plan of one reactor as it stands."""
 
     def __init__(self, bench: Workbench) -> None:
+        super().__init__(bench.database, lambda t: str(self.token_name(t)))
         self.bench = bench
-        self.engine = bench.engine
-        self.plan = bench.database.plan
-        self.variables: dict[str, VariableInfo] = {}
+        self.tokens: dict[str, TokenName] = {}  # those that were named, by their texts
 
-    def cause(self, cause: EngineCause) -> Cause:
-        """One cause in words and terms."""
-        match cause.kind:
-            case CauseKind.EDGE:
-                kind, because, terms = self.edge(cause)
-            case CauseKind.RESTRICTION:
-                kind, because, terms = self.restriction(cause)
-            case CauseKind.CONSTRAINT:
-                kind, because, terms = self.constraint(cause)
-        token = self.token(cause.owner) if cause.owner >= 0 else ""
-        rule = self.bench.predicate_name(self.bench.rows.predicate[cause.owner]) if cause.owner >= 0 else ""
-        return Cause(kind, self.place(cause.span), rule, token, because, terms)
+    def token_name(self, t: int) -> TokenName:
+        """The name of a token, kept for who only has its text."""
+        name = self.bench.name_of(t)
+        self.tokens[str(name)] = name
+        return name
 
-    def token(self, t: int) -> str:
-        """The name of a token."""
-        return self.bench.token_name(t)
+    def element(self, cause: Cause) -> ConflictElement:
+        """One cause as data."""
+        found = self.term(cause)
+        terms: tuple[Term, ...] = ()
+        written = self.engine.externals.get(cause.id) if cause.kind is CauseKind.CONSTRAINT else None
+        if isinstance(written, Written) and isinstance(found, Term):
+            terms = _written_terms(written, found.arguments)
+        kind = _element_kind(found, cause.span, is_declared=cause.span < 0)
+        if cause.kind is CauseKind.CONSTRAINT and self.engine.op[cause.id] == OP_TEMPORAL_DISTANCE and cause.owner >= 0:
+            kind = ElementKind.DURATION
+        spans = self.database.code.spans
+        place = _place_of(spans[cause.span]) if 0 <= cause.span < len(spans) else None
+        token = self.token_name(cause.owner) if cause.owner >= 0 else None
+        return _element(kind, place, token, found, terms)
 
-    def place(self, number: int) -> Place | None:
-        """Where in the model a span stands."""
-        spans = self.bench.database.code.spans
-        if not 0 <= number < len(spans):
-            return None
-        return place_of(spans[number])
+    def term(self, cause: Cause) -> Term | ResourceTerm:
+        """What a cause says; of a draw, the name of its parameter and the value."""
+        found = super().term(cause)
+        if isinstance(found, Term) and found.name == "sampledParameter" and self.engine.op[cause.id] == OP_SAMPLE:
+            value = self.engine.lower(self.engine.arguments(cause.id)[-1])
+            return Term(found.name, (found.arguments[0], self._parameter(cause.span), value))
+        return found
 
-    def edge(self, cause: EngineCause) -> tuple[str, str, tuple[Term, ...]]:
-        """An edge between two times."""
-        engine = self.engine
-        source = self.argument(engine.edge_source[cause.id])
-        target = self.argument(engine.edge_target[cause.id])
-        weight = int(engine.edge_weight[cause.id])
-        kind = "relation" if cause.span >= 0 else REASONS.get(cause.span, "order")
-        if weight == 0:
-            because = f"{target} <= {source}"
-        elif weight > 0:
-            because = f"{target} <= {source} + {weight}"
-        else:
-            because = f"{target} + {-weight} <= {source}"
-        return kind, because, (Term("precedence", (source, target, weight)),)
-
-    def restriction(self, cause: EngineCause) -> tuple[str, str, tuple[Term, ...]]:
-        """A base domain: a declaration, an assignment, an observation, the clock."""
-        engine = self.engine
-        v = engine.restriction_variable[cause.id]
-        name = self.argument(v)
-        lower, upper = engine.restriction_lo[cause.id], engine.restriction_hi[cause.id]
-        kind = REASONS.get(cause.span, "assignment" if cause.span >= 0 else "declaration")
-        if engine.restriction_flags[cause.id] & FLAG_VALUES and len(engine.restriction_values[cause.id]) == 1:
-            lower = upper = engine.restriction_values[cause.id][0]
-        lowest = lower if abs(lower) < HALF_INF else -float("inf")
-        highest = upper if abs(upper) < HALF_INF else float("inf")
-        if engine.kind[v] != KIND_FLOAT:
-            lowest = int(lowest) if abs(lowest) < HALF_INF else lowest
-            highest = int(highest) if abs(highest) < HALF_INF else highest
-        if lowest == highest:
-            because = f"{name} = {lowest}"
-        elif highest == float("inf"):
-            because = f"{name} >= {lowest}" if lowest != -float("inf") else f"{name} may be anything"
-        elif lowest == -float("inf"):
-            because = f"{name} <= {highest}"
-        else:
-            because = f"{lowest} <= {name} <= {highest}"
-        return kind, because, (Term("bounds", (name, lowest, highest)),)
-
-    def constraint(self, cause: EngineCause) -> tuple[str, str, tuple[Term, ...]]:
-        """A constraint on variables."""
-        engine = self.engine
-        name = NAMES.get(engine.op[cause.id], f"constraint {engine.op[cause.id]}")
-        arguments = [self.argument(v) for v in engine.arguments(cause.id)]
-        if isinstance(written := engine.externals.get(cause.id), Written):
-            terms = written.terms(arguments) or ((written.name, tuple(arguments)),)
-            return "constraint", worded(written.name, arguments), tuple(Term(*term) for term in terms)
-        kind = "constraint"
-        if name == "sampledParameter":
-            kind = "sample"
-            value = engine.arguments(cause.id)[-1]
-            parameter = self.bench.sampled_name(cause.span)
-            because = f"{arguments[0]} = {parameter} = {engine.lower(value)!r}"
-            return kind, because, (Term(name, (arguments[0], parameter, engine.lower(value))),)
-        if engine.op[cause.id] == OP_TEMPORAL_DISTANCE and cause.owner >= 0:
-            kind = "duration"
-        return kind, worded(name, arguments), (Term(name, tuple(arguments)),)
-
-    def argument(self, v: int) -> str | float | int:
+    def argument(self, v: int) -> Argument:
         """The name of a variable, or the value of a constant."""
         engine = self.engine
         if engine.constant[v] and engine.lower(v) == engine.upper(v):
-            value = engine.lower(v)
-            return value if engine.kind[v] == KIND_FLOAT else int(value)
-        name = self.variable(v)
-        self.variables[name] = VariableInfo(name, KINDS.get(engine.kind[v], "symbol"))
-        return name
+            value, kind = engine.lower(v), engine.kind[v]
+            return value if kind == KIND_FLOAT else int(value) if kind in (KIND_INT, KIND_BOOL) else self.value(v)
+        return self.name(v)
 
-    def variable(self, v: int) -> str:
-        """The name of a variable: `Gps.Active#7.duration`, `Gps.Active#7::rate`, or that of a global."""
-        plan = self.plan
-        role = plan.variable_role[v] if v < plan.variable_capacity else -1
-        owner = plan.variable_owner[v] if v < plan.variable_capacity else -1
-        name = plan.variable_name[v] if v < plan.variable_capacity else -1
-        prefix = f"{self.bench.name}:"
+    def name(self, v: int) -> VariableName:
+        """The name of a variable, in fields."""
+        plan, reactor = self.plan, self.bench.name
+        kind = _KINDS.get(self.engine.kind[v], "symbol")
+        is_known = v < plan.variable_capacity
+        role = plan.variable_role[v] if is_known else -1
+        owner = plan.variable_owner[v] if is_known else -1
         if role == ROLE_TOKEN and owner >= 0:
-            if name in BUILT_IN:
-                return f"{prefix}{self.token(owner)}.{BUILT_IN[name]}"
-            code = self.bench.database.program.predicates[self.bench.rows.predicate[owner]]
-            return f"{prefix}{self.token(owner)}.{code.parameters[name - FIRST_PARAMETER].name}"
+            return VariableName(self.part(v, owner), kind, self.token_name(owner), False, reactor)
         if role == ROLE_LOCAL and owner >= 0:
-            return f"{prefix}{self.token(owner)}::{self.bench.database.names.text(name)}"
-        if role == ROLE_GLOBAL:
-            return prefix + self.global_name(v)
-        return f"{prefix}_{v}" if owner < 0 else f"{prefix}{self.token(owner)}::_{v}"
+            name = self.database.names.text(plan.variable_name[v])
+            return VariableName(name, kind, self.token_name(owner), True, reactor)
+        if role >= 0:
+            return VariableName(self.variable(v), kind, reactor=reactor)
+        token = self.token_name(owner) if owner >= 0 else None
+        return VariableName(f"_{v}", kind, token, token is not None, reactor)
 
-    def global_name(self, v: int) -> str:
-        """The name of a global variable."""
-        for number, (name, _) in enumerate(self.bench.database.program.globals):
-            if self.plan.globals[number] == v:
-                return name
-        return f"_{v}"
-
-
-INFIX = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
-
-
-def worded(name: str, arguments: list[str | float | int]) -> str:
-    """A constraint as a modeler writes it, without the names of reactors."""
-    texts = [str(argument).partition(":")[2] if isinstance(argument, str) else repr(argument) for argument in arguments]
-    if name in INFIX and len(texts) == 2:
-        return f"{texts[0]} {INFIX[name]} {texts[1]}"
-    if name == "addEq":
-        return f"{texts[2]} == {texts[0]} + {texts[1]}"
-    if name == "mulEq":
-        return f"{texts[2]} == {texts[0]} * {texts[1]}"
-    if name == "temporalDistance":
-        return f"{texts[2]} - {texts[0]} == {texts[1]}"
-    return f"{name}({', '.join(texts)})"
+    def _parameter(self, number: int) -> str:
+        """The sampled parameter that is used at a span."""
+        spans = self.database.code.spans
+        if 0 <= number < len(spans):
+            for site in self.database.program.sampled:
+                if spans[number] in site.uses:
+                    return site.name
+        return "sampledParameter"
 
 
-def place_of(span: Span) -> Place:
+class SearchLog:
+    """The failure log of a reactor's solver, and what it says in the outcome's terms."""
+
+    def __init__(self, bench: Workbench, solver: Solver) -> None:
+        self.reader = ElementReader(bench)
+        self.log = FailureLog(bench.database, solver.agenda, solver.stack, lambda: self.reader)
+
+    def deadlock(self) -> Deadlock | None:
+        """Why the search ended without a plan; None if it did not."""
+        return None if self.log.end is None else self._deadlock(self.log.end)
+
+    def rejection(self, t: int) -> Deadlock | None:
+        """Why the search rejected token `t`; None if it did not."""
+        failed = self.log.rejections.get(self.reader.token(t))
+        return None if failed is None else self._deadlock(failed)
+
+    def _deadlock(self, failed: FailedFlaw) -> Deadlock:
+        tried = [
+            FailedChoice(
+                attempt.resolver,
+                Conflict(tuple(self._element(cause) for cause in attempt.causes)) if attempt.causes else None,
+                None if attempt.because is None else self._deadlock(attempt.because),
+            )
+            for attempt in failed.attempts
+        ]
+        return Deadlock(failed.flaw, tried=tuple(tried))
+
+    def _element(self, found: FoundCause) -> ConflictElement:
+        kind = _element_kind(found.term, found.number, is_declared=found.origin is CauseOrigin.DECLARED)
+        place = None if found.span is None else _place_of(found.span)
+        return _element(kind, place, self.reader.tokens.get(found.owner), found.term, ())
+
+
+def _element(
+    kind: ElementKind,
+    place: SourcePlace | None,
+    token: TokenName | None,
+    found: Term | ResourceTerm,
+    terms: tuple[Term, ...],
+) -> ConflictElement:
+    """An element; `terms` where what it says must be taken apart."""
+    told = terms or ((Term("resource", (found.resource,)),) if isinstance(found, ResourceTerm) else (found,))
+    return ConflictElement(kind, place, token.predicate if token is not None else "", token, found, told)
+
+
+def _element_kind(found: Term | ResourceTerm, span: int, *, is_declared: bool) -> ElementKind:
+    """What an element is, by what it says and where it comes from."""
+    if isinstance(found, ResourceTerm):
+        return ElementKind.RESOURCE
+    match found.name:
+        case "precedence":
+            return ElementKind.RELATION if span >= 0 else _ORIGINS.get(span, ElementKind.ORDER)
+        case "bounds":
+            written = ElementKind.DECLARATION if is_declared else ElementKind.DECISION
+            return ElementKind.ASSIGNMENT if span >= 0 else _ORIGINS.get(span, written)
+        case "sampledParameter":
+            return ElementKind.SAMPLE
+        case _:
+            return ElementKind.CONSTRAINT
+
+
+def _written_terms(written: Written, arguments: tuple[Argument, ...]) -> tuple[Term, ...]:
+    """The terms of a modeler's own constraint, who is given variables by their names as texts."""
+    names = {str(one): one for one in arguments if isinstance(one, VariableName)}
+    given = [str(one) if isinstance(one, VariableName) else one for one in arguments]
+    found = written.terms(given) or ()
+    return tuple(Term(name, tuple(names.get(str(one), one) for one in operands)) for name, operands in found)
+
+
+def _place_of(span: Span) -> SourcePlace:
     """A span as data: file, line, column, and the text without line breaks."""
     line, column = span.source.locate(span.begin)
-    return Place(span.source.name, line, column, " ".join(span.text.split()))
+    return SourcePlace(span.source.name, line, column, " ".join(span.text.split()))

@@ -5,7 +5,7 @@ from math import inf
 import pytest
 
 from runtime.plan.readout.cause_rendering import words
-from runtime.plan.readout.terms import Term
+from runtime.plan.readout.statements import Term
 
 
 @pytest.mark.parametrize(
