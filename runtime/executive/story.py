@@ -9,24 +9,19 @@ from runtime.constraints.domains.tags import (
     KIND_INT,
     KIND_OBJECT,
     KIND_STRING,
-    OP_FREEZE,
-    OP_PLUS,
-    OP_SAMPLE,
-    OP_TEMPORAL_DISTANCE,
     SIDE_UPPER,
 )
 from runtime.constraints.explanation.cause import Cause as EngineCause
 from runtime.constraints.explanation.cause import CauseKind
 from runtime.constraints.minimisation.minimise import minimise
-from runtime.constraints.propagators.operations import OPERATIONS
+from runtime.constraints.propagators.opcodes import OP_TEMPORAL_DISTANCE
+from runtime.constraints.propagators.registry import BY_NAME, NAMES
 from runtime.executive.outcome import Cause, Conflict, Place, Term, VariableInfo
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import DURATION, END, FIRST_PARAMETER, OBJECT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_TOKEN, START, STATE
 from runtime.user.written import Written
 
-NAMES = {code: name for name, code in reversed(OPERATIONS.items())}
-NAMES |= {OP_FREEZE: "foreach", OP_PLUS: "addEq", OP_SAMPLE: "sampledParameter"}
 BUILT_IN = {STATE: "state", OBJECT: "object", DURATION: "duration", START: "start", END: "end"}
 KINDS = {KIND_INT: "int", KIND_FLOAT: "float", KIND_BOOL: "bool", KIND_OBJECT: "object", KIND_STRING: "string"}
 REASONS = {
@@ -220,21 +215,11 @@ class Teller:
         return f"_{v}"
 
 
-INFIX = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
-
-
 def worded(name: str, arguments: list[str | float | int]) -> str:
     """A constraint as a modeler writes it, without the names of reactors."""
     texts = [str(argument).partition(":")[2] if isinstance(argument, str) else repr(argument) for argument in arguments]
-    if name in INFIX and len(texts) == 2:
-        return f"{texts[0]} {INFIX[name]} {texts[1]}"
-    if name == "addEq":
-        return f"{texts[2]} == {texts[0]} + {texts[1]}"
-    if name == "mulEq":
-        return f"{texts[2]} == {texts[0]} * {texts[1]}"
-    if name == "temporalDistance":
-        return f"{texts[2]} - {texts[0]} == {texts[1]}"
-    return f"{name}({', '.join(texts)})"
+    infix = BY_NAME[name].infix if name in BY_NAME else ""
+    return infix.format(*texts) if infix.count("{") == len(texts) else f"{name}({', '.join(texts)})"
 
 
 def place_of(span: Span) -> Place:

@@ -24,7 +24,7 @@ def is_subset(s: Store, a: int, b: int) -> bool:
     return True
 
 
-def is_crowded(s: Store, first: int, count: int) -> bool:
+def has_hall_violation(s: Store, first: int, count: int) -> bool:
     """Tell whether arguments that must differ have too few values: all together, or those inside the domain of one.
 
     Floats and domains without bounds count as having enough. O(count^2) where domains are smaller than their number.

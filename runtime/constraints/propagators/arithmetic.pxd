@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.domains.narrow cimport remove_value, set_lower, set_upper
-from runtime.constraints.propagators.reals cimport run_reals
+from runtime.constraints.propagators.reals cimport propagate_reals
 from runtime.constraints.domains.store cimport Store
 
 cdef long long HALF_INF, INF, MODE_REAL, OP_ABS_VAL, OP_ADD_EQ, OP_DIV_EQ, OP_EQ_MAXIMUM, OP_EQ_MINIMUM
@@ -10,7 +10,7 @@ cdef long long OP_EQ_PRODUCT, OP_EQ_SUM, OP_MUL_EQ, OP_NEG, SUPPORT_CONSTRAINT
 
 
 @cython.locals(a="long long", b="long long", first="long long", op="long long", support="long long")
-cpdef bint run_arithmetic(Store s, long long c) except -1
+cpdef bint propagate_arithmetic(Store s, long long c) except -1
 
 cpdef long long clipped(long long x) except? -1
 

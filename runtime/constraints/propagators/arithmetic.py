@@ -2,10 +2,8 @@
 
 from runtime.constraints.domains.narrow import remove_value, set_lower, set_upper
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import (
-    HALF_INF,
-    INF,
-    MODE_REAL,
+from runtime.constraints.domains.tags import HALF_INF, INF, MODE_REAL, SUPPORT_CONSTRAINT
+from runtime.constraints.propagators.opcodes import (
     OP_ABS_VAL,
     OP_ADD_EQ,
     OP_DIV_EQ,
@@ -15,15 +13,14 @@ from runtime.constraints.domains.tags import (
     OP_EQ_SUM,
     OP_MUL_EQ,
     OP_NEG,
-    SUPPORT_CONSTRAINT,
 )
-from runtime.constraints.propagators.reals import run_reals
+from runtime.constraints.propagators.reals import propagate_reals
 
 
-def run_arithmetic(s: Store, c: int) -> bool:
+def propagate_arithmetic(s: Store, c: int) -> bool:
     """Run a constraint of this family."""
     if s.mode[c] == MODE_REAL:
-        return run_reals(s, c)
+        return propagate_reals(s, c)
     op = s.op[c]
     first = s.first[c]
     a = s.slot_variable[first]
@@ -47,7 +44,7 @@ def run_arithmetic(s: Store, c: int) -> bool:
         return hold_absolute(s, a, b, support)
     if op == OP_NEG:
         return negate(s, a, b, support)
-    return run_reals(s, c)
+    return propagate_reals(s, c)
 
 
 def clipped(x: int) -> int:

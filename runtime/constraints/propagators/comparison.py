@@ -32,6 +32,13 @@ from runtime.constraints.domains.tags import (
     MOST_VALUES,
     NEVER,
     ONE_BIT,
+    SIDE_HOLES,
+    SIDE_LOWER,
+    STRICT_STEP,
+    SUPPORT_CONSTRAINT,
+)
+from runtime.constraints.propagators.all_different import has_hall_violation
+from runtime.constraints.propagators.opcodes import (
     OP_ALL_DIFF,
     OP_EQ,
     OP_LEQ,
@@ -40,19 +47,13 @@ from runtime.constraints.domains.tags import (
     OP_PLUS,
     OP_TEMPORAL_DISTANCE,
     OP_WITHIN_BOUNDS,
-    SIDE_HOLES,
-    SIDE_LOWER,
-    STRICT_STEP,
-    SUPPORT_CONSTRAINT,
 )
-from runtime.constraints.propagators.all_different import is_crowded
-from runtime.constraints.propagators.strict_cycles import is_in_strict_circle
+from runtime.constraints.propagators.strict_cycles import is_in_strict_cycle
 from runtime.constraints.stn.entailment import rest
-from runtime.constraints.stn.network import tighten_edge
-from runtime.constraints.stn.posting import tie_edge, tie_edges
+from runtime.constraints.stn.network import tie_edge, tie_edges, tighten_edge
 
 
-def run_comparison(s: Store, c: int) -> bool:
+def propagate_comparison(s: Store, c: int) -> bool:
     """Run a constraint of this family."""
     op = s.op[c]
     first = s.first[c]
@@ -61,7 +62,7 @@ def run_comparison(s: Store, c: int) -> bool:
     support = c * 4 + SUPPORT_CONSTRAINT
     if op == OP_TEMPORAL_DISTANCE:
         return keep_distance(s, c, a, b, s.slot_variable[first + 2], support)
-    if s.coarse and (op == OP_LEQ or op == OP_LT or op == OP_EQ) and is_in_strict_circle(s, c):
+    if s.coarse and (op == OP_LEQ or op == OP_LT or op == OP_EQ) and is_in_strict_cycle(s, c):
         return s.fail(b, SIDE_LOWER, support)
     if op == OP_LEQ or op == OP_LT:
         if s.mode[c] == MODE_EDGES:
@@ -209,7 +210,7 @@ def differ_all(s: Store, first: int, count: int, support: int) -> bool:
                     if j < k and not was_single and is_single(s, b):
                         following = 0
         k = following
-    return not is_crowded(s, first, count) or s.fail(s.slot_variable[first], SIDE_HOLES, support)
+    return not has_hall_violation(s, first, count) or s.fail(s.slot_variable[first], SIDE_HOLES, support)
 
 
 def keep_offset(s: Store, c: int, a: int, k: int, b: int) -> bool:

@@ -2,17 +2,13 @@
 
 import math
 
+from runtime.constraints.propagators.functions import rounded
+
 EQUATOR = 6378137.0  # WGS-84, metres
 ECCENTRICITY_2 = 0.00669437999013
 MEAN_RADIUS = 6371008.8
 DEGREE = math.pi / 180.0
 DAY = 86400.0
-
-
-def rounded(x: float) -> float:
-    """Keep 44 bits, so that mathematical libraries that differ in the last bits agree."""
-    y = x * 513.0
-    return y - (y - x)
 
 
 def great_circle(lat1: float, lon1: float, lat2: float, lon2: float) -> float:

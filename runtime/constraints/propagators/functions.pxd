@@ -15,7 +15,7 @@ cdef double FLOAT_TOLERANCE, ULP
     a="long long", first="long long", k="long long", op="long long", r="long long", support="long long", x=double,
     y=double, z=double
 )
-cpdef bint run_function(Store s, long long c) except -1
+cpdef bint propagate_function(Store s, long long c) except -1
 
 @cython.locals(
     a="long long", b="long long", corner="long long", hi=double, lo=double, r="long long", x=double, y=double
@@ -30,7 +30,7 @@ cpdef double half_width(Store s, long long v) except? -1.0
 cpdef double whole(Store s, long long v) except? -1.0
 
 @cython.locals(y=double)
-cpdef double settled(double x) except? -1.0
+cpdef double rounded(double x) except? -1.0
 
 cpdef bint has_power(double x, double y) except -1
 

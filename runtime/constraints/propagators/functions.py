@@ -5,10 +5,8 @@ import math
 from runtime.constraints.domains.bitset import has_value, next_value, previous_value
 from runtime.constraints.domains.narrow import assign, high, is_single, low, raise_to, reduce_to
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import (
-    FLOAT_TOLERANCE,
-    HALF_INF,
-    KIND_FLOAT,
+from runtime.constraints.domains.tags import FLOAT_TOLERANCE, HALF_INF, KIND_FLOAT, SIDE_HOLES, SUPPORT_CONSTRAINT, ULP
+from runtime.constraints.propagators.opcodes import (
     OP_ABS,
     OP_BIND,
     OP_CEIL,
@@ -22,13 +20,10 @@ from runtime.constraints.domains.tags import (
     OP_SQRT,
     OP_TOWARDS,
     OP_TRAVEL_TIME,
-    SIDE_HOLES,
-    SUPPORT_CONSTRAINT,
-    ULP,
 )
 
 
-def run_function(s: Store, c: int) -> bool:
+def propagate_function(s: Store, c: int) -> bool:
     """Run a constraint of this family."""
     op = s.op[c]
     first = s.first[c]
@@ -105,7 +100,7 @@ def whole(s: Store, v: int) -> float:
     return float(y) if abs(x - y) <= FLOAT_TOLERANCE else x
 
 
-def settled(x: float) -> float:
+def rounded(x: float) -> float:
     """Keep 44 bits of a double (Veltkamp's split), so that libraries that differ in the last bits agree."""
     if not -1e300 < x < 1e300:
         return x
@@ -139,7 +134,7 @@ def apply(op: int, x: float, y: float) -> float:
     if op == OP_MOD:
         return math.fmod(x, y)
     assert op == OP_POW
-    return settled(math.pow(x, y))
+    return rounded(math.pow(x, y))
 
 
 def sine(degrees: float) -> float:
@@ -155,7 +150,7 @@ def sine(degrees: float) -> float:
         return 0.5
     if x == -30.0 or x == -150.0 or x == 210.0 or x == 330.0:
         return -0.5
-    return settled(math.sin(x * (math.pi / 180.0)))
+    return rounded(math.sin(x * (math.pi / 180.0)))
 
 
 def bind(s: Store, v: int, x: float, support: int) -> bool:

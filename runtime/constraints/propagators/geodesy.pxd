@@ -1,21 +1,21 @@
-# The C types of `geometry.py`.
+# The C types of `geodesy.py`.
 
 cimport cython
 from libc cimport math
-from runtime.constraints.propagators.functions cimport are_known, half_width, middle, settled, sine, whole
+from runtime.constraints.propagators.functions cimport are_known, half_width, middle, rounded, sine, whole
 from runtime.constraints.domains.narrow cimport high, low, raise_to, reduce_to
 from runtime.constraints.propagators.reals cimport down, hold_absolute, hold_extreme, up, within
 from runtime.constraints.domains.store cimport Store
 
 cdef long long KIND_FLOAT, OP_ABSF, OP_CEILF, OP_CIRCLE_MOD, OP_COSF, OP_DEG_TO_RAD, OP_EXPF, OP_FLOORF, OP_LL_DIST
-cdef long long OP_LOGF, OP_MAXF, OP_MINF, OP_SANE_POS, OP_SIN, OP_SINF, OP_SQRTF, OP_TICK_DATE, OP_WGS_DISPLACE
+cdef long long OP_LOGF, OP_MAXF, OP_MINF, OP_SIN, OP_SINF, OP_SQRTF, OP_TICK_DATE, OP_WGS_DISPLACE
 cdef long long OP_WGS_DISPLACEMENT, SUPPORT_CONSTRAINT
 cdef double DEGREE, DISTANCE_TOLERANCE, FLOAT_TOLERANCE, LEAST_METRES_PER_DEGREE, METRES_PER_DEGREE, POSITION_TOLERANCE
 cdef double SLACK, STRICT_STEP, inf
 
 
 @cython.locals(first="long long", op="long long", r="long long", support="long long", x="long long")
-cpdef bint run_geometry(Store s, long long c) except -1
+cpdef bint propagate_geodesy(Store s, long long c) except -1
 
 @cython.locals(a=double, b=double, centre=double, hi=double, least=double, lo=double, most=double, sign=double)
 cpdef bint turn(Store s, long long r, long long x, double ahead, long long support) except -1

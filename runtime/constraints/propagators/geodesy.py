@@ -10,9 +10,10 @@ from math import inf
 
 from runtime.constraints.domains.narrow import high, low, raise_to, reduce_to
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import (
-    FLOAT_TOLERANCE,
-    KIND_FLOAT,
+from runtime.constraints.domains.tags import FLOAT_TOLERANCE, KIND_FLOAT, STRICT_STEP, SUPPORT_CONSTRAINT
+from runtime.constraints.propagators.earth import date_of_tick, displaced, displacement, great_circle, tick_of_date
+from runtime.constraints.propagators.functions import are_known, half_width, middle, rounded, sine, whole
+from runtime.constraints.propagators.opcodes import (
     OP_ABSF,
     OP_CEILF,
     OP_CIRCLE_MOD,
@@ -24,18 +25,13 @@ from runtime.constraints.domains.tags import (
     OP_LOGF,
     OP_MAXF,
     OP_MINF,
-    OP_SANE_POS,
     OP_SIN,
     OP_SINF,
     OP_SQRTF,
     OP_TICK_DATE,
     OP_WGS_DISPLACE,
     OP_WGS_DISPLACEMENT,
-    STRICT_STEP,
-    SUPPORT_CONSTRAINT,
 )
-from runtime.constraints.propagators.earth import date_of_tick, displaced, displacement, great_circle, tick_of_date
-from runtime.constraints.propagators.functions import are_known, half_width, middle, settled, sine, whole
 from runtime.constraints.propagators.reals import down, hold_absolute, hold_extreme, up, within
 
 SLACK = 1e-9
@@ -46,7 +42,7 @@ METRES_PER_DEGREE = 111700.0  # at most
 LEAST_METRES_PER_DEGREE = 110500.0  # along a meridian
 
 
-def run_geometry(s: Store, c: int) -> bool:
+def propagate_geodesy(s: Store, c: int) -> bool:
     """Run a constraint of this family."""
     op = s.op[c]
     first = s.first[c]
@@ -79,8 +75,6 @@ def run_geometry(s: Store, c: int) -> bool:
         return scale(s, r, x, DEGREE, support)
     if op == OP_CIRCLE_MOD:
         return bring_within_turn(s, r, x, support)
-    if op == OP_SANE_POS:
-        return within(s, r, -90.0, 90.0, support) and within(s, x, -180.0, 180.0, support)
     if op == OP_TICK_DATE:
         return relate_date(s, first, support)
     if op == OP_LL_DIST:
@@ -121,7 +115,7 @@ def passes(lo: float, hi: float, peak: float) -> bool:
 
 def angle_of(x: float) -> float:
     """Give the angle in degrees within a quarter turn whose sine is x."""
-    return settled(math.asin(min(max(x, -1.0), 1.0)) / DEGREE)
+    return rounded(math.asin(min(max(x, -1.0), 1.0)) / DEGREE)
 
 
 def hold_root(s: Store, r: int, x: int, support: int) -> bool:
@@ -178,9 +172,9 @@ def hold_exponential(s: Store, r: int, x: int, support: int) -> bool:
         return False
     lo = low(s, r) - FLOAT_TOLERANCE
     hi = high(s, r) + FLOAT_TOLERANCE
-    if lo > 0.0 and not raise_to(s, x, settled(math.log(lo)) - SLACK, support):
+    if lo > 0.0 and not raise_to(s, x, rounded(math.log(lo)) - SLACK, support):
         return False
-    return hi <= 0.0 or hi == inf or reduce_to(s, x, settled(math.log(hi)) + SLACK, support)
+    return hi <= 0.0 or hi == inf or reduce_to(s, x, rounded(math.log(hi)) + SLACK, support)
 
 
 def exponential(x: float, slack: float) -> float:
@@ -189,7 +183,7 @@ def exponential(x: float, slack: float) -> float:
         return inf if slack > 0.0 else 1e304
     if x < -700.0:
         return 0.0 if slack < 0.0 else 1e-304
-    return settled(math.exp(x)) * (1.0 + slack)
+    return rounded(math.exp(x)) * (1.0 + slack)
 
 
 def scale(s: Store, r: int, x: int, factor: float, support: int) -> bool:

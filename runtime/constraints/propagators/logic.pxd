@@ -4,12 +4,12 @@ cimport cython
 from runtime.constraints.domains.base_domain cimport is_base_single
 from runtime.constraints.domains.bitset cimport has_value, next_value
 from runtime.constraints.propagators.comparison cimport differ, differ_all, equate, equate_all, precede
-from runtime.constraints.propagators.all_different cimport is_crowded
+from runtime.constraints.propagators.all_different cimport has_hall_violation
 from runtime.constraints.domains.narrow cimport high, is_single, low, raise_to, reduce_to, remove_value
 from runtime.constraints.domains.store cimport Store
 
 cdef long long KIND_FLOAT, OP_COND_ALL_DIFF, OP_COND_EQ, OP_COUNT_NON_ZEROES, OP_COUNT_ZEROES, OP_OR, OP_TEST_AND
-cdef long long OP_TEST_EQ, OP_TEST_LEQ, OP_TEST_LT, OP_TEST_NEQ, OP_TEST_NOT, OP_TEST_OR, OP_TEST_SINGLETON
+cdef long long OP_TEST_EQ, OP_TEST_LEQ, OP_TEST_LT, OP_TEST_NEQ, OP_TEST_OR, OP_TEST_SINGLETON
 cdef long long OP_TEST_SPECIFIED, SIDE_HOLES, SUPPORT_CONSTRAINT, UNKNOWN
 cdef double FLOAT_TOLERANCE, STRICT_STEP
 
@@ -18,7 +18,7 @@ cdef double FLOAT_TOLERANCE, STRICT_STEP
     a="long long", b="long long", count="long long", first="long long", op="long long", support="long long",
     t="long long"
 )
-cpdef bint run_logic(Store s, long long c) except -1
+cpdef bint propagate_logic(Store s, long long c) except -1
 
 cpdef long long truth(Store s, long long v) except? -1
 
@@ -29,16 +29,13 @@ cpdef bint be_false(Store s, long long v, long long support) except -1
 cpdef bint is_specified(Store s, long long v) except -1
 
 @cython.locals(hi="long long", lo="long long", x="long long")
-cpdef bint meet(Store s, long long a, long long b) except -1
+cpdef bint may_be_equal(Store s, long long a, long long b) except -1
 
 @cython.locals(known="long long")
 cpdef bint test_equal(Store s, long long t, long long a, long long b, bint equal, long long support) except -1
 
 @cython.locals(known="long long", step="long long")
 cpdef bint test_order(Store s, long long t, long long a, long long b, bint strict, long long support) except -1
-
-@cython.locals(known="long long")
-cpdef bint negate_truth(Store s, long long t, long long a, long long support) except -1
 
 @cython.locals(known="long long", x="long long", y="long long")
 cpdef bint test_and(Store s, long long t, long long a, long long b, long long support) except -1

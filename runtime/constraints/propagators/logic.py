@@ -4,9 +4,10 @@ from runtime.constraints.domains.base_domain import is_base_single
 from runtime.constraints.domains.bitset import has_value, next_value
 from runtime.constraints.domains.narrow import high, is_single, low, raise_to, reduce_to, remove_value
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import (
-    FLOAT_TOLERANCE,
-    KIND_FLOAT,
+from runtime.constraints.domains.tags import FLOAT_TOLERANCE, KIND_FLOAT, SIDE_HOLES, STRICT_STEP, SUPPORT_CONSTRAINT
+from runtime.constraints.propagators.all_different import has_hall_violation
+from runtime.constraints.propagators.comparison import differ, differ_all, equate, equate_all, precede
+from runtime.constraints.propagators.opcodes import (
     OP_COND_ALL_DIFF,
     OP_COND_EQ,
     OP_COUNT_NON_ZEROES,
@@ -17,21 +18,15 @@ from runtime.constraints.domains.tags import (
     OP_TEST_LEQ,
     OP_TEST_LT,
     OP_TEST_NEQ,
-    OP_TEST_NOT,
     OP_TEST_OR,
     OP_TEST_SINGLETON,
     OP_TEST_SPECIFIED,
-    SIDE_HOLES,
-    STRICT_STEP,
-    SUPPORT_CONSTRAINT,
 )
-from runtime.constraints.propagators.all_different import is_crowded
-from runtime.constraints.propagators.comparison import differ, differ_all, equate, equate_all, precede
 
 UNKNOWN = -1
 
 
-def run_logic(s: Store, c: int) -> bool:
+def propagate_logic(s: Store, c: int) -> bool:
     """Run a constraint of this family."""
     op = s.op[c]
     first = s.first[c]
@@ -47,8 +42,6 @@ def run_logic(s: Store, c: int) -> bool:
         return not is_single(s, a) or be_true(s, t, support)
     if op == OP_TEST_SPECIFIED:
         return not is_specified(s, a) or be_true(s, t, support)
-    if op == OP_TEST_NOT:
-        return negate_truth(s, t, a, support)
     if op == OP_COND_EQ or op == OP_COND_ALL_DIFF:
         return run_condition(s, op, t, first + 1, count - 1, support)
     b = s.slot_variable[first + 2]
@@ -98,7 +91,7 @@ def is_specified(s: Store, v: int) -> bool:
     return is_base_single(s, v)
 
 
-def meet(s: Store, a: int, b: int) -> bool:
+def may_be_equal(s: Store, a: int, b: int) -> bool:
     """Tell whether two variables may still be equal."""
     if s.kind[a] == KIND_FLOAT or s.kind[b] == KIND_FLOAT:
         return low(s, a) <= high(s, b) + FLOAT_TOLERANCE and low(s, b) <= high(s, a) + FLOAT_TOLERANCE
@@ -123,7 +116,7 @@ def test_equal(s: Store, t: int, a: int, b: int, equal: bool, support: int) -> b
     """Narrow t = (a == b), or t = (a != b)."""
     known = truth(s, t)
     if known == UNKNOWN:
-        if not meet(s, a, b):
+        if not may_be_equal(s, a, b):
             return be_false(s, t, support) if equal else be_true(s, t, support)
         if is_single(s, a) and is_single(s, b):
             return be_true(s, t, support) if equal else be_false(s, t, support)
@@ -154,17 +147,6 @@ def test_order(s: Store, t: int, a: int, b: int, strict: bool, support: int) -> 
     if low(s, a) > high(s, b) + FLOAT_TOLERANCE:
         return be_false(s, t, support)
     return not (is_single(s, a) and is_single(s, b)) or be_true(s, t, support)
-
-
-def negate_truth(s: Store, t: int, a: int, support: int) -> bool:
-    """Narrow t = not a."""
-    known = truth(s, a)
-    if known != UNKNOWN:
-        return be_false(s, t, support) if known else be_true(s, t, support)
-    known = truth(s, t)
-    if known != UNKNOWN:
-        return be_false(s, a, support) if known else be_true(s, a, support)
-    return True
 
 
 def test_and(s: Store, t: int, a: int, b: int, support: int) -> bool:
@@ -275,7 +257,7 @@ def test_all_equal(s: Store, t: int, known: int, first: int, count: int, support
             unsettled = v if unsettled == -1 else -2
         elif a < 0:
             a = v
-        elif not meet(s, a, v):
+        elif not may_be_equal(s, a, v):
             return known == 0 or be_false(s, t, support)
     if unsettled == -1:
         return s.fail(t, SIDE_HOLES, support) if known == 0 else be_true(s, t, support)
@@ -283,7 +265,7 @@ def test_all_equal(s: Store, t: int, known: int, first: int, count: int, support
         return unsettled < 0 or a < 0 or differ(s, a, unsettled, support)
     for k in range(first, first + count):
         for j in range(first, k):
-            if not meet(s, s.slot_variable[j], s.slot_variable[k]):
+            if not may_be_equal(s, s.slot_variable[j], s.slot_variable[k]):
                 return be_false(s, t, support)
     return True
 
@@ -297,7 +279,7 @@ def test_all_different(s: Store, t: int, known: int, first: int, count: int, sup
         for j in range(first, k):
             x = s.slot_variable[j]
             y = s.slot_variable[k]
-            if not meet(s, x, y):
+            if not may_be_equal(s, x, y):
                 continue
             if is_single(s, x) and is_single(s, y):
                 return known == 0 or be_false(s, t, support)
@@ -306,7 +288,7 @@ def test_all_different(s: Store, t: int, known: int, first: int, count: int, sup
             b = y
     if open_pairs == 0:
         return s.fail(t, SIDE_HOLES, support) if known == 0 else be_true(s, t, support)
-    if known != 0 and is_crowded(s, first, count):
+    if known != 0 and has_hall_violation(s, first, count):
         return be_false(s, t, support)
     # One pair is left that may be equal, and one must be.
     return known != 0 or open_pairs > 1 or equate(s, a, b, support)

@@ -12,7 +12,7 @@ cdef double FLOAT_TOLERANCE, TINY, ULP, inf
 
 
 @cython.locals(a="long long", b="long long", first="long long", op="long long", support="long long")
-cpdef bint run_reals(Store s, long long c) except -1
+cpdef bint propagate_reals(Store s, long long c) except -1
 
 @cython.locals(t=double, z=double)
 cpdef double lower_sum(double x, double y) except? -1.0

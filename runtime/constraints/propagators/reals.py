@@ -8,9 +8,8 @@ from math import inf
 
 from runtime.constraints.domains.narrow import high, is_single, low, raise_to, reduce_to, remove_value
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import (
-    FLOAT_TOLERANCE,
-    KIND_FLOAT,
+from runtime.constraints.domains.tags import FLOAT_TOLERANCE, KIND_FLOAT, SIDE_HOLES, SUPPORT_CONSTRAINT, ULP
+from runtime.constraints.propagators.opcodes import (
     OP_ABS_VAL,
     OP_ADD_EQ,
     OP_CALC_DISTANCE,
@@ -23,15 +22,12 @@ from runtime.constraints.domains.tags import (
     OP_EQ_SUM,
     OP_MUL_EQ,
     OP_NEG,
-    SIDE_HOLES,
-    SUPPORT_CONSTRAINT,
-    ULP,
 )
 
 TINY = 5e-324
 
 
-def run_reals(s: Store, c: int) -> bool:
+def propagate_reals(s: Store, c: int) -> bool:
     """Run an arithmetic constraint on floats, or on floats and whole numbers."""
     op = s.op[c]
     first = s.first[c]

@@ -4,7 +4,7 @@ cimport cython
 from runtime.constraints.domains.bitset cimport clear_bits, count_values, has_value, next_place, next_value
 from runtime.constraints.propagators.comparison cimport equate, exclude_missing
 from runtime.constraints.propagators.all_different cimport is_subset
-from runtime.constraints.propagators.logic cimport meet
+from runtime.constraints.propagators.logic cimport may_be_equal
 from runtime.constraints.domains.narrow cimport high, is_single, low, raise_to, reduce_to, remove_value, round_bounds
 from runtime.constraints.domains.narrow cimport set_lower, set_upper
 from runtime.constraints.domains.store cimport Store
@@ -16,7 +16,7 @@ cdef double FLOAT_TOLERANCE, inf
 
 
 @cython.locals(a="long long", b="long long", first="long long", op="long long", support="long long")
-cpdef bint run_sets(Store s, long long c) except -1
+cpdef bint propagate_sets(Store s, long long c) except -1
 
 cpdef bint keep_inside(Store s, long long a, long long b, long long support) except -1
 

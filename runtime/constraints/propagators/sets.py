@@ -22,6 +22,13 @@ from runtime.constraints.domains.tags import (
     MOST_VALUES,
     NEVER,
     ONE_BIT,
+    SIDE_HOLES,
+    SUPPORT_CONSTRAINT,
+)
+from runtime.constraints.propagators.all_different import is_subset
+from runtime.constraints.propagators.comparison import equate, exclude_missing
+from runtime.constraints.propagators.logic import may_be_equal
+from runtime.constraints.propagators.opcodes import (
     OP_COMMON_ANCESTOR,
     OP_ELEMENT,
     OP_EQ_UNION,
@@ -30,15 +37,10 @@ from runtime.constraints.domains.tags import (
     OP_LOCK,
     OP_MEMBER_IMPLY,
     OP_SUBSET_OF,
-    SIDE_HOLES,
-    SUPPORT_CONSTRAINT,
 )
-from runtime.constraints.propagators.all_different import is_subset
-from runtime.constraints.propagators.comparison import equate, exclude_missing
-from runtime.constraints.propagators.logic import meet
 
 
-def run_sets(s: Store, c: int) -> bool:
+def propagate_sets(s: Store, c: int) -> bool:
     """Run a constraint of this family."""
     op = s.op[c]
     first = s.first[c]
@@ -130,7 +132,7 @@ def look_up(s: Store, first: int, count: int, support: int) -> bool:
         v = s.slot_variable[k]
         if key > s.ub[index]:
             break
-        if not (has_value(s, index, key) and meet(s, result, v)):
+        if not (has_value(s, index, key) and may_be_equal(s, result, v)):
             continue
         # Rows stand in the order of their keys: values between two that can serve have no row, or one that cannot.
         if last_key == NEVER:

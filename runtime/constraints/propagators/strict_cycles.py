@@ -1,10 +1,10 @@
 """Look for circles of orders among reals: a strict one has no solution, but bounds would creep there for long."""
 
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import OP_EQ, OP_LEQ, OP_LT
+from runtime.constraints.propagators.opcodes import OP_EQ, OP_LEQ, OP_LT
 
 
-def is_in_strict_circle(s: Store, c: int) -> bool:
+def is_in_strict_cycle(s: Store, c: int) -> bool:
     """Whether an order or equality is part of a circle that says x < x. Asked of what creeps only: uncompiled."""
     variables = [s.slot_variable[k] for k in range(s.first[c], s.first[c] + s.arity[c])]
     if s.op[c] == OP_EQ:

@@ -1,6 +1,7 @@
 """Take back at level 0 what scopes made: constraints, edges, variables, children and their children, in one sweep."""
 
-from runtime.constraints.domains.tags import FLAG_DECISION, OP_WATCH
+from runtime.constraints.domains.tags import FLAG_DECISION
+from runtime.constraints.propagators.opcodes import OP_WATCH
 from runtime.plan.store.links import link_by_key, unlink
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import (

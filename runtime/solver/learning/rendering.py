@@ -3,17 +3,10 @@
 from dataclasses import dataclass
 
 from nddl_lang.text.source import Span
-from runtime.constraints.domains.tags import (
-    FLAG_DECISION,
-    FLAG_VALUES,
-    HALF_INF,
-    KIND_FLOAT,
-    OP_FREEZE,
-    OP_PLUS,
-    OP_TEMPORAL_DISTANCE,
-)
+from runtime.constraints.domains.tags import FLAG_DECISION, FLAG_VALUES, HALF_INF, KIND_FLOAT
 from runtime.constraints.explanation.cause import Cause, CauseKind
-from runtime.constraints.propagators.operations import OPERATIONS
+from runtime.constraints.propagators.opcodes import OP_TEMPORAL_DISTANCE
+from runtime.constraints.propagators.registry import NAMES
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.provenance import span_of
 from runtime.plan.readout.readout import live_tokens, token_names
@@ -22,8 +15,6 @@ from runtime.plan.store.domain_texts import base_text, domain_text
 from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
 from runtime.solver.configuration.handler_matching import BUILT_IN
 from runtime.user.written import Written
-
-NAMES = {code: name for name, code in reversed(OPERATIONS.items())} | {OP_PLUS: "addEq", OP_FREEZE: "foreach"}
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
 """Settle open conditions: merge with an active token, activate, let an action support it, or reject."""
 
 from runtime.constraints.domains.bitset import has_value
-from runtime.constraints.propagators.logic import meet
+from runtime.constraints.propagators.logic import may_be_equal
 from runtime.plan.lifecycle import activate, merge, reject
 from runtime.plan.tags import (
     FLAG_ACTION,
@@ -131,7 +131,7 @@ def is_compatible(q: Queues, t: int, candidate: int) -> bool:
     if is_out_of_range(q, candidate):
         return False
     for k in range(OBJECT, q.rows.width[t]):
-        if not meet(engine, mine + k, theirs + k):
+        if not may_be_equal(engine, mine + k, theirs + k):
             return False
     return may_coincide(q, candidate)
 

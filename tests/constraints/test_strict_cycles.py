@@ -2,8 +2,9 @@
 
 import pytest
 
-from runtime.constraints.domains.tags import KIND_FLOAT, OP_EQ, OP_LEQ, OP_LT
+from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.constraints.engine import Engine
+from runtime.constraints.propagators.opcodes import OP_EQ, OP_LEQ, OP_LT
 
 
 @pytest.mark.parametrize(

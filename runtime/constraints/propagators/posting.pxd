@@ -1,14 +1,12 @@
 # The C types of `posting.py`.
 
 cimport cython
-from runtime.constraints.stn.network cimport insert_edge
 from runtime.constraints.domains.store cimport Store
 
-cdef long long EVENT_ANY, EVENT_DOMAIN, EVENT_HOLES, EVENT_LOWER, EVENT_UPPER, FAMILY_ARITHMETIC, KIND_BOOL
-cdef long long KIND_FLOAT, KIND_INT, MODE_EDGES, MODE_REAL, MODE_WHOLE, OP_ADD_EQ, OP_ALL_MAX, OP_ALL_MIN, OP_ELEMENT
-cdef long long OP_EQ, OP_EQ_MAXIMUM, OP_EQ_MINIMUM, OP_EXTERNAL, OP_LEQ, OP_LT, OP_NEQ, OP_PLUS, OP_RAND
-cdef long long OP_TEMPORAL_DISTANCE, OP_TEST_SPECIFIED, OP_WATCH, PRIORITY_CHEAP, PRIORITY_DEAR, PRIORITY_WATCH
-cdef long long TRAIL_CONSTRAINT, TRAIL_LINK
+cdef long long EVENT_DOMAIN, KIND_BOOL, KIND_FLOAT, KIND_INT, MODE_DISTANCE, MODE_EDGES, MODE_REAL, MODE_WHOLE
+cdef long long OP_ADD_EQ, OP_ELEMENT, OP_EXTERNAL, OP_PLUS, OP_RAND, OP_TEMPORAL_DISTANCE, TRAIL_CONSTRAINT
+cdef const short[:] EDGES_UP_TO, IDEMPOTENT_UP_TO, POSTED_AS, PRIORITIES, TWINS, WAKES_BESIDE_EDGES, WAKES_FIRST
+cdef const short[:] WAKES_OTHERS
 cdef unsigned long long MASK
 
 
@@ -30,12 +28,6 @@ cpdef void watch(Store s, long long c, long long position, long long v, long lon
 @cython.locals(after="long long", before="long long", count="long long", first="long long", slot="long long")
 cpdef int release_constraint(Store s, long long c) except -1
 
-cpdef bint tie_edges(
-    Store s, long long c, long long source, long long target, long long forth, long long back
-) except -1
-
-cpdef bint tie_edge(Store s, long long c, long long source, long long target, long long weight) except -1
-
 @cython.locals(c="long long", position="long long")
 cpdef long long post_constraint(Store s, long long op, list arguments, long long span, long long owner) except? -1
 
@@ -46,8 +38,8 @@ cpdef long long start_element(
 
 cpdef int add_row(Store s, long long c, long long k, long long key, long long v) except -1
 
-@cython.locals(op="long long")
-cpdef bint is_settled_by_one_run(Store s, long long c) except -1
+@cython.locals(slot="long long")
+cpdef bint is_idempotent(Store s, long long c) except -1
 
 @cython.locals(op="long long")
 cpdef long long events_of(Store s, long long c, long long position) except? -1
