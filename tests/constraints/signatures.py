@@ -125,7 +125,7 @@ SIGNATURES: dict[int, Signature] = {
     opcodes.OP_NOTHING: forms("nn"),
 }
 ANGLES = (-180.0, -90.0, -45.0, 0.0, 30.0, 60.0, 90.0, 135.0, 180.0, 270.0, 400.0)
-# Functions that act once their arguments are known; drawn more rarely, for a conflict of theirs blames all arguments.
+# Functions that act once their arguments are known; drawn more rarely, for a conflict of theirs names all arguments.
 FORWARD = (
     opcodes.OP_ABS,
     opcodes.OP_SQRT,

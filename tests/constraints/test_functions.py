@@ -236,7 +236,7 @@ def test_random_numbers_depend_on_the_place_and_not_on_the_order() -> None:
     assert all(0 <= x <= 32767 for x in drawn[0])
 
 
-def test_creeping_circles_end() -> None:
+def test_creeping_cycles_end() -> None:
     engine = Engine()
     x = engine.new_interval(tags.KIND_FLOAT, 0.0, 1e9, 0, -1)
     y = engine.new_interval(tags.KIND_FLOAT, 0.0, 1e9, 0, -1)
@@ -279,7 +279,7 @@ def test_a_constraint_written_in_python_takes_part() -> None:
     assert engine.lower(b) == 8
 
 
-def test_after_a_creeping_circle_small_steps_count_again() -> None:
+def test_after_a_creeping_cycle_small_steps_count_again() -> None:
     engine = Engine()
     x = engine.new_interval(tags.KIND_FLOAT, 0.0, 1e9, 0, -1)
     y = engine.new_interval(tags.KIND_FLOAT, 0.0, 1e9, 0, -1)

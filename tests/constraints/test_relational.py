@@ -1,4 +1,4 @@
-"""What functions say before their arguments are known is never too much, and is what makes explanations small."""
+"""Relations narrow the arguments of functions before these are known: soundly, and so that explanations are small."""
 
 import math
 import random

@@ -41,10 +41,10 @@ def minimise(engine: Engine, causes: Sequence[Cause]) -> list[Cause]:
     scratch = Scratch(engine)
     if not scratch.refutes(causes):
         return list(causes)
-    return without_spare(engine, scratch.shrunk([], list(causes), False))
+    return _without_spare(engine, scratch.shrunk([], list(causes), False))
 
 
-def without_spare(engine: Engine, causes: list[Cause]) -> list[Cause]:
+def _without_spare(engine: Engine, causes: list[Cause]) -> list[Cause]:
     """Leave out, the last first, each cause without which the others still contradict each other by what they mean."""
     if all(cause.kind is not CauseKind.CONSTRAINT or engine.mode[cause.id] == MODE_EDGES for cause in causes):
         return causes  # of differences and bounds propagation sees all

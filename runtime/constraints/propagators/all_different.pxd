@@ -16,4 +16,4 @@ cpdef bint is_subset(Store s, long long a, long long b) except -1
 cpdef bint has_hall_violation(Store s, long long first, long long count) except -1
 
 @cython.locals(found="long long", hi="long long", k="long long", lo="long long", v="long long", x="long long")
-cpdef bint has_few_values(Store s, long long first, long long count) except -1
+cpdef bint _has_few_values(Store s, long long first, long long count) except -1

@@ -80,5 +80,5 @@ def remainder(z: Algebra, x: Numbers) -> Any:
     """The first number is the rest of a division of whole numbers, with the sign of the dividend."""
     if not (z.is_whole(x[1]) and z.is_whole(x[2])):
         return None
-    size = z.choose(x[2] >= 0, x[2], -x[2])
+    size = z.choose(x[2] > 0, x[2], z.choose(x[2] < 0, -x[2], 1))
     return z.every([x[2] != 0, x[0] == z.choose(x[1] >= 0, x[1] % size, -(-x[1] % size))])

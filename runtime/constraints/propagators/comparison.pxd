@@ -33,7 +33,7 @@ cpdef bint equate(Store s, long long a, long long b, long long support) except -
 cpdef bint equate_all(Store s, long long first, long long count, long long support) except -1
 
 @cython.locals(k="long long", place="long long", x="unsigned long long")
-cpdef unsigned long long chunk(Store s, long long v, long long start) except? 0
+cpdef unsigned long long _chunk(Store s, long long v, long long start) except? 0
 
 @cython.locals(k="long long", mask="unsigned long long", place="long long")
 cpdef bint exclude_missing(Store s, long long a, long long b, long long support) except -1
@@ -44,14 +44,14 @@ cpdef bint differ(Store s, long long a, long long b, long long support) except -
 cpdef bint differ_all(Store s, long long first, long long count, long long support) except -1
 
 @cython.locals(x="long long")
-cpdef bint keep_offset(Store s, long long c, long long a, long long k, long long b) except -1
+cpdef bint _keep_offset(Store s, long long c, long long a, long long k, long long b) except -1
 
 @cython.locals(is_known=bint, is_telling=bint, x="long long")
-cpdef bint keep_distance(
+cpdef bint _keep_distance(
     Store s, long long c, long long start, long long distance, long long end, long long support
 ) except -1
 
 @cython.locals(longest="long long", shortest="long long", support="long long")
-cpdef bint follow_distance(
+cpdef bint _follow_distance(
     Store s, long long c, long long start, long long distance, long long end, bint wholly
 ) except -1

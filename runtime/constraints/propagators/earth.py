@@ -19,7 +19,7 @@ def great_circle(lat1: float, lon1: float, lat2: float, lon2: float) -> float:
     return rounded(2.0 * MEAN_RADIUS * math.asin(min(1.0, math.sqrt(h))))
 
 
-def to_cartesian(lat: float, lon: float) -> tuple[float, float, float]:
+def _to_cartesian(lat: float, lon: float) -> tuple[float, float, float]:
     """Give the earth-centred coordinates of a position on the ellipsoid."""
     sine = math.sin(lat * DEGREE)
     normal = EQUATOR / math.sqrt(1.0 - ECCENTRICITY_2 * sine * sine)
@@ -31,8 +31,8 @@ def to_cartesian(lat: float, lon: float) -> tuple[float, float, float]:
 
 def displacement(lat: float, lon: float, other_lat: float, other_lon: float) -> tuple[float, float]:
     """Give how many metres north and east, in the first position's tangent plane, the second one lies."""
-    x1, y1, z1 = to_cartesian(lat, lon)
-    x2, y2, z2 = to_cartesian(other_lat, other_lon)
+    x1, y1, z1 = _to_cartesian(lat, lon)
+    x2, y2, z2 = _to_cartesian(other_lat, other_lon)
     x, y, z = x2 - x1, y2 - y1, z2 - z1
     outward = math.cos(lon * DEGREE) * x + math.sin(lon * DEGREE) * y
     north = -math.sin(lat * DEGREE) * outward + math.cos(lat * DEGREE) * z
@@ -55,7 +55,7 @@ def displaced(lat: float, lon: float, north: float, east: float) -> tuple[float,
     return rounded(new_lat), rounded(new_lon)
 
 
-def days_before(year: int) -> int:
+def _days_before(year: int) -> int:
     """Count the days from the start of 1970 to the start of a year (Gregorian calendar)."""
     past = year - 1
     return 365 * (year - 1970) + (past // 4 - 492) - (past // 100 - 19) + (past // 400 - 4)
@@ -66,14 +66,14 @@ def date_of_tick(tick: float, tick_seconds: float, epoch: float) -> tuple[float,
     time = epoch + tick * tick_seconds
     day = int(math.floor(time / DAY))
     year = 1970 + day // 366
-    while days_before(year + 1) <= day:
+    while _days_before(year + 1) <= day:
         year += 1
-    while days_before(year) > day:
+    while _days_before(year) > day:
         year -= 1
-    return time - day * DAY, float(day - days_before(year) + 1), float(year)
+    return time - day * DAY, float(day - _days_before(year) + 1), float(year)
 
 
 def tick_of_date(seconds: float, day: int, year: int, tick_seconds: float, epoch: float) -> float:
     """Give the first tick at or after a date."""
-    time = (days_before(year) + day - 1) * DAY + seconds
+    time = (_days_before(year) + day - 1) * DAY + seconds
     return float(math.ceil((time - epoch) / tick_seconds - 1e-9))

@@ -20,45 +20,44 @@ cdef double FLOAT_TOLERANCE, STRICT_STEP
 )
 cpdef bint propagate_logic(Store s, long long c) except -1
 
-cpdef long long truth(Store s, long long v) except? -1
+cpdef long long _truth(Store s, long long v) except? -1
 
-cpdef bint be_true(Store s, long long v, long long support) except -1
+cpdef bint _be_true(Store s, long long v, long long support) except -1
 
-cpdef bint be_false(Store s, long long v, long long support) except -1
+cpdef bint _be_false(Store s, long long v, long long support) except -1
 
-cpdef bint is_specified(Store s, long long v) except -1
+cpdef bint _is_specified(Store s, long long v) except -1
 
 @cython.locals(hi="long long", lo="long long", x="long long")
 cpdef bint may_be_equal(Store s, long long a, long long b) except -1
 
 @cython.locals(known="long long")
-cpdef bint test_equal(Store s, long long t, long long a, long long b, bint equal, long long support) except -1
+cpdef bint _test_equal(Store s, long long t, long long a, long long b, bint equal, long long support) except -1
 
 @cython.locals(known="long long", step="long long")
-cpdef bint test_order(Store s, long long t, long long a, long long b, bint strict, long long support) except -1
+cpdef bint _test_order(Store s, long long t, long long a, long long b, bint strict, long long support) except -1
 
 @cython.locals(known="long long", x="long long", y="long long")
-cpdef bint test_and(Store s, long long t, long long a, long long b, long long support) except -1
+cpdef bint _test_both(Store s, long long t, long long a, long long b, long long sway, long long support) except -1
 
-@cython.locals(known="long long", x="long long", y="long long")
-cpdef bint test_or(Store s, long long t, long long a, long long b, long long support) except -1
+cpdef bint _be(Store s, long long v, long long value, long long support) except -1
 
 @cython.locals(k="long long", known="long long", last="long long")
-cpdef bint need_one(Store s, long long first, long long count, long long support) except -1
+cpdef bint _need_one(Store s, long long first, long long count, long long support) except -1
 
 @cython.locals(
     k="long long", known="long long", n="long long", none_left=bint, sure="long long", unsure="long long",
     v="long long"
 )
-cpdef bint count_zeroes(Store s, long long first, long long count, bint zeroes, long long support) except -1
+cpdef bint _count_zeroes(Store s, long long first, long long count, bint zeroes, long long support) except -1
 
 @cython.locals(known="long long")
-cpdef bint run_condition(
+cpdef bint _run_condition(
     Store s, long long op, long long t, long long first, long long count, long long support
 ) except -1
 
-@cython.locals(a="long long", j="long long", k="long long", unsettled="long long", v="long long")
-cpdef bint test_all_equal(
+@cython.locals(a="long long", j="long long", k="long long", undecided="long long", v="long long")
+cpdef bint _test_all_equal(
     Store s, long long t, long long known, long long first, long long count, long long support
 ) except -1
 
@@ -66,6 +65,6 @@ cpdef bint test_all_equal(
     a="long long", b="long long", j="long long", k="long long", open_pairs="long long", x="long long",
     y="long long"
 )
-cpdef bint test_all_different(
+cpdef bint _test_all_different(
     Store s, long long t, long long known, long long first, long long count, long long support
 ) except -1

@@ -44,13 +44,13 @@ def _distance_bounds(lat1: Interval, lon1: Interval, lat2: Interval, lon2: Inter
     return outward(least * MEAN_RADIUS - 0.1, most * MEAN_RADIUS + 0.1)
 
 
-def _arcs_apart(place: list[float], k: int, least: float, most: float) -> list[Interval]:
+def _arcs_apart(position: list[float], k: int, least: float, most: float) -> list[Interval]:
     """Give the degrees, but for whole turns, that one of four coordinates may be, by the distance in metres.
 
-    `place` is lat1, lon1, lat2, lon2, of which number k is not known. The cosine of the angle between two directions
+    `position` is lat1, lon1, lat2, lon2, of which number k is not known. The cosine of the angle between two directions
     is a cos(y) + b sin(y) + c, so it lies between two bounds on at most two arcs of y.
     """
-    lat1, lon1, lat2, lon2 = (math.radians(x) for x in (place if k < 2 else [*place[2:], *place[:2]]))
+    lat1, lon1, lat2, lon2 = (math.radians(x) for x in (position if k < 2 else [*position[2:], *position[:2]]))
     if k % 2 == 0:
         a, b, c, start = math.cos(lat2) * math.cos(lon2 - lon1), math.sin(lat2), 0.0, 0.0
     else:
@@ -147,16 +147,16 @@ def tick_date(row: Arguments) -> bool:
 
 def great_circle_distance(row: Arguments) -> bool:
     """Narrow: the distance of two positions on the earth, given by latitude and longitude."""
-    place = [row.bounds(k) for k in range(1, 5)]
-    lo, hi = _distance_bounds(*place)
+    position = [row.bounds(k) for k in range(1, 5)]
+    lo, hi = _distance_bounds(*position)
     if not row.keep(0, max(0.0, lo - METRES), hi + METRES):
         return False
-    unknown = [k for k in range(4) if place[k][0] < place[k][1]]
+    unknown = [k for k in range(4) if position[k][0] < position[k][1]]
     if len(unknown) != 1:
         return True
     (k,) = unknown
     lo, hi = tolerant(row.bounds(0))
-    return row.keep_in_turns(1 + k, _arcs_apart([x for x, _ in place], k, lo - METRES, hi + METRES))
+    return row.keep_in_turns(1 + k, _arcs_apart([x for x, _ in position], k, lo - METRES, hi + METRES))
 
 
 def displaced_position(row: Arguments) -> bool:

@@ -35,7 +35,7 @@ from runtime.constraints.propagators.registry import (
 MASK = 2**64 - 1
 
 
-def grow_constraints(s: Store) -> None:
+def _grow_constraints(s: Store) -> None:
     """Double the rows of constraints, and the queues with them."""
     room = 2 * len(s.op)
     s.op = grown(s.op, "i", room, -1)
@@ -53,7 +53,7 @@ def grow_constraints(s: Store) -> None:
     s.grow_constraint_queues(room)
 
 
-def grow_slots(s: Store, need: int) -> None:
+def _grow_slots(s: Store, need: int) -> None:
     """Make room for `need` more slots."""
     room = len(s.slot_variable)
     while room < s.slots_used + need:
@@ -66,20 +66,20 @@ def grow_slots(s: Store, need: int) -> None:
     s.slot_key = grown(s.slot_key, "q", room, 0)
 
 
-def allocate_slots(s: Store, count: int) -> int:
+def _allocate_slots(s: Store, count: int) -> int:
     """Take `count` consecutive slots; blocks of up to 64 come back through free lists."""
     if count <= 64 and s.slot_free[count] >= 0:
         first = s.slot_free[count]
         s.slot_free[count] = s.slot_next[first]
         return first
     if s.slots_used + count > len(s.slot_variable):
-        grow_slots(s, count)
+        _grow_slots(s, count)
     first = s.slots_used
     s.slots_used = first + count
     return first
 
 
-def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
+def _new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
     """Make a constraint whose arguments are still to be filled in."""
     c = s.constraint_free
     if c >= 0:
@@ -87,11 +87,11 @@ def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
     else:
         c = s.constraints_used
         if c == len(s.op):
-            grow_constraints(s)
+            _grow_constraints(s)
         s.constraints_used = c + 1
     s.op[c] = op
     s.mode[c] = MODE_WHOLE
-    s.first[c] = allocate_slots(s, arity)
+    s.first[c] = _allocate_slots(s, arity)
     s.arity[c] = arity
     s.span[c] = span
     s.owner[c] = owner
@@ -105,7 +105,7 @@ def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
     return c
 
 
-def watch(s: Store, c: int, position: int, v: int, mask: int) -> None:
+def _watch(s: Store, c: int, position: int, v: int, mask: int) -> None:
     """Fill in an argument and wake `c` at the events of `mask`; without any it is mute. Constants have no lists."""
     slot = s.first[c] + position
     s.slot_variable[slot] = v
@@ -162,24 +162,24 @@ def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: i
         arguments = [arguments[len(arguments) - 1], *arguments[: len(arguments) - 1]]
     elif op == OP_ADD_EQ and s.constant[arguments[0]] and not s.constant[arguments[1]]:
         arguments = [arguments[1], arguments[0], arguments[2]]
-    c = new_constraint(s, op, len(arguments), span, owner)
-    choose_mode(s, c, arguments)
+    c = _new_constraint(s, op, len(arguments), span, owner)
+    _choose_mode(s, c, arguments)
     if op == OP_RAND:
-        s.aux[c] = random_whole(s.seed, span, owner)
+        s.aux[c] = _random_whole(s.seed, span, owner)
     for position in range(s.arity[c]):
-        watch(s, c, position, arguments[position], events_of(s, c, position))
-    s.settles[c] = is_idempotent(s, c) and len(set(arguments)) == len(arguments)
+        _watch(s, c, position, arguments[position], _events_of(s, c, position))
+    s.settles[c] = _is_idempotent(s, c) and len(set(arguments)) == len(arguments)
     s.schedule(c)
     return c
 
 
 def start_element(s: Store, result: int, index: int, rows: int, span: int, owner: int) -> int:
     """Make a look-up of `rows` rows, to be given by `add_row` in the order of their keys."""
-    c = new_constraint(s, OP_ELEMENT, rows + 2, span, owner)
+    c = _new_constraint(s, OP_ELEMENT, rows + 2, span, owner)
     if s.kind[result] == KIND_FLOAT:
         s.mode[c] = MODE_REAL
-    watch(s, c, 0, result, EVENT_DOMAIN)
-    watch(s, c, 1, index, EVENT_DOMAIN)
+    _watch(s, c, 0, result, EVENT_DOMAIN)
+    _watch(s, c, 1, index, EVENT_DOMAIN)
     s.settles[c] = 0
     s.schedule(c)
     return c
@@ -189,11 +189,11 @@ def add_row(s: Store, c: int, k: int, key: int, v: int) -> None:
     """Give row `k` of a look-up: the key that the index takes for variable `v`."""
     if s.kind[v] == KIND_FLOAT:
         s.mode[c] = MODE_REAL
-    watch(s, c, 2 + k, v, EVENT_DOMAIN)
+    _watch(s, c, 2 + k, v, EVENT_DOMAIN)
     s.slot_key[s.first[c] + 2 + k] = key
 
 
-def is_idempotent(s: Store, c: int) -> bool:
+def _is_idempotent(s: Store, c: int) -> bool:
     """Tell whether one run reaches the constraint's own fixpoint, where no bound has to jump over holes."""
     if s.arity[c] > IDEMPOTENT_UP_TO[s.op[c]]:
         return False
@@ -203,7 +203,7 @@ def is_idempotent(s: Store, c: int) -> bool:
     return True
 
 
-def events_of(s: Store, c: int, position: int) -> int:
+def _events_of(s: Store, c: int, position: int) -> int:
     """Give the events of an argument that may let the constraint narrow another one."""
     op = s.op[c]
     if s.mode[c] == MODE_EDGES:
@@ -211,7 +211,7 @@ def events_of(s: Store, c: int, position: int) -> int:
     return WAKES_OTHERS[op] if position else WAKES_FIRST[op]
 
 
-def choose_mode(s: Store, c: int, arguments: list[int]) -> None:
+def _choose_mode(s: Store, c: int, arguments: list[int]) -> None:
     """Have comparisons of ints, and sums of an int and a constant, carried out by edges; reals by doubles."""
     op = s.op[c]
     edges = s.arity[c] <= EDGES_UP_TO[op]
@@ -223,21 +223,21 @@ def choose_mode(s: Store, c: int, arguments: list[int]) -> None:
     if op == OP_TEMPORAL_DISTANCE:
         s.mode[c] = MODE_DISTANCE
     elif op == OP_ADD_EQ:
-        if is_offset(s, arguments[0], arguments[1], arguments[2]):
+        if _is_offset(s, arguments[0], arguments[1], arguments[2]):
             s.mode[c] = MODE_EDGES
             s.op[c] = OP_PLUS
     elif op == OP_PLUS or edges:
         s.mode[c] = MODE_EDGES
 
 
-def is_offset(s: Store, a: int, k: int, b: int) -> bool:
+def _is_offset(s: Store, a: int, k: int, b: int) -> bool:
     """Tell whether a + k = b relates two ints by a constant whole number."""
     if s.kind[a] != KIND_INT or s.kind[b] != KIND_INT or s.constant[a] or s.constant[b] or not s.constant[k]:
         return False
     return (s.kind[k] == KIND_INT or s.kind[k] == KIND_BOOL) and s.lb[k] == s.ub[k]
 
 
-def random_whole(seed: int, span: int, owner: int) -> int:
+def _random_whole(seed: int, span: int, owner: int) -> int:
     """Draw from 0 to 32767: a function of the seed and of where the constraint was posted (splitmix64)."""
     x = (seed * 1000003 + span * 8191 + owner + 2) & MASK
     x = (x + 0x9E3779B97F4A7C15) & MASK

@@ -19,7 +19,8 @@ from runtime.constraints.domains.tags import (
     PRIORITY_DEAR,
     PRIORITY_WATCH,
 )
-from runtime.constraints.propagators import claims, opcodes, positions, relational
+from runtime.constraints.propagators import claims, positions, relational
+from runtime.constraints.propagators import opcodes as op
 from runtime.constraints.propagators.arguments import Arguments
 from runtime.constraints.propagators.row import (
     CALLED_ALWAYS,
@@ -51,7 +52,7 @@ def _call_external(s: Store, c: int) -> bool:
 
 _COMPARISON = (
     Propagator(
-        opcodes.OP_EQ,
+        op.OP_EQ,
         "eq concurrent",
         "x y rest*",
         claims.all_equal,
@@ -61,12 +62,12 @@ _COMPARISON = (
         idempotent_up_to=2,
         reads=READS_SAME_SIDE,
     ),
-    Propagator(opcodes.OP_NEQ, "neq", "x y", lambda _, x: x[0] != x[1], infix="{0} != {1}", idempotent_up_to=2),
-    _order(opcodes.OP_LT, "lt strictlyPrecedes", "x y", lambda _, x: x[0] < x[1], infix="{0} < {1}"),
-    _order(opcodes.OP_LEQ, "leq precedes", "x y", lambda _, x: x[0] <= x[1], infix="{0} <= {1}"),
-    Propagator(opcodes.OP_ALL_DIFF, "allDiff", "x y rest*", claims.all_different),
+    Propagator(op.OP_NEQ, "neq", "x y", lambda _, x: x[0] != x[1], infix="{0} != {1}", idempotent_up_to=2),
+    _order(op.OP_LT, "lt strictlyPrecedes", "x y", lambda _, x: x[0] < x[1], infix="{0} < {1}"),
+    _order(op.OP_LEQ, "leq precedes", "x y", lambda _, x: x[0] <= x[1], infix="{0} <= {1}"),
+    Propagator(op.OP_ALL_DIFF, "allDiff", "x y rest*", claims.all_different),
     Propagator(
-        opcodes.OP_TEMPORAL_DISTANCE,
+        op.OP_TEMPORAL_DISTANCE,
         "temporalDistance",
         "a distance b",
         lambda _, x: x[2] - x[0] == x[1],
@@ -76,17 +77,14 @@ _COMPARISON = (
         reads=READS_DISTANCE,
     ),
     Propagator(
-        opcodes.OP_WITHIN_BOUNDS,
-        "withinBounds",
-        "x lower upper",
-        lambda z, x: z.every([x[1] <= x[0], x[0] <= x[2]]),
+        op.OP_WITHIN_BOUNDS, "withinBounds", "x lower upper", lambda z, x: z.every([x[1] <= x[0], x[0] <= x[2]])
     ),
-    Propagator(opcodes.OP_PLUS, arguments="a constant sum", shown="addEq"),  # `post` makes it of addEq
+    Propagator(op.OP_PLUS, arguments="a constant sum", shown="addEq"),  # `post` makes it of addEq
 )
 
 _ARITHMETIC = (
     _arithmetic(
-        opcodes.OP_ADD_EQ,
+        op.OP_ADD_EQ,
         "addEq",
         "a b sum",
         lambda _, x: x[0] + x[1] == x[2],
@@ -95,7 +93,7 @@ _ARITHMETIC = (
         reads=READS_SUM_LAST,
     ),
     _arithmetic(
-        opcodes.OP_MUL_EQ,
+        op.OP_MUL_EQ,
         "mulEq multEq",
         "a b product",
         lambda _, x: x[0] * x[1] == x[2],
@@ -103,40 +101,36 @@ _ARITHMETIC = (
         reads_own=OWN_AT_ONE,
     ),
     _arithmetic(
-        opcodes.OP_DIV_EQ,
+        op.OP_DIV_EQ,
         "divEq",
         "a b quotient",
         lambda z, x: z.every([x[1] != 0, x[0] == x[1] * x[2]]),
         reads_own=OWN_AT_ONE,
     ),
     _arithmetic(
-        opcodes.OP_EQ_SUM,
-        "eqSum",
-        "result x y rest*",
-        lambda _, x: x[0] == claims.total(x[1:]),
-        reads=READS_SUM_FIRST,
+        op.OP_EQ_SUM, "eqSum", "result x y rest*", lambda _, x: x[0] == claims.total(x[1:]), reads=READS_SUM_FIRST
     ),
-    _arithmetic(opcodes.OP_EQ_PRODUCT, "eqProduct", "result x y rest*", lambda _, x: x[0] == claims.product(x[1:])),
-    _arithmetic(opcodes.OP_EQ_MINIMUM, "eqMinimum", "result x y rest*", lambda z, x: claims.least(z, x[0], x[1:])),
-    _arithmetic(opcodes.OP_EQ_MAXIMUM, "eqMaximum", "result x y rest*", lambda z, x: claims.greatest(z, x[0], x[1:])),
+    _arithmetic(op.OP_EQ_PRODUCT, "eqProduct", "result x y rest*", lambda _, x: x[0] == claims.product(x[1:])),
+    _arithmetic(op.OP_EQ_MINIMUM, "eqMinimum", "result x y rest*", lambda z, x: claims.least(z, x[0], x[1:])),
+    _arithmetic(op.OP_EQ_MAXIMUM, "eqMaximum", "result x y rest*", lambda z, x: claims.greatest(z, x[0], x[1:])),
     _arithmetic(
-        opcodes.OP_ALL_MIN,
+        op.OP_ALL_MIN,
         "allMin min",
         "x y rest* result",
         lambda z, x: claims.least(z, x[-1], x[:-1]),
-        posted_as=opcodes.OP_EQ_MINIMUM,
+        posted_as=op.OP_EQ_MINIMUM,
     ),
     _arithmetic(
-        opcodes.OP_ALL_MAX,
+        op.OP_ALL_MAX,
         "allMax max",
         "x y rest* result",
         lambda z, x: claims.greatest(z, x[-1], x[:-1]),
-        posted_as=opcodes.OP_EQ_MAXIMUM,
+        posted_as=op.OP_EQ_MAXIMUM,
     ),
-    _arithmetic(opcodes.OP_ABS_VAL, "absVal", "result x", claims.absolute, reads_own=OWN_ALWAYS),
-    _arithmetic(opcodes.OP_NEG, "neg", "x y", lambda _, x: x[0] == -x[1]),
+    _arithmetic(op.OP_ABS_VAL, "absVal", "result x", claims.absolute, reads_own=OWN_ALWAYS),
+    _arithmetic(op.OP_NEG, "neg", "x y", lambda _, x: x[0] == -x[1]),
     _arithmetic(
-        opcodes.OP_DIFF_SQUARE,
+        op.OP_DIFF_SQUARE,
         "diffSquare",
         "a b r",
         lambda _, x: x[2] == (x[0] - x[1]) * (x[0] - x[1]),
@@ -144,14 +138,10 @@ _ARITHMETIC = (
         is_beside=True,
     ),
     _arithmetic(
-        opcodes.OP_CALC_DISTANCE,
-        "calcDistance",
-        "distance x1 y1 x2 y2",
-        claims.distance,
-        relation=relational.distance,
+        op.OP_CALC_DISTANCE, "calcDistance", "distance x1 y1 x2 y2", claims.distance, relation=relational.distance
     ),
     _arithmetic(
-        opcodes.OP_DISTANCE_SQUARES,
+        op.OP_DISTANCE_SQUARES,
         "distanceSquares",
         "a b r",
         lambda z, x: claims.root(z, x[2], x[0] + x[1]),
@@ -161,102 +151,79 @@ _ARITHMETIC = (
 )
 
 _LOGIC = (
-    Propagator(opcodes.OP_OR, "or", "x rest*", lambda z, x: z.some([a != 0 for a in x])),
+    Propagator(op.OP_OR, "or", "x rest*", lambda z, x: z.some([a != 0 for a in x])),
     Propagator(
-        opcodes.OP_COUNT_ZEROES,
-        "countZeroes",
-        "count x rest*",
-        lambda z, x: x[0] == claims.count(z, x[1:], of_zeroes=True),
+        op.OP_COUNT_ZEROES, "countZeroes", "count x rest*", lambda z, x: x[0] == claims.count(z, x[1:], of_zeroes=True)
     ),
     Propagator(
-        opcodes.OP_COUNT_NON_ZEROES,
+        op.OP_COUNT_NON_ZEROES,
         "countNonZeroes",
         "count x rest*",
         lambda z, x: x[0] == claims.count(z, x[1:], of_zeroes=False),
     ),
-    Propagator(opcodes.OP_TEST_EQ, "testEq", "truth x y", lambda _, x: (x[0] != 0) == (x[1] == x[2])),
-    Propagator(opcodes.OP_TEST_NEQ, "testNeq", "truth x y", lambda _, x: (x[0] != 0) == (x[1] != x[2])),
-    Propagator(opcodes.OP_TEST_LEQ, "testLeq", "truth x y", lambda _, x: (x[0] != 0) == (x[1] <= x[2])),
-    Propagator(opcodes.OP_TEST_LT, "testLessThan", "truth x y", lambda _, x: (x[0] != 0) == (x[1] < x[2])),
+    Propagator(op.OP_TEST_EQ, "testEq", "truth x y", lambda _, x: (x[0] != 0) == (x[1] == x[2])),
+    Propagator(op.OP_TEST_NEQ, "testNeq", "truth x y", lambda _, x: (x[0] != 0) == (x[1] != x[2])),
+    Propagator(op.OP_TEST_LEQ, "testLeq", "truth x y", lambda _, x: (x[0] != 0) == (x[1] <= x[2])),
+    Propagator(op.OP_TEST_LT, "testLessThan", "truth x y", lambda _, x: (x[0] != 0) == (x[1] < x[2])),
+    Propagator(op.OP_TEST_AND, "testAnd", "truth x y", lambda z, x: (x[0] != 0) == z.every([x[1] != 0, x[2] != 0])),
+    Propagator(op.OP_TEST_OR, "testOr", "truth x y", lambda z, x: (x[0] != 0) == z.some([x[1] != 0, x[2] != 0])),
     Propagator(
-        opcodes.OP_TEST_AND,
-        "testAnd",
-        "truth x y",
-        lambda z, x: (x[0] != 0) == z.every([x[1] != 0, x[2] != 0]),
-    ),
-    Propagator(
-        opcodes.OP_TEST_OR,
-        "testOr",
-        "truth x y",
-        lambda z, x: (x[0] != 0) == z.some([x[1] != 0, x[2] != 0]),
-    ),
-    Propagator(
-        opcodes.OP_COND_ALL_DIFF,
+        op.OP_COND_ALL_DIFF,
         "condAllDiff",
         "truth x y rest*",
         lambda z, x: (x[0] != 0) == claims.all_different(z, x[1:]),
     ),
-    Propagator(
-        opcodes.OP_COND_EQ,
-        "condEq",
-        "truth x y rest*",
-        lambda z, x: (x[0] != 0) == claims.all_equal(z, x[1:]),
-    ),
-    _of_domains(opcodes.OP_TEST_SINGLETON, "testSingleton", "truth x"),
-    _of_domains(opcodes.OP_TEST_SPECIFIED, "testSpecified", "truth x", wakes=(EVENT_ANY, EVENT_ANY)),
+    Propagator(op.OP_COND_EQ, "condEq", "truth x y rest*", lambda z, x: (x[0] != 0) == claims.all_equal(z, x[1:])),
+    _of_domains(op.OP_TEST_SINGLETON, "testSingleton", "truth x"),
+    _of_domains(op.OP_TEST_SPECIFIED, "testSpecified", "truth x", wakes=(EVENT_ANY, EVENT_ANY)),
 )
 
 _SETS = (
-    _of_domains(opcodes.OP_SUBSET_OF, "subsetOf", "x y"),
-    _of_domains(opcodes.OP_EQ_UNION, "eqUnion", "result x rest*"),
-    _of_domains(opcodes.OP_MEMBER_IMPLY, "memberImply", "a b c d"),
-    _of_domains(opcodes.OP_LOCK, "lockCT", "x domain"),
-    Propagator(opcodes.OP_ELEMENT, arguments="result index rest*"),  # see `post_element`
-    Propagator(opcodes.OP_HAS_ANCESTOR, "hasAncestor", "x ancestors"),
-    Propagator(opcodes.OP_COMMON_ANCESTOR, "commonAncestor", "x y ancestors"),
-    Propagator(opcodes.OP_FREEZE, arguments="x domain", shown="foreach"),  # keeps the values; once closed, no others
+    _of_domains(op.OP_SUBSET_OF, "subsetOf", "x y"),
+    _of_domains(op.OP_EQ_UNION, "eqUnion", "result x rest*"),
+    _of_domains(op.OP_MEMBER_IMPLY, "memberImply", "a b c d"),
+    _of_domains(op.OP_LOCK, "lockCT", "x domain"),
+    Propagator(op.OP_ELEMENT, arguments="result index rest*"),  # see `post_element`
+    Propagator(op.OP_HAS_ANCESTOR, "hasAncestor", "x ancestors"),
+    Propagator(op.OP_COMMON_ANCESTOR, "commonAncestor", "x y ancestors"),
+    Propagator(op.OP_FREEZE, arguments="x domain", shown="foreach"),  # keeps the values; once closed, no others
 )
 
 _FUNCTIONS = (
-    _function(opcodes.OP_ABS, "abs", "result x", claims.absolute, twin=opcodes.OP_ABSF),
-    _function(opcodes.OP_SQRT, "sqrt", "result x", claims.square_root, twin=opcodes.OP_SQRTF),
-    _function(opcodes.OP_FLOOR, "floor", "result x", claims.rounded_down, twin=opcodes.OP_FLOORF),
-    _function(opcodes.OP_CEIL, "ceil", "result x", claims.rounded_up, twin=opcodes.OP_CEILF),
-    _function(opcodes.OP_MAX, "maxf", "result a b", lambda z, x: claims.greatest(z, x[0], x[1:]), twin=opcodes.OP_MAXF),
-    _function(opcodes.OP_MIN, "minf", "result a b", lambda z, x: claims.least(z, x[0], x[1:]), twin=opcodes.OP_MINF),
-    _function(opcodes.OP_POW, "pow", "result a b", relation=relational.power),
-    _function(opcodes.OP_MOD, "mod", "result a b", claims.remainder, relation=relational.remainder),
-    _function(opcodes.OP_RAND, "rand", "result", waits=False),  # fixed when it is posted
-    _function(opcodes.OP_SAMPLE, "sampledParameter", "value parameter", waits=False),  # a draw; one way
-    _function(opcodes.OP_BIND, "bind", "target default", reads_own=OWN_ALWAYS, is_of_domains=True),
-    _function(opcodes.OP_TRAVEL_TIME, "travelTime", "ticks xa ya xb yb speed", relation=relational.travel_time),
-    _function(opcodes.OP_TOWARDS, "towards", "ux uy x y tx ty", relation=relational.unit_vector),
+    _function(op.OP_ABS, "abs", "result x", claims.absolute, twin=op.OP_ABSF),
+    _function(op.OP_SQRT, "sqrt", "result x", claims.square_root, twin=op.OP_SQRTF),
+    _function(op.OP_FLOOR, "floor", "result x", claims.rounded_down, twin=op.OP_FLOORF),
+    _function(op.OP_CEIL, "ceil", "result x", claims.rounded_up, twin=op.OP_CEILF),
+    _function(op.OP_MAX, "maxf", "result a b", lambda z, x: claims.greatest(z, x[0], x[1:]), twin=op.OP_MAXF),
+    _function(op.OP_MIN, "minf", "result a b", lambda z, x: claims.least(z, x[0], x[1:]), twin=op.OP_MINF),
+    _function(op.OP_POW, "pow", "result a b", relation=relational.power),
+    _function(op.OP_MOD, "mod", "result a b", claims.remainder, relation=relational.remainder),
+    _function(op.OP_RAND, "rand", "result", waits=False),  # fixed when it is posted
+    _function(op.OP_SAMPLE, "sampledParameter", "value parameter", waits=False),  # a draw; one way
+    _function(op.OP_BIND, "bind", "target default", reads_own=OWN_ALWAYS, is_of_domains=True),
+    _function(op.OP_TRAVEL_TIME, "travelTime", "ticks xa ya xb yb speed", relation=relational.travel_time),
+    _function(op.OP_TOWARDS, "towards", "ux uy x y tx ty", relation=relational.unit_vector),
 )
 
 _GEODESY = (
-    Propagator(opcodes.OP_SIN, "sin", "result angle", twin=opcodes.OP_SINF),  # within a quarter turn, forward only
-    Propagator(opcodes.OP_SINF, "sinf", "result angle"),
-    Propagator(opcodes.OP_COSF, "cosf", "result angle"),
-    Propagator(opcodes.OP_SQRTF, "sqrtf", "result x", claims.square_root),
-    Propagator(opcodes.OP_ABSF, "absf", "result x", claims.absolute),
-    Propagator(opcodes.OP_FLOORF, "floorf", "result x", claims.rounded_down),
-    Propagator(opcodes.OP_CEILF, "ceilf", "result x", claims.rounded_up),
-    Propagator(opcodes.OP_MAXF, arguments="result x rest*"),
-    Propagator(opcodes.OP_MINF, arguments="result x rest*"),
-    Propagator(opcodes.OP_EXPF, "expf", "result x"),
-    Propagator(opcodes.OP_LOGF, "logf", "result x"),
-    Propagator(opcodes.OP_DEG_TO_RAD, "deg_to_rad", "radians degrees"),
-    Propagator(opcodes.OP_CIRCLE_MOD, "circle_mod", "angle value"),
+    Propagator(op.OP_SIN, "sin", "result angle", twin=op.OP_SINF),  # within a quarter turn, forward only
+    Propagator(op.OP_SINF, "sinf", "result angle"),
+    Propagator(op.OP_COSF, "cosf", "result angle"),
+    Propagator(op.OP_SQRTF, "sqrtf", "result x", claims.square_root),
+    Propagator(op.OP_ABSF, "absf", "result x", claims.absolute),
+    Propagator(op.OP_FLOORF, "floorf", "result x", claims.rounded_down),
+    Propagator(op.OP_CEILF, "ceilf", "result x", claims.rounded_up),
+    Propagator(op.OP_MAXF, arguments="result x rest*"),
+    Propagator(op.OP_MINF, arguments="result x rest*"),
+    Propagator(op.OP_EXPF, "expf", "result x"),
+    Propagator(op.OP_LOGF, "logf", "result x"),
+    Propagator(op.OP_DEG_TO_RAD, "deg_to_rad", "radians degrees"),
+    Propagator(op.OP_CIRCLE_MOD, "circle_mod", "angle value"),
     Propagator(
-        opcodes.OP_TICK_DATE,
-        "tick_date",
-        "tick seconds day year",
-        waits=True,
-        relation=positions.tick_date,
-        is_beside=True,
+        op.OP_TICK_DATE, "tick_date", "tick seconds day year", waits=True, relation=positions.tick_date, is_beside=True
     ),
     Propagator(
-        opcodes.OP_LL_DIST,
+        op.OP_LL_DIST,
         "ll_dist",
         "d lat1 lon1 lat2 lon2",
         waits=True,
@@ -264,7 +231,7 @@ _GEODESY = (
         is_beside=True,
     ),
     Propagator(
-        opcodes.OP_WGS_DISPLACE,
+        op.OP_WGS_DISPLACE,
         "wgsdisplace",
         "lat lon north east latR lonR",
         waits=True,
@@ -272,7 +239,7 @@ _GEODESY = (
         is_beside=True,
     ),
     Propagator(
-        opcodes.OP_WGS_DISPLACEMENT,
+        op.OP_WGS_DISPLACEMENT,
         "wgsdisplacement",
         "lat lon latR lonR north east",
         waits=True,
@@ -283,32 +250,33 @@ _GEODESY = (
 
 _SPECIAL = (
     # Narrows nothing; joins `woken` when one of its variables changes or is decided.
-    Propagator(opcodes.OP_WATCH, arguments="x rest*", wakes=(EVENT_ANY, EVENT_ANY), priority=PRIORITY_WATCH),
-    Propagator(opcodes.OP_EXTERNAL, arguments="x rest*", propagate=_call_external, priority=PRIORITY_DEAR),
-    Propagator(opcodes.OP_NOTHING, "isExternal", "truth timeline"),
-    Propagator(opcodes.OP_NOTHING, "isInternal", "truth timeline"),
-    Propagator(opcodes.OP_NOTHING, "ll_offset", "lat lon north east rest*"),
-    Propagator(opcodes.OP_NOTHING, "sane_pos", "lat lon rest*"),
-    Propagator(opcodes.OP_NOTHING, "is_empty", "truth path"),
-    Propagator(opcodes.OP_NOTHING, "car", "point path"),
-    Propagator(opcodes.OP_NOTHING, "cdr", "rest path"),
+    Propagator(op.OP_WATCH, arguments="x rest*", wakes=(EVENT_ANY, EVENT_ANY), priority=PRIORITY_WATCH),
+    Propagator(op.OP_EXTERNAL, arguments="x rest*", propagate=_call_external, priority=PRIORITY_DEAR),
+    Propagator(op.OP_NOTHING, "isExternal", "truth timeline"),
+    Propagator(op.OP_NOTHING, "isInternal", "truth timeline"),
+    Propagator(op.OP_NOTHING, "ll_offset", "lat lon north east rest*"),
+    Propagator(op.OP_NOTHING, "sane_pos", "lat lon rest*"),
+    Propagator(op.OP_NOTHING, "is_empty", "truth path"),
+    Propagator(op.OP_NOTHING, "car", "point path"),
+    Propagator(op.OP_NOTHING, "cdr", "rest path"),
 )
 
 # Constraints without a compiled file; each says `propagate`, and its opcode is given here.
 _CALLED: tuple[Propagator, ...] = tuple(
-    replace(row, op=opcodes.FIRST_CALLED + number) for number, row in enumerate[Propagator](())
+    replace(row, op=op.FIRST_CALLED + number) for number, row in enumerate[Propagator](())
 )
 
 ROWS = (*_COMPARISON, *_ARITHMETIC, *_LOGIC, *_SETS, *_FUNCTIONS, *_GEODESY, *_SPECIAL, *_CALLED)
 BY_NAME: dict[str, Propagator] = {name: row for row in ROWS for name in row.names.split()}
-BY_OP: dict[int, Propagator] = {row.op: row for row in ROWS if row.op != opcodes.OP_NOTHING}
+BY_OP: dict[int, Propagator] = {row.op: row for row in ROWS if row.op != op.OP_NOTHING}
 # The name of a constraint in messages, where it has one.
 NAMES: dict[int, str] = {row.op: row.name for row in BY_OP.values() if row.name}
 
 
 def _table(column: Callable[[Propagator], int], otherwise: int = 0) -> "array[int]":
     """Lay a column out by opcode, for compiled code."""
-    return array("h", [column(BY_OP[op]) if op in BY_OP else otherwise for op in range(opcodes.OPCODES)])
+    rows = map(BY_OP.get, range(op.OPCODES))
+    return array("h", [otherwise if row is None else column(row) for row in rows])
 
 
 def _when_called(row: Propagator) -> int:
@@ -343,4 +311,4 @@ TWINS = _table(lambda row: row.twin, -1)
 READS = _table(lambda row: row.reads)
 READS_OWN = _table(lambda row: row.reads_own)
 CALLED = _table(_when_called)
-CALLS = [_call_of(BY_OP[op]) if op in BY_OP else _never_called for op in range(opcodes.OPCODES)]
+CALLS = [_call_of(BY_OP[code]) if code in BY_OP else _never_called for code in range(op.OPCODES)]
