@@ -261,12 +261,11 @@ _SPECIAL = (
     Propagator(op.OP_NOTHING, "cdr", "rest path"),
 )
 
-# Constraints without a compiled file; each says `propagate`, and its opcode is given here.
-_CALLED: tuple[Propagator, ...] = tuple(
-    replace(row, op=op.FIRST_CALLED + number) for number, row in enumerate[Propagator](())
-)
+# Constraints without a compiled file: the row says `propagate`, opcodes are numbered from FIRST_CALLED.
+_CALLED: tuple[Propagator, ...] = ()
+_NUMBERED = tuple(replace(row, op=op.FIRST_CALLED + number) for number, row in enumerate(_CALLED))
 
-ROWS = (*_COMPARISON, *_ARITHMETIC, *_LOGIC, *_SETS, *_FUNCTIONS, *_GEODESY, *_SPECIAL, *_CALLED)
+ROWS = (*_COMPARISON, *_ARITHMETIC, *_LOGIC, *_SETS, *_FUNCTIONS, *_GEODESY, *_SPECIAL, *_NUMBERED)
 BY_NAME: dict[str, Propagator] = {name: row for row in ROWS for name in row.names.split()}
 BY_OP: dict[int, Propagator] = {row.op: row for row in ROWS if row.op != op.OP_NOTHING}
 # The name of a constraint in messages, where it has one.
