@@ -34,6 +34,7 @@ from runtime.constraints.propagators.row import (
     READS_SAME_SIDE,
     READS_SUM_FIRST,
     READS_SUM_LAST,
+    Claim,
     Propagate,
     Propagator,
 )
@@ -43,6 +44,12 @@ _order = partial(Propagator, wakes=(EVENT_LOWER, EVENT_UPPER), edges_up_to=2, re
 _arithmetic = partial(Propagator, wakes=_BOUNDS, reads_own=OWN_NEVER)
 _function = partial(Propagator, reads_own=OWN_NEVER, waits=True)
 _of_domains = partial(Propagator, is_of_domains=True)
+_beside = partial(Propagator, waits=True, is_beside=True)
+
+
+def _test(op: int, name: str, claim: Claim, arguments: str = "truth x y") -> Propagator:
+    """Make the row of a constraint whose first argument tells whether the others fulfil a claim."""
+    return Propagator(op, name, arguments, lambda z, x: (x[0] != 0) == claim(z, x[1:]))
 
 
 def _call_external(s: Store, c: int) -> bool:
@@ -161,19 +168,14 @@ _LOGIC = (
         "count x rest*",
         lambda z, x: x[0] == claims.count(z, x[1:], of_zeroes=False),
     ),
-    Propagator(op.OP_TEST_EQ, "testEq", "truth x y", lambda _, x: (x[0] != 0) == (x[1] == x[2])),
-    Propagator(op.OP_TEST_NEQ, "testNeq", "truth x y", lambda _, x: (x[0] != 0) == (x[1] != x[2])),
-    Propagator(op.OP_TEST_LEQ, "testLeq", "truth x y", lambda _, x: (x[0] != 0) == (x[1] <= x[2])),
-    Propagator(op.OP_TEST_LT, "testLessThan", "truth x y", lambda _, x: (x[0] != 0) == (x[1] < x[2])),
-    Propagator(op.OP_TEST_AND, "testAnd", "truth x y", lambda z, x: (x[0] != 0) == z.every([x[1] != 0, x[2] != 0])),
-    Propagator(op.OP_TEST_OR, "testOr", "truth x y", lambda z, x: (x[0] != 0) == z.some([x[1] != 0, x[2] != 0])),
-    Propagator(
-        op.OP_COND_ALL_DIFF,
-        "condAllDiff",
-        "truth x y rest*",
-        lambda z, x: (x[0] != 0) == claims.all_different(z, x[1:]),
-    ),
-    Propagator(op.OP_COND_EQ, "condEq", "truth x y rest*", lambda z, x: (x[0] != 0) == claims.all_equal(z, x[1:])),
+    _test(op.OP_TEST_EQ, "testEq", lambda _, x: x[0] == x[1]),
+    _test(op.OP_TEST_NEQ, "testNeq", lambda _, x: x[0] != x[1]),
+    _test(op.OP_TEST_LEQ, "testLeq", lambda _, x: x[0] <= x[1]),
+    _test(op.OP_TEST_LT, "testLessThan", lambda _, x: x[0] < x[1]),
+    _test(op.OP_TEST_AND, "testAnd", lambda z, x: z.every([a != 0 for a in x])),
+    _test(op.OP_TEST_OR, "testOr", lambda z, x: z.some([a != 0 for a in x])),
+    _test(op.OP_COND_ALL_DIFF, "condAllDiff", claims.all_different, "truth x y rest*"),
+    _test(op.OP_COND_EQ, "condEq", claims.all_equal, "truth x y rest*"),
     _of_domains(op.OP_TEST_SINGLETON, "testSingleton", "truth x"),
     _of_domains(op.OP_TEST_SPECIFIED, "testSpecified", "truth x", wakes=(EVENT_ANY, EVENT_ANY)),
 )
@@ -219,32 +221,14 @@ _GEODESY = (
     Propagator(op.OP_LOGF, "logf", "result x"),
     Propagator(op.OP_DEG_TO_RAD, "deg_to_rad", "radians degrees"),
     Propagator(op.OP_CIRCLE_MOD, "circle_mod", "angle value"),
-    Propagator(
-        op.OP_TICK_DATE, "tick_date", "tick seconds day year", waits=True, relation=positions.tick_date, is_beside=True
-    ),
-    Propagator(
-        op.OP_LL_DIST,
-        "ll_dist",
-        "d lat1 lon1 lat2 lon2",
-        waits=True,
-        relation=positions.great_circle_distance,
-        is_beside=True,
-    ),
-    Propagator(
-        op.OP_WGS_DISPLACE,
-        "wgsdisplace",
-        "lat lon north east latR lonR",
-        waits=True,
-        relation=positions.displaced_position,
-        is_beside=True,
-    ),
-    Propagator(
+    _beside(op.OP_TICK_DATE, "tick_date", "tick seconds day year", relation=positions.tick_date),
+    _beside(op.OP_LL_DIST, "ll_dist", "d lat1 lon1 lat2 lon2", relation=positions.great_circle_distance),
+    _beside(op.OP_WGS_DISPLACE, "wgsdisplace", "lat lon north east latR lonR", relation=positions.displaced_position),
+    _beside(
         op.OP_WGS_DISPLACEMENT,
         "wgsdisplacement",
         "lat lon latR lonR north east",
-        waits=True,
         relation=positions.displacement_between,
-        is_beside=True,
     ),
 )
 
