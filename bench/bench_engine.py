@@ -19,6 +19,7 @@ from pathlib import Path
 from runtime.build_form import build_form
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
+from runtime.constraints.propagators import opcodes
 
 NANO = 1e9
 
@@ -104,7 +105,7 @@ def measure_sums(scale: int) -> float:
     for _ in range(200):
         step = engine.new_interval(tags.KIND_INT, 0, 3, 0, -1)
         total = engine.new_interval(tags.KIND_INT, 0, 10**9, 0, -1)
-        engine.post(tags.OP_ADD_EQ, [last, step, total], 0, -1)
+        engine.post(opcodes.OP_ADD_EQ, [last, step, total], 0, -1)
         last = total
     engine.propagate()
     engine.commit()
@@ -134,7 +135,7 @@ def measure_tokens(scale: int) -> float:
         duration = engine.new_interval(tags.KIND_INT, 1, float("inf"), 0, 1)
         start = engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), 0, 1)
         end = engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), 0, 1)
-        engine.post(tags.OP_TEMPORAL_DISTANCE, [start, duration, end], 0, 1)
+        engine.post(opcodes.OP_TEMPORAL_DISTANCE, [start, duration, end], 0, 1)
         engine.add_edge(start, parent, 0, 0, 1)
         engine.add_edge(parent, end, 50, 0, 1)
         engine.propagate()

@@ -15,7 +15,7 @@ from checker.batch.result import MissionResult
 from checker.buckets import Bucket, bucket_key
 from checker.oracle import Verdict
 from checker.simplest import shortest_decimal
-from checker.smt.edges import Edge, find_failing_range
+from checker.smt.edges import RangeEnd, find_failing_range
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.distributions import DISTRIBUTIONS
 
@@ -166,7 +166,7 @@ def _sharpen(
     return None
 
 
-def _from_terms(parameter: ParameterConfiguration, example: MissionResult, own: float) -> tuple[bool, Edge] | None:
+def _from_terms(parameter: ParameterConfiguration, example: MissionResult, own: float) -> tuple[bool, RangeEnd] | None:
     """The edge on the side of the parameter's range that z3 finds in the conflict's terms."""
     abort = example.outcome.abort if example.outcome else None
     if abort is None or abort.conflict is None:

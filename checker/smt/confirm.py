@@ -5,7 +5,7 @@ from enum import Enum
 
 import z3
 
-from checker.smt.terms import Vocabulary
+from checker.smt.terms import Terms
 from runtime.executive.outcome import Conflict
 
 # Work in z3's own unit, not in seconds, so that the answer does not depend on the machine; about two seconds here.
@@ -34,7 +34,7 @@ class Confirmation:
 
 def confirm(conflict: Conflict, effort: int = EFFORT) -> Confirmation:
     """Ask z3 whether the elements of `conflict` can hold together (the engine said they cannot)."""
-    words = Vocabulary(conflict)
+    words = Terms(conflict)
     solver = z3.Solver()
     solver.set("rlimit", effort)
     solver.add(*words.base())

@@ -12,15 +12,15 @@ import z3
 
 from checker.simplest import simplest_between
 from checker.smt.confirm import EFFORT
-from checker.smt.terms import Vocabulary, rational
+from checker.smt.terms import Terms, rational
 from runtime.executive.outcome import Conflict
 
-HALVINGS = 48
-NARROW = Fraction(1, 10**9)
+_HALVINGS = 48
+_NARROW = Fraction(1, 10**9)
 
 
 @dataclass(frozen=True, slots=True)
-class Edge:
+class RangeEnd:
     """Where the conflict ends: beyond `value` it does not arise; `is_safe`: at `value` itself it does not either."""
 
     value: Fraction
@@ -33,15 +33,15 @@ class FailingRange:
     """The values of a parameter around the drawn one for which the conflict arises; None: as far as was searched."""
 
     parameter: str
-    below: Edge | None
-    above: Edge | None
+    below: RangeEnd | None
+    above: RangeEnd | None
 
 
 def find_failing_range(
     conflict: Conflict, parameter: str, drawn: float, box: tuple[float, float]
 ) -> FailingRange | None:
     """Search `box` for the edges of the conflict; None where z3 cannot tell, or no term samples `parameter`."""
-    words = Vocabulary(conflict, frozenset((parameter,)))
+    words = Terms(conflict, frozenset((parameter,)))
     solver = z3.Solver()
     solver.set("rlimit", EFFORT)
     solver.add(*words.base())
@@ -68,13 +68,13 @@ class _Search:
         self.value = value
         self.start = start
 
-    def edge(self, far: Fraction) -> Edge | None:
+    def edge(self, far: Fraction) -> RangeEnd | None:
         """The first value on the way from the start to `far` at which the terms can hold."""
         if far == self.start or not self._reaches(far):
             return None
         closed, opened = self.start, far
-        for _ in range(HALVINGS):
-            if abs(opened - closed) <= NARROW:
+        for _ in range(_HALVINGS):
+            if abs(opened - closed) <= _NARROW:
                 break
             middle = (closed + opened) / 2
             if self._reaches(middle):
@@ -86,7 +86,7 @@ class _Search:
         before_guess = self._decided(lambda value: self._between(value, guess, with_end=False))
         just_after = guess + (far - guess) / 2**60
         is_proved = not before_guess and (at_guess or self._reaches(just_after))
-        return Edge(guess, at_guess, is_proved) if is_proved else Edge(opened, True, False)
+        return RangeEnd(guess, at_guess, is_proved) if is_proved else RangeEnd(opened, True, False)
 
     def _reaches(self, end: Fraction) -> bool:
         return self._decided(lambda value: self._between(value, end, with_end=True))

@@ -5,11 +5,11 @@ from libc cimport math
 from runtime.constraints.domains.base_domain cimport base_high, base_low, base_set, in_order, insert_value, is_base_single
 from runtime.constraints.domains.constants cimport constant_interval, constant_set
 from runtime.constraints.explanation.explain cimport explain_bound, explain_conflict
-from runtime.constraints.propagators.registry cimport carry_out
-from runtime.constraints.propagators.logic cimport meet
+from runtime.constraints.propagators.dispatch cimport propagate_constraint
+from runtime.constraints.propagators.logic cimport may_be_equal
 from runtime.constraints.domains.narrow cimport high, is_single, low, raise_to, reduce_to, round_bounds
 from runtime.constraints.stn.network cimport insert_edge, propagate_edges
-from runtime.constraints.stn.posting cimport post_constraint
+from runtime.constraints.propagators.posting cimport post_constraint
 from runtime.constraints.domains.queries cimport has_finitely_many, listed, may_be, number_of_values
 from runtime.constraints.relaxation.retract cimport decisions_of, edges_of, follow_again, retract
 from runtime.constraints.domains.store cimport Store

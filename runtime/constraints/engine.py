@@ -21,8 +21,6 @@ from runtime.constraints.domains.tags import (
     FLAG_VALUES,
     FLOAT_TOLERANCE,
     KIND_FLOAT,
-    OP_ELEMENT,
-    OP_EXTERNAL,
     SUPPORT_RESTRICTION,
 )
 from runtime.constraints.domains.variables import (
@@ -39,13 +37,14 @@ from runtime.constraints.domains.variables import (
 )
 from runtime.constraints.explanation.cause import Cause, Link
 from runtime.constraints.explanation.explain import explain_bound, explain_conflict
+from runtime.constraints.propagators.dispatch import propagate_constraint
 from runtime.constraints.propagators.external import External
-from runtime.constraints.propagators.logic import meet
-from runtime.constraints.propagators.registry import carry_out
+from runtime.constraints.propagators.logic import may_be_equal
+from runtime.constraints.propagators.opcodes import OP_ELEMENT, OP_EXTERNAL
+from runtime.constraints.propagators.posting import post_constraint
 from runtime.constraints.relaxation.retract import decisions_of, edges_of, follow_again, retract
 from runtime.constraints.relaxation.trail import commit_trail, undo_to
 from runtime.constraints.stn.network import insert_edge, propagate_edges
-from runtime.constraints.stn.posting import post_constraint
 
 PATIENCE = 200  # runs of one constraint in one propagation, before steps of less than a hundredth are left out
 MOST_RUNS = 5000  # and before it is left out itself
@@ -54,8 +53,9 @@ MOST_RUNS = 5000  # and before it is left out itself
 class Engine(Store):
     """Variables, temporal edges and constraints, kept at their fixpoint, with undo and conflicts."""
 
-    def __init__(self) -> None:
+    def __init__(self, relational: bool = False) -> None:
         super().__init__()
+        self.relational = relational
         self.constants: dict[tuple[object, ...], int] = {}
         self.newest_edge = -1
         self.newest_restriction = -1
@@ -215,7 +215,7 @@ class Engine(Store):
 
     def intersects(self, v: int, w: int) -> bool:
         """Tell whether two variables have a value in common."""
-        return meet(self, v, w)
+        return may_be_equal(self, v, w)
 
     def base_lower(self, v: int) -> float:
         """Give the lower bound of the base domain."""
@@ -339,7 +339,7 @@ class Engine(Store):
             return True
         self.coarse = self.run_count[c] > PATIENCE
         self.running = c if self.settles[c] else -1
-        holding = carry_out(self, c)
+        holding = propagate_constraint(self, c)
         self.coarse = False
         self.running = -1
         return holding

@@ -7,12 +7,11 @@ from runtime.constraints.domains.tags import (
     KIND_INT,
     KIND_OBJECT,
     KIND_STRING,
-    OP_SAMPLE,
-    OP_TEMPORAL_DISTANCE,
     SIDE_UPPER,
 )
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.minimisation.minimise import minimise
+from runtime.constraints.propagators.opcodes import OP_SAMPLE, OP_TEMPORAL_DISTANCE
 from runtime.executive.outcome import (
     Conflict,
     ConflictElement,

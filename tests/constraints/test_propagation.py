@@ -7,6 +7,7 @@ import pytest
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from runtime.constraints.minimisation.minimise import minimise, sufficient
+from runtime.constraints.propagators import opcodes
 from tests.constraints.reference import (
     BATCHES,
     BY_BOUND,
@@ -85,9 +86,9 @@ def test_floats_whose_bounds_touch_are_not_smaller() -> None:
     engine = Engine()
     a = engine.new_interval(tags.KIND_FLOAT, 0.0, 9.0, 0, -1)
     nine = engine.new_constant(tags.KIND_FLOAT, 9.0, 9.0)
-    engine.post(tags.OP_LT, [a, nine], 1, -1)
+    engine.post(opcodes.OP_LT, [a, nine], 1, -1)
     assert engine.propagate() and engine.upper(a) == 9.0 - tags.STRICT_STEP
     b = engine.new_interval(tags.KIND_FLOAT, 0.0, 9.0, 2, -1)
-    engine.post(tags.OP_LT, [nine, b], 3, -1)
+    engine.post(opcodes.OP_LT, [nine, b], 3, -1)
     assert not engine.propagate()
     assert {cause.span for cause in minimise(engine, sufficient(engine))} == {2, 3}

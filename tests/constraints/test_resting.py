@@ -1,7 +1,8 @@
 """Constraints that rest in a search: nothing is lost, and all wake when the search goes back or is over."""
 
-from runtime.constraints.domains.tags import KIND_BOOL, KIND_INT, KIND_SYMBOL, OP_LEQ, OP_TEMPORAL_DISTANCE
+from runtime.constraints.domains.tags import KIND_BOOL, KIND_INT, KIND_SYMBOL
 from runtime.constraints.engine import Engine
+from runtime.constraints.propagators.opcodes import OP_LEQ, OP_TEMPORAL_DISTANCE
 
 
 def watchers(engine: Engine, v: int) -> list[int]:

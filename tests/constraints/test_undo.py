@@ -6,6 +6,7 @@ import pytest
 
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
+from runtime.constraints.propagators import opcodes
 from tests.constraints.reference import (
     BATCHES,
     BY_BOUND,
@@ -99,9 +100,9 @@ def test_bounds_that_hold_each_other_up_are_loosened() -> None:
     engine.restrict_base(y, 0, 10, 1, -1)
     limit = engine.newest_restriction
     twice = engine.new_interval(tags.KIND_INT, 0, float("inf"), 0, -1)
-    engine.post(tags.OP_MUL_EQ, [x, two, twice], 2, -1)
-    engine.post(tags.OP_LEQ, [twice, y], 3, -1)
-    engine.post(tags.OP_LEQ, [y, x], 4, -1)
+    engine.post(opcodes.OP_MUL_EQ, [x, two, twice], 2, -1)
+    engine.post(opcodes.OP_LEQ, [twice, y], 3, -1)
+    engine.post(opcodes.OP_LEQ, [y, x], 4, -1)
     assert engine.propagate()
     assert (engine.upper(x), engine.upper(y)) == (0, 0)
     engine.commit()
@@ -113,7 +114,7 @@ def test_a_decision_can_be_taken_back_and_leaves_the_base_domain() -> None:
     engine = Engine()
     a = engine.new_interval(tags.KIND_INT, 1, 9, 0, -1)
     b = engine.new_interval(tags.KIND_INT, float("-inf"), float("inf"), 0, -1)
-    engine.post(tags.OP_ADD_EQ, [a, engine.new_constant(tags.KIND_INT, 1, 1), b], 1, -1)
+    engine.post(opcodes.OP_ADD_EQ, [a, engine.new_constant(tags.KIND_INT, 1, 1), b], 1, -1)
     assert engine.propagate() and engine.decide(a, 5, 2, -1) and engine.propagate()
     assert (engine.lower(b), engine.upper(b), engine.base_upper(a), engine.is_decided(a)) == (6, 6, 9, True)
     engine.commit()
@@ -146,10 +147,10 @@ def test_rows_of_what_was_undone_are_used_again() -> None:
         start, duration, end = (engine.new_interval(tags.KIND_INT, 0, 50, 0, -1) for _ in range(3))
         colour = engine.new_values(tags.KIND_SYMBOL, [3, 5, 9], 0, -1)
         assert first == start
-        engine.post(tags.OP_TEMPORAL_DISTANCE, [start, duration, end], 0, -1)
-        engine.post(tags.OP_NEQ, [base[turn % 4], base[(turn + 1) % 4]], 0, -1)
-        engine.post(tags.OP_LEQ, [end, base[turn % 4]], 0, -1)
-        engine.post(tags.OP_ALL_DIFF, [colour, base[0], base[1]], 0, -1)
+        engine.post(opcodes.OP_TEMPORAL_DISTANCE, [start, duration, end], 0, -1)
+        engine.post(opcodes.OP_NEQ, [base[turn % 4], base[(turn + 1) % 4]], 0, -1)
+        engine.post(opcodes.OP_LEQ, [end, base[turn % 4]], 0, -1)
+        engine.post(opcodes.OP_ALL_DIFF, [colour, base[0], base[1]], 0, -1)
         assert engine.propagate()
         engine.decide(base[0], 7, 0, -1)
         assert engine.propagate()
@@ -186,7 +187,7 @@ def test_sets_of_values_far_apart_come_and_go() -> None:
         mark = engine.mark()
         assert engine.restrict_base_values(v, [3, 70000, 10**6 + turn], 1, -1)
         assert engine.restrict_base_values(x, [0.5, 2.25, 7.125], 2, -1)
-        engine.post(tags.OP_NEQ, [v, engine.new_constant(tags.KIND_INT, 70000, 70000)], 3, -1)
+        engine.post(opcodes.OP_NEQ, [v, engine.new_constant(tags.KIND_INT, 70000, 70000)], 3, -1)
         engine.restrict_base(x, 1.0, 9.0, 4, -1)
         assert engine.propagate()
         assert (engine.values_of(v), engine.values_of(x)) == ([3, 10**6 + turn], [2.25, 7.125])

@@ -4,6 +4,7 @@ import math
 import random
 
 from runtime.constraints.domains import tags
+from runtime.constraints.propagators import opcodes
 from tests.constraints import meaning
 from tests.constraints.random_sets import Post, Problem, holds, may_have
 from tests.constraints.signatures import OBJECTS, images
@@ -12,7 +13,7 @@ Values = dict[int, tuple[float, ...]]
 WALKS = 30
 STEPS = 15  # of one walk
 FAR_TICK = 1e12
-ROUNDED = (tags.OP_TRAVEL_TIME, tags.OP_TOWARDS, tags.OP_WGS_DISPLACE, tags.OP_WGS_DISPLACEMENT)
+ROUNDED = (opcodes.OP_TRAVEL_TIME, opcodes.OP_TOWARDS, opcodes.OP_WGS_DISPLACE, opcodes.OP_WGS_DISPLACEMENT)
 EQUATOR = 6378137.0  # metres
 WIDE = 90  # a variable of which nothing is stated may start so far from 0
 FAR = 1e6  # a vector so long has every direction, to the tolerance
@@ -85,9 +86,9 @@ def repairs(op: int, x: list[float]) -> list[tuple[int, float]]:
     """Give values of single arguments, by place, with which a constraint may hold."""
     try:
         match op:
-            case tags.OP_TICK_DATE:
+            case opcodes.OP_TICK_DATE:
                 return [*images(op, x), (0, (meaning.days_before(int(x[3])) + x[2] - 1) * 86400.0 + x[1])]
-            case tags.OP_TRAVEL_TIME:
+            case opcodes.OP_TRAVEL_TIME:
                 found = images(op, x)
                 if x[5] <= 0.0:
                     found += [(0, 1.0), (1, x[3]), (2, x[4]), (3, x[1]), (4, x[2])]
@@ -101,7 +102,7 @@ def repairs(op: int, x: list[float]) -> list[tuple[int, float]]:
                     if x[0] > 0:
                         found.append((5, math.hypot(x[3] - x[1], x[4] - x[2]) / (x[0] - 1.0 + part)))
                 return found
-            case tags.OP_TOWARDS:
+            case opcodes.OP_TOWARDS:
                 found = images(op, x)
                 for k, (u, other) in enumerate(((x[0], x[1]), (x[1], x[0]))):
                     rest = math.sqrt(max(0.0, 1.0 - other * other))
@@ -109,11 +110,11 @@ def repairs(op: int, x: list[float]) -> list[tuple[int, float]]:
                     for far in (FAR, abs(x[5 - k] - x[3 - k]) / max(1e-9, abs(other))):
                         found += [(4 + k, x[2 + k] + u * far), (2 + k, x[4 + k] - u * far)]
                 return found
-            case tags.OP_LL_DIST:
+            case opcodes.OP_LL_DIST:
                 return [*images(op, x), *positions_apart(x)]
-            case tags.OP_WGS_DISPLACEMENT:
+            case opcodes.OP_WGS_DISPLACEMENT:
                 return [*images(op, x), *displaced(x[:4], x[4:], (0, 1, 2, 3, 4, 5))]
-            case tags.OP_WGS_DISPLACE:
+            case opcodes.OP_WGS_DISPLACE:
                 return [*images(op, x), *displaced([x[0], x[1], x[4], x[5]], x[2:4], (0, 1, 4, 5, 2, 3))]
     except (ValueError, ZeroDivisionError, OverflowError):
         return []

@@ -9,6 +9,7 @@ from typing import Any
 
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
+from runtime.constraints.propagators import opcodes
 from runtime.plan.database import PlanDatabase
 from runtime.solver.configuration.configuration import default_configuration
 from runtime.solver.search import Solver
@@ -73,9 +74,9 @@ def post_and_undo(count: int) -> list[tuple[int, int]]:
         colour = engine.new_values(tags.KIND_SYMBOL, [3, 5, 9], 0, -1)
         far = engine.new_values(tags.KIND_INT, [k % 100, 5000, 90000], 0, -1)
         able = base + fresh
-        engine.post(tags.OP_TEMPORAL_DISTANCE, chance.sample(able, 3), 0, -1)
-        engine.post(tags.OP_ALL_DIFF, [colour, far, *fresh], 0, -1)
-        engine.post(tags.OP_ADD_EQ, chance.sample(able, 3), 0, -1)
+        engine.post(opcodes.OP_TEMPORAL_DISTANCE, chance.sample(able, 3), 0, -1)
+        engine.post(opcodes.OP_ALL_DIFF, [colour, far, *fresh], 0, -1)
+        engine.post(opcodes.OP_ADD_EQ, chance.sample(able, 3), 0, -1)
         source, target = chance.sample(able, 2)
         engine.add_edge(source, target, 7, 0, -1)
         if engine.propagate():
@@ -97,7 +98,7 @@ def tick(count: int) -> list[tuple[int, int]]:
         start, end = (engine.new_interval(tags.KIND_INT, k, float("inf"), 0, -1) for _ in range(2))
         length = engine.new_interval(tags.KIND_INT, 1, float("inf"), 0, -1)
         mode = engine.new_values(tags.KIND_SYMBOL, [1, 2, 4], 0, -1)
-        engine.post(tags.OP_TEMPORAL_DISTANCE, [start, length, end], 0, -1)
+        engine.post(opcodes.OP_TEMPORAL_DISTANCE, [start, length, end], 0, -1)
         if tokens:
             engine.add_edge(start, tokens[-1][1], 0, 0, -1)
         engine.restrict_base(start, k, k, 0, -1)

@@ -45,7 +45,7 @@ cdef class Store:
     cdef public int[::1] hull_queue, cheap_queue, dear_queue, woken
     cdef public unsigned long long[::1] bits, hole_mask
     cdef public dict restriction_values, externals, object_parent
-    cdef public bint holes, coarse, consistent
+    cdef public bint holes, coarse, relational, consistent
     cdef public double tick_seconds, tick_epoch
     cdef public list suspects
 

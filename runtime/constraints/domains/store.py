@@ -180,6 +180,7 @@ class Store:
         self.woken_count = 0
         self.running = -1
         self.coarse = False
+        self.relational = False  # functions narrow intervals at once, instead of waiting for known arguments
         # The conflict, and what was counted.
         self.consistent = True
         self.conflict_kind = 0

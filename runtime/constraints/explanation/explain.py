@@ -14,7 +14,6 @@ from runtime.constraints.domains.tags import (
     FLAG_VALUES,
     KIND_BOOL,
     KIND_FLOAT,
-    OP_EXTERNAL,
     SIDE_HOLES,
     SIDE_LOWER,
     SIDE_UPPER,
@@ -26,6 +25,7 @@ from runtime.constraints.domains.tags import (
 )
 from runtime.constraints.explanation.cause import Cause, CauseKind, Link
 from runtime.constraints.explanation.reasons import collect_all, collect_reasons, collect_weight
+from runtime.constraints.propagators.opcodes import OP_EXTERNAL
 
 Bound = tuple[int, int, int]  # variable, side, and the time before which its state counts
 

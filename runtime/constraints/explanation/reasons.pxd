@@ -3,12 +3,12 @@
 cimport cython
 from runtime.constraints.domains.store cimport Store
 
-cdef long long FAMILY_ARITHMETIC, FAMILY_COMPARISON, FAMILY_FUNCTION, KIND_BOOL, KIND_FLOAT, MODE_EDGES, OP_ABS_VAL
-cdef long long OP_ADD_EQ, OP_BIND, OP_DIV_EQ, OP_EQ, OP_EQ_SUM, OP_LEQ, OP_LT, OP_MUL_EQ, OP_TEMPORAL_DISTANCE
-cdef long long SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_CONSTRAINT, SUPPORT_EDGE
+cdef long long KIND_BOOL, KIND_FLOAT, MODE_DISTANCE, MODE_EDGES, OWN_ALWAYS, OWN_AT_ONE, READS_ALL, READS_DISTANCE
+cdef long long READS_SAME_SIDE, READS_SUM_LAST, SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_CONSTRAINT, SUPPORT_EDGE
+cdef const short[:] READS, READS_OWN
 
 
-@cython.locals(c="long long", first="long long", k="long long", kind="long long", op="long long", other="long long")
+@cython.locals(c="long long", first="long long", k="long long", kind="long long", last="long long", reads="long long")
 cpdef void collect_reasons(Store s, long long support, long long v, long long side) except *
 
 cpdef void add_reason(Store s, long long v, long long side) except *
@@ -26,7 +26,6 @@ cpdef int collect_sum(
 @cython.locals(first="long long", k="long long", u="long long")
 cpdef int collect_all(Store s, long long c, long long v, long long side) except -1
 
-@cython.locals(family="long long")
 cpdef bint reads_itself(Store s, long long op, long long v, long long side) except -1
 
 cpdef bint is_carried(Store s, long long c) except -1

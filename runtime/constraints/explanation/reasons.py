@@ -3,27 +3,24 @@
 from runtime.constraints.domains.arrays import grown
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
-    FAMILY_ARITHMETIC,
-    FAMILY_COMPARISON,
-    FAMILY_FUNCTION,
     KIND_BOOL,
     KIND_FLOAT,
+    MODE_DISTANCE,
     MODE_EDGES,
-    OP_ABS_VAL,
-    OP_ADD_EQ,
-    OP_BIND,
-    OP_DIV_EQ,
-    OP_EQ,
-    OP_EQ_SUM,
-    OP_LEQ,
-    OP_LT,
-    OP_MUL_EQ,
-    OP_TEMPORAL_DISTANCE,
     SIDE_HOLES,
     SIDE_LOWER,
     SIDE_UPPER,
     SUPPORT_CONSTRAINT,
     SUPPORT_EDGE,
+)
+from runtime.constraints.propagators.registry import READS, READS_OWN
+from runtime.constraints.propagators.row import (
+    OWN_ALWAYS,
+    OWN_AT_ONE,
+    READS_ALL,
+    READS_DISTANCE,
+    READS_SAME_SIDE,
+    READS_SUM_LAST,
 )
 
 
@@ -40,24 +37,22 @@ def collect_reasons(s: Store, support: int, v: int, side: int) -> None:
         collect_edge(s, support >> 2, v, side)
         return
     c = support >> 2
-    op = s.op[c]
     first = s.first[c]
-    if op == OP_LEQ or op == OP_LT:
-        other = s.slot_variable[first + 1] if v == s.slot_variable[first] else s.slot_variable[first]
-        add_reason(s, other, side)
-    elif op == OP_EQ and side != SIDE_HOLES:
-        for k in range(first, first + s.arity[c]):
-            if s.slot_variable[k] != v:
-                add_reason(s, s.slot_variable[k], side)
-    elif op == OP_ADD_EQ and side != SIDE_HOLES:
-        collect_sum(s, v, side, s.slot_variable[first + 2], first, first + 2)
-    elif op == OP_EQ_SUM and side != SIDE_HOLES:
-        collect_sum(s, v, side, s.slot_variable[first], first + 1, first + s.arity[c])
-    elif op == OP_TEMPORAL_DISTANCE:
+    last = first + s.arity[c]
+    reads = READS[s.op[c]]
+    if reads == READS_DISTANCE:
         add_reason(s, s.slot_variable[first + 2], side)
         add_reason(s, s.slot_variable[first], 1 - side)
-    else:
+    elif reads == READS_ALL or side == SIDE_HOLES:
         collect_all(s, c, v, side)
+    elif reads == READS_SAME_SIDE:
+        for k in range(first, last):
+            if s.slot_variable[k] != v:
+                add_reason(s, s.slot_variable[k], side)
+    elif reads == READS_SUM_LAST:
+        collect_sum(s, v, side, s.slot_variable[last - 1], first, last - 1)
+    else:
+        collect_sum(s, v, side, s.slot_variable[first], first + 1, last)
 
 
 def add_reason(s: Store, v: int, side: int) -> None:
@@ -82,7 +77,7 @@ def collect_edge(s: Store, e: int, v: int, side: int) -> None:
 def collect_weight(s: Store, e: int) -> None:
     """Put the bound of the distance that the weight of an edge follows, if it does."""
     c = s.edge_link[e]
-    if c >= 0 and s.op[c] == OP_TEMPORAL_DISTANCE:
+    if c >= 0 and s.mode[c] == MODE_DISTANCE:
         add_reason(s, s.slot_variable[s.first[c] + 1], SIDE_UPPER if e == s.link_a[c] else SIDE_LOWER)
 
 
@@ -120,17 +115,12 @@ def reads_itself(s: Store, op: int, v: int, side: int) -> bool:
     """Tell whether an operation narrows `v` from where it stands: a value at the end is taken, a branch is chosen."""
     if s.kind[v] == KIND_BOOL:
         return False
-    family = op >> 5
-    if family == FAMILY_ARITHMETIC:
-        if op == OP_MUL_EQ or op == OP_DIV_EQ:
-            # A factor of what is not 0 is not 0: its bound steps from 0 to 1 or -1.
-            return s.kind[v] != KIND_FLOAT and (s.lb[v] == 1 if side == SIDE_LOWER else s.ub[v] == -1)
-        return op == OP_ABS_VAL
-    if family == FAMILY_FUNCTION:
-        return op == OP_BIND
-    return True
+    if READS_OWN[op] == OWN_AT_ONE:
+        # A factor of what is not 0 is not 0: its bound steps from 0 to 1 or -1.
+        return s.kind[v] != KIND_FLOAT and (s.lb[v] == 1 if side == SIDE_LOWER else s.ub[v] == -1)
+    return READS_OWN[op] == OWN_ALWAYS
 
 
 def is_carried(s: Store, c: int) -> bool:
     """Tell whether a constraint is carried out by edges that do not change."""
-    return s.op[c] >> 5 == FAMILY_COMPARISON and s.mode[c] == MODE_EDGES
+    return s.mode[c] == MODE_EDGES

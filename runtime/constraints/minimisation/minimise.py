@@ -1,22 +1,17 @@
-"""Check that a set of causes is itself inconsistent, and shrink it, by propagating subsets in a scratch engine.
+"""Minimal explanations: check that a set of causes is itself inconsistent, and shrink it, in a scratch engine.
 
-What propagation finds hangs on what is known: a function that waits for its arguments says nothing before, so all that
-makes them known seems needed. Therefore a second pass leaves out what is not needed by what the constraints mean: there
-functions narrow intervals at once (`foresight`), and a few values are tried (`cases`).
+What propagation finds depends on what is known: a function that waits for its arguments says nothing before, so all
+that makes them known seems needed. Therefore a second pass leaves out what is not needed by what the constraints mean:
+there functions narrow intervals at once (a relational engine), and a few values are tried (`case_split`).
 """
 
 from collections.abc import Sequence
 
-from runtime.constraints.domains import tags
 from runtime.constraints.domains.base_domain import is_listing
 from runtime.constraints.domains.tags import (
     FLAG_VALUES,
     KIND_BOOL,
     MODE_EDGES,
-    OP_ELEMENT,
-    OP_EXTERNAL,
-    OP_RAND,
-    OP_WATCH,
     SUPPORT_CONSTRAINT,
     SUPPORT_EDGE,
     SUPPORT_RESTRICTION,
@@ -24,22 +19,13 @@ from runtime.constraints.domains.tags import (
 from runtime.constraints.engine import Engine
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.explanation.explain import cause_of
-from runtime.constraints.minimisation.case_split import Patience, fails_in_all_cases
-from runtime.constraints.minimisation.relational import foresee
+from runtime.constraints.minimisation.case_split import Budget, fails_in_all_cases
 from runtime.constraints.propagators.external import External
+from runtime.constraints.propagators.opcodes import OP_ELEMENT, OP_EXTERNAL, OP_RAND, OP_WATCH
+from runtime.constraints.propagators.registry import BY_OP
 
-MOST_ROUNDS = 50
-MOST_STEPS = 3000  # causes carried out while looking for what can be left out; a case counts as several
-# What these say hangs on what is known of domains: trying values would tell nothing.
-OF_DOMAINS = (
-    tags.OP_TEST_SINGLETON,
-    tags.OP_TEST_SPECIFIED,
-    tags.OP_SUBSET_OF,
-    tags.OP_EQ_UNION,
-    tags.OP_MEMBER_IMPLY,
-    tags.OP_LOCK,
-    tags.OP_BIND,
-)
+_MOST_ROUNDS = 50
+_MOST_STEPS = 3000  # causes carried out while looking for what can be left out; a case counts as several
 
 
 def sufficient(engine: Engine) -> list[Cause]:
@@ -55,14 +41,14 @@ def minimise(engine: Engine, causes: Sequence[Cause]) -> list[Cause]:
     scratch = Scratch(engine)
     if not scratch.refutes(causes):
         return list(causes)
-    return without_spare(engine, scratch.shrunk([], list(causes), False))
+    return _without_spare(engine, scratch.shrunk([], list(causes), False))
 
 
-def without_spare(engine: Engine, causes: list[Cause]) -> list[Cause]:
+def _without_spare(engine: Engine, causes: list[Cause]) -> list[Cause]:
     """Leave out, the last first, each cause without which the others still contradict each other by what they mean."""
     if all(cause.kind is not CauseKind.CONSTRAINT or engine.mode[cause.id] == MODE_EDGES for cause in causes):
         return causes  # of differences and bounds propagation sees all
-    scratch = Scratch(engine, Patience(MOST_STEPS))
+    scratch = Scratch(engine, Budget(_MOST_STEPS))
     for cause in reversed(causes):
         others = [other for other in causes if other is not cause]
         if scratch.refutes(others):
@@ -73,13 +59,13 @@ def without_spare(engine: Engine, causes: list[Cause]) -> list[Cause]:
 class Scratch:
     """An empty engine with copies of another one's variables, into which subsets of its causes are posted.
 
-    With `patience` it goes by what constraints mean for values, whatever is known, as far as the patience lasts.
+    With a budget of steps it goes by what constraints mean for values, whatever is known, as far as that lasts.
     """
 
-    def __init__(self, engine: Engine, patience: Patience | None = None) -> None:
+    def __init__(self, engine: Engine, budget: Budget | None = None) -> None:
         self.engine = engine
-        self.patience = patience
-        self.copy = Engine()
+        self.budget = budget
+        self.copy = Engine(relational=budget is not None)
         self.copy.holes = engine.holes
         self.copy.object_parent = engine.object_parent
         self.copy.tick_seconds = engine.tick_seconds
@@ -108,8 +94,8 @@ class Scratch:
         return w
 
     def refutes(self, causes: Sequence[Cause]) -> bool:
-        """Tell whether propagation, or with patience looking ahead too, finds a set of causes inconsistent."""
-        if self.patience is not None and self.patience.is_over(len(causes)):
+        """Tell whether propagation, or with a budget a case split too, finds a set of causes inconsistent."""
+        if self.budget is not None and self.budget.is_spent(len(causes)):
             return False
         for cause in causes:
             self.copies(cause)  # before the mark: they stay
@@ -118,9 +104,9 @@ class Scratch:
         for cause in causes:
             holds = holds and self.carry_out(cause)
         holds = holds and self.copy.propagate()
-        if holds and self.patience is not None:
+        if holds and self.budget is not None:
             variables = list(dict.fromkeys(v for cause in causes for v in self.copies(cause)))
-            holds = not fails_in_all_cases(self.copy, variables, self.patience)
+            holds = not fails_in_all_cases(self.copy, variables, self.budget)
         self.copy.rewind(mark)
         return not holds
 
@@ -154,7 +140,7 @@ class Scratch:
             lo, hi = engine.restriction_lo[k], engine.restriction_hi[k]
             return copy.restrict_base(variables[0], lo, hi, cause.span, cause.owner)
         op = engine.op[k]
-        if op == OP_WATCH or (self.patience is not None and op in OF_DOMAINS):
+        if op == OP_WATCH or (self.budget is not None and BY_OP[op].is_of_domains):
             return True
         if op == OP_ELEMENT:
             keys = engine.keys(k)
@@ -165,8 +151,6 @@ class Scratch:
             if external.is_repeatable:
                 copy.post_external(external, variables, cause.span, cause.owner)
         else:
-            if self.patience is not None and foresee(copy, op, variables, cause.span, cause.owner):
-                return True
             c = copy.post(op, variables, cause.span, cause.owner)
             if op == OP_RAND:
                 copy.aux[c] = engine.aux[k]
@@ -183,7 +167,7 @@ class Scratch:
 
     def widened(self, causes: list[Cause]) -> list[Cause]:
         """Add what touches the causes' variables until the set is refuted, or nothing more can be added."""
-        for _ in range(MOST_ROUNDS):
+        for _ in range(_MOST_ROUNDS):
             if not self.is_judge(causes) or self.refutes(causes):
                 return causes
             more = self.neighbours(causes)

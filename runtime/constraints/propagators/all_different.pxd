@@ -1,4 +1,4 @@
-# The C types of `crowding.py`.
+# The C types of `all_different.py`.
 
 cimport cython
 from runtime.constraints.domains.bitset cimport count_values, has_value, next_value
@@ -13,7 +13,7 @@ cdef double FLOAT_TOLERANCE
 cpdef bint is_subset(Store s, long long a, long long b) except -1
 
 @cython.locals(inside="long long", j="long long", k="long long", size="long long", u="long long", v="long long")
-cpdef bint is_crowded(Store s, long long first, long long count) except -1
+cpdef bint has_hall_violation(Store s, long long first, long long count) except -1
 
 @cython.locals(found="long long", hi="long long", k="long long", lo="long long", v="long long", x="long long")
-cpdef bint has_few_values(Store s, long long first, long long count) except -1
+cpdef bint _has_few_values(Store s, long long first, long long count) except -1

@@ -24,12 +24,12 @@ def is_subset(s: Store, a: int, b: int) -> bool:
     return True
 
 
-def is_crowded(s: Store, first: int, count: int) -> bool:
+def has_hall_violation(s: Store, first: int, count: int) -> bool:
     """Tell whether arguments that must differ have too few values: all together, or those inside the domain of one.
 
     Floats and domains without bounds count as having enough. O(count^2) where domains are smaller than their number.
     """
-    if has_few_values(s, first, count):
+    if _has_few_values(s, first, count):
         return True
     for k in range(first, first + count):
         v = s.slot_variable[k]
@@ -48,7 +48,7 @@ def is_crowded(s: Store, first: int, count: int) -> bool:
     return False
 
 
-def has_few_values(s: Store, first: int, count: int) -> bool:
+def _has_few_values(s: Store, first: int, count: int) -> bool:
     """Tell whether all arguments together have fewer values than their number."""
     lo = HALF_INF
     hi = -HALF_INF

@@ -2,10 +2,8 @@
 
 from runtime.constraints.domains.narrow import remove_value, set_lower, set_upper
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import (
-    HALF_INF,
-    INF,
-    MODE_REAL,
+from runtime.constraints.domains.tags import HALF_INF, INF, MODE_REAL, SUPPORT_CONSTRAINT
+from runtime.constraints.propagators.opcodes import (
     OP_ABS_VAL,
     OP_ADD_EQ,
     OP_DIV_EQ,
@@ -15,42 +13,41 @@ from runtime.constraints.domains.tags import (
     OP_EQ_SUM,
     OP_MUL_EQ,
     OP_NEG,
-    SUPPORT_CONSTRAINT,
 )
-from runtime.constraints.propagators.reals import run_reals
+from runtime.constraints.propagators.reals import propagate_reals
 
 
-def run_arithmetic(s: Store, c: int) -> bool:
+def propagate_arithmetic(s: Store, c: int) -> bool:
     """Run a constraint of this family."""
     if s.mode[c] == MODE_REAL:
-        return run_reals(s, c)
+        return propagate_reals(s, c)
     op = s.op[c]
     first = s.first[c]
     a = s.slot_variable[first]
     b = s.slot_variable[first + 1]
     support = c * 4 + SUPPORT_CONSTRAINT
     if op == OP_ADD_EQ:
-        return add(s, a, b, s.slot_variable[first + 2], support)
+        return _add(s, a, b, s.slot_variable[first + 2], support)
     if op == OP_MUL_EQ:
-        return multiply(s, a, b, s.slot_variable[first + 2], support)
+        return _multiply(s, a, b, s.slot_variable[first + 2], support)
     if op == OP_EQ_SUM:
-        return add_all(s, first, s.arity[c], support)
+        return _add_all(s, first, s.arity[c], support)
     if op == OP_EQ_PRODUCT:
-        return multiply_all(s, first, s.arity[c], support)
+        return _multiply_all(s, first, s.arity[c], support)
     if op == OP_EQ_MAXIMUM:
-        return hold_maximum(s, first, s.arity[c], support)
+        return _hold_maximum(s, first, s.arity[c], support)
     if op == OP_EQ_MINIMUM:
-        return hold_minimum(s, first, s.arity[c], support)
+        return _hold_minimum(s, first, s.arity[c], support)
     if op == OP_DIV_EQ:
-        return remove_value(s, b, 0, support) and multiply(s, s.slot_variable[first + 2], b, a, support)
+        return remove_value(s, b, 0, support) and _multiply(s, s.slot_variable[first + 2], b, a, support)
     if op == OP_ABS_VAL:
-        return hold_absolute(s, a, b, support)
+        return _hold_absolute(s, a, b, support)
     if op == OP_NEG:
-        return negate(s, a, b, support)
-    return run_reals(s, c)
+        return _negate(s, a, b, support)
+    return propagate_reals(s, c)
 
 
-def clipped(x: int) -> int:
+def _clipped(x: int) -> int:
     """Bring what counts as infinite to infinity."""
     if x >= HALF_INF:
         return INF
@@ -59,18 +56,18 @@ def clipped(x: int) -> int:
     return x
 
 
-def floor_of(x: int, y: int) -> int:
+def _floor_of(x: int, y: int) -> int:
     """Divide by a positive y, rounding down; C rounds towards zero."""
     q = x // y
     return q - 1 if q * y > x else q
 
 
-def ceiling_of(x: int, y: int) -> int:
+def _ceiling_of(x: int, y: int) -> int:
     """Divide by a positive y, rounding up."""
-    return -floor_of(-x, y)
+    return -_floor_of(-x, y)
 
 
-def product(x: int, y: int) -> int:
+def _product(x: int, y: int) -> int:
     """Multiply, saturating at infinity; infinity times 0 is 0, as the limit of a finite bound."""
     if x == 0 or y == 0:
         return 0
@@ -82,44 +79,44 @@ def product(x: int, y: int) -> int:
     return x * y
 
 
-def add(s: Store, a: int, b: int, r: int, support: int) -> bool:
+def _add(s: Store, a: int, b: int, r: int, support: int) -> bool:
     """Narrow a + b = r."""
     if s.lb[a] > -HALF_INF:
-        if s.lb[b] > -HALF_INF and not set_lower(s, r, clipped(s.lb[a] + s.lb[b]), support):
+        if s.lb[b] > -HALF_INF and not set_lower(s, r, _clipped(s.lb[a] + s.lb[b]), support):
             return False
-        if s.ub[r] < HALF_INF and not set_upper(s, b, clipped(s.ub[r] - s.lb[a]), support):
+        if s.ub[r] < HALF_INF and not set_upper(s, b, _clipped(s.ub[r] - s.lb[a]), support):
             return False
     if s.ub[a] < HALF_INF:
-        if s.ub[b] < HALF_INF and not set_upper(s, r, clipped(s.ub[a] + s.ub[b]), support):
+        if s.ub[b] < HALF_INF and not set_upper(s, r, _clipped(s.ub[a] + s.ub[b]), support):
             return False
-        if s.lb[r] > -HALF_INF and not set_lower(s, b, clipped(s.lb[r] - s.ub[a]), support):
+        if s.lb[r] > -HALF_INF and not set_lower(s, b, _clipped(s.lb[r] - s.ub[a]), support):
             return False
-    if s.lb[b] > -HALF_INF and s.ub[r] < HALF_INF and not set_upper(s, a, clipped(s.ub[r] - s.lb[b]), support):
+    if s.lb[b] > -HALF_INF and s.ub[r] < HALF_INF and not set_upper(s, a, _clipped(s.ub[r] - s.lb[b]), support):
         return False
     if s.ub[b] < HALF_INF and s.lb[r] > -HALF_INF:
-        return set_lower(s, a, clipped(s.lb[r] - s.ub[b]), support)
+        return set_lower(s, a, _clipped(s.lb[r] - s.ub[b]), support)
     return True
 
 
-def within(s: Store, v: int, lo: int, hi: int, support: int) -> bool:
+def _within(s: Store, v: int, lo: int, hi: int, support: int) -> bool:
     """Narrow a discrete variable to an interval whose ends may be infinite."""
     if lo > -HALF_INF and not set_lower(s, v, lo, support):
         return False
     return hi >= HALF_INF or set_upper(s, v, hi, support)
 
 
-def multiply(s: Store, a: int, b: int, r: int, support: int) -> bool:
+def _multiply(s: Store, a: int, b: int, r: int, support: int) -> bool:
     """Narrow a * b = r, forwards by the four corners, backwards by dividing."""
-    p = product(s.lb[a], s.lb[b])
-    q = product(s.lb[a], s.ub[b])
-    x = product(s.ub[a], s.lb[b])
-    y = product(s.ub[a], s.ub[b])
-    if not within(s, r, min(min(p, q), min(x, y)), max(max(p, q), max(x, y)), support):
+    p = _product(s.lb[a], s.lb[b])
+    q = _product(s.lb[a], s.ub[b])
+    x = _product(s.ub[a], s.lb[b])
+    y = _product(s.ub[a], s.ub[b])
+    if not _within(s, r, min(min(p, q), min(x, y)), max(max(p, q), max(x, y)), support):
         return False
-    return divide(s, r, b, a, support) and divide(s, r, a, b, support)
+    return _divide(s, r, b, a, support) and _divide(s, r, a, b, support)
 
 
-def divide(s: Store, r: int, b: int, a: int, support: int) -> bool:
+def _divide(s: Store, r: int, b: int, a: int, support: int) -> bool:
     """Narrow a, where a * b = r."""
     lo = s.lb[b]
     hi = s.ub[b]
@@ -131,13 +128,13 @@ def divide(s: Store, r: int, b: int, a: int, support: int) -> bool:
         if lo < 0 < hi:
             # b is at least 1 away from 0, so a is no larger than r.
             x = max(-s.lb[r], s.ub[r])
-            return within(s, a, -x, x, support)
+            return _within(s, a, -x, x, support)
     elif lo <= 0 <= hi:
         return True
-    return divide_apart(s, r, lo, hi, a, support)
+    return _divide_apart(s, r, lo, hi, a, support)
 
 
-def divide_apart(s: Store, r: int, lo: int, hi: int, a: int, support: int) -> bool:
+def _divide_apart(s: Store, r: int, lo: int, hi: int, a: int, support: int) -> bool:
     """Narrow a, where a * b = r and b lies within lo and hi, on one side of 0."""
     # The extremes stand at the ends of b; a bound of r that is infinite says nothing about its side.
     least = s.lb[r]
@@ -146,16 +143,16 @@ def divide_apart(s: Store, r: int, lo: int, hi: int, a: int, support: int) -> bo
         least, most = -most, -least
         lo, hi = -hi, -lo
     if least > -HALF_INF:
-        x = ceiling_of(least, lo if least < 0 else hi) if hi < HALF_INF or least < 0 else (1 if least > 0 else 0)
-        if not set_lower(s, a, clipped(x), support):
+        x = _ceiling_of(least, lo if least < 0 else hi) if hi < HALF_INF or least < 0 else (1 if least > 0 else 0)
+        if not set_lower(s, a, _clipped(x), support):
             return False
     if most < HALF_INF:
-        x = floor_of(most, lo if most > 0 else hi) if hi < HALF_INF or most > 0 else (-1 if most < 0 else 0)
-        return set_upper(s, a, clipped(x), support)
+        x = _floor_of(most, lo if most > 0 else hi) if hi < HALF_INF or most > 0 else (-1 if most < 0 else 0)
+        return set_upper(s, a, _clipped(x), support)
     return True
 
 
-def add_all(s: Store, first: int, count: int, support: int) -> bool:
+def _add_all(s: Store, first: int, count: int, support: int) -> bool:
     """Narrow x1 + x2 + ... = r; r stands first. One pass over the sums of all bounds, O(count)."""
     r = s.slot_variable[first]
     least = 0
@@ -172,9 +169,9 @@ def add_all(s: Store, first: int, count: int, support: int) -> bool:
             open_above += 1
         else:
             most += s.ub[v]
-    if open_below == 0 and not set_lower(s, r, clipped(least), support):
+    if open_below == 0 and not set_lower(s, r, _clipped(least), support):
         return False
-    if open_above == 0 and not set_upper(s, r, clipped(most), support):
+    if open_above == 0 and not set_upper(s, r, _clipped(most), support):
         return False
     for k in range(first + 1, first + count):
         v = s.slot_variable[k]
@@ -182,17 +179,17 @@ def add_all(s: Store, first: int, count: int, support: int) -> bool:
         hi = s.ub[v]
         if s.ub[r] < HALF_INF and open_below - (1 if lo <= -HALF_INF else 0) == 0:
             x = s.ub[r] - (least if lo <= -HALF_INF else least - lo)
-            if not set_upper(s, v, clipped(x), support):
+            if not set_upper(s, v, _clipped(x), support):
                 return False
         if s.lb[r] > -HALF_INF and open_above - (1 if hi >= HALF_INF else 0) == 0:
             x = s.lb[r] - (most if hi >= HALF_INF else most - hi)
-            if not set_lower(s, v, clipped(x), support):
+            if not set_lower(s, v, _clipped(x), support):
                 return False
         # Later terms use the sums of before: still sound, and the constraint runs again if one has changed.
     return True
 
 
-def multiply_all(s: Store, first: int, count: int, support: int) -> bool:
+def _multiply_all(s: Store, first: int, count: int, support: int) -> bool:
     """Narrow x1 * x2 * ... = r; r stands first. Each factor is divided out of r, O(count^2)."""
     r = s.slot_variable[first]
     for skip in range(count):
@@ -201,26 +198,26 @@ def multiply_all(s: Store, first: int, count: int, support: int) -> bool:
         for k in range(1, count):
             if k != skip:
                 v = s.slot_variable[first + k]
-                p = product(lo, s.lb[v])
-                q = product(lo, s.ub[v])
-                x = product(hi, s.lb[v])
-                y = product(hi, s.ub[v])
+                p = _product(lo, s.lb[v])
+                q = _product(lo, s.ub[v])
+                x = _product(hi, s.lb[v])
+                y = _product(hi, s.ub[v])
                 lo = min(min(p, q), min(x, y))
                 hi = max(max(p, q), max(x, y))
         if skip == 0:
-            if not within(s, r, lo, hi, support):
+            if not _within(s, r, lo, hi, support):
                 return False
         elif lo > 0 or hi < 0:
-            if not divide_apart(s, r, lo, hi, s.slot_variable[first + skip], support):
+            if not _divide_apart(s, r, lo, hi, s.slot_variable[first + skip], support):
                 return False
         elif s.lb[r] > 0 or s.ub[r] < 0:
             x = max(-s.lb[r], s.ub[r])
-            if not within(s, s.slot_variable[first + skip], -x, x, support):
+            if not _within(s, s.slot_variable[first + skip], -x, x, support):
                 return False
     return True
 
 
-def hold_maximum(s: Store, first: int, count: int, support: int) -> bool:
+def _hold_maximum(s: Store, first: int, count: int, support: int) -> bool:
     """Narrow max(x1, x2, ...) = r; r stands first."""
     r = s.slot_variable[first]
     lo = -INF
@@ -242,7 +239,7 @@ def hold_maximum(s: Store, first: int, count: int, support: int) -> bool:
     return able < 0 or set_lower(s, able, s.lb[r], support)
 
 
-def hold_minimum(s: Store, first: int, count: int, support: int) -> bool:
+def _hold_minimum(s: Store, first: int, count: int, support: int) -> bool:
     """Narrow min(x1, x2, ...) = r; r stands first."""
     r = s.slot_variable[first]
     lo = INF
@@ -263,7 +260,7 @@ def hold_minimum(s: Store, first: int, count: int, support: int) -> bool:
     return able < 0 or set_upper(s, able, s.ub[r], support)
 
 
-def hold_absolute(s: Store, r: int, x: int, support: int) -> bool:
+def _hold_absolute(s: Store, r: int, x: int, support: int) -> bool:
     """Narrow |x| = r."""
     if not set_lower(s, r, 0, support):
         return False
@@ -271,15 +268,15 @@ def hold_absolute(s: Store, r: int, x: int, support: int) -> bool:
     hi = s.ub[x]
     most = max(-lo, hi)
     least = lo if lo > 0 else -hi if hi < 0 else 0
-    if not within(s, r, least, most, support):
+    if not _within(s, r, least, most, support):
         return False
-    if not within(s, x, -s.ub[r], s.ub[r], support):
+    if not _within(s, x, -s.ub[r], s.ub[r], support):
         return False
     if s.lb[x] > -s.lb[r] and not set_lower(s, x, s.lb[r], support):
         return False
     return s.ub[x] >= s.lb[r] or set_upper(s, x, -s.lb[r], support)
 
 
-def negate(s: Store, a: int, b: int, support: int) -> bool:
+def _negate(s: Store, a: int, b: int, support: int) -> bool:
     """Narrow a = -b."""
-    return within(s, a, -s.ub[b], -s.lb[b], support) and within(s, b, -s.ub[a], -s.lb[a], support)
+    return _within(s, a, -s.ub[b], -s.lb[b], support) and _within(s, b, -s.ub[a], -s.lb[a], support)

@@ -3,12 +3,11 @@
 cimport cython
 from libc cimport math
 from runtime.constraints.domains.bitset cimport attach_words, clear_bits, has_value, next_place, value_at
-from runtime.constraints.propagators.all_different cimport is_crowded
+from runtime.constraints.propagators.all_different cimport has_hall_violation
 from runtime.constraints.domains.narrow cimport (
     high, is_single, low, raise_to, reduce_to, remove_value, round_bounds, set_lower, set_upper,
 )
-from runtime.constraints.stn.network cimport tighten_edge
-from runtime.constraints.stn.posting cimport tie_edge, tie_edges
+from runtime.constraints.stn.network cimport tie_edge, tie_edges, tighten_edge
 from runtime.constraints.stn.entailment cimport rest
 from runtime.constraints.domains.store cimport Store
 
@@ -22,7 +21,7 @@ cdef unsigned long long ALL_BITS, ONE_BIT
 @cython.locals(
     a="long long", b="long long", first="long long", last="long long", op="long long", support="long long"
 )
-cpdef bint run_comparison(Store s, long long c) except -1
+cpdef bint propagate_comparison(Store s, long long c) except -1
 
 @cython.locals(step="long long", x=double)
 cpdef bint precede(Store s, long long a, long long b, bint strict, long long support) except -1
@@ -34,7 +33,7 @@ cpdef bint equate(Store s, long long a, long long b, long long support) except -
 cpdef bint equate_all(Store s, long long first, long long count, long long support) except -1
 
 @cython.locals(k="long long", place="long long", x="unsigned long long")
-cpdef unsigned long long chunk(Store s, long long v, long long start) except? 0
+cpdef unsigned long long _chunk(Store s, long long v, long long start) except? 0
 
 @cython.locals(k="long long", mask="unsigned long long", place="long long")
 cpdef bint exclude_missing(Store s, long long a, long long b, long long support) except -1
@@ -45,14 +44,14 @@ cpdef bint differ(Store s, long long a, long long b, long long support) except -
 cpdef bint differ_all(Store s, long long first, long long count, long long support) except -1
 
 @cython.locals(x="long long")
-cpdef bint keep_offset(Store s, long long c, long long a, long long k, long long b) except -1
+cpdef bint _keep_offset(Store s, long long c, long long a, long long k, long long b) except -1
 
 @cython.locals(is_known=bint, is_telling=bint, x="long long")
-cpdef bint keep_distance(
+cpdef bint _keep_distance(
     Store s, long long c, long long start, long long distance, long long end, long long support
 ) except -1
 
 @cython.locals(longest="long long", shortest="long long", support="long long")
-cpdef bint follow_distance(
+cpdef bint _follow_distance(
     Store s, long long c, long long start, long long distance, long long end, bint wholly
 ) except -1

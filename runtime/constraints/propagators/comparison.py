@@ -32,6 +32,13 @@ from runtime.constraints.domains.tags import (
     MOST_VALUES,
     NEVER,
     ONE_BIT,
+    SIDE_HOLES,
+    SIDE_LOWER,
+    STRICT_STEP,
+    SUPPORT_CONSTRAINT,
+)
+from runtime.constraints.propagators.all_different import has_hall_violation
+from runtime.constraints.propagators.opcodes import (
     OP_ALL_DIFF,
     OP_EQ,
     OP_LEQ,
@@ -40,19 +47,13 @@ from runtime.constraints.domains.tags import (
     OP_PLUS,
     OP_TEMPORAL_DISTANCE,
     OP_WITHIN_BOUNDS,
-    SIDE_HOLES,
-    SIDE_LOWER,
-    STRICT_STEP,
-    SUPPORT_CONSTRAINT,
 )
-from runtime.constraints.propagators.all_different import is_crowded
-from runtime.constraints.propagators.strict_cycles import is_in_strict_circle
+from runtime.constraints.propagators.strict_cycles import is_in_strict_cycle
 from runtime.constraints.stn.entailment import rest
-from runtime.constraints.stn.network import tighten_edge
-from runtime.constraints.stn.posting import tie_edge, tie_edges
+from runtime.constraints.stn.network import tie_edge, tie_edges, tighten_edge
 
 
-def run_comparison(s: Store, c: int) -> bool:
+def propagate_comparison(s: Store, c: int) -> bool:
     """Run a constraint of this family."""
     op = s.op[c]
     first = s.first[c]
@@ -60,8 +61,8 @@ def run_comparison(s: Store, c: int) -> bool:
     b = s.slot_variable[first + 1]
     support = c * 4 + SUPPORT_CONSTRAINT
     if op == OP_TEMPORAL_DISTANCE:
-        return keep_distance(s, c, a, b, s.slot_variable[first + 2], support)
-    if s.coarse and (op == OP_LEQ or op == OP_LT or op == OP_EQ) and is_in_strict_circle(s, c):
+        return _keep_distance(s, c, a, b, s.slot_variable[first + 2], support)
+    if s.coarse and (op == OP_LEQ or op == OP_LT or op == OP_EQ) and is_in_strict_cycle(s, c):
         return s.fail(b, SIDE_LOWER, support)
     if op == OP_LEQ or op == OP_LT:
         if s.mode[c] == MODE_EDGES:
@@ -80,7 +81,7 @@ def run_comparison(s: Store, c: int) -> bool:
     if op == OP_NEQ:
         return differ(s, a, b, support)
     if op == OP_PLUS:
-        return keep_offset(s, c, a, b, s.slot_variable[first + 2])
+        return _keep_offset(s, c, a, b, s.slot_variable[first + 2])
     if op == OP_ALL_DIFF:
         return differ_all(s, first, s.arity[c], support)
     assert op == OP_WITHIN_BOUNDS
@@ -143,7 +144,7 @@ def equate_all(s: Store, first: int, count: int, support: int) -> bool:
     return True
 
 
-def chunk(s: Store, v: int, start: int) -> int:
+def _chunk(s: Store, v: int, start: int) -> int:
     """Give, as 64 bits, which of the values from `start` on a variable with a dense bit set has."""
     place = start - s.bit_base[v]
     if place <= -64 or place >= 64 * s.words_of[v]:
@@ -169,7 +170,7 @@ def exclude_missing(s: Store, a: int, b: int, support: int) -> bool:
         attach_words(s, b, s.lb[b], s.ub[b] - s.lb[b] + 1)
     if s.table[a] < 0 and s.table[b] < 0:
         for k in range(s.words_of[b]):
-            mask = s.bits[s.word[b] + k] & (ALL_BITS ^ chunk(s, a, s.bit_base[b] + 64 * k))
+            mask = s.bits[s.word[b] + k] & (ALL_BITS ^ _chunk(s, a, s.bit_base[b] + 64 * k))
             if mask:
                 clear_bits(s, b, k, mask, support)
     else:
@@ -209,22 +210,22 @@ def differ_all(s: Store, first: int, count: int, support: int) -> bool:
                     if j < k and not was_single and is_single(s, b):
                         following = 0
         k = following
-    return not is_crowded(s, first, count) or s.fail(s.slot_variable[first], SIDE_HOLES, support)
+    return not has_hall_violation(s, first, count) or s.fail(s.slot_variable[first], SIDE_HOLES, support)
 
 
-def keep_offset(s: Store, c: int, a: int, k: int, b: int) -> bool:
+def _keep_offset(s: Store, c: int, a: int, k: int, b: int) -> bool:
     """Carry a + k = b with a constant k out by two edges."""
     x = s.lb[k]
     return s.link_a[c] >= 0 or tie_edges(s, c, a, b, x, -x)
 
 
-def keep_distance(s: Store, c: int, start: int, distance: int, end: int, support: int) -> bool:
+def _keep_distance(s: Store, c: int, start: int, distance: int, end: int, support: int) -> bool:
     """Hold `end - start` within a variable's bounds, by two edges whose weights follow them, and narrow it in turn."""
     is_known = s.lb[distance] == s.ub[distance] and s.kind[distance] != KIND_FLOAT
     # A bound that comes from those of start and end tells them nothing, unless it was rounded to a value.
     is_telling = is_known or s.word[distance] >= 0 or s.link_a[c] < 0
     if is_telling or s.upper_support[distance] != support or s.lower_support[distance] != support:
-        if not follow_distance(s, c, start, distance, end, is_telling):
+        if not _follow_distance(s, c, start, distance, end, is_telling):
             return False
     if is_known:  # the edges say all that there is to say
         rest(s, c)
@@ -240,7 +241,7 @@ def keep_distance(s: Store, c: int, start: int, distance: int, end: int, support
     return True
 
 
-def follow_distance(s: Store, c: int, start: int, distance: int, end: int, wholly: bool) -> bool:
+def _follow_distance(s: Store, c: int, start: int, distance: int, end: int, wholly: bool) -> bool:
     """Have the edges between start and end say what the distance says, if not wholly, but for what comes from them."""
     longest = NEVER
     shortest = -NEVER

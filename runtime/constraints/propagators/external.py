@@ -43,11 +43,6 @@ def at_most(s: Store, c: int, v: int, x: float) -> bool:
     return reduce_to(s, v, x, c * 4 + SUPPORT_CONSTRAINT)
 
 
-def exactly(s: Store, c: int, v: int, x: float) -> bool:
-    """Have constraint `c` leave `v` one value."""
-    return at_least(s, c, v, x) and at_most(s, c, v, x)
-
-
 def never(s: Store, c: int, v: int, x: int) -> bool:
     """Have constraint `c` take a value from a variable that is no float."""
     return remove_value(s, v, x, c * 4 + SUPPORT_CONSTRAINT)

@@ -15,12 +15,12 @@ cdef double FLOAT_TOLERANCE, ULP
     a="long long", first="long long", k="long long", op="long long", r="long long", support="long long", x=double,
     y=double, z=double
 )
-cpdef bint run_function(Store s, long long c) except -1
+cpdef bint propagate_function(Store s, long long c) except -1
 
 @cython.locals(
     a="long long", b="long long", corner="long long", hi=double, lo=double, r="long long", x=double, y=double
 )
-cpdef bint spread(Store s, long long op, long long first, long long count, double z, long long support) except -1
+cpdef bint _spread(Store s, long long op, long long first, long long count, double z, long long support) except -1
 
 cpdef double middle(Store s, long long v) except? -1.0
 
@@ -30,23 +30,23 @@ cpdef double half_width(Store s, long long v) except? -1.0
 cpdef double whole(Store s, long long v) except? -1.0
 
 @cython.locals(y=double)
-cpdef double settled(double x) except? -1.0
+cpdef double rounded(double x) except? -1.0
 
-cpdef bint has_power(double x, double y) except -1
+cpdef bint _has_power(double x, double y) except -1
 
-cpdef double apply(long long op, double x, double y) except? -1.0
+cpdef double _apply(long long op, double x, double y) except? -1.0
 
 @cython.locals(x=double)
 cpdef double sine(double degrees) except? -1.0
 
 @cython.locals(above="long long", below="long long", wanted="long long")
-cpdef bint bind(Store s, long long v, double x, long long support) except -1
+cpdef bint _bind(Store s, long long v, double x, long long support) except -1
 
 @cython.locals(k="long long")
 cpdef bint are_known(Store s, long long first, long long last) except -1
 
 @cython.locals(distance=double, dx=double, dy=double, speed=double, ticks="long long", x=double)
-cpdef bint travel(Store s, long long first, long long support) except -1
+cpdef bint _travel(Store s, long long first, long long support) except -1
 
 @cython.locals(distance=double, dx=double, dy=double, k="long long", v="long long")
-cpdef bint point_towards(Store s, long long first, long long support) except -1
+cpdef bint _point_towards(Store s, long long first, long long support) except -1

@@ -5,10 +5,8 @@ import math
 from runtime.constraints.domains.bitset import has_value, next_value, previous_value
 from runtime.constraints.domains.narrow import assign, high, is_single, low, raise_to, reduce_to
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import (
-    FLOAT_TOLERANCE,
-    HALF_INF,
-    KIND_FLOAT,
+from runtime.constraints.domains.tags import FLOAT_TOLERANCE, HALF_INF, KIND_FLOAT, SIDE_HOLES, SUPPORT_CONSTRAINT, ULP
+from runtime.constraints.propagators.opcodes import (
     OP_ABS,
     OP_BIND,
     OP_CEIL,
@@ -22,13 +20,10 @@ from runtime.constraints.domains.tags import (
     OP_SQRT,
     OP_TOWARDS,
     OP_TRAVEL_TIME,
-    SIDE_HOLES,
-    SUPPORT_CONSTRAINT,
-    ULP,
 )
 
 
-def run_function(s: Store, c: int) -> bool:
+def propagate_function(s: Store, c: int) -> bool:
     """Run a constraint of this family."""
     op = s.op[c]
     first = s.first[c]
@@ -40,11 +35,11 @@ def run_function(s: Store, c: int) -> bool:
     if op == OP_SAMPLE:
         return raise_to(s, r, low(s, a), support) and reduce_to(s, r, high(s, a), support)
     if op == OP_BIND:
-        return is_single(s, r) or not is_single(s, a) or bind(s, r, middle(s, a), support)
+        return is_single(s, r) or not is_single(s, a) or _bind(s, r, middle(s, a), support)
     if op == OP_TRAVEL_TIME:
-        return travel(s, first, support)
+        return _travel(s, first, support)
     if op == OP_TOWARDS:
-        return point_towards(s, first, support)
+        return _point_towards(s, first, support)
     for k in range(first + 1, first + s.arity[c]):
         if not is_single(s, s.slot_variable[k]):
             return True
@@ -54,15 +49,15 @@ def run_function(s: Store, c: int) -> bool:
         y = middle(s, s.slot_variable[first + 2])
     if (op == OP_SQRT and x < -FLOAT_TOLERANCE) or (op == OP_MOD and y == 0.0):
         return s.fail(r, SIDE_HOLES, support)
-    if op == OP_POW and not has_power(x, y):
+    if op == OP_POW and not _has_power(x, y):
         return s.fail(r, SIDE_HOLES, support)
-    z = apply(op, x, y)
+    z = _apply(op, x, y)
     if op == OP_FLOOR or op == OP_CEIL or op == OP_MOD or op == OP_POW:
         return raise_to(s, r, z, support) and reduce_to(s, r, z, support)
-    return spread(s, op, first, s.arity[c], z, support)
+    return _spread(s, op, first, s.arity[c], z, support)
 
 
-def spread(s: Store, op: int, first: int, count: int, z: float, support: int) -> bool:
+def _spread(s: Store, op: int, first: int, count: int, z: float, support: int) -> bool:
     """Set the result of a continuous function; what is left of its arguments' intervals counts, however narrow."""
     a = s.slot_variable[first + 1]
     b = s.slot_variable[first + count - 1]
@@ -72,7 +67,7 @@ def spread(s: Store, op: int, first: int, count: int, z: float, support: int) ->
         x = high(s, a) if corner & 1 else low(s, a)
         y = high(s, b) if corner & 2 else low(s, b)
         if op != OP_SQRT or x > 0.0:
-            z = apply(op, x, y)
+            z = _apply(op, x, y)
             lo = min(lo, z)
             hi = max(hi, z)
     if op == OP_ABS and low(s, a) < 0.0 < high(s, a):
@@ -105,7 +100,7 @@ def whole(s: Store, v: int) -> float:
     return float(y) if abs(x - y) <= FLOAT_TOLERANCE else x
 
 
-def settled(x: float) -> float:
+def rounded(x: float) -> float:
     """Keep 44 bits of a double (Veltkamp's split), so that libraries that differ in the last bits agree."""
     if not -1e300 < x < 1e300:
         return x
@@ -113,7 +108,7 @@ def settled(x: float) -> float:
     return y - (y - x)
 
 
-def has_power(x: float, y: float) -> bool:
+def _has_power(x: float, y: float) -> bool:
     """Tell whether x to the power of y is a real number within the range of doubles."""
     if x == 0.0:
         return y >= 0.0
@@ -122,7 +117,7 @@ def has_power(x: float, y: float) -> bool:
     return y * math.log(abs(x)) < 709.0
 
 
-def apply(op: int, x: float, y: float) -> float:
+def _apply(op: int, x: float, y: float) -> float:
     """Compute a function of one or two arguments; the rest of a division has the sign of its dividend, as in C."""
     if op == OP_ABS:
         return abs(x)
@@ -139,7 +134,7 @@ def apply(op: int, x: float, y: float) -> float:
     if op == OP_MOD:
         return math.fmod(x, y)
     assert op == OP_POW
-    return settled(math.pow(x, y))
+    return rounded(math.pow(x, y))
 
 
 def sine(degrees: float) -> float:
@@ -155,10 +150,10 @@ def sine(degrees: float) -> float:
         return 0.5
     if x == -30.0 or x == -150.0 or x == 210.0 or x == 330.0:
         return -0.5
-    return settled(math.sin(x * (math.pi / 180.0)))
+    return rounded(math.sin(x * (math.pi / 180.0)))
 
 
-def bind(s: Store, v: int, x: float, support: int) -> bool:
+def _bind(s: Store, v: int, x: float, support: int) -> bool:
     """Give a variable that is still free the value nearest to x; the lower one of two."""
     if s.kind[v] == KIND_FLOAT:
         x = min(max(x, s.flo[v]), s.fhi[v])
@@ -182,7 +177,7 @@ def are_known(s: Store, first: int, last: int) -> bool:
     return True
 
 
-def travel(s: Store, first: int, support: int) -> bool:
+def _travel(s: Store, first: int, support: int) -> bool:
     """Set ticks = max(1, distance / speed rounded up), once all is known; standing still gets nowhere."""
     if not are_known(s, first + 1, first + 6):
         return True
@@ -199,7 +194,7 @@ def travel(s: Store, first: int, support: int) -> bool:
     return raise_to(s, ticks, x, support) and reduce_to(s, ticks, x, support)
 
 
-def point_towards(s: Store, first: int, support: int) -> bool:
+def _point_towards(s: Store, first: int, support: int) -> bool:
     """Set the unit vector from one point to another, once both are known; (0, 0) where they coincide."""
     if not are_known(s, first + 2, first + 6):
         return True

@@ -10,9 +10,10 @@ from math import inf
 
 from runtime.constraints.domains.narrow import high, low, raise_to, reduce_to
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import (
-    FLOAT_TOLERANCE,
-    KIND_FLOAT,
+from runtime.constraints.domains.tags import FLOAT_TOLERANCE, KIND_FLOAT, STRICT_STEP, SUPPORT_CONSTRAINT
+from runtime.constraints.propagators.earth import date_of_tick, displaced, displacement, great_circle, tick_of_date
+from runtime.constraints.propagators.functions import are_known, half_width, middle, rounded, sine, whole
+from runtime.constraints.propagators.opcodes import (
     OP_ABSF,
     OP_CEILF,
     OP_CIRCLE_MOD,
@@ -24,29 +25,24 @@ from runtime.constraints.domains.tags import (
     OP_LOGF,
     OP_MAXF,
     OP_MINF,
-    OP_SANE_POS,
     OP_SIN,
     OP_SINF,
     OP_SQRTF,
     OP_TICK_DATE,
     OP_WGS_DISPLACE,
     OP_WGS_DISPLACEMENT,
-    STRICT_STEP,
-    SUPPORT_CONSTRAINT,
 )
-from runtime.constraints.propagators.earth import date_of_tick, displaced, displacement, great_circle, tick_of_date
-from runtime.constraints.propagators.functions import are_known, half_width, middle, settled, sine, whole
 from runtime.constraints.propagators.reals import down, hold_absolute, hold_extreme, up, within
 
-SLACK = 1e-9
-POSITION_TOLERANCE = 5e-7
-DISTANCE_TOLERANCE = 0.5
-DEGREE = math.pi / 180.0
-METRES_PER_DEGREE = 111700.0  # at most
-LEAST_METRES_PER_DEGREE = 110500.0  # along a meridian
+_SLACK = 1e-9
+_POSITION_TOLERANCE = 5e-7
+_DISTANCE_TOLERANCE = 0.5
+_DEGREE = math.pi / 180.0
+_METRES_PER_DEGREE = 111700.0  # at most
+_LEAST_METRES_PER_DEGREE = 110500.0  # along a meridian
 
 
-def run_geometry(s: Store, c: int) -> bool:
+def propagate_geodesy(s: Store, c: int) -> bool:
     """Run a constraint of this family."""
     op = s.op[c]
     first = s.first[c]
@@ -58,47 +54,43 @@ def run_geometry(s: Store, c: int) -> bool:
     if op == OP_SIN:
         if not within(s, x, -90.0, 90.0, support):
             return False
-        return within(s, r, sine(low(s, x)) - SLACK, sine(high(s, x)) + SLACK, support)
+        return within(s, r, sine(low(s, x)) - _SLACK, sine(high(s, x)) + _SLACK, support)
     if op == OP_SINF:
-        return turn(s, r, x, 0.0, support)
+        return _turn(s, r, x, 0.0, support)
     if op == OP_COSF:
-        return turn(s, r, x, 90.0, support)
+        return _turn(s, r, x, 90.0, support)
     if op == OP_SQRTF:
-        return hold_root(s, r, x, support)
+        return _hold_root(s, r, x, support)
     if op == OP_ABSF:
         return hold_absolute(s, r, x, support)
     if op == OP_FLOORF:
-        return hold_floor(s, r, x, support)
+        return _hold_floor(s, r, x, support)
     if op == OP_CEILF:
-        return hold_ceiling(s, r, x, support)
+        return _hold_ceiling(s, r, x, support)
     if op == OP_EXPF:
-        return hold_exponential(s, r, x, support)
+        return _hold_exponential(s, r, x, support)
     if op == OP_LOGF:
-        return hold_exponential(s, x, r, support)
+        return _hold_exponential(s, x, r, support)
     if op == OP_DEG_TO_RAD:
-        return scale(s, r, x, DEGREE, support)
+        return _scale(s, r, x, _DEGREE, support)
     if op == OP_CIRCLE_MOD:
-        return bring_within_turn(s, r, x, support)
-    if op == OP_SANE_POS:
-        return within(s, r, -90.0, 90.0, support) and within(s, x, -180.0, 180.0, support)
+        return _bring_within_turn(s, r, x, support)
     if op == OP_TICK_DATE:
-        return relate_date(s, first, support)
+        return _relate_date(s, first, support)
     if op == OP_LL_DIST:
-        return measure(s, first, support)
-    if op == OP_WGS_DISPLACE:
-        return displace(s, first, support)
-    assert op == OP_WGS_DISPLACEMENT
-    return find_displacement(s, first, support)
+        return _measure(s, first, support)
+    assert op == OP_WGS_DISPLACE or op == OP_WGS_DISPLACEMENT
+    return _displace(s, first, op == OP_WGS_DISPLACE, support)
 
 
-def turn(s: Store, r: int, x: int, ahead: float, support: int) -> bool:
+def _turn(s: Store, r: int, x: int, ahead: float, support: int) -> bool:
     """Narrow r = sin(x + ahead) in degrees, x within half a turn; backwards where the sine is monotone."""
     if not within(s, x, -180.0, 180.0, support):
         return False
     lo = low(s, x) + ahead
     hi = high(s, x) + ahead
-    least = -1.0 if passes(lo, hi, -90.0) else min(sine(lo), sine(hi)) - SLACK
-    most = 1.0 if passes(lo, hi, 90.0) else max(sine(lo), sine(hi)) + SLACK
+    least = -1.0 if _passes(lo, hi, -90.0) else min(sine(lo), sine(hi)) - _SLACK
+    most = 1.0 if _passes(lo, hi, 90.0) else max(sine(lo), sine(hi)) + _SLACK
     if not within(s, r, max(-1.0, least), min(1.0, most), support):
         return False
     # The half turn around `centre` in which x lies, if there is one: -180, 0 or 180, or none.
@@ -107,24 +99,24 @@ def turn(s: Store, r: int, x: int, ahead: float, support: int) -> bool:
         return True
     sign = -1.0 if math.fmod(centre, 360.0) != 0.0 else 1.0
     # The sine is known to the tolerance only; near its extremes that is a wide range of angles.
-    a = angle_of(low(s, r) - FLOAT_TOLERANCE)
-    b = angle_of(high(s, r) + FLOAT_TOLERANCE)
+    a = _angle_of(low(s, r) - FLOAT_TOLERANCE)
+    b = _angle_of(high(s, r) + FLOAT_TOLERANCE)
     if sign < 0.0:
         a, b = -b, -a
-    return within(s, x, centre + a - ahead - SLACK, centre + b - ahead + SLACK, support)
+    return within(s, x, centre + a - ahead - _SLACK, centre + b - ahead + _SLACK, support)
 
 
-def passes(lo: float, hi: float, peak: float) -> bool:
+def _passes(lo: float, hi: float, peak: float) -> bool:
     """Tell whether an interval of degrees contains peak plus a multiple of a turn."""
     return peak + 360.0 * math.ceil((lo - peak) / 360.0) <= hi
 
 
-def angle_of(x: float) -> float:
+def _angle_of(x: float) -> float:
     """Give the angle in degrees within a quarter turn whose sine is x."""
-    return settled(math.asin(min(max(x, -1.0), 1.0)) / DEGREE)
+    return rounded(math.asin(min(max(x, -1.0), 1.0)) / _DEGREE)
 
 
-def hold_root(s: Store, r: int, x: int, support: int) -> bool:
+def _hold_root(s: Store, r: int, x: int, support: int) -> bool:
     """Narrow r = sqrt(x)."""
     if not (raise_to(s, r, 0.0, support) and raise_to(s, x, 0.0, support)):
         return False
@@ -143,7 +135,7 @@ def hold_root(s: Store, r: int, x: int, support: int) -> bool:
     return raise_to(s, x, down(least * least), support) and reduce_to(s, x, up(most * most), support)
 
 
-def hold_floor(s: Store, r: int, x: int, support: int) -> bool:
+def _hold_floor(s: Store, r: int, x: int, support: int) -> bool:
     """Narrow r = x rounded down; x within the tolerance below a whole number counts as that number."""
     lo = low(s, x)
     hi = high(s, x)
@@ -151,17 +143,17 @@ def hold_floor(s: Store, r: int, x: int, support: int) -> bool:
         return False
     if hi < inf and not reduce_to(s, r, math.floor(hi + FLOAT_TOLERANCE), support):
         return False
-    return be_whole(s, r, support) and within(s, x, low(s, r) - FLOAT_TOLERANCE, high(s, r) + 1.0, support)
+    return _be_whole(s, r, support) and within(s, x, low(s, r) - FLOAT_TOLERANCE, high(s, r) + 1.0, support)
 
 
-def be_whole(s: Store, r: int, support: int) -> bool:
+def _be_whole(s: Store, r: int, support: int) -> bool:
     """Move the bounds of r inwards to whole numbers."""
     if low(s, r) > -inf and not raise_to(s, r, math.ceil(low(s, r) - FLOAT_TOLERANCE), support):
         return False
     return high(s, r) == inf or reduce_to(s, r, math.floor(high(s, r) + FLOAT_TOLERANCE), support)
 
 
-def hold_ceiling(s: Store, r: int, x: int, support: int) -> bool:
+def _hold_ceiling(s: Store, r: int, x: int, support: int) -> bool:
     """Narrow r = x rounded up; x within the tolerance above a whole number counts as that number."""
     lo = low(s, x)
     hi = high(s, x)
@@ -169,37 +161,37 @@ def hold_ceiling(s: Store, r: int, x: int, support: int) -> bool:
         return False
     if hi < inf and not reduce_to(s, r, math.ceil(hi), support):
         return False
-    return be_whole(s, r, support) and within(s, x, low(s, r) - 1.0, high(s, r) + FLOAT_TOLERANCE, support)
+    return _be_whole(s, r, support) and within(s, x, low(s, r) - 1.0, high(s, r) + FLOAT_TOLERANCE, support)
 
 
-def hold_exponential(s: Store, r: int, x: int, support: int) -> bool:
+def _hold_exponential(s: Store, r: int, x: int, support: int) -> bool:
     """Narrow r = e to the power of x, both ways, to 12 digits."""
-    if not within(s, r, exponential(low(s, x), -1e-12), exponential(high(s, x), 1e-12), support):
+    if not within(s, r, _exponential(low(s, x), -1e-12), _exponential(high(s, x), 1e-12), support):
         return False
     lo = low(s, r) - FLOAT_TOLERANCE
     hi = high(s, r) + FLOAT_TOLERANCE
-    if lo > 0.0 and not raise_to(s, x, settled(math.log(lo)) - SLACK, support):
+    if lo > 0.0 and not raise_to(s, x, rounded(math.log(lo)) - _SLACK, support):
         return False
-    return hi <= 0.0 or hi == inf or reduce_to(s, x, settled(math.log(hi)) + SLACK, support)
+    return hi <= 0.0 or hi == inf or reduce_to(s, x, rounded(math.log(hi)) + _SLACK, support)
 
 
-def exponential(x: float, slack: float) -> float:
+def _exponential(x: float, slack: float) -> float:
     """Give e to the power of x, moved by a relative slack; 0 and infinity beyond the range of doubles."""
     if x > 700.0:
         return inf if slack > 0.0 else 1e304
     if x < -700.0:
         return 0.0 if slack < 0.0 else 1e-304
-    return settled(math.exp(x)) * (1.0 + slack)
+    return rounded(math.exp(x)) * (1.0 + slack)
 
 
-def scale(s: Store, r: int, x: int, factor: float, support: int) -> bool:
+def _scale(s: Store, r: int, x: int, factor: float, support: int) -> bool:
     """Narrow r = factor * x, for a positive factor."""
     if not within(s, r, down(low(s, x) * factor), up(high(s, x) * factor), support):
         return False
     return within(s, x, down(low(s, r) / factor), up(high(s, r) / factor), support)
 
 
-def bring_within_turn(s: Store, r: int, x: int, support: int) -> bool:
+def _bring_within_turn(s: Store, r: int, x: int, support: int) -> bool:
     """Narrow r = x less whole turns, within -180 (included) and 180 degrees (not included)."""
     if not within(s, r, -180.0, 180.0 - (STRICT_STEP if s.kind[r] == KIND_FLOAT else 1.0), support):
         return False
@@ -210,12 +202,12 @@ def bring_within_turn(s: Store, r: int, x: int, support: int) -> bool:
     turns = math.floor((lo + 180.0) / 360.0)
     if turns != math.floor((hi + 180.0) / 360.0):
         return True
-    if not within(s, r, lo - 360.0 * turns - SLACK, hi - 360.0 * turns + SLACK, support):
+    if not within(s, r, lo - 360.0 * turns - _SLACK, hi - 360.0 * turns + _SLACK, support):
         return False
-    return within(s, x, low(s, r) + 360.0 * turns - SLACK, high(s, r) + 360.0 * turns + SLACK, support)
+    return within(s, x, low(s, r) + 360.0 * turns - _SLACK, high(s, r) + 360.0 * turns + _SLACK, support)
 
 
-def relate_date(s: Store, first: int, support: int) -> bool:
+def _relate_date(s: Store, first: int, support: int) -> bool:
     """Relate a tick to the second of the day, the day of the year and the year, once one side is known."""
     tick = s.slot_variable[first]
     if are_known(s, first, first + 1):
@@ -234,7 +226,7 @@ def relate_date(s: Store, first: int, support: int) -> bool:
     return within(s, tick, x, x, support)
 
 
-def measure(s: Store, first: int, support: int) -> bool:
+def _measure(s: Store, first: int, support: int) -> bool:
     """Set the distance of two known positions."""
     if not are_known(s, first + 1, first + 5):
         return True
@@ -244,11 +236,11 @@ def measure(s: Store, first: int, support: int) -> bool:
         middle(s, s.slot_variable[first + 3]),
         middle(s, s.slot_variable[first + 4]),
     )
-    slack = DISTANCE_TOLERANCE + METRES_PER_DEGREE * blur(s, first + 1, first + 5)
+    slack = _DISTANCE_TOLERANCE + _METRES_PER_DEGREE * _blur(s, first + 1, first + 5)
     return within(s, s.slot_variable[first], max(0.0, x - slack), x + slack, support)
 
 
-def blur(s: Store, first: int, last: int) -> float:
+def _blur(s: Store, first: int, last: int) -> float:
     """Add up how far the values of known variables may be from their middles."""
     total = 0.0
     for k in range(first, last):
@@ -256,41 +248,21 @@ def blur(s: Store, first: int, last: int) -> float:
     return total
 
 
-def displace(s: Store, first: int, support: int) -> bool:
-    """Set the position that lies north and east of a known one."""
+def _displace(s: Store, first: int, is_position: bool, support: int) -> bool:
+    """Set the position that lies north and east of a known one, or the way between two known ones."""
     if not are_known(s, first, first + 4):
         return True
-    place = displaced(
-        middle(s, s.slot_variable[first]),
-        middle(s, s.slot_variable[first + 1]),
-        middle(s, s.slot_variable[first + 2]),
-        middle(s, s.slot_variable[first + 3]),
-    )
-    # A degree of longitude is shorter away from the equator, so what is not known grows with it.
-    stretch = 1.0 / max(0.01, math.cos(middle(s, s.slot_variable[first]) * DEGREE))
-    slack = POSITION_TOLERANCE + stretch * (
-        2.0 * blur(s, first, first + 2) + blur(s, first + 2, first + 4) / LEAST_METRES_PER_DEGREE
-    )
-    for k in range(2):
-        v = s.slot_variable[first + 4 + k]
-        if not within(s, v, place[k] - slack, place[k] + slack, support):
-            return False
-    return True
-
-
-def find_displacement(s: Store, first: int, support: int) -> bool:
-    """Set how far north and east a known position lies of another; half a metre of tolerance."""
-    if not are_known(s, first, first + 4):
-        return True
-    way = displacement(
-        middle(s, s.slot_variable[first]),
-        middle(s, s.slot_variable[first + 1]),
-        middle(s, s.slot_variable[first + 2]),
-        middle(s, s.slot_variable[first + 3]),
-    )
-    slack = DISTANCE_TOLERANCE + METRES_PER_DEGREE * blur(s, first, first + 4)
-    for k in range(2):
-        v = s.slot_variable[first + 4 + k]
-        if not within(s, v, way[k] - slack, way[k] + slack, support):
+    lat = middle(s, s.slot_variable[first])
+    lon = middle(s, s.slot_variable[first + 1])
+    x = middle(s, s.slot_variable[first + 2])
+    y = middle(s, s.slot_variable[first + 3])
+    found = displaced(lat, lon, x, y) if is_position else displacement(lat, lon, x, y)
+    slack = _DISTANCE_TOLERANCE + _METRES_PER_DEGREE * _blur(s, first, first + 4)
+    if is_position:
+        # A degree of longitude is shorter away from the equator, so what is not known grows with it.
+        slack = 2.0 * _blur(s, first, first + 2) + _blur(s, first + 2, first + 4) / _LEAST_METRES_PER_DEGREE
+        slack = _POSITION_TOLERANCE + 1.0 / max(0.01, math.cos(lat * _DEGREE)) * slack
+    for k in range(2):  # noqa: SIM110 (a generator cannot be compiled here)
+        if not within(s, s.slot_variable[first + 4 + k], found[k] - slack, found[k] + slack, support):
             return False
     return True

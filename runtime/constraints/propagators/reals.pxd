@@ -8,11 +8,11 @@ from runtime.constraints.domains.store cimport Store
 cdef long long KIND_FLOAT, OP_ABS_VAL, OP_ADD_EQ, OP_CALC_DISTANCE, OP_DIFF_SQUARE, OP_DISTANCE_SQUARES, OP_DIV_EQ
 cdef long long OP_EQ_MAXIMUM, OP_EQ_MINIMUM, OP_EQ_PRODUCT, OP_EQ_SUM, OP_MUL_EQ, OP_NEG, SIDE_HOLES
 cdef long long SUPPORT_CONSTRAINT
-cdef double FLOAT_TOLERANCE, TINY, ULP, inf
+cdef double FLOAT_TOLERANCE, _TINY, ULP, inf
 
 
 @cython.locals(a="long long", b="long long", first="long long", op="long long", support="long long")
-cpdef bint run_reals(Store s, long long c) except -1
+cpdef bint propagate_reals(Store s, long long c) except -1
 
 @cython.locals(t=double, z=double)
 cpdef double lower_sum(double x, double y) except? -1.0
@@ -29,32 +29,32 @@ cpdef double up(double x) except? -1.0
 
 cpdef bint within(Store s, long long v, double lo, double hi, long long support) except -1
 
-cpdef bint add(Store s, long long a, long long b, long long r, long long support) except -1
+cpdef bint _add(Store s, long long a, long long b, long long r, long long support) except -1
 
 @cython.locals(hi=double, least=double, lo=double, most=double, p=double, q=double, x=double, y=double)
-cpdef bint multiply(Store s, long long a, long long b, long long r, long long support) except -1
+cpdef bint _multiply(Store s, long long a, long long b, long long r, long long support) except -1
 
 @cython.locals(least=double, most=double, x=double)
-cpdef bint divide(Store s, long long r, double lo, double hi, long long a, long long support) except -1
+cpdef bint _divide(Store s, long long r, double lo, double hi, long long a, long long support) except -1
 
-cpdef bint divide_by(Store s, long long a, long long b, long long q, long long support) except -1
+cpdef bint _divide_by(Store s, long long a, long long b, long long q, long long support) except -1
 
 @cython.locals(hi=double, k="long long", least=double, lo=double, skip="long long", v="long long")
-cpdef bint add_all(Store s, long long first, long long count, long long support) except -1
+cpdef bint _add_all(Store s, long long first, long long count, long long support) except -1
 
 @cython.locals(
     exact=bint, hi=double, k="long long", lo=double, p=double, q=double, skip="long long", v="long long", x=double,
     y=double
 )
-cpdef bint multiply_all(Store s, long long first, long long count, long long support) except -1
+cpdef bint _multiply_all(Store s, long long first, long long count, long long support) except -1
 
-cpdef double top(Store s, long long v, double sign) except? -1.0
+cpdef double _top(Store s, long long v, double sign) except? -1.0
 
-cpdef double bottom(Store s, long long v, double sign) except? -1.0
+cpdef double _bottom(Store s, long long v, double sign) except? -1.0
 
-cpdef bint press(Store s, long long v, double hi, double sign, long long support) except -1
+cpdef bint _press(Store s, long long v, double hi, double sign, long long support) except -1
 
-cpdef bint lift(Store s, long long v, double lo, double sign, long long support) except -1
+cpdef bint _lift(Store s, long long v, double lo, double sign, long long support) except -1
 
 @cython.locals(able="long long", hi=double, k="long long", lo=double, r="long long", v="long long")
 cpdef bint hold_extreme(Store s, long long first, long long count, double sign, long long support) except -1
@@ -63,15 +63,15 @@ cpdef bint hold_extreme(Store s, long long first, long long count, double sign, 
 cpdef bint hold_absolute(Store s, long long r, long long x, long long support) except -1
 
 @cython.locals(exact=bint, hi=double, least=double, lo=double, most=double)
-cpdef bint square_difference(Store s, long long a, long long b, long long r, long long support) except -1
+cpdef bint _square_difference(Store s, long long a, long long b, long long r, long long support) except -1
 
 @cython.locals(x=double)
-cpdef bint root_of_sum(Store s, long long a, long long b, long long r, long long support) except -1
+cpdef bint _root_of_sum(Store s, long long a, long long b, long long r, long long support) except -1
 
-cpdef double gap(double least, double most) except? -1.0
+cpdef double _gap(double least, double most) except? -1.0
 
 @cython.locals(
     least=double, left=double, most=double, over=double, p=double, q=double, right=double, u="long long",
     under=double, v="long long", x="long long", y="long long"
 )
-cpdef bint measure_distance(Store s, long long first, long long support) except -1
+cpdef bint _measure_distance(Store s, long long first, long long support) except -1

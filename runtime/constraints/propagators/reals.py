@@ -8,9 +8,8 @@ from math import inf
 
 from runtime.constraints.domains.narrow import high, is_single, low, raise_to, reduce_to, remove_value
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import (
-    FLOAT_TOLERANCE,
-    KIND_FLOAT,
+from runtime.constraints.domains.tags import FLOAT_TOLERANCE, KIND_FLOAT, SIDE_HOLES, SUPPORT_CONSTRAINT, ULP
+from runtime.constraints.propagators.opcodes import (
     OP_ABS_VAL,
     OP_ADD_EQ,
     OP_CALC_DISTANCE,
@@ -23,15 +22,12 @@ from runtime.constraints.domains.tags import (
     OP_EQ_SUM,
     OP_MUL_EQ,
     OP_NEG,
-    SIDE_HOLES,
-    SUPPORT_CONSTRAINT,
-    ULP,
 )
 
-TINY = 5e-324
+_TINY = 5e-324
 
 
-def run_reals(s: Store, c: int) -> bool:
+def propagate_reals(s: Store, c: int) -> bool:
     """Run an arithmetic constraint on floats, or on floats and whole numbers."""
     op = s.op[c]
     first = s.first[c]
@@ -39,15 +35,15 @@ def run_reals(s: Store, c: int) -> bool:
     b = s.slot_variable[first + 1]
     support = c * 4 + SUPPORT_CONSTRAINT
     if op == OP_ADD_EQ:
-        return add(s, a, b, s.slot_variable[first + 2], support)
+        return _add(s, a, b, s.slot_variable[first + 2], support)
     if op == OP_MUL_EQ:
-        return multiply(s, a, b, s.slot_variable[first + 2], support)
+        return _multiply(s, a, b, s.slot_variable[first + 2], support)
     if op == OP_DIV_EQ:
-        return divide_by(s, a, b, s.slot_variable[first + 2], support)
+        return _divide_by(s, a, b, s.slot_variable[first + 2], support)
     if op == OP_EQ_SUM:
-        return add_all(s, first, s.arity[c], support)
+        return _add_all(s, first, s.arity[c], support)
     if op == OP_EQ_PRODUCT:
-        return multiply_all(s, first, s.arity[c], support)
+        return _multiply_all(s, first, s.arity[c], support)
     if op == OP_EQ_MAXIMUM:
         return hold_extreme(s, first, s.arity[c], 1.0, support)
     if op == OP_EQ_MINIMUM:
@@ -59,11 +55,11 @@ def run_reals(s: Store, c: int) -> bool:
             return False
         return raise_to(s, b, -high(s, a), support) and reduce_to(s, b, -low(s, a), support)
     if op == OP_DIFF_SQUARE:
-        return square_difference(s, a, b, s.slot_variable[first + 2], support)
+        return _square_difference(s, a, b, s.slot_variable[first + 2], support)
     if op == OP_DISTANCE_SQUARES:
-        return root_of_sum(s, a, b, s.slot_variable[first + 2], support)
+        return _root_of_sum(s, a, b, s.slot_variable[first + 2], support)
     assert op == OP_CALC_DISTANCE
-    return measure_distance(s, first, support)
+    return _measure_distance(s, first, support)
 
 
 def lower_sum(x: float, y: float) -> float:
@@ -73,7 +69,7 @@ def lower_sum(x: float, y: float) -> float:
         return -inf if x == -inf or y == -inf or z == -inf else z
     t = z - x
     if (x - (z - t)) + (y - t) < 0.0:
-        return z - abs(z) * ULP - TINY
+        return z - abs(z) * ULP - _TINY
     return z
 
 
@@ -97,12 +93,12 @@ def is_exact(x: float) -> bool:
 
 def down(x: float) -> float:
     """Step at least one unit in the last place down."""
-    return x - abs(x) * ULP - TINY if -inf < x < inf else x
+    return x - abs(x) * ULP - _TINY if -inf < x < inf else x
 
 
 def up(x: float) -> float:
     """Step at least one unit in the last place up."""
-    return x + abs(x) * ULP + TINY if -inf < x < inf else x
+    return x + abs(x) * ULP + _TINY if -inf < x < inf else x
 
 
 def within(s: Store, v: int, lo: float, hi: float, support: int) -> bool:
@@ -110,7 +106,7 @@ def within(s: Store, v: int, lo: float, hi: float, support: int) -> bool:
     return raise_to(s, v, lo, support) and reduce_to(s, v, hi, support)
 
 
-def add(s: Store, a: int, b: int, r: int, support: int) -> bool:
+def _add(s: Store, a: int, b: int, r: int, support: int) -> bool:
     """Narrow a + b = r."""
     if not within(s, r, lower_sum(low(s, a), low(s, b)), upper_sum(high(s, a), high(s, b)), support):
         return False
@@ -119,7 +115,7 @@ def add(s: Store, a: int, b: int, r: int, support: int) -> bool:
     return within(s, b, lower_sum(low(s, r), -high(s, a)), upper_sum(high(s, r), -low(s, a)), support)
 
 
-def multiply(s: Store, a: int, b: int, r: int, support: int) -> bool:
+def _multiply(s: Store, a: int, b: int, r: int, support: int) -> bool:
     """Narrow a * b = r."""
     lo = low(s, a)
     hi = high(s, a)
@@ -134,10 +130,10 @@ def multiply(s: Store, a: int, b: int, r: int, support: int) -> bool:
         most = up(most)
     if not within(s, r, least, most, support):
         return False
-    return divide(s, r, low(s, b), high(s, b), a, support) and divide(s, r, low(s, a), high(s, a), b, support)
+    return _divide(s, r, low(s, b), high(s, b), a, support) and _divide(s, r, low(s, a), high(s, a), b, support)
 
 
-def divide(s: Store, r: int, lo: float, hi: float, a: int, support: int) -> bool:
+def _divide(s: Store, r: int, lo: float, hi: float, a: int, support: int) -> bool:
     """Narrow a, where a * b = r and b lies within lo and hi."""
     least = low(s, r)
     most = high(s, r)
@@ -160,19 +156,19 @@ def divide(s: Store, r: int, lo: float, hi: float, a: int, support: int) -> bool
     return True
 
 
-def divide_by(s: Store, a: int, b: int, q: int, support: int) -> bool:
+def _divide_by(s: Store, a: int, b: int, q: int, support: int) -> bool:
     """Narrow a / b = q."""
     if s.kind[b] != KIND_FLOAT:
         if not remove_value(s, b, 0, support):
             return False
     elif s.flo[b] == 0.0 and s.fhi[b] == 0.0:
         return s.fail(b, SIDE_HOLES, support)
-    if not divide(s, a, low(s, b), high(s, b), q, support):
+    if not _divide(s, a, low(s, b), high(s, b), q, support):
         return False
-    return multiply(s, q, b, a, support)
+    return _multiply(s, q, b, a, support)
 
 
-def add_all(s: Store, first: int, count: int, support: int) -> bool:
+def _add_all(s: Store, first: int, count: int, support: int) -> bool:
     """Narrow x1 + x2 + ... = r; r stands first. Each term is taken out of r by the sum of the others, O(count^2)."""
     for skip in range(count):
         lo = 0.0
@@ -192,7 +188,7 @@ def add_all(s: Store, first: int, count: int, support: int) -> bool:
     return True
 
 
-def multiply_all(s: Store, first: int, count: int, support: int) -> bool:
+def _multiply_all(s: Store, first: int, count: int, support: int) -> bool:
     """Narrow x1 * x2 * ... = r; r stands first, O(count^2)."""
     for skip in range(count):
         lo = 1.0
@@ -212,29 +208,29 @@ def multiply_all(s: Store, first: int, count: int, support: int) -> bool:
                     lo = down(lo) if lo != 0.0 else lo
                     hi = up(hi) if hi != 0.0 else hi
         if skip:
-            if not divide(s, s.slot_variable[first], lo, hi, s.slot_variable[first + skip], support):
+            if not _divide(s, s.slot_variable[first], lo, hi, s.slot_variable[first + skip], support):
                 return False
         elif not within(s, s.slot_variable[first], lo, hi, support):
             return False
     return True
 
 
-def top(s: Store, v: int, sign: float) -> float:
+def _top(s: Store, v: int, sign: float) -> float:
     """Give the upper bound of v, or of -v for the sign -1."""
     return high(s, v) if sign > 0.0 else -low(s, v)
 
 
-def bottom(s: Store, v: int, sign: float) -> float:
+def _bottom(s: Store, v: int, sign: float) -> float:
     """Give the lower bound of v, or of -v for the sign -1."""
     return low(s, v) if sign > 0.0 else -high(s, v)
 
 
-def press(s: Store, v: int, hi: float, sign: float, support: int) -> bool:
+def _press(s: Store, v: int, hi: float, sign: float, support: int) -> bool:
     """Reduce the upper bound of v, or of -v for the sign -1."""
     return reduce_to(s, v, hi, support) if sign > 0.0 else raise_to(s, v, -hi, support)
 
 
-def lift(s: Store, v: int, lo: float, sign: float, support: int) -> bool:
+def _lift(s: Store, v: int, lo: float, sign: float, support: int) -> bool:
     """Raise the lower bound of v, or of -v for the sign -1."""
     return raise_to(s, v, lo, support) if sign > 0.0 else reduce_to(s, v, -lo, support)
 
@@ -245,18 +241,18 @@ def hold_extreme(s: Store, first: int, count: int, sign: float, support: int) ->
     lo = -inf
     hi = -inf
     for k in range(first + 1, first + count):
-        lo = max(lo, bottom(s, s.slot_variable[k], sign))
-        hi = max(hi, top(s, s.slot_variable[k], sign))
-    if not (lift(s, r, lo, sign, support) and press(s, r, hi, sign, support)):
+        lo = max(lo, _bottom(s, s.slot_variable[k], sign))
+        hi = max(hi, _top(s, s.slot_variable[k], sign))
+    if not (_lift(s, r, lo, sign, support) and _press(s, r, hi, sign, support)):
         return False
     able = -1
     for k in range(first + 1, first + count):
         v = s.slot_variable[k]
-        if not press(s, v, top(s, r, sign), sign, support):
+        if not _press(s, v, _top(s, r, sign), sign, support):
             return False
-        if top(s, v, sign) >= bottom(s, r, sign) - FLOAT_TOLERANCE:
+        if _top(s, v, sign) >= _bottom(s, r, sign) - FLOAT_TOLERANCE:
             able = v if able == -1 else -2
-    return able < 0 or lift(s, able, bottom(s, r, sign), sign, support)
+    return able < 0 or _lift(s, able, _bottom(s, r, sign), sign, support)
 
 
 def hold_absolute(s: Store, r: int, x: int, support: int) -> bool:
@@ -275,7 +271,7 @@ def hold_absolute(s: Store, r: int, x: int, support: int) -> bool:
     return high(s, x) >= low(s, r) - FLOAT_TOLERANCE or reduce_to(s, x, -low(s, r), support)
 
 
-def square_difference(s: Store, a: int, b: int, r: int, support: int) -> bool:
+def _square_difference(s: Store, a: int, b: int, r: int, support: int) -> bool:
     """Narrow (a - b)^2 = r."""
     lo = lower_sum(low(s, a), -high(s, b))
     hi = upper_sum(high(s, a), -low(s, b))
@@ -294,7 +290,7 @@ def square_difference(s: Store, a: int, b: int, r: int, support: int) -> bool:
     return within(s, b, lower_sum(low(s, a), -most), upper_sum(high(s, a), most), support)
 
 
-def root_of_sum(s: Store, a: int, b: int, r: int, support: int) -> bool:
+def _root_of_sum(s: Store, a: int, b: int, r: int, support: int) -> bool:
     """Set r to the root of a + b, once both are known."""
     if not (is_single(s, a) and is_single(s, b)):
         return True
@@ -305,12 +301,12 @@ def root_of_sum(s: Store, a: int, b: int, r: int, support: int) -> bool:
     return within(s, r, x, x, support)
 
 
-def gap(least: float, most: float) -> float:
+def _gap(least: float, most: float) -> float:
     """Give the smallest absolute value between two bounds."""
     return least if least > 0.0 else -most if most < 0.0 else 0.0
 
 
-def measure_distance(s: Store, first: int, support: int) -> bool:
+def _measure_distance(s: Store, first: int, support: int) -> bool:
     """Narrow d to the possible distances of two points."""
     x = s.slot_variable[first + 1]
     y = s.slot_variable[first + 2]
@@ -320,8 +316,8 @@ def measure_distance(s: Store, first: int, support: int) -> bool:
     right = high(s, x) - low(s, u)
     under = low(s, y) - high(s, v)
     over = high(s, y) - low(s, v)
-    p = gap(left, right)
-    q = gap(under, over)
+    p = _gap(left, right)
+    q = _gap(under, over)
     least = math.sqrt(p * p + q * q)
     p = max(-left, right)
     q = max(-under, over)

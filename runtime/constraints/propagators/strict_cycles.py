@@ -1,18 +1,18 @@
-"""Look for circles of orders among reals: a strict one has no solution, but bounds would creep there for long."""
+"""Strict cycles of orders among reals: without a solution, though bounds creep there one step at a time."""
 
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import OP_EQ, OP_LEQ, OP_LT
+from runtime.constraints.propagators.opcodes import OP_EQ, OP_LEQ, OP_LT
 
 
-def is_in_strict_circle(s: Store, c: int) -> bool:
-    """Whether an order or equality is part of a circle that says x < x. Asked of what creeps only: uncompiled."""
+def is_in_strict_cycle(s: Store, c: int) -> bool:
+    """Whether an order or equality is part of a cycle that says x < x. Asked of what creeps only: uncompiled."""
     variables = [s.slot_variable[k] for k in range(s.first[c], s.first[c] + s.arity[c])]
     if s.op[c] == OP_EQ:
-        return any(is_below(s, v, other, True) for v in variables for other in variables)
-    return is_below(s, variables[1], variables[0], s.op[c] == OP_LEQ)
+        return any(_is_below(s, v, other, True) for v in variables for other in variables)
+    return _is_below(s, variables[1], variables[0], s.op[c] == OP_LEQ)
 
 
-def is_below(s: Store, a: int, b: int, strictly: bool) -> bool:
+def _is_below(s: Store, a: int, b: int, strictly: bool) -> bool:
     """Whether orders and equalities say, one after the other, that a <= b, or a < b."""
     waiting = [(a, not strictly)]
     found = set(waiting)

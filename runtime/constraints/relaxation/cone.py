@@ -9,8 +9,6 @@ from runtime.constraints.domains.arrays import grown
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     HALF_INF,
-    OP_TEMPORAL_DISTANCE,
-    OP_WATCH,
     SIDE_HOLES,
     SIDE_LOWER,
     SIDE_UPPER,
@@ -18,6 +16,7 @@ from runtime.constraints.domains.tags import (
     SUPPORT_EDGE,
     SUPPORT_RESTRICTION,
 )
+from runtime.constraints.propagators.opcodes import OP_TEMPORAL_DISTANCE, OP_WATCH
 from runtime.constraints.relaxation.support_cycles import holds_itself
 
 

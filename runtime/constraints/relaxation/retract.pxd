@@ -7,7 +7,7 @@ from runtime.constraints.domains.bitset cimport detach_words, drop_log
 from runtime.constraints.relaxation.cone cimport follow_cone, loosen_by, loosen_by_constraint, loosen_by_edge
 from runtime.constraints.domains.narrow cimport raise_to, reduce_to
 from runtime.constraints.stn.network cimport attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
-from runtime.constraints.stn.posting cimport release_constraint
+from runtime.constraints.propagators.posting cimport release_constraint
 from runtime.constraints.explanation.reasons cimport is_carried
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.relaxation.trail cimport clear_queues, commit_trail

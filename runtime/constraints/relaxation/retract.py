@@ -19,7 +19,6 @@ from runtime.constraints.domains.tags import (
     INF,
     KIND_FLOAT,
     NEVER,
-    OP_TEMPORAL_DISTANCE,
     SIDE_LOWER,
     SIDE_UPPER,
     SUPPORT_EDGE,
@@ -27,10 +26,11 @@ from runtime.constraints.domains.tags import (
 )
 from runtime.constraints.domains.variables import drop_restriction, drop_variable, keep_values
 from runtime.constraints.explanation.reasons import is_carried
+from runtime.constraints.propagators.opcodes import OP_TEMPORAL_DISTANCE
+from runtime.constraints.propagators.posting import release_constraint
 from runtime.constraints.relaxation.cone import follow_cone, loosen_by, loosen_by_constraint, loosen_by_edge
 from runtime.constraints.relaxation.trail import clear_queues, commit_trail
 from runtime.constraints.stn.network import attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
-from runtime.constraints.stn.posting import release_constraint
 
 
 def retract(

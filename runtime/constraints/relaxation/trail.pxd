@@ -3,7 +3,7 @@
 cimport cython
 from runtime.constraints.domains.bitset cimport detach_words, restore_bits
 from runtime.constraints.stn.network cimport detach_edge, free_edge
-from runtime.constraints.stn.posting cimport release_constraint
+from runtime.constraints.propagators.posting cimport release_constraint
 from runtime.constraints.stn.entailment cimport relink, waken
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.domains.variables cimport drop_restriction, drop_variable

@@ -23,9 +23,9 @@ from runtime.constraints.domains.tags import (
     TRAIL_WORDS,
 )
 from runtime.constraints.domains.variables import drop_restriction, drop_variable
+from runtime.constraints.propagators.posting import release_constraint
 from runtime.constraints.stn.entailment import relink, waken
 from runtime.constraints.stn.network import detach_edge, free_edge
-from runtime.constraints.stn.posting import release_constraint
 
 
 def clear_queues(s: Store) -> None:

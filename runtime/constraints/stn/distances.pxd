@@ -5,7 +5,7 @@ from runtime.constraints.engine cimport Engine
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.stn.heap cimport Heap
 
-cdef long long OP_TEMPORAL_DISTANCE
+cdef long long MODE_DISTANCE
 
 
 cdef class Distances:

@@ -3,7 +3,7 @@
 cimport cython
 from runtime.constraints.domains.store cimport Store
 
-cdef long long OP_TEMPORAL_DISTANCE, TRAIL_REST
+cdef long long MODE_DISTANCE, TRAIL_REST
 
 
 @cython.locals(after="long long", before="long long", slot="long long")

@@ -1,7 +1,7 @@
 """Let a constraint rest while a search goes on, where others say all that it says: nothing wakes it."""
 
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import OP_TEMPORAL_DISTANCE, TRAIL_REST
+from runtime.constraints.domains.tags import MODE_DISTANCE, TRAIL_REST
 
 
 def rest(s: Store, c: int) -> None:
@@ -64,7 +64,7 @@ def rest_distance(s: Store, distance: int) -> None:
     slot = s.watch_head[distance]
     while slot >= 0:
         c = s.slot_constraint[slot]
-        if s.op[c] == OP_TEMPORAL_DISTANCE and s.slot_variable[s.first[c]] == distance + 1:
+        if s.mode[c] == MODE_DISTANCE and s.slot_variable[s.first[c]] == distance + 1:
             rest(s, c)
             return
         slot = s.slot_next[slot]

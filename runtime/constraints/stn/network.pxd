@@ -4,7 +4,7 @@ cimport cython
 from runtime.constraints.domains.store cimport Store
 
 cdef long long CONFLICT_CYCLE, EVENT_LOWER, EVENT_UPPER, HALF_INF, SIDE_LOWER, SIDE_UPPER, SUPPORT_EDGE
-cdef long long TRAIL_EDGE, TRAIL_LOWER, TRAIL_UPPER, TRAIL_WEIGHT
+cdef long long TRAIL_EDGE, TRAIL_LINK, TRAIL_LOWER, TRAIL_UPPER, TRAIL_WEIGHT
 
 
 @cython.locals(room="long long")
@@ -43,3 +43,9 @@ cpdef bint push_upper(Store s, long long v, long long source, long long new) exc
 
 @cython.locals(bound="long long", count="long long", e="long long", i="long long", u="long long", x="long long")
 cpdef bint push_lower(Store s, long long v, long long target, long long new) except -1
+
+cpdef bint tie_edges(
+    Store s, long long c, long long source, long long target, long long forth, long long back
+) except -1
+
+cpdef bint tie_edge(Store s, long long c, long long source, long long target, long long weight) except -1

@@ -11,6 +11,7 @@ from runtime.constraints.domains.tags import (
     SIDE_UPPER,
     SUPPORT_EDGE,
     TRAIL_EDGE,
+    TRAIL_LINK,
     TRAIL_LOWER,
     TRAIL_UPPER,
     TRAIL_WEIGHT,
@@ -267,3 +268,18 @@ def push_lower(s: Store, v: int, target: int, new: int) -> bool:
         e = s.in_next[e]
     s.visits += count
     return True
+
+
+def tie_edges(s: Store, c: int, source: int, target: int, forth: int, back: int) -> bool:
+    """Carry a constraint out by two edges between the same points; false on a conflict."""
+    s.save(c, TRAIL_LINK, 0, 0)
+    s.link_a[c] = insert_edge(s, source, target, forth, s.span[c], s.owner[c], c)
+    s.link_b[c] = insert_edge(s, target, source, back, s.span[c], s.owner[c], c)
+    return bool(s.consistent)
+
+
+def tie_edge(s: Store, c: int, source: int, target: int, weight: int) -> bool:
+    """Carry a constraint out by one edge; false on a conflict."""
+    s.save(c, TRAIL_LINK, 0, 0)
+    s.link_a[c] = insert_edge(s, source, target, weight, s.span[c], s.owner[c], c)
+    return bool(s.consistent)

@@ -3,7 +3,7 @@
 cimport cython
 from runtime.constraints.domains.store cimport Store
 
-cdef long long APART, MOST_NEAR, OP_TEMPORAL_DISTANCE, REACHED, UNKNOWN
+cdef long long APART, MOST_NEAR, MODE_DISTANCE, REACHED, UNKNOWN
 
 
 @cython.final

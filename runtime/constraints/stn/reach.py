@@ -3,7 +3,7 @@
 from array import array
 
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import OP_TEMPORAL_DISTANCE
+from runtime.constraints.domains.tags import MODE_DISTANCE
 from runtime.solver.widening import widened
 
 MOST_NEAR = 16
@@ -169,7 +169,7 @@ class Reach:
     def is_known(self, e: int) -> bool:
         """Whether edge `e` is one to follow."""
         c = self.engine.edge_link[e] if self.temporal_only else -1
-        return c < 0 or self.engine.op[c] == OP_TEMPORAL_DISTANCE
+        return c < 0 or self.engine.mode[c] == MODE_DISTANCE
 
     def push(self, key: int, v: int) -> int:
         """Put a point on the heap."""

@@ -4,18 +4,15 @@ from collections.abc import Callable
 from math import inf
 
 from compiler.program import TOKEN_VARIABLES
-from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, KIND_INT, OP_FREEZE, OP_PLUS, OP_SAMPLE
+from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, KIND_INT
 from runtime.constraints.explanation.cause import Cause, CauseKind
-from runtime.constraints.propagators.operations import OPERATIONS
+from runtime.constraints.propagators.registry import NAMES
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.plan.resources.violation import Violation
 from runtime.plan.store.domain_texts import domain_text, set_text
 from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
 from runtime.user.written import Written
-
-_NAMES = {code: name for name, code in reversed(OPERATIONS.items())}
-_NAMES |= {OP_PLUS: "addEq", OP_FREEZE: "foreach", OP_SAMPLE: "sampledParameter"}
 
 
 class TermReader:
@@ -99,7 +96,7 @@ class TermReader:
         if isinstance(external, Violation):
             return self._violation(external)
         code = engine.op[c]
-        name = external.name if isinstance(external, Written) else _NAMES.get(code, f"constraint {code}")
+        name = external.name if isinstance(external, Written) else NAMES.get(code, f"constraint {code}")
         return Term(name, tuple(self.argument(v) for v in engine.arguments(c)))
 
     def _violation(self, violation: Violation) -> ResourceTerm:

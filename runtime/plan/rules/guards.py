@@ -1,7 +1,8 @@
 """Guards: they wait until the variables that decide them are bound, then choose a branch."""
 
 from runtime.constraints.domains.base_domain import is_growing
-from runtime.constraints.domains.tags import KIND_OBJECT, OP_WATCH
+from runtime.constraints.domains.tags import KIND_OBJECT
+from runtime.constraints.propagators.opcodes import OP_WATCH
 from runtime.plan.store.operands import member
 from runtime.plan.store.plan import Plan
 from runtime.plan.store.scopes import constraint

@@ -32,7 +32,8 @@ from compiler.program import (
     UnionOf,
 )
 from nddl_lang.text.source import Span
-from runtime.plan.rules.operations import OPERATIONS, SILENT
+from runtime.constraints.propagators.opcodes import OP_NOTHING
+from runtime.constraints.propagators.registry import BY_NAME
 from runtime.plan.store.names import Names
 from runtime.plan.store.prototypes import Prototypes
 from runtime.plan.tags import (
@@ -84,7 +85,8 @@ class RuleBytecode:
         self.names = names
         self.predicates = predicates
         self.relations = relations
-        self.operations = {**OPERATIONS, **{name: FIRST_WRITTEN + number for name, number in written.items()}}
+        self.operations = {name: row.op for name, row in BY_NAME.items()}
+        self.operations |= {name: FIRST_WRITTEN + number for name, number in written.items()}
         self.cells: list[int] = []
         self.block_start: list[int] = []
         self.block_end: list[int] = []
@@ -171,7 +173,7 @@ class RuleBytecode:
 
     def post(self, name: str, operands: tuple[Operand, ...], span: int) -> None:
         """Write a constraint; temporal ones become distances."""
-        if name in SILENT:
+        if self.operations.get(name) == OP_NOTHING:
             return
         pairs = [self.operand(operand) for operand in operands]
         distance = DISTANCES.get(name)

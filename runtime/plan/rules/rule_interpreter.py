@@ -4,7 +4,8 @@ Bodies run from a stack of (position, end, scope), so that a child's own body ru
 it without recursion. Nothing is propagated here, except that edges reach the network at once.
 """
 
-from runtime.constraints.domains.tags import KIND_INT, OP_FREEZE, OP_SAMPLE
+from runtime.constraints.domains.tags import KIND_INT
+from runtime.constraints.propagators.opcodes import OP_FREEZE, OP_SAMPLE
 from runtime.plan.rules.guards import wait
 from runtime.plan.store.operands import operand
 from runtime.plan.store.plan import Plan

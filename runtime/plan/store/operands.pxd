@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
-from runtime.constraints.stn.posting cimport add_row, start_element
+from runtime.constraints.propagators.posting cimport add_row, start_element
 from runtime.plan.store.scopes cimport copy_variable
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows

@@ -1,7 +1,7 @@
 """Operands: the engine variable that each means; fields of an undecided object become proxies."""
 
 from runtime.constraints.domains.tags import KIND_FLOAT, KIND_INT
-from runtime.constraints.stn.posting import add_row, start_element
+from runtime.constraints.propagators.posting import add_row, start_element
 from runtime.plan.store.plan import Plan
 from runtime.plan.store.scopes import copy_variable
 from runtime.plan.tags import (

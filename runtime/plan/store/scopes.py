@@ -1,7 +1,8 @@
 """Scopes own what rules make: edges, constraints, variables and decisions; the door to the engine."""
 
 from runtime.constraints.domains.base_domain import is_base_growing
-from runtime.constraints.domains.tags import KIND_FLOAT, OP_EQ
+from runtime.constraints.domains.tags import KIND_FLOAT
+from runtime.constraints.propagators.opcodes import OP_EQ
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import (
     FIRST_WRITTEN,

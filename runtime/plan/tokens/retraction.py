@@ -1,6 +1,7 @@
 """Retraction at level 0: all that scopes made goes in one sweep, children of their tokens included."""
 
-from runtime.constraints.domains.tags import FLAG_DECISION, OP_WATCH
+from runtime.constraints.domains.tags import FLAG_DECISION
+from runtime.constraints.propagators.opcodes import OP_WATCH
 from runtime.plan.store.links import link_by_key, unlink
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import (

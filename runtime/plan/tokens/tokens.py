@@ -1,6 +1,6 @@
 """Tokens: a row, consecutive variables, the body of the predicate; an active one puts its rules on the stack."""
 
-from runtime.constraints.domains.tags import OP_TEMPORAL_DISTANCE
+from runtime.constraints.propagators.opcodes import OP_TEMPORAL_DISTANCE
 from runtime.plan.store.links import link_by_key, unlink
 from runtime.plan.store.operands import operand
 from runtime.plan.store.plan import Plan

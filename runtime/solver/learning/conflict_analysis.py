@@ -7,7 +7,8 @@ latest of them is where another choice may help (conflict-directed backjumping, 
 do no harm: the search then goes back less far.
 """
 
-from runtime.constraints.domains.tags import CONFLICT_DOMAIN, FLOAT_TOLERANCE, OP_EXTERNAL, SIDE_LOWER, SIDE_UPPER
+from runtime.constraints.domains.tags import CONFLICT_DOMAIN, FLOAT_TOLERANCE, SIDE_LOWER, SIDE_UPPER
+from runtime.constraints.propagators.opcodes import OP_EXTERNAL
 from runtime.plan.resources.violation import Violation
 from runtime.plan.tags import (
     ACTIVE,

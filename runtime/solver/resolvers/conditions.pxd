@@ -3,7 +3,7 @@
 cimport cython
 from runtime.constraints.domains.bitset cimport has_value
 from runtime.constraints.engine cimport Engine
-from runtime.constraints.propagators.logic cimport meet
+from runtime.constraints.propagators.logic cimport may_be_equal
 from runtime.plan.tokens.predicate_hierarchy cimport first_active, next_active
 from runtime.plan.lifecycle cimport activate, merge, reject
 from runtime.plan.store.plan cimport Plan

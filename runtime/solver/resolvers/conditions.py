@@ -1,7 +1,7 @@
 """Resolvers of open conditions: merge with an active token, activate, support by an action, reject."""
 
 from runtime.constraints.domains.bitset import has_value
-from runtime.constraints.propagators.logic import meet
+from runtime.constraints.propagators.logic import may_be_equal
 from runtime.plan.lifecycle import activate, merge, reject
 from runtime.plan.tags import (
     FLAG_ACTION,
@@ -125,7 +125,7 @@ def _is_compatible(agenda: Agenda, t: int, candidate: int) -> bool:
     if is_out_of_range(agenda, candidate):
         return False
     for k in range(OBJECT, agenda.rows.width[t]):
-        if not meet(engine, mine + k, theirs + k):
+        if not may_be_equal(engine, mine + k, theirs + k):
             return False
     return may_coincide(agenda, candidate)
 

@@ -1,7 +1,10 @@
-"""Add, multiply and turn intervals of reals: pairs of bounds in, the bounds of all results out, rounded outward."""
+"""Interval arithmetic of reals, rounded outward: pairs of bounds in, bounds of all results out."""
 
 import math
 from math import inf
+
+from runtime.constraints.propagators.functions import sine as sine_of
+from runtime.constraints.propagators.reals import product
 
 Interval = tuple[float, float]
 
@@ -23,14 +26,9 @@ def taken(x: Interval, y: Interval) -> Interval:
     return outward(x[0] - y[1], x[1] - y[0])
 
 
-def times(x: float, y: float) -> float:
-    """Multiply; infinity times 0 is 0, as the limit of a finite bound."""
-    return 0.0 if x == 0.0 or y == 0.0 else x * y
-
-
 def multiplied(x: Interval, y: Interval) -> Interval:
     """Give the interval of x * y."""
-    corners = [times(a, b) for a in x for b in y]
+    corners = [product(a, b) for a in x for b in y]
     return outward(min(corners), max(corners))
 
 
@@ -44,7 +42,7 @@ def sine(x: Interval) -> Interval:
     lo, hi = x
     if not hi - lo < 360.0:
         return -1.0, 1.0
-    ends = [math.sin(math.radians(math.fmod(a, 360.0))) for a in x]
+    ends = [sine_of(a) for a in x]
     has_peak = 90.0 + 360.0 * math.ceil((lo - 90.0 - ROUGH) / 360.0) <= hi + ROUGH
     has_trough = -90.0 + 360.0 * math.ceil((lo + 90.0 - ROUGH) / 360.0) <= hi + ROUGH
     least, most = outward(min(ends), max(ends))
@@ -62,5 +60,5 @@ def raised(x: float, y: float) -> float:
         return inf if y < 0.0 else 1.0 if y == 0.0 else 0.0
     if x == inf:
         return inf if y > 0.0 else 1.0 if y == 0.0 else 0.0
-    exponent = times(y, math.log(x))
+    exponent = product(y, math.log(x))
     return math.exp(exponent) if exponent < 709.0 else inf

@@ -3,46 +3,39 @@
 from runtime.constraints.domains.arrays import grown
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
-    EVENT_ANY,
     EVENT_DOMAIN,
-    EVENT_HOLES,
-    EVENT_LOWER,
-    EVENT_UPPER,
-    FAMILY_ARITHMETIC,
     KIND_BOOL,
     KIND_FLOAT,
     KIND_INT,
+    MODE_DISTANCE,
     MODE_EDGES,
     MODE_REAL,
     MODE_WHOLE,
+    TRAIL_CONSTRAINT,
+)
+from runtime.constraints.propagators.opcodes import (
     OP_ADD_EQ,
-    OP_ALL_MAX,
-    OP_ALL_MIN,
     OP_ELEMENT,
-    OP_EQ,
-    OP_EQ_MAXIMUM,
-    OP_EQ_MINIMUM,
     OP_EXTERNAL,
-    OP_LEQ,
-    OP_LT,
-    OP_NEQ,
     OP_PLUS,
     OP_RAND,
     OP_TEMPORAL_DISTANCE,
-    OP_TEST_SPECIFIED,
-    OP_WATCH,
-    PRIORITY_CHEAP,
-    PRIORITY_DEAR,
-    PRIORITY_WATCH,
-    TRAIL_CONSTRAINT,
-    TRAIL_LINK,
 )
-from runtime.constraints.stn.network import insert_edge
+from runtime.constraints.propagators.registry import (
+    EDGES_UP_TO,
+    IDEMPOTENT_UP_TO,
+    POSTED_AS,
+    PRIORITIES,
+    TWINS,
+    WAKES_BESIDE_EDGES,
+    WAKES_FIRST,
+    WAKES_OTHERS,
+)
 
-MASK = 2**64 - 1
+_MASK = 2**64 - 1
 
 
-def grow_constraints(s: Store) -> None:
+def _grow_constraints(s: Store) -> None:
     """Double the rows of constraints, and the queues with them."""
     room = 2 * len(s.op)
     s.op = grown(s.op, "i", room, -1)
@@ -60,7 +53,7 @@ def grow_constraints(s: Store) -> None:
     s.grow_constraint_queues(room)
 
 
-def grow_slots(s: Store, need: int) -> None:
+def _grow_slots(s: Store, need: int) -> None:
     """Make room for `need` more slots."""
     room = len(s.slot_variable)
     while room < s.slots_used + need:
@@ -73,20 +66,20 @@ def grow_slots(s: Store, need: int) -> None:
     s.slot_key = grown(s.slot_key, "q", room, 0)
 
 
-def allocate_slots(s: Store, count: int) -> int:
+def _allocate_slots(s: Store, count: int) -> int:
     """Take `count` consecutive slots; blocks of up to 64 come back through free lists."""
     if count <= 64 and s.slot_free[count] >= 0:
         first = s.slot_free[count]
         s.slot_free[count] = s.slot_next[first]
         return first
     if s.slots_used + count > len(s.slot_variable):
-        grow_slots(s, count)
+        _grow_slots(s, count)
     first = s.slots_used
     s.slots_used = first + count
     return first
 
 
-def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
+def _new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
     """Make a constraint whose arguments are still to be filled in."""
     c = s.constraint_free
     if c >= 0:
@@ -94,25 +87,25 @@ def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
     else:
         c = s.constraints_used
         if c == len(s.op):
-            grow_constraints(s)
+            _grow_constraints(s)
         s.constraints_used = c + 1
     s.op[c] = op
     s.mode[c] = MODE_WHOLE
-    s.first[c] = allocate_slots(s, arity)
+    s.first[c] = _allocate_slots(s, arity)
     s.arity[c] = arity
     s.span[c] = span
     s.owner[c] = owner
     s.link_a[c] = -1
     s.link_b[c] = -1
     s.aux[c] = 0
-    s.priority[c] = PRIORITY_CHEAP
+    s.priority[c] = PRIORITIES[op]
     s.scheduled[c] = 0
     s.run_epoch[c] = 0
     s.save(c, TRAIL_CONSTRAINT, 0, 0)
     return c
 
 
-def watch(s: Store, c: int, position: int, v: int, mask: int) -> None:
+def _watch(s: Store, c: int, position: int, v: int, mask: int) -> None:
     """Fill in an argument and wake `c` at the events of `mask`; without any it is mute. Constants have no lists."""
     slot = s.first[c] + position
     s.slot_variable[slot] = v
@@ -160,50 +153,33 @@ def release_constraint(s: Store, c: int) -> None:
     s.constraint_free = c
 
 
-def tie_edges(s: Store, c: int, source: int, target: int, forth: int, back: int) -> bool:
-    """Carry a constraint out by two edges between the same points; false on a conflict."""
-    s.save(c, TRAIL_LINK, 0, 0)
-    s.link_a[c] = insert_edge(s, source, target, forth, s.span[c], s.owner[c], c)
-    s.link_b[c] = insert_edge(s, target, source, back, s.span[c], s.owner[c], c)
-    return bool(s.consistent)
-
-
-def tie_edge(s: Store, c: int, source: int, target: int, weight: int) -> bool:
-    """Carry a constraint out by one edge; false on a conflict."""
-    s.save(c, TRAIL_LINK, 0, 0)
-    s.link_a[c] = insert_edge(s, source, target, weight, s.span[c], s.owner[c], c)
-    return bool(s.consistent)
-
-
 def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: int) -> int:
     """Make a constraint, choose how it is carried out, put it on the lists of its variables, schedule it."""
-    if op == OP_ALL_MAX or op == OP_ALL_MIN:
-        op = OP_EQ_MAXIMUM if op == OP_ALL_MAX else OP_EQ_MINIMUM
+    if s.relational and TWINS[op] >= 0:
+        op = TWINS[op]
+    if POSTED_AS[op] >= 0:
+        op = POSTED_AS[op]
         arguments = [arguments[len(arguments) - 1], *arguments[: len(arguments) - 1]]
     elif op == OP_ADD_EQ and s.constant[arguments[0]] and not s.constant[arguments[1]]:
         arguments = [arguments[1], arguments[0], arguments[2]]
-    c = new_constraint(s, op, len(arguments), span, owner)
-    choose_mode(s, c, arguments)
-    if op == OP_WATCH:
-        s.priority[c] = PRIORITY_WATCH
-    elif op == OP_EXTERNAL:
-        s.priority[c] = PRIORITY_DEAR
-    elif op == OP_RAND:
-        s.aux[c] = random_whole(s.seed, span, owner)
+    c = _new_constraint(s, op, len(arguments), span, owner)
+    _choose_mode(s, c, arguments)
+    if op == OP_RAND:
+        s.aux[c] = _random_whole(s.seed, span, owner)
     for position in range(s.arity[c]):
-        watch(s, c, position, arguments[position], events_of(s, c, position))
-    s.settles[c] = is_settled_by_one_run(s, c) and len(set(arguments)) == len(arguments)
+        _watch(s, c, position, arguments[position], _events_of(s, c, position))
+    s.settles[c] = _is_idempotent(s, c) and len(set(arguments)) == len(arguments)
     s.schedule(c)
     return c
 
 
 def start_element(s: Store, result: int, index: int, rows: int, span: int, owner: int) -> int:
     """Make a look-up of `rows` rows, to be given by `add_row` in the order of their keys."""
-    c = new_constraint(s, OP_ELEMENT, rows + 2, span, owner)
+    c = _new_constraint(s, OP_ELEMENT, rows + 2, span, owner)
     if s.kind[result] == KIND_FLOAT:
         s.mode[c] = MODE_REAL
-    watch(s, c, 0, result, EVENT_DOMAIN)
-    watch(s, c, 1, index, EVENT_DOMAIN)
+    _watch(s, c, 0, result, EVENT_DOMAIN)
+    _watch(s, c, 1, index, EVENT_DOMAIN)
     s.settles[c] = 0
     s.schedule(c)
     return c
@@ -213,60 +189,58 @@ def add_row(s: Store, c: int, k: int, key: int, v: int) -> None:
     """Give row `k` of a look-up: the key that the index takes for variable `v`."""
     if s.kind[v] == KIND_FLOAT:
         s.mode[c] = MODE_REAL
-    watch(s, c, 2 + k, v, EVENT_DOMAIN)
+    _watch(s, c, 2 + k, v, EVENT_DOMAIN)
     s.slot_key[s.first[c] + 2 + k] = key
 
 
-def is_settled_by_one_run(s: Store, c: int) -> bool:
+def _is_idempotent(s: Store, c: int) -> bool:
     """Tell whether one run reaches the constraint's own fixpoint, where no bound has to jump over holes."""
-    op = s.op[c]
-    if s.mode[c] == MODE_REAL:
-        return False  # rounding to whole numbers may leave more to do
-    return op == OP_NEQ or op == OP_ADD_EQ or op == OP_TEMPORAL_DISTANCE or (op == OP_EQ and s.arity[c] == 2)
+    if s.arity[c] > IDEMPOTENT_UP_TO[s.op[c]]:
+        return False
+    for slot in range(s.first[c], s.first[c] + s.arity[c]):  # noqa: SIM110 (a generator cannot be compiled here)
+        if s.kind[s.slot_variable[slot]] == KIND_FLOAT:
+            return False  # rounding to whole numbers may leave more to do
+    return True
 
 
-def events_of(s: Store, c: int, position: int) -> int:
+def _events_of(s: Store, c: int, position: int) -> int:
     """Give the events of an argument that may let the constraint narrow another one."""
     op = s.op[c]
     if s.mode[c] == MODE_EDGES:
-        return EVENT_HOLES if op == OP_EQ else 0
-    if op == OP_LEQ or op == OP_LT:
-        return EVENT_LOWER if position == 0 else EVENT_UPPER
-    if op >> 5 == FAMILY_ARITHMETIC or op == OP_TEMPORAL_DISTANCE:
-        return EVENT_LOWER | EVENT_UPPER
-    if op == OP_WATCH:
-        return EVENT_ANY
-    return EVENT_ANY if op == OP_TEST_SPECIFIED else EVENT_DOMAIN
+        return WAKES_BESIDE_EDGES[op]
+    return WAKES_OTHERS[op] if position else WAKES_FIRST[op]
 
 
-def choose_mode(s: Store, c: int, arguments: list[int]) -> None:
+def _choose_mode(s: Store, c: int, arguments: list[int]) -> None:
     """Have comparisons of ints, and sums of an int and a constant, carried out by edges; reals by doubles."""
     op = s.op[c]
-    edges = True
+    edges = s.arity[c] <= EDGES_UP_TO[op]
     for v in arguments:
         if s.kind[v] == KIND_FLOAT:
             s.mode[c] = MODE_REAL
         if s.kind[v] != KIND_INT or s.constant[v]:
             edges = False
-    if op == OP_ADD_EQ:
-        if is_offset(s, arguments[0], arguments[1], arguments[2]):
+    if op == OP_TEMPORAL_DISTANCE:
+        s.mode[c] = MODE_DISTANCE
+    elif op == OP_ADD_EQ:
+        if _is_offset(s, arguments[0], arguments[1], arguments[2]):
             s.mode[c] = MODE_EDGES
             s.op[c] = OP_PLUS
-    elif op == OP_PLUS or (edges and (op == OP_LEQ or op == OP_LT or (op == OP_EQ and s.arity[c] == 2))):
+    elif op == OP_PLUS or edges:
         s.mode[c] = MODE_EDGES
 
 
-def is_offset(s: Store, a: int, k: int, b: int) -> bool:
+def _is_offset(s: Store, a: int, k: int, b: int) -> bool:
     """Tell whether a + k = b relates two ints by a constant whole number."""
     if s.kind[a] != KIND_INT or s.kind[b] != KIND_INT or s.constant[a] or s.constant[b] or not s.constant[k]:
         return False
     return (s.kind[k] == KIND_INT or s.kind[k] == KIND_BOOL) and s.lb[k] == s.ub[k]
 
 
-def random_whole(seed: int, span: int, owner: int) -> int:
+def _random_whole(seed: int, span: int, owner: int) -> int:
     """Draw from 0 to 32767: a function of the seed and of where the constraint was posted (splitmix64)."""
-    x = (seed * 1000003 + span * 8191 + owner + 2) & MASK
-    x = (x + 0x9E3779B97F4A7C15) & MASK
-    x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & MASK
-    x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & MASK
+    x = (seed * 1000003 + span * 8191 + owner + 2) & _MASK
+    x = (x + 0x9E3779B97F4A7C15) & _MASK
+    x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & _MASK
+    x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & _MASK
     return (x ^ (x >> 31)) & 32767

@@ -1,16 +1,15 @@
-"""Let a function of bounds be a constraint: it reads the intervals of its arguments, by place, and narrows them."""
+"""Arguments of one constraint as intervals, by index: what relations read and narrow."""
 
 import math
-from collections.abc import Callable
 from math import inf
 
 from runtime.constraints.domains.narrow import high, low
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, KIND_FLOAT
-from runtime.constraints.minimisation.intervals import Interval
-from runtime.constraints.propagators.external import External, argument, at_least, at_most, never, refuse
+from runtime.constraints.propagators.external import argument, at_least, at_most, never, refuse
+from runtime.constraints.propagators.intervals import Interval
 
-MOST_TURNS = 3
+_MOST_TURNS = 3
 
 
 def tolerant(x: Interval) -> Interval:
@@ -18,8 +17,8 @@ def tolerant(x: Interval) -> Interval:
     return x[0] - FLOAT_TOLERANCE, x[1] + FLOAT_TOLERANCE
 
 
-class Row:
-    """The arguments of one relation, by place."""
+class Arguments:
+    """The arguments of constraint `c`; whatever narrows them returns false on a conflict."""
 
     def __init__(self, s: Store, c: int) -> None:
         self.s = s
@@ -63,7 +62,7 @@ class Row:
         if not arcs:
             return self.refuse()
         lo, hi = self.bounds(k)
-        if not hi - lo < 360.0 * MOST_TURNS:
+        if not hi - lo < 360.0 * _MOST_TURNS:
             return True
         first, last = math.floor(lo / 360.0) - 2, math.ceil(hi / 360.0) + 2
         moved = [(a + 360.0 * n, b + 360.0 * n) for a, b in arcs for n in range(first, last + 1)]
@@ -76,17 +75,3 @@ class Row:
         if lo > -inf and not self.keep(k, math.ceil(lo - FLOAT_TOLERANCE), inf):
             return False
         return hi == inf or self.keep(k, -inf, math.floor(hi + FLOAT_TOLERANCE))
-
-
-Rule = Callable[[Row], bool]
-
-
-class Relation(External):
-    """One relation of intervals."""
-
-    def __init__(self, rule: Rule) -> None:
-        self.rule = rule
-
-    def propagate(self, s: Store, c: int) -> bool:
-        """Narrow the arguments."""
-        return self.rule(Row(s, c))

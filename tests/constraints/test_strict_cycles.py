@@ -1,9 +1,10 @@
-"""Circles of orders among reals: a strict one is a conflict, and its explanation names the circle."""
+"""Cycles of orders among reals: a strict one is a conflict, and its explanation names the cycle."""
 
 import pytest
 
-from runtime.constraints.domains.tags import KIND_FLOAT, OP_EQ, OP_LEQ, OP_LT
+from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.constraints.engine import Engine
+from runtime.constraints.propagators.opcodes import OP_EQ, OP_LEQ, OP_LT
 
 
 @pytest.mark.parametrize(
@@ -19,7 +20,7 @@ from runtime.constraints.engine import Engine
         ([(OP_LT, 0, 1), (OP_EQ, 1, 2), (OP_LT, 3, 2)], True),
     ],
 )
-def test_a_strict_circle_of_reals_is_a_conflict(links: list[tuple[int, int, int]], holds: bool) -> None:
+def test_a_strict_cycle_of_reals_is_a_conflict(links: list[tuple[int, int, int]], holds: bool) -> None:
     engine = Engine()
     reals = [engine.new_interval(KIND_FLOAT, 0.0, 1.0, 100 + k, -1) for k in range(5)]
     engine.post(OP_LEQ, [reals[0], reals[4]], 50, -1)
