@@ -12,8 +12,7 @@ from runtime.constraints.minimisation.minimise import minimise
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import fire, merge
 from runtime.plan.readout.cause_rendering import words
-from runtime.plan.readout.provenance import span_of
-from runtime.plan.readout.readout import live_tokens, token_names
+from runtime.plan.readout.readout import live_tokens, span_of, token_names
 from runtime.plan.readout.statements import ResourceTerm
 from runtime.plan.readout.terms import TermReader
 from runtime.plan.tags import MERGED, NONE, OBJECT, REJECTED
