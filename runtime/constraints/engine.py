@@ -175,10 +175,6 @@ class Engine(Store):
             return bool(self.consistent)  # what holds the value goes on being its reason
         return bool(self.consistent and keep_values(self, v, [value], r * 4 + SUPPORT_RESTRICTION))
 
-    def mark_decided(self, v: int) -> None:
-        """Have `v` count as decided, whatever its domain."""
-        self.set_decided(v, 1)
-
     # ---------------------------------------------------------------------------------------------------- asking
 
     def lower(self, v: int) -> float:

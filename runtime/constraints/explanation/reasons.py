@@ -65,7 +65,7 @@ def add_reason(s: Store, v: int, side: int) -> None:
     if s.constant[v]:
         return
     if s.reason_count == len(s.reasons):
-        s.reasons = grown(s.reasons, "q", 2 * len(s.reasons), 0)
+        s.reasons = grown(s.reasons, 2 * len(s.reasons))
     s.reasons[s.reason_count] = v * 4 + side
     s.reason_count += 1
 

@@ -33,7 +33,7 @@ def loosen(s: Store, v: int, side: int) -> None:
         return
     s.loose[v] |= bit
     if s.cone_count + 2 > len(s.cone):
-        s.cone = grown(s.cone, "q", 2 * len(s.cone), 0)
+        s.cone = grown(s.cone, 2 * len(s.cone))
     if new & 1:
         s.cone[s.cone_count] = v * 4 + SIDE_LOWER
         s.cone_count += 1

@@ -46,7 +46,7 @@ def holds_itself(s: Store, v: int, side: int) -> bool:
 def push(s: Store, depth: int, key: int) -> None:
     """Put a bound on the stack of the walk."""
     if depth >= len(s.walk):
-        s.walk = grown(s.walk, "q", 2 * len(s.walk), 0)
+        s.walk = grown(s.walk, 2 * len(s.walk))
     s.walk[depth] = key
 
 

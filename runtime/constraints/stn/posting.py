@@ -1,6 +1,6 @@
 """Keep constraints in rows and their arguments in slots; put them on the watch lists of their variables."""
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     EVENT_ANY,
@@ -45,18 +45,8 @@ MASK = 2**64 - 1
 def grow_constraints(s: Store) -> None:
     """Double the rows of constraints, and the queues with them."""
     room = 2 * len(s.op)
-    s.op = grown(s.op, "i", room, -1)
-    s.mode = grown(s.mode, "b", room, 0)
-    s.first = grown(s.first, "i", room, 0)
-    s.arity = grown(s.arity, "i", room, 0)
-    s.span = grown(s.span, "i", room, -1)
-    s.owner = grown(s.owner, "i", room, -1)
-    s.link_a = grown(s.link_a, "i", room, -1)
-    s.link_b = grown(s.link_b, "i", room, -1)
-    s.aux = grown(s.aux, "q", room, 0)
-    s.run_count = grown(s.run_count, "i", room, 0)
-    s.run_epoch = grown(s.run_epoch, "q", room, 0)
-    s.constraint_next = grown(s.constraint_next, "i", room, -1)
+    grow_rows(s, "op span owner link_a link_b constraint_next", room, -1)
+    grow_rows(s, "mode first arity aux run_count run_epoch", room)
     s.grow_constraint_queues(room)
 
 
@@ -65,12 +55,8 @@ def grow_slots(s: Store, need: int) -> None:
     room = len(s.slot_variable)
     while room < s.slots_used + need:
         room *= 2
-    s.slot_variable = grown(s.slot_variable, "i", room, -1)
-    s.slot_constraint = grown(s.slot_constraint, "i", room, -1)
-    s.slot_mask = grown(s.slot_mask, "b", room, 0)
-    s.slot_next = grown(s.slot_next, "i", room, -1)
-    s.slot_prev = grown(s.slot_prev, "i", room, -1)
-    s.slot_key = grown(s.slot_key, "q", room, 0)
+    grow_rows(s, "slot_variable slot_constraint slot_next slot_prev", room, -1)
+    grow_rows(s, "slot_mask slot_key", room)
 
 
 def allocate_slots(s: Store, count: int) -> int:

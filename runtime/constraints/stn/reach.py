@@ -2,9 +2,9 @@
 
 from array import array
 
+from runtime.constraints.domains.arrays import grown
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import OP_TEMPORAL_DISTANCE
-from runtime.solver.widening import widened
 
 MOST_NEAR = 16
 UNKNOWN, APART, REACHED = range(3)
@@ -81,8 +81,8 @@ class Reach:
         """
         engine = self.engine
         if len(self.near_stamped) < len(engine.kind):
-            self.near_stamped = widened(self.near_stamped, len(engine.kind), 0)
-            self.near_distance = widened(self.near_distance, len(engine.kind), 0)
+            self.near_stamped = grown(self.near_stamped, len(engine.kind))
+            self.near_distance = grown(self.near_distance, len(engine.kind))
         self.near_stamp += 1
         high = engine.ub[self.origin]
         low = engine.lb[self.origin]
@@ -117,8 +117,8 @@ class Reach:
         self.most = most
         room = len(self.engine.kind)
         if len(self.stamped) < room:
-            self.stamped = widened(self.stamped, room, 0)
-            self.distance = widened(self.distance, room, 0)
+            self.stamped = grown(self.stamped, room)
+            self.distance = grown(self.distance, room)
         self.stamp += 1
         self.length = 0
         self.stamped[self.origin] = self.stamp
@@ -175,8 +175,8 @@ class Reach:
         """Put a point on the heap."""
         if self.length == self.room:
             self.room *= 2
-            self.key = widened(self.key, self.room, 0)
-            self.item = widened(self.item, self.room, 0)
+            self.key = grown(self.key, self.room)
+            self.item = grown(self.item, self.room)
         at = self.length
         self.length = at + 1
         while at > 0:
