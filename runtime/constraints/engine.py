@@ -334,7 +334,7 @@ class Engine(Store):
         if self.run_count[c] > MOST_RUNS:
             return True
         self.coarse = self.run_count[c] > PATIENCE
-        self.running = c if self.settles[c] else -1
+        self.running = c if self.idempotent[c] else -1
         holding = carry_out(self, c)
         self.coarse = False
         self.running = -1

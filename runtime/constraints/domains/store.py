@@ -87,7 +87,7 @@ class Store:
         self.trail_when = array("q", [0]) * room
         self.real_bounds = array("d", [0.0]) * room  # those of floats; the trail has their places
         self.real_bounds_used = 0
-        self.resting = 0
+        self.entailed_count = 0
         self.marks = 0
         # Watches: who wakes when a variable changes. A constraint's watches are consecutive, as are its arguments.
         self.slot_variable = array("i", [-1]) * room
@@ -121,7 +121,8 @@ class Store:
         self.owner = array("i", [-1]) * room
         self.link_a = array("i", [-1]) * room
         self.link_b = array("i", [-1]) * room
-        self.aux = array("q", [0]) * room
+        self.drawn = array("q", [0]) * room  # the number that `rand` drew
+        self.entailed = array("b", [0]) * room
         self.run_count = array("i", [0]) * room
         self.run_epoch = array("q", [0]) * room
         self.epoch = 1
@@ -152,10 +153,11 @@ class Store:
         self.reason_count = 0
         self.visit = array("q", [0]) * (4 * room)
         self.visits_begun = 0
-        self.loose = array("b", [0]) * room
+        self.relaxed = array("b", [0]) * room
         self.cone = array("q", [0]) * room
         self.cone_count = 0
-        self.walk = array("q", [0]) * room
+        self.support_stack = array("q", [0]) * room
+        self.supported = array("q", [0]) * room  # by a row of the look-up that runs: 32 values to a cell
         # Queues: bounds whose edges must be visited, variables whose bounds may stand in a hole, constraints to run.
         self.edge_queue = array("i", [0]) * (4 * room)
         self.edge_mask = 4 * room - 1
@@ -175,7 +177,7 @@ class Store:
         self.dear_last = 0
         self.scheduled = array("b", [0]) * room
         self.priority = array("b", [0]) * room
-        self.settles = array("b", [0]) * room  # whether one run leaves a constraint nothing more to narrow
+        self.idempotent = array("b", [0]) * room  # whether one run leaves a constraint nothing more to narrow
         self.woken = array("i", [0]) * room
         self.woken_count = 0
         self.running = -1
@@ -198,7 +200,7 @@ class Store:
         room = 2 * len(self.kind)
         grow_rows(
             self,
-            "kind lb ub flo fhi words_of bit_base table_length is_open decided constant queued loose block_first "
+            "kind lb ub flo fhi words_of bit_base table_length is_open decided constant queued relaxed block_first "
             "block_size block_left",
             room,
         )
@@ -221,7 +223,7 @@ class Store:
 
     def grow_constraint_queues(self, room: int) -> None:
         """Make place for `room` constraints in both queues."""
-        grow_rows(self, "scheduled priority settles woken", room)
+        grow_rows(self, "scheduled priority idempotent woken", room)
         self.cheap_queue = grown_ring(self.cheap_queue, self.cheap_first, self.cheap_last, 2 * room)
         self.cheap_last = (self.cheap_last - self.cheap_first) & self.cheap_mask
         self.cheap_first = 0

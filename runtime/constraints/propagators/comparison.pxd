@@ -9,7 +9,7 @@ from runtime.constraints.domains.narrow cimport (
 )
 from runtime.constraints.stn.network cimport tighten_edge
 from runtime.constraints.stn.posting cimport tie_edge, tie_edges
-from runtime.constraints.stn.entailment cimport rest
+from runtime.constraints.stn.entailment cimport entail
 from runtime.constraints.domains.store cimport Store
 
 cdef long long HALF_INF, KIND_FLOAT, KIND_INT, MODE_EDGES, MODE_REAL, MOST_VALUES, NEVER, OP_ALL_DIFF, OP_EQ, OP_LEQ, OP_LT

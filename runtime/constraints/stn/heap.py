@@ -1,6 +1,6 @@
 """Keep entries in the order of a key and a tie; the smallest is on top. Entries may be stale: who reads them checks."""
 
-from array import array
+from runtime.constraints.domains.arrays import blank, grow_rows
 
 
 class Heap:
@@ -9,14 +9,15 @@ class Heap:
     def __init__(self) -> None:
         self.capacity = 64
         self.length = 0
-        self.first = array("q", bytes(8 * 64))
-        self.second = array("q", bytes(8 * 64))
-        self.item = array("q", bytes(8 * 64))
+        self.first = blank(64)
+        self.second = blank(64)
+        self.item = blank(64)
 
     def push(self, key: int, tie: int, entry: int) -> int:
         """Add an entry."""
         if self.length == self.capacity:
-            self.grow()
+            self.capacity *= 2
+            grow_rows(self, "first second item", self.capacity)
         first = self.first
         second = self.second
         at = self.length
@@ -79,12 +80,3 @@ class Heap:
     def clear(self) -> None:
         """Forget all entries."""
         self.length = 0
-
-    def grow(self) -> int:
-        """Double the arrays."""
-        empty = bytes(8 * self.capacity)
-        for name in ("first", "second", "item"):
-            longer = array("q", bytes(getattr(self, name)) + empty)
-            setattr(self, name, longer)
-        self.capacity *= 2
-        return 0

@@ -2,6 +2,7 @@
 
 cimport cython
 from runtime.constraints.stn.network cimport insert_edge
+from runtime.constraints.stn.watch_lists cimport link_slot, unlink_slot
 from runtime.constraints.domains.store cimport Store
 
 cdef long long EVENT_ANY, EVENT_DOMAIN, EVENT_HOLES, EVENT_LOWER, EVENT_UPPER, FAMILY_ARITHMETIC, KIND_BOOL
@@ -24,10 +25,10 @@ cpdef long long allocate_slots(Store s, long long count) except? -1
 @cython.locals(c="long long")
 cpdef long long new_constraint(Store s, long long op, long long arity, long long span, long long owner) except? -1
 
-@cython.locals(other="long long", slot="long long")
+@cython.locals(slot="long long")
 cpdef void watch(Store s, long long c, long long position, long long v, long long mask) except *
 
-@cython.locals(after="long long", before="long long", count="long long", first="long long", slot="long long")
+@cython.locals(count="long long", first="long long", slot="long long")
 cpdef int release_constraint(Store s, long long c) except -1
 
 cpdef bint tie_edges(
@@ -47,7 +48,7 @@ cpdef long long start_element(
 cpdef int add_row(Store s, long long c, long long k, long long key, long long v) except -1
 
 @cython.locals(op="long long")
-cpdef bint is_settled_by_one_run(Store s, long long c) except -1
+cpdef bint is_idempotent(Store s, long long c) except -1
 
 @cython.locals(op="long long")
 cpdef long long events_of(Store s, long long c, long long position) except? -1

@@ -38,6 +38,7 @@ from runtime.constraints.domains.tags import (
     TRAIL_LINK,
 )
 from runtime.constraints.stn.network import insert_edge
+from runtime.constraints.stn.watch_lists import link_slot, unlink_slot
 
 MASK = 2**64 - 1
 
@@ -46,7 +47,7 @@ def grow_constraints(s: Store) -> None:
     """Double the rows of constraints, and the queues with them."""
     room = 2 * len(s.op)
     grow_rows(s, "op span owner link_a link_b constraint_next", room, -1)
-    grow_rows(s, "mode first arity aux run_count run_epoch", room)
+    grow_rows(s, "mode first arity drawn entailed run_count run_epoch", room)
     s.grow_constraint_queues(room)
 
 
@@ -90,7 +91,7 @@ def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
     s.owner[c] = owner
     s.link_a[c] = -1
     s.link_b[c] = -1
-    s.aux[c] = 0
+    s.entailed[c] = 0
     s.priority[c] = PRIORITY_CHEAP
     s.scheduled[c] = 0
     s.run_epoch[c] = 0
@@ -99,24 +100,12 @@ def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
 
 
 def watch(s: Store, c: int, position: int, v: int, mask: int) -> None:
-    """Fill in an argument and wake `c` at the events of `mask`; without any it is mute. Constants have no lists."""
+    """Fill in an argument and wake `c` at the events of `mask`; without any it is mute."""
     slot = s.first[c] + position
     s.slot_variable[slot] = v
     s.slot_constraint[slot] = c
     s.slot_mask[slot] = mask
-    if s.constant[v]:
-        s.slot_next[slot] = -2
-        return
-    s.slot_prev[slot] = -1
-    if mask:
-        other = s.watch_head[v]
-        s.watch_head[v] = slot
-    else:
-        other = s.mute_head[v]
-        s.mute_head[v] = slot
-    s.slot_next[slot] = other
-    if other >= 0:
-        s.slot_prev[other] = slot
+    link_slot(s, slot)
 
 
 def release_constraint(s: Store, c: int) -> None:
@@ -124,17 +113,7 @@ def release_constraint(s: Store, c: int) -> None:
     first = s.first[c]
     count = s.arity[c]
     for slot in range(first, first + count):
-        after = s.slot_next[slot]
-        if after != -2:
-            before = s.slot_prev[slot]
-            if before >= 0:
-                s.slot_next[before] = after
-            elif s.slot_mask[slot]:
-                s.watch_head[s.slot_variable[slot]] = after
-            else:
-                s.mute_head[s.slot_variable[slot]] = after
-            if after >= 0:
-                s.slot_prev[after] = before
+        unlink_slot(s, slot)
         s.slot_constraint[slot] = -1
     if 0 < count <= 64:
         s.slot_next[first] = s.slot_free[count]
@@ -175,10 +154,10 @@ def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: i
     elif op == OP_EXTERNAL:
         s.priority[c] = PRIORITY_DEAR
     elif op == OP_RAND:
-        s.aux[c] = random_whole(s.seed, span, owner)
+        s.drawn[c] = random_whole(s.seed, span, owner)
     for position in range(s.arity[c]):
         watch(s, c, position, arguments[position], events_of(s, c, position))
-    s.settles[c] = is_settled_by_one_run(s, c) and len(set(arguments)) == len(arguments)
+    s.idempotent[c] = is_idempotent(s, c) and len(set(arguments)) == len(arguments)
     s.schedule(c)
     return c
 
@@ -190,7 +169,7 @@ def start_element(s: Store, result: int, index: int, rows: int, span: int, owner
         s.mode[c] = MODE_REAL
     watch(s, c, 0, result, EVENT_DOMAIN)
     watch(s, c, 1, index, EVENT_DOMAIN)
-    s.settles[c] = 0
+    s.idempotent[c] = 0
     s.schedule(c)
     return c
 
@@ -203,8 +182,8 @@ def add_row(s: Store, c: int, k: int, key: int, v: int) -> None:
     s.slot_key[s.first[c] + 2 + k] = key
 
 
-def is_settled_by_one_run(s: Store, c: int) -> bool:
-    """Tell whether one run reaches the constraint's own fixpoint, where no bound has to jump over holes."""
+def is_idempotent(s: Store, c: int) -> bool:
+    """Idempotent: one run reaches the constraint's own fixpoint, where no bound has to jump over holes."""
     op = s.op[c]
     if s.mode[c] == MODE_REAL:
         return False  # rounding to whole numbers may leave more to do
