@@ -18,20 +18,18 @@ class Heap:
         if self.length == self.capacity:
             self.capacity *= 2
             grow_rows(self, "first second item", self.capacity)
-        first = self.first
-        second = self.second
         at = self.length
         self.length = at + 1
         while at > 0:
             above = (at - 1) >> 1
-            if first[above] < key or (first[above] == key and second[above] <= tie):
+            if self.first[above] < key or (self.first[above] == key and self.second[above] <= tie):
                 break
-            first[at] = first[above]
-            second[at] = second[above]
+            self.first[at] = self.first[above]
+            self.second[at] = self.second[above]
             self.item[at] = self.item[above]
             at = above
-        first[at] = key
-        second[at] = tie
+        self.first[at] = key
+        self.second[at] = tie
         self.item[at] = entry
         return 0
 
@@ -49,12 +47,10 @@ class Heap:
 
     def pop(self) -> int:
         """Take the top off."""
-        first = self.first
-        second = self.second
         last = self.length - 1
         self.length = last
-        key = first[last]
-        tie = second[last]
+        key = self.first[last]
+        tie = self.second[last]
         entry = self.item[last]
         at = 0
         while True:
@@ -62,18 +58,18 @@ class Heap:
             if below >= last:
                 break
             if below + 1 < last and (
-                first[below + 1] < first[below]
-                or (first[below + 1] == first[below] and second[below + 1] < second[below])
+                self.first[below + 1] < self.first[below]
+                or (self.first[below + 1] == self.first[below] and self.second[below + 1] < self.second[below])
             ):
                 below += 1
-            if key < first[below] or (key == first[below] and tie <= second[below]):
+            if key < self.first[below] or (key == self.first[below] and tie <= self.second[below]):
                 break
-            first[at] = first[below]
-            second[at] = second[below]
+            self.first[at] = self.first[below]
+            self.second[at] = self.second[below]
             self.item[at] = self.item[below]
             at = below
-        first[at] = key
-        second[at] = tie
+        self.first[at] = key
+        self.second[at] = tie
         self.item[at] = entry
         return 0
 
