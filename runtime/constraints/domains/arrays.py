@@ -15,11 +15,12 @@ def blank(length: int, code: str = "q") -> "array[Any]":
 
 def grown(old: "array[Any]", length: int, fill: float = 0) -> "array[Any]":
     """Longer copy of `old`: `length` cells, the new ones hold `fill`."""
-    code = memoryview(old).format
-    new = array(code, [fill])
-    size = length * new.itemsize
-    new = _lazily_zeroed(code, size) if IS_LAZY and fill == 0 and size >= LARGE else new * length
-    memoryview(new)[: len(old)] = memoryview(old)
+    view = memoryview(old)
+    code = view.format
+    size = length * view.itemsize
+    is_lazy = fill == 0 and size >= LARGE and IS_LAZY
+    new = _lazily_zeroed(code, size) if is_lazy else array(code, [fill]) * length
+    memoryview(new)[: len(view)] = view
     return new
 
 

@@ -79,6 +79,18 @@ def collect_edge(s: Store, e: int, v: int, side: int) -> None:
     collect_weight(s, e)
 
 
+def collect_weight_reasons(s: Store, e: int) -> None:
+    """Put into `reasons`, alone, the bound that the weight of an edge follows, if it does."""
+    s.reason_count = 0
+    collect_weight(s, e)
+
+
+def collect_all_reasons(s: Store, c: int) -> None:
+    """Put into `reasons`, alone, every bound of all arguments of a constraint."""
+    s.reason_count = 0
+    collect_all(s, c, -1, SIDE_HOLES)
+
+
 def collect_weight(s: Store, e: int) -> None:
     """Put the bound of the distance that the weight of an edge follows, if it does."""
     c = s.edge_link[e]
