@@ -131,7 +131,7 @@ class Queues:
             self.variable_row = widened(self.variable_row, room * self.managers, NONE)
             self.variable_key = widened(self.variable_key, room * self.managers, NO_KEY)
             self.variable_parked = widened(self.variable_parked, room, 0)
-            self.stirs = grown(self.stirs, "b", room, 0)
+            self.stirs = grown(self.stirs, room)
             self.variable_level = widened(self.variable_level, room, 0)
             self.waits_for = widened(self.waits_for, room, NONE)
             self.waiting_next = widened(self.waiting_next, room, NONE)
