@@ -15,8 +15,8 @@ from checker.smt.confirm import EFFORT
 from checker.smt.terms import Terms, rational
 from runtime.executive.outcome import Conflict
 
-HALVINGS = 48
-NARROW = Fraction(1, 10**9)
+_HALVINGS = 48
+_NARROW = Fraction(1, 10**9)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,8 +73,8 @@ class _Search:
         if far == self.start or not self._reaches(far):
             return None
         closed, opened = self.start, far
-        for _ in range(HALVINGS):
-            if abs(opened - closed) <= NARROW:
+        for _ in range(_HALVINGS):
+            if abs(opened - closed) <= _NARROW:
                 break
             middle = (closed + opened) / 2
             if self._reaches(middle):

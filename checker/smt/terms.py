@@ -14,7 +14,7 @@ import z3
 from runtime.constraints.propagators.registry import BY_NAME
 from runtime.executive.outcome import Conflict, Term
 
-ENGINE_INFINITY = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
+_ENGINE_INFINITY = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
 Number = Any  # z3.ArithRef: z3 tells type checkers nothing
 Claim = Any  # z3.BoolRef
 
@@ -64,9 +64,9 @@ class Terms:
     def _bounds(self, variable: str | float | int, lower: str | float | int, upper: str | float | int) -> Claim:
         number = self.number(variable)
         parts = []
-        if not (isinstance(lower, int | float) and lower <= -ENGINE_INFINITY):
+        if not (isinstance(lower, int | float) and lower <= -_ENGINE_INFINITY):
             parts.append(number >= self.number(lower))
-        if not (isinstance(upper, int | float) and upper >= ENGINE_INFINITY):
+        if not (isinstance(upper, int | float) and upper >= _ENGINE_INFINITY):
             parts.append(number <= self.number(upper))
         return z3.And(*parts)
 

@@ -9,11 +9,12 @@ from nddl_lang.semantics.constraints import CONSTRAINTS
 from runtime.constraints.domains.tags import KIND_INT
 from runtime.constraints.engine import Engine
 from runtime.constraints.propagators import opcodes
-from runtime.constraints.propagators.registry import BY_NAME, BY_OP, NAMES, ROWS
+from runtime.constraints.propagators.registry import BY_NAME, BY_OP, NAMES
 from runtime.constraints.propagators.row import Propagator
 from tests.constraints import meaning
 
 OPCODES = {name: value for name, value in vars(opcodes).items() if name.startswith("OP_")}
+ROWS = list(dict.fromkeys([*BY_NAME.values(), *BY_OP.values()]))
 NAMED = [row for row in ROWS if row.names]
 CLAIMED = [row for row in BY_OP.values() if row.claim is not None and row.op in meaning.MEANINGS]
 

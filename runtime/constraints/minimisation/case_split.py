@@ -5,9 +5,9 @@ from math import inf
 from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.constraints.engine import Engine
 
-STEPS_OF_CASE = 20
-MOST_LISTED = 8  # so many values are tried one by one; more are halved
-THIN = 1e-3  # intervals of reals are not halved below: near the tolerance, what is known is not exact
+_STEPS_OF_CASE = 20
+_MOST_LISTED = 8  # so many values are tried one by one; more are halved
+_THIN = 1e-3  # intervals of reals are not halved below: near the tolerance, what is known is not exact
 
 
 class Budget:
@@ -32,7 +32,7 @@ def fails_in_all_cases(engine: Engine, variables: list[int], budget: Budget) -> 
     if v < 0:
         return False
     for lo, hi in _cases(engine, v):
-        if budget.is_spent(STEPS_OF_CASE):
+        if budget.is_spent(_STEPS_OF_CASE):
             return False
         mark = engine.mark()
         holds = engine.restrict_base(v, lo, hi, -1, -1) and engine.propagate()
@@ -52,10 +52,10 @@ def _narrowest(engine: Engine, variables: list[int]) -> int:
             continue
         if engine.is_finite(v):
             width = engine.size(v) - 1.0
-        elif width < THIN:
+        elif width < _THIN:
             continue
         else:
-            width += MOST_LISTED  # what can be listed goes first
+            width += _MOST_LISTED  # what can be listed goes first
         if width < least:
             best, least = v, width
     return best
@@ -64,7 +64,7 @@ def _narrowest(engine: Engine, variables: list[int]) -> int:
 def _cases(engine: Engine, v: int) -> list[tuple[float, float]]:
     """Give the parts of a domain: its values if they are few, else its halves."""
     lo, hi = engine.lower(v), engine.upper(v)
-    if engine.is_finite(v) and engine.size(v) <= MOST_LISTED:
+    if engine.is_finite(v) and engine.size(v) <= _MOST_LISTED:
         return [(x, x) for x in engine.values_of(v)]
     middle = lo + (hi - lo) / 2.0
     if engine.kind[v] == KIND_FLOAT:

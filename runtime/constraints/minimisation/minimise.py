@@ -24,8 +24,8 @@ from runtime.constraints.propagators.external import External
 from runtime.constraints.propagators.opcodes import OP_ELEMENT, OP_EXTERNAL, OP_RAND, OP_WATCH
 from runtime.constraints.propagators.registry import BY_OP
 
-MOST_ROUNDS = 50
-MOST_STEPS = 3000  # causes carried out while looking for what can be left out; a case counts as several
+_MOST_ROUNDS = 50
+_MOST_STEPS = 3000  # causes carried out while looking for what can be left out; a case counts as several
 
 
 def sufficient(engine: Engine) -> list[Cause]:
@@ -48,7 +48,7 @@ def _without_spare(engine: Engine, causes: list[Cause]) -> list[Cause]:
     """Leave out, the last first, each cause without which the others still contradict each other by what they mean."""
     if all(cause.kind is not CauseKind.CONSTRAINT or engine.mode[cause.id] == MODE_EDGES for cause in causes):
         return causes  # of differences and bounds propagation sees all
-    scratch = Scratch(engine, Budget(MOST_STEPS))
+    scratch = Scratch(engine, Budget(_MOST_STEPS))
     for cause in reversed(causes):
         others = [other for other in causes if other is not cause]
         if scratch.refutes(others):
@@ -167,7 +167,7 @@ class Scratch:
 
     def widened(self, causes: list[Cause]) -> list[Cause]:
         """Add what touches the causes' variables until the set is refuted, or nothing more can be added."""
-        for _ in range(MOST_ROUNDS):
+        for _ in range(_MOST_ROUNDS):
             if not self.is_judge(causes) or self.refutes(causes):
                 return causes
             more = self.neighbours(causes)

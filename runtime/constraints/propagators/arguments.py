@@ -9,7 +9,7 @@ from runtime.constraints.domains.tags import FLOAT_TOLERANCE, KIND_FLOAT
 from runtime.constraints.propagators.external import argument, at_least, at_most, never, refuse
 from runtime.constraints.propagators.intervals import Interval
 
-MOST_TURNS = 3
+_MOST_TURNS = 3
 
 
 def tolerant(x: Interval) -> Interval:
@@ -62,7 +62,7 @@ class Arguments:
         if not arcs:
             return self.refuse()
         lo, hi = self.bounds(k)
-        if not hi - lo < 360.0 * MOST_TURNS:
+        if not hi - lo < 360.0 * _MOST_TURNS:
             return True
         first, last = math.floor(lo / 360.0) - 2, math.ceil(hi / 360.0) + 2
         moved = [(a + 360.0 * n, b + 360.0 * n) for a, b in arcs for n in range(first, last + 1)]

@@ -34,12 +34,12 @@ from runtime.constraints.propagators.opcodes import (
 )
 from runtime.constraints.propagators.reals import down, hold_absolute, hold_extreme, up, within
 
-SLACK = 1e-9
-POSITION_TOLERANCE = 5e-7
-DISTANCE_TOLERANCE = 0.5
-DEGREE = math.pi / 180.0
-METRES_PER_DEGREE = 111700.0  # at most
-LEAST_METRES_PER_DEGREE = 110500.0  # along a meridian
+_SLACK = 1e-9
+_POSITION_TOLERANCE = 5e-7
+_DISTANCE_TOLERANCE = 0.5
+_DEGREE = math.pi / 180.0
+_METRES_PER_DEGREE = 111700.0  # at most
+_LEAST_METRES_PER_DEGREE = 110500.0  # along a meridian
 
 
 def propagate_geodesy(s: Store, c: int) -> bool:
@@ -54,7 +54,7 @@ def propagate_geodesy(s: Store, c: int) -> bool:
     if op == OP_SIN:
         if not within(s, x, -90.0, 90.0, support):
             return False
-        return within(s, r, sine(low(s, x)) - SLACK, sine(high(s, x)) + SLACK, support)
+        return within(s, r, sine(low(s, x)) - _SLACK, sine(high(s, x)) + _SLACK, support)
     if op == OP_SINF:
         return _turn(s, r, x, 0.0, support)
     if op == OP_COSF:
@@ -72,7 +72,7 @@ def propagate_geodesy(s: Store, c: int) -> bool:
     if op == OP_LOGF:
         return _hold_exponential(s, x, r, support)
     if op == OP_DEG_TO_RAD:
-        return _scale(s, r, x, DEGREE, support)
+        return _scale(s, r, x, _DEGREE, support)
     if op == OP_CIRCLE_MOD:
         return _bring_within_turn(s, r, x, support)
     if op == OP_TICK_DATE:
@@ -89,8 +89,8 @@ def _turn(s: Store, r: int, x: int, ahead: float, support: int) -> bool:
         return False
     lo = low(s, x) + ahead
     hi = high(s, x) + ahead
-    least = -1.0 if _passes(lo, hi, -90.0) else min(sine(lo), sine(hi)) - SLACK
-    most = 1.0 if _passes(lo, hi, 90.0) else max(sine(lo), sine(hi)) + SLACK
+    least = -1.0 if _passes(lo, hi, -90.0) else min(sine(lo), sine(hi)) - _SLACK
+    most = 1.0 if _passes(lo, hi, 90.0) else max(sine(lo), sine(hi)) + _SLACK
     if not within(s, r, max(-1.0, least), min(1.0, most), support):
         return False
     # The half turn around `centre` in which x lies, if there is one: -180, 0 or 180, or none.
@@ -103,7 +103,7 @@ def _turn(s: Store, r: int, x: int, ahead: float, support: int) -> bool:
     b = _angle_of(high(s, r) + FLOAT_TOLERANCE)
     if sign < 0.0:
         a, b = -b, -a
-    return within(s, x, centre + a - ahead - SLACK, centre + b - ahead + SLACK, support)
+    return within(s, x, centre + a - ahead - _SLACK, centre + b - ahead + _SLACK, support)
 
 
 def _passes(lo: float, hi: float, peak: float) -> bool:
@@ -113,7 +113,7 @@ def _passes(lo: float, hi: float, peak: float) -> bool:
 
 def _angle_of(x: float) -> float:
     """Give the angle in degrees within a quarter turn whose sine is x."""
-    return rounded(math.asin(min(max(x, -1.0), 1.0)) / DEGREE)
+    return rounded(math.asin(min(max(x, -1.0), 1.0)) / _DEGREE)
 
 
 def _hold_root(s: Store, r: int, x: int, support: int) -> bool:
@@ -170,9 +170,9 @@ def _hold_exponential(s: Store, r: int, x: int, support: int) -> bool:
         return False
     lo = low(s, r) - FLOAT_TOLERANCE
     hi = high(s, r) + FLOAT_TOLERANCE
-    if lo > 0.0 and not raise_to(s, x, rounded(math.log(lo)) - SLACK, support):
+    if lo > 0.0 and not raise_to(s, x, rounded(math.log(lo)) - _SLACK, support):
         return False
-    return hi <= 0.0 or hi == inf or reduce_to(s, x, rounded(math.log(hi)) + SLACK, support)
+    return hi <= 0.0 or hi == inf or reduce_to(s, x, rounded(math.log(hi)) + _SLACK, support)
 
 
 def _exponential(x: float, slack: float) -> float:
@@ -202,9 +202,9 @@ def _bring_within_turn(s: Store, r: int, x: int, support: int) -> bool:
     turns = math.floor((lo + 180.0) / 360.0)
     if turns != math.floor((hi + 180.0) / 360.0):
         return True
-    if not within(s, r, lo - 360.0 * turns - SLACK, hi - 360.0 * turns + SLACK, support):
+    if not within(s, r, lo - 360.0 * turns - _SLACK, hi - 360.0 * turns + _SLACK, support):
         return False
-    return within(s, x, low(s, r) + 360.0 * turns - SLACK, high(s, r) + 360.0 * turns + SLACK, support)
+    return within(s, x, low(s, r) + 360.0 * turns - _SLACK, high(s, r) + 360.0 * turns + _SLACK, support)
 
 
 def _relate_date(s: Store, first: int, support: int) -> bool:
@@ -236,7 +236,7 @@ def _measure(s: Store, first: int, support: int) -> bool:
         middle(s, s.slot_variable[first + 3]),
         middle(s, s.slot_variable[first + 4]),
     )
-    slack = DISTANCE_TOLERANCE + METRES_PER_DEGREE * _blur(s, first + 1, first + 5)
+    slack = _DISTANCE_TOLERANCE + _METRES_PER_DEGREE * _blur(s, first + 1, first + 5)
     return within(s, s.slot_variable[first], max(0.0, x - slack), x + slack, support)
 
 
@@ -257,11 +257,11 @@ def _displace(s: Store, first: int, is_position: bool, support: int) -> bool:
     x = middle(s, s.slot_variable[first + 2])
     y = middle(s, s.slot_variable[first + 3])
     found = displaced(lat, lon, x, y) if is_position else displacement(lat, lon, x, y)
-    slack = DISTANCE_TOLERANCE + METRES_PER_DEGREE * _blur(s, first, first + 4)
+    slack = _DISTANCE_TOLERANCE + _METRES_PER_DEGREE * _blur(s, first, first + 4)
     if is_position:
         # A degree of longitude is shorter away from the equator, so what is not known grows with it.
-        slack = 2.0 * _blur(s, first, first + 2) + _blur(s, first + 2, first + 4) / LEAST_METRES_PER_DEGREE
-        slack = POSITION_TOLERANCE + 1.0 / max(0.01, math.cos(lat * DEGREE)) * slack
+        slack = 2.0 * _blur(s, first, first + 2) + _blur(s, first + 2, first + 4) / _LEAST_METRES_PER_DEGREE
+        slack = _POSITION_TOLERANCE + 1.0 / max(0.01, math.cos(lat * _DEGREE)) * slack
     for k in range(2):  # noqa: SIM110 (a generator cannot be compiled here)
         if not within(s, s.slot_variable[first + 4 + k], found[k] - slack, found[k] + slack, support):
             return False

@@ -23,7 +23,7 @@ from runtime.constraints.propagators.opcodes import (
     OP_TEST_SPECIFIED,
 )
 
-UNKNOWN = -1
+_UNKNOWN = -1
 
 
 def propagate_logic(s: Store, c: int) -> bool:
@@ -65,7 +65,7 @@ def _truth(s: Store, v: int) -> int:
         return 0
     if s.kind[v] != KIND_FLOAT and s.word[v] >= 0 and not has_value(s, v, 0):
         return 1
-    return UNKNOWN
+    return _UNKNOWN
 
 
 def _be_true(s: Store, v: int, support: int) -> bool:
@@ -113,7 +113,7 @@ def may_be_equal(s: Store, a: int, b: int) -> bool:
 def _test_equal(s: Store, t: int, a: int, b: int, equal: bool, support: int) -> bool:
     """Narrow t = (a == b), or t = (a != b)."""
     known = _truth(s, t)
-    if known == UNKNOWN:
+    if known == _UNKNOWN:
         if not may_be_equal(s, a, b):
             return _be_false(s, t, support) if equal else _be_true(s, t, support)
         if is_single(s, a) and is_single(s, b):
@@ -178,7 +178,7 @@ def _need_one(s: Store, first: int, count: int, support: int) -> bool:
         known = _truth(s, s.slot_variable[k])
         if known == 1:
             return True
-        if known == UNKNOWN:
+        if known == _UNKNOWN:
             if last >= 0:
                 return True
             last = s.slot_variable[k]
@@ -194,7 +194,7 @@ def _count_zeroes(s: Store, first: int, count: int, zeroes: bool, support: int) 
     unsure = 0
     for k in range(first + 1, first + count):
         known = _truth(s, s.slot_variable[k])
-        if known == UNKNOWN:
+        if known == _UNKNOWN:
             unsure += 1
         elif (known == 0) == zeroes:
             sure += 1
@@ -210,7 +210,7 @@ def _count_zeroes(s: Store, first: int, count: int, zeroes: bool, support: int) 
         return True
     for k in range(first + 1, first + count):
         v = s.slot_variable[k]
-        if _truth(s, v) == UNKNOWN:
+        if _truth(s, v) == _UNKNOWN:
             if none_left == zeroes:
                 if not _be_true(s, v, support):
                     return False

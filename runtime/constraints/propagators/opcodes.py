@@ -93,6 +93,5 @@ OP_WATCH = 192
 OP_EXTERNAL = 193
 OP_NOTHING = 194
 
-CALLED = -1  # the registry numbers the row, from FIRST_CALLED on
 FIRST_CALLED = 200
 OPCODES = 256  # rows of the tables that compiled code reads by opcode

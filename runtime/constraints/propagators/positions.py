@@ -17,11 +17,11 @@ from runtime.constraints.propagators.intervals import (
     taken,
 )
 
-LEAST_RADIUS = 6.33e6  # metres, somewhat less than the ellipsoid's least radius of curvature
-HAIR = 1e-12  # what cosines are wrong by
-METRES = 0.5  # the stated tolerance of distances and displacements on the earth
-METRES_OF_POSITION = 2.0  # what the tolerance of positions is at most
-FARTHEST = 1e12  # seconds; dates are looked at within some 30,000 years
+_LEAST_RADIUS = 6.33e6  # metres, somewhat less than the ellipsoid's least radius of curvature
+_HAIR = 1e-12  # what cosines are wrong by
+_METRES = 0.5  # the stated tolerance of distances and displacements on the earth
+_METRES_OF_POSITION = 2.0  # what the tolerance of positions is at most
+_FARTHEST = 1e12  # seconds; dates are looked at within some 30,000 years
 
 
 def _distance_bounds(lat1: Interval, lon1: Interval, lat2: Interval, lon2: Interval) -> Interval:
@@ -59,7 +59,7 @@ def _arcs_apart(position: list[float], k: int, least: float, most: float) -> lis
     if size < ROUGH:
         return [(-180.0, 180.0)]
     near, far = (math.cos(min(math.pi, max(0.0, x / MEAN_RADIUS))) for x in (least, most))
-    shares = [(far - c - HAIR) / size, (near - c + HAIR) / size]
+    shares = [(far - c - _HAIR) / size, (near - c + _HAIR) / size]
     if shares[0] > 1.0 or shares[1] < -1.0:
         return []
     first, last = (math.acos(min(1.0, max(-1.0, share))) for share in reversed(shares))
@@ -95,7 +95,7 @@ def _angle_bound(north: float, east: float) -> float:
 
     Also the latitudes: the ellipsoid is nowhere more curved than a sphere of the least radius.
     """
-    share = math.hypot(north, east) / LEAST_RADIUS
+    share = math.hypot(north, east) / _LEAST_RADIUS
     return math.degrees(math.asin(share)) if share < 0.7 else inf
 
 
@@ -130,8 +130,8 @@ def _year_bounds(tick: Interval, tick_seconds: float, epoch: float) -> Interval:
     """Bound the year of a tick."""
     first, last = ((epoch + x * tick_seconds) for x in tick)
     return (
-        date_of_tick(tick[0], tick_seconds, epoch)[2] if abs(first) < FARTHEST else -inf,
-        date_of_tick(tick[1], tick_seconds, epoch)[2] if abs(last) < FARTHEST else inf,
+        date_of_tick(tick[0], tick_seconds, epoch)[2] if abs(first) < _FARTHEST else -inf,
+        date_of_tick(tick[1], tick_seconds, epoch)[2] if abs(last) < _FARTHEST else inf,
     )
 
 
@@ -149,14 +149,14 @@ def great_circle_distance(row: Arguments) -> bool:
     """Narrow: the distance of two positions on the earth, given by latitude and longitude."""
     position = [row.bounds(k) for k in range(1, 5)]
     lo, hi = _distance_bounds(*position)
-    if not row.keep(0, max(0.0, lo - METRES), hi + METRES):
+    if not row.keep(0, max(0.0, lo - _METRES), hi + _METRES):
         return False
     unknown = [k for k in range(4) if position[k][0] < position[k][1]]
     if len(unknown) != 1:
         return True
     (k,) = unknown
     lo, hi = tolerant(row.bounds(0))
-    return row.keep_in_turns(1 + k, _arcs_apart([x for x, _ in position], k, lo - METRES, hi + METRES))
+    return row.keep_in_turns(1 + k, _arcs_apart([x for x, _ in position], k, lo - _METRES, hi + _METRES))
 
 
 def displaced_position(row: Arguments) -> bool:
@@ -173,14 +173,14 @@ def _keep_displacement(row: Arguments, way: tuple[int, int], points: tuple[int, 
     """Narrow how far north and east the second of two points lies of the first."""
     found = _displacement_bounds(*(row.bounds(k) for k in points))
     return all(
-        row.keep(k, lo - METRES_OF_POSITION, hi + METRES_OF_POSITION) for k, (lo, hi) in zip(way, found, strict=True)
+        row.keep(k, lo - _METRES_OF_POSITION, hi + _METRES_OF_POSITION) for k, (lo, hi) in zip(way, found, strict=True)
     )
 
 
 def _keep_near(row: Arguments) -> bool:
     """Narrow two positions, of which the second is found from how far north and east it lies of the first."""
     north, east = magnitude(row.bounds(2)), magnitude(row.bounds(3))
-    angle = _angle_bound(north[1] + METRES_OF_POSITION, east[1] + METRES_OF_POSITION)
+    angle = _angle_bound(north[1] + _METRES_OF_POSITION, east[1] + _METRES_OF_POSITION)
     for k in (0, 4):
         lo, hi = row.bounds(k)
         if not row.keep(4 - k, lo - angle, hi + angle):

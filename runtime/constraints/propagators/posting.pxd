@@ -8,7 +8,7 @@ cdef long long EVENT_DOMAIN, KIND_BOOL, KIND_FLOAT, KIND_INT, MODE_DISTANCE, MOD
 cdef long long OP_ADD_EQ, OP_ELEMENT, OP_EXTERNAL, OP_PLUS, OP_RAND, OP_TEMPORAL_DISTANCE, TRAIL_CONSTRAINT
 cdef const short[:] EDGES_UP_TO, IDEMPOTENT_UP_TO, POSTED_AS, PRIORITIES, TWINS, WAKES_BESIDE_EDGES, WAKES_FIRST
 cdef const short[:] WAKES_OTHERS
-cdef unsigned long long MASK
+cdef unsigned long long _MASK
 
 
 @cython.locals(room="long long")

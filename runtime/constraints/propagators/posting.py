@@ -33,7 +33,7 @@ from runtime.constraints.propagators.registry import (
 )
 from runtime.constraints.stn.watch_lists import link_slot, unlink_slot
 
-MASK = 2**64 - 1
+_MASK = 2**64 - 1
 
 
 def _grow_constraints(s: Store) -> None:
@@ -204,8 +204,8 @@ def _is_offset(s: Store, a: int, k: int, b: int) -> bool:
 
 def _random_whole(seed: int, span: int, owner: int) -> int:
     """Draw from 0 to 32767: a function of the seed and of where the constraint was posted (splitmix64)."""
-    x = (seed * 1000003 + span * 8191 + owner + 2) & MASK
-    x = (x + 0x9E3779B97F4A7C15) & MASK
-    x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & MASK
-    x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & MASK
+    x = (seed * 1000003 + span * 8191 + owner + 2) & _MASK
+    x = (x + 0x9E3779B97F4A7C15) & _MASK
+    x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & _MASK
+    x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & _MASK
     return (x ^ (x >> 31)) & 32767

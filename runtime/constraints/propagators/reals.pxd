@@ -8,7 +8,7 @@ from runtime.constraints.domains.store cimport Store
 cdef long long KIND_FLOAT, OP_ABS_VAL, OP_ADD_EQ, OP_CALC_DISTANCE, OP_DIFF_SQUARE, OP_DISTANCE_SQUARES, OP_DIV_EQ
 cdef long long OP_EQ_MAXIMUM, OP_EQ_MINIMUM, OP_EQ_PRODUCT, OP_EQ_SUM, OP_MUL_EQ, OP_NEG, SIDE_HOLES
 cdef long long SUPPORT_CONSTRAINT
-cdef double FLOAT_TOLERANCE, TINY, ULP, inf
+cdef double FLOAT_TOLERANCE, _TINY, ULP, inf
 
 
 @cython.locals(a="long long", b="long long", first="long long", op="long long", support="long long")

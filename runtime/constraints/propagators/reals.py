@@ -24,7 +24,7 @@ from runtime.constraints.propagators.opcodes import (
     OP_NEG,
 )
 
-TINY = 5e-324
+_TINY = 5e-324
 
 
 def propagate_reals(s: Store, c: int) -> bool:
@@ -69,7 +69,7 @@ def lower_sum(x: float, y: float) -> float:
         return -inf if x == -inf or y == -inf or z == -inf else z
     t = z - x
     if (x - (z - t)) + (y - t) < 0.0:
-        return z - abs(z) * ULP - TINY
+        return z - abs(z) * ULP - _TINY
     return z
 
 
@@ -93,12 +93,12 @@ def is_exact(x: float) -> bool:
 
 def down(x: float) -> float:
     """Step at least one unit in the last place down."""
-    return x - abs(x) * ULP - TINY if -inf < x < inf else x
+    return x - abs(x) * ULP - _TINY if -inf < x < inf else x
 
 
 def up(x: float) -> float:
     """Step at least one unit in the last place up."""
-    return x + abs(x) * ULP + TINY if -inf < x < inf else x
+    return x + abs(x) * ULP + _TINY if -inf < x < inf else x
 
 
 def within(s: Store, v: int, lo: float, hi: float, support: int) -> bool:

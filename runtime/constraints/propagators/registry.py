@@ -44,6 +44,7 @@ _order = partial(Propagator, wakes=(EVENT_LOWER, EVENT_UPPER), edges_up_to=2, re
 _arithmetic = partial(Propagator, wakes=_BOUNDS, reads_own=OWN_NEVER)
 _function = partial(Propagator, reads_own=OWN_NEVER, waits=True)
 _of_domains = partial(Propagator, is_of_domains=True)
+_called = partial(Propagator, -1)
 _beside = partial(Propagator, waits=True, is_beside=True)
 
 
@@ -245,13 +246,13 @@ _SPECIAL = (
     Propagator(op.OP_NOTHING, "cdr", "rest path"),
 )
 
-# Constraints without a compiled file: the row says `propagate`, opcodes are numbered from FIRST_CALLED.
+# Constraints without a compiled file, each `_called(names, arguments, claim, propagate=...)`; opcodes follow.
 _CALLED: tuple[Propagator, ...] = ()
 _NUMBERED = tuple(replace(row, op=op.FIRST_CALLED + number) for number, row in enumerate(_CALLED))
 
-ROWS = (*_COMPARISON, *_ARITHMETIC, *_LOGIC, *_SETS, *_FUNCTIONS, *_GEODESY, *_SPECIAL, *_NUMBERED)
-BY_NAME: dict[str, Propagator] = {name: row for row in ROWS for name in row.names.split()}
-BY_OP: dict[int, Propagator] = {row.op: row for row in ROWS if row.op != op.OP_NOTHING}
+_ROWS = (*_COMPARISON, *_ARITHMETIC, *_LOGIC, *_SETS, *_FUNCTIONS, *_GEODESY, *_SPECIAL, *_NUMBERED)
+BY_NAME: dict[str, Propagator] = {name: row for row in _ROWS for name in row.names.split()}
+BY_OP: dict[int, Propagator] = {row.op: row for row in _ROWS if row.op != op.OP_NOTHING}
 # The name of a constraint in messages, where it has one.
 NAMES: dict[int, str] = {row.op: row.name for row in BY_OP.values() if row.name}
 

@@ -14,8 +14,8 @@ from runtime.constraints.propagators.arguments import Arguments, tolerant
 from runtime.constraints.propagators.intervals import Interval, magnitude, outward, raised
 from runtime.constraints.propagators.reals import down, is_exact, lower_sum, product, up, upper_sum
 
-HAIR = 1e-9  # a way of so little more than whole ticks takes no further one
-Pairs = tuple[tuple[int, int], ...]  # of the coordinates of two points, by index
+_HAIR = 1e-9  # a way of so little more than whole ticks takes no further one
+_Pairs = tuple[tuple[int, int], ...]  # of the coordinates of two points, by index
 
 
 def square_difference(row: Arguments) -> bool:
@@ -28,8 +28,8 @@ def square_difference(row: Arguments) -> bool:
 def _square_numbers(bounds: Interval) -> Interval:
     """Give the least and the greatest square number between two bounds, where there are such."""
     lo, hi = bounds
-    least = math.ceil(math.sqrt(lo) - HAIR) ** 2 if lo > 0.0 else -inf
-    return least, math.floor(math.sqrt(hi) + HAIR) ** 2 if 0.0 <= hi < inf else hi
+    least = math.ceil(math.sqrt(lo) - _HAIR) ** 2 if lo > 0.0 else -inf
+    return least, math.floor(math.sqrt(hi) + _HAIR) ** 2 if 0.0 <= hi < inf else hi
 
 
 def distance(row: Arguments) -> bool:
@@ -38,7 +38,7 @@ def distance(row: Arguments) -> bool:
     return row.keep(0, *_length(row, pairs)) and _keep_length(row, pairs, tolerant(row.bounds(0)))
 
 
-def _squares(row: Arguments, pairs: Pairs) -> list[Interval]:
+def _squares(row: Arguments, pairs: _Pairs) -> list[Interval]:
     """Bound the squared differences of coordinates, exactly where they are exact in doubles."""
     found = []
     for i, j in pairs:
@@ -56,7 +56,7 @@ def _root(x: Interval) -> Interval:
     return lo if lo * lo == x[0] else max(0.0, down(lo)), hi if hi * hi == x[1] else up(hi)
 
 
-def _length(row: Arguments, pairs: Pairs) -> Interval:
+def _length(row: Arguments, pairs: _Pairs) -> Interval:
     """Bound the distance of two points."""
     (least, most), *others = _squares(row, pairs)
     for lo, hi in others:
@@ -64,7 +64,7 @@ def _length(row: Arguments, pairs: Pairs) -> Interval:
     return _root((least, most))
 
 
-def _keep_length(row: Arguments, pairs: Pairs, length: Interval) -> bool:
+def _keep_length(row: Arguments, pairs: _Pairs, length: Interval) -> bool:
     """Narrow the coordinates of two points whose distance lies between two bounds."""
     squares = _squares(row, pairs)
     are_whole = [row.is_whole(i) and row.is_whole(j) for i, j in pairs]
@@ -218,7 +218,7 @@ def travel_time(row: Arguments) -> bool:
     if speed[1] <= 0.0:
         return row.keep(0, 1.0, 1.0) and _keep_length(row, pairs, tolerant((0.0, 0.0)))
     quickest, slowest = outward(distance[0] / speed[1], distance[1] / speed[0] if speed[0] > 0.0 else inf)
-    if not row.keep(0, math.ceil(quickest - HAIR), inf):
+    if not row.keep(0, math.ceil(quickest - _HAIR), inf):
         return False
     if slowest < inf and not row.keep(0, -inf, max(1.0, math.ceil(slowest))):
         return False
