@@ -1,6 +1,8 @@
-"""The house holds: layers, no circles, small files, captions, and third parties at home. Read from the text alone."""
+"""The house holds: layers and rooms without cycles, small files, doors, third parties at home. Read from the text."""
 
 import ast
+import re
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -35,6 +37,12 @@ CLOCKS_AND_DICE = {"datetime", "random", "secrets", "time", "uuid"}
 LAZY = "nddlc/main.py"
 OTHER_FOLDERS = ("bench", "build_backend", "tests")
 MOST_LINES = 400
+# Inside these, folders and the files beside them import each other one way only.
+ROOMS = ("runtime/constraints", "runtime/plan", "runtime/solver")
+# What is public need not be used here: users import it (docs/constraints.md, docs/reactors.md).
+FOR_USERS = ("runtime/user/",)
+# A subcommand is found by its file and this name.
+SUBCOMMAND = "command"
 
 
 def sources(root: Path, *folders: str) -> list[Path]:
@@ -63,17 +71,44 @@ def layer_breaks(root: Path) -> Iterator[str]:
                 yield f"{path.relative_to(root)}:{line}: {layer} imports {target}"
 
 
-def circles(root: Path) -> Iterator[str]:
-    """Complain of a circle of files that import each other."""
-    files = {".".join(path.relative_to(root).with_suffix("").parts): path for path in sources(root, *LAYERS)}
-    needs = {
-        module: {target for _, name in imports(path) for target in (name, name.rpartition(".")[0]) if target in files}
-        for module, path in files.items()
-    }
+def modules(root: Path) -> dict[str, Path]:
+    """Map the dotted name of each file of the layers to its path."""
+    return {".".join(path.relative_to(root).with_suffix("").parts): path for path in sources(root, *LAYERS)}
+
+
+def targets(path: Path, files: dict[str, Path]) -> set[str]:
+    """The files that a file imports: a module, or the module that a name stands in."""
+    return {target for _, name in imports(path) for target in (name, name.rpartition(".")[0]) if target in files}
+
+
+def import_cycles(root: Path) -> Iterator[str]:
+    """Complain of a cycle of files that import each other."""
+    files = modules(root)
     try:
-        TopologicalSorter(needs).prepare()
-    except CycleError as circle:
-        yield "a circle of imports: " + " <- ".join(circle.args[1])
+        TopologicalSorter({module: targets(path, files) for module, path in files.items()}).prepare()
+    except CycleError as cycle:
+        yield "a cycle of imports: " + " <- ".join(cycle.args[1])
+
+
+def room_cycles(root: Path) -> Iterator[str]:
+    """Complain of inner rooms that import each other; a file beside them is a room of its own."""
+    files = modules(root)
+    for layer in ROOMS:
+        prefix = layer.replace("/", ".") + "."
+        arrows: dict[tuple[str, str], str] = {}
+        for module, path in files.items():
+            for target in sorted(targets(path, files)):
+                here, there = (name.removeprefix(prefix).partition(".")[0] for name in (module, target))
+                if module.startswith(prefix) and target.startswith(prefix) and here != there:
+                    arrows.setdefault((there, here), f"{target.removeprefix(prefix)} in {module.removeprefix(prefix)}")
+        needs = defaultdict(set)
+        for there, here in arrows:
+            needs[here].add(there)
+        try:
+            TopologicalSorter(needs).prepare()
+        except CycleError as cycle:
+            steps = [arrows[step] for step in zip(cycle.args[1], cycle.args[1][1:], strict=False)]
+            yield f"{layer}: a cycle of rooms: {' <- '.join(cycle.args[1])} ({'; '.join(steps)})"
 
 
 def strangers(root: Path) -> Iterator[str]:
@@ -149,12 +184,106 @@ def lone_layouts(root: Path) -> Iterator[str]:
                 yield f"{path.relative_to(root)}: only runtime is compiled"
 
 
-CHECKS = [layer_breaks, circles, strangers, clocks, long_files, captions, hidden_imports, lone_layouts]
+def public_names(tree: ast.Module) -> Iterator[tuple[str, int, bool]]:
+    """Yield name, line and whether it is a class, of each public function, class and constant of a file."""
+    for node in tree.body:
+        names: list[str] = []
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+            names = [node.name]
+        elif isinstance(node, ast.Assign):
+            names = [each.id for target in node.targets for each in ast.walk(target) if isinstance(each, ast.Name)]
+        elif isinstance(node, ast.AnnAssign) and isinstance(node.target, ast.Name):
+            names = [node.target.id]
+        yield from ((name, node.lineno, isinstance(node, ast.ClassDef)) for name in names if not name.startswith("_"))
+
+
+def twins(root: Path) -> Iterator[str]:
+    """Complain of a public class name that is defined in two files."""
+    homes = defaultdict(list)
+    for path in sources(root, *LAYERS):
+        for name, line, is_class in public_names(ast.parse(path.read_bytes())):
+            if is_class:
+                homes[name].append(f"{path.relative_to(root).as_posix()}:{line}")
+    yield from (f"class {name} in {' and '.join(places)}" for name, places in sorted(homes.items()) if places[1:])
+
+
+def used_names(path: Path, tree: ast.Module) -> Iterator[tuple[str, str]]:
+    """Yield module and name of all that a file takes from others: by name, through a module, or for its C types."""
+    known: dict[str, str] = {}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom):
+            yield from ((node.module or "", alias.name) for alias in node.names)
+            known |= {alias.asname or alias.name: f"{node.module}.{alias.name}" for alias in node.names}
+        elif isinstance(node, ast.Import):
+            known |= {alias.asname or alias.name: alias.name for alias in node.names}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute) and (module := known.get(ast.unparse(node.value))) is not None:
+            yield module, node.attr
+    layout = path.with_suffix(".pxd")
+    declared = layout.read_text() if layout.exists() else ""
+    for module, many, one in re.findall(r"^from (\S+) cimport (?:\(([^)]*)\)|(.*))", declared, re.MULTILINE):
+        yield from ((module, name) for name in re.findall(r"\w+", many or one))
+
+
+def signature_names(tree: ast.Module) -> set[str]:
+    """The names in annotations and bases of what is public: who uses one holds the other, though without its name."""
+    shown: list[ast.AST] = []
+    for node in tree.body:
+        inside = node.body if isinstance(node, ast.ClassDef) else []
+        for each in (node, *inside):
+            if isinstance(each, ast.FunctionDef | ast.AsyncFunctionDef) and not each.name.startswith("_"):
+                arguments = (*each.args.posonlyargs, *each.args.args, *each.args.kwonlyargs)
+                shown += [part for part in (each.returns, *(one.annotation for one in arguments)) if part is not None]
+            elif isinstance(each, ast.AnnAssign):
+                shown.append(each.annotation)
+            elif isinstance(each, ast.ClassDef):
+                shown += each.bases
+            elif isinstance(each, ast.Assign) and isinstance(each.value, ast.BinOp | ast.Subscript):
+                shown.append(each.value)  # a type with a name
+    return {
+        name.id for part in shown for name in ast.walk(part) if isinstance(name, ast.Name) and not name.id.isupper()
+    }
+
+
+def doors(root: Path) -> Iterator[str]:
+    """Complain of what is public and used in its own file only, or in tests: it wants an underscore."""
+    trees = {path: ast.parse(path.read_bytes()) for path in sources(root, *LAYERS, "bench", "build_backend")}
+    settings = root / "pyproject.toml"
+    used = set(re.findall(r'"([\w.]+):(\w+)"', settings.read_text()) if settings.exists() else [])
+    for path, tree in trees.items():
+        used |= set(used_names(path, tree))
+    for module, path in modules(root).items():
+        place = path.relative_to(root).as_posix()
+        if place.startswith(FOR_USERS):
+            continue
+        shown = signature_names(trees[path])
+        for name, line, _ in public_names(trees[path]):
+            is_found = (module, name) in used or name in shown
+            if not is_found and not (name == SUBCOMMAND and place.startswith("nddlc/")):
+                yield f"{place}:{line}: {name} is used in its own file only"
+
+
+CHECKS = [
+    layer_breaks,
+    import_cycles,
+    room_cycles,
+    strangers,
+    clocks,
+    long_files,
+    captions,
+    hidden_imports,
+    lone_layouts,
+    twins,
+    doors,
+]
 
 
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.__name__)
 def test_the_house_holds(check: Callable[[Path], Iterator[str]]) -> None:
     assert list(check(ROOT)) == []
+
+
+ALONE = "is used in its own file only"
 
 
 @pytest.mark.parametrize(
@@ -166,11 +295,20 @@ def test_the_house_holds(check: Callable[[Path], Iterator[str]]) -> None:
         (layer_breaks, {"lsp/a.py": "def f():\n    from nddlc import b"}, "lsp/a.py:2: lsp imports nddlc"),
         (layer_breaks, {"lsp/a.py": "from . import b"}, "lsp/a.py:1: the import is relative"),
         (
-            circles,
+            import_cycles,
             {"compiler/a.py": "import compiler.b", "compiler/b.py": "from compiler.a import A"},
-            "a circle of imports: compiler.a <- compiler.b <- compiler.a",
+            "a cycle of imports: compiler.a <- compiler.b <- compiler.a",
         ),
-        (circles, {"compiler/a.py": "from compiler import a"}, "a circle of imports: compiler.a <- compiler.a"),
+        (import_cycles, {"compiler/a.py": "from compiler import a"}, "a cycle of imports: compiler.a <- compiler.a"),
+        (
+            room_cycles,
+            {
+                "runtime/plan/a/b.py": "import runtime.plan.c",
+                "runtime/plan/c.py": "from runtime.plan.a.d import D",
+                "runtime/plan/a/d.py": "",
+            },
+            "runtime/plan: a cycle of rooms: a <- c <- a (a.d in c; c in a.b)",
+        ),
         (
             strangers,
             {"checker/a.py": "from z3 import sat"},
@@ -193,6 +331,14 @@ def test_the_house_holds(check: Callable[[Path], Iterator[str]]) -> None:
         (hidden_imports, {"lsp/a.py": "def f():\n    import os"}, "lsp/a.py:2: an import inside a function"),
         (hidden_imports, {"lsp/a.py": "from typing import TYPE_CHECKING"}, "lsp/a.py:1: TYPE_CHECKING hides an import"),
         (hidden_imports, {"tests/a.py": "__import__('os')"}, "tests/a.py:1: __import__ hides an import"),
+        (
+            twins,
+            {"lsp/a.py": "class A: ...\nclass _B: ...", "nddlc/b.py": "\nclass A: ...\nclass _B: ..."},
+            "class A in lsp/a.py:1 and nddlc/b.py:2",
+        ),
+        (doors, {"lsp/a.py": "def f(): ...", "tests/a.py": "import lsp.a\nlsp.a.f()"}, f"lsp/a.py:1: f {ALONE}"),
+        (doors, {"lsp/a.py": "A = 1\n_B = A"}, f"lsp/a.py:1: A {ALONE}"),
+        (doors, {"lsp/a.py": "class A: ...\ndef _f() -> A: ..."}, f"lsp/a.py:1: A {ALONE}"),
         (lone_layouts, {"runtime/a.pxd": ""}, "runtime/a.pxd: no .py beside it"),
         (lone_layouts, {"lsp/a.pxd": "", "lsp/a.py": ""}, "lsp/a.pxd: only runtime is compiled"),
     ],
@@ -207,8 +353,20 @@ def test_a_broken_house_is_noticed(
 
 
 def test_what_is_allowed_is_not_complained_of(tmp_path: Path) -> None:
-    (tmp_path / "checker" / "smt").mkdir(parents=True)
-    (tmp_path / "checker" / "smt" / "terms.py").write_text("import time\nimport z3\nfrom runtime.plan import tokens\n")
-    for caption in ("checker", "checker/smt"):
+    files = {
+        "checker/smt/terms.py": "import time\nimport z3\nfrom runtime.plan import tokens as rows\nrows.A + rows.B\n",
+        "checker/smt/pair.py": "from checker.smt import terms\nfrom runtime.plan.tokens import c, C\n",
+        "runtime/plan/tokens.py": "A: int = 1\nB, _D = 2, 3\nclass C: ...\nclass Pile: ...\n"
+        "def c() -> Pile: ...\ndef d(): ...\n",
+        "runtime/plan/other.py": "",
+        "runtime/plan/other.pxd": "from runtime.plan.tokens cimport (\n    A, d\n)\n",
+        "runtime/user/api.py": "def offered(): ...\n",
+        "nddlc/fly.py": "def command(): ...\ndef main(): ...\n",
+        "pyproject.toml": 'nddlc = "nddlc.fly:main"\n',
+    }
+    for name, text in files.items():
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    for caption in {parent for name in files for parent in Path(name).parents if name.endswith("py")} - {Path()}:
         (tmp_path / caption / "__init__.py").write_text('"""One sentence."""\n')
     assert [complaint for check in CHECKS for complaint in check(tmp_path)] == []

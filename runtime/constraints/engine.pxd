@@ -65,8 +65,6 @@ cdef class Engine(Store):
     @cython.locals(r="long long")
     cpdef bint decide(self, long long v, double value, long long span, long long owner) except -1
 
-    cpdef int mark_decided(self, long long v) except -1
-
     cpdef double lower(self, long long v) except? -1.0
 
     cpdef double upper(self, long long v) except? -1.0

@@ -175,10 +175,6 @@ class Engine(Store):
             return bool(self.consistent)  # what holds the value goes on being its reason
         return bool(self.consistent and keep_values(self, v, [value], r * 4 + SUPPORT_RESTRICTION))
 
-    def mark_decided(self, v: int) -> None:
-        """Have `v` count as decided, whatever its domain."""
-        self.set_decided(v, 1)
-
     # ---------------------------------------------------------------------------------------------------- asking
 
     def lower(self, v: int) -> float:
@@ -338,7 +334,7 @@ class Engine(Store):
         if self.run_count[c] > MOST_RUNS:
             return True
         self.coarse = self.run_count[c] > PATIENCE
-        self.running = c if self.settles[c] else -1
+        self.running = c if self.idempotent[c] else -1
         holding = propagate_constraint(self, c)
         self.coarse = False
         self.running = -1

@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
-from runtime.constraints.stn.entailment cimport rest_distance
+from runtime.constraints.stn.entailment cimport entail_distance
 from runtime.plan.rules.rule_interpreter cimport run
 from runtime.plan.rules.guards cimport choice, follow
 from runtime.plan.store.scopes cimport between, decide, equate

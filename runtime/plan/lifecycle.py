@@ -1,6 +1,6 @@
 """Fire rules to a fixpoint after a change, and change the states of tokens: activate, merge, reject."""
 
-from runtime.constraints.stn.entailment import rest_distance
+from runtime.constraints.stn.entailment import entail_distance
 from runtime.plan.rules.guards import choice, follow
 from runtime.plan.rules.rule_interpreter import run
 from runtime.plan.store.links import unlink
@@ -103,7 +103,7 @@ def merge(plan: Plan, t: int, other: int, span: int) -> bool:
         if rows.level and not engine.consistent:
             return False
     if rows.level:
-        rest_distance(engine, mine + DURATION)
+        entail_distance(engine, mine + DURATION)
     return fire(plan)
 
 

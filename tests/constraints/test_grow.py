@@ -12,16 +12,16 @@ from runtime.constraints.domains.arrays import IS_LAZY, LARGE, grown, next_room
 @pytest.mark.parametrize("room", [10, LARGE + 1000])
 def test_an_array_keeps_what_it_had(code: str, fill: float, room: int) -> None:
     old = array(code, [1, 2, 3])
-    new = grown(old, code, room, fill)
+    new = grown(old, room, fill)
     assert (len(new), list(new[:4]), new[room - 1]) == (room, [1, 2, 3, fill], fill)
     new[room - 1] = 7
-    again = grown(new, code, next_room(room), fill)
+    again = grown(new, next_room(room), fill)
     assert (again[1], again[room - 1], again[room], len(again)) == (2, 7, fill, next_room(room))
 
 
 @pytest.mark.skipif(not IS_LAZY, reason="no forks there")
 def test_what_a_forked_worker_writes_is_its_own() -> None:
-    large = grown(array("q", [5]), "q", LARGE, 0)
+    large = grown(array("q", [5]), LARGE)
     child = os.fork()
     if child == 0:
         large[0] = 6

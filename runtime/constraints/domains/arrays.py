@@ -1,4 +1,4 @@
-"""Make an array longer; rings are laid out anew. Growth is rare, so it stays uncompiled."""
+"""Arrays of numbers: new ones, longer copies, rings laid out anew. Growth is rare, so it stays uncompiled."""
 
 import mmap
 from array import array
@@ -8,17 +8,30 @@ IS_LAZY = hasattr(mmap, "MAP_PRIVATE")  # can the system give pages that cost no
 LARGE = 2**22  # bytes from which an array lives in such pages
 
 
-def grown(old: "array[Any]", code: str, room: int, fill: float) -> "array[Any]":
-    """Copy `old` into a longer array."""
-    new = array(code, [fill])
-    size = room * new.itemsize
-    new = lazily_zeroed(code, size) if IS_LAZY and fill == 0 and size >= LARGE else new * room
-    memoryview(new)[: len(old)] = memoryview(old)
+def blank(length: int, code: str = "q") -> "array[Any]":
+    """Zeros: `length` whole numbers, or what the type code of `array` says."""
+    return array(code, bytes(array(code).itemsize * length))
+
+
+def grown(old: "array[Any]", length: int, fill: float = 0) -> "array[Any]":
+    """Longer copy of `old`: `length` cells, the new ones hold `fill`."""
+    view = memoryview(old)
+    code = view.format
+    size = length * view.itemsize
+    is_lazy = fill == 0 and size >= LARGE and IS_LAZY
+    new = _lazily_zeroed(code, size) if is_lazy else array(code, [fill]) * length
+    memoryview(new)[: len(view)] = view
     return new
 
 
-def lazily_zeroed(code: Any, size: int) -> "array[Any]":
-    """Give an array of zeros, of so many bytes, in pages of its own: private ones, for workers are forked."""
+def grow_rows(owner: object, names: str, length: int, fill: float = 0) -> None:
+    """Lengthen the arrays of an object that have these names, with spaces between them."""
+    for name in names.split():
+        setattr(owner, name, grown(getattr(owner, name), length, fill))
+
+
+def _lazily_zeroed(code: Any, size: int) -> "array[Any]":
+    """Zeros, of so many bytes, in pages of their own: private ones, for workers are forked."""
     pages = mmap.mmap(-1, size, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
     return cast("array[Any]", memoryview(pages).cast(code))
 
@@ -29,8 +42,8 @@ def next_room(room: int) -> int:
 
 
 def grown_ring(old: "array[int]", first: int, last: int, room: int) -> "array[int]":
-    """Copy a ring's live part to the start of a longer one."""
-    new = array("i", [0]) * room
+    """Longer copy of a ring, whose live part moves to the start."""
+    new = blank(room, "i")
     length = len(old)
     count = (last - first) % length
     for i in range(count):

@@ -1,6 +1,6 @@
 """Keep which values between a variable's bounds are missing: words of bits, a log of who removed which."""
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import grow_rows, grown
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     ALL_BITS,
@@ -62,7 +62,7 @@ def grow_bits(s: Store, need: int) -> None:
     while room < s.bits_used + need:
         room *= 2
     if room > len(s.bits):
-        s.bits = grown(s.bits, "Q", room, 0)
+        s.bits = grown(s.bits, room)
 
 
 def allocate_words(s: Store, count: int) -> int:
@@ -251,12 +251,8 @@ def drop_log(s: Store, v: int) -> None:
 def grow_log(s: Store) -> None:
     """Double the rows of the log of holes."""
     room = 2 * len(s.hole_mask)
-    s.hole_variable = grown(s.hole_variable, "i", room, -1)
-    s.hole_word = grown(s.hole_word, "i", room, 0)
-    s.hole_mask = grown(s.hole_mask, "Q", room, 0)
-    s.hole_support = grown(s.hole_support, "i", room, -1)
-    s.hole_when = grown(s.hole_when, "q", room, -1)
-    s.hole_next = grown(s.hole_next, "i", room, -1)
+    grow_rows(s, "hole_variable hole_support hole_when hole_next", room, -1)
+    grow_rows(s, "hole_word hole_mask", room)
 
 
 def attach_table(s: Store, v: int, values: list[float]) -> None:
@@ -268,7 +264,7 @@ def attach_table(s: Store, v: int, values: list[float]) -> None:
     else:
         first = s.table_used
         if first + count > len(s.table_values):
-            s.table_values = grown(s.table_values, "d", 2 * (first + count), 0.0)
+            s.table_values = grown(s.table_values, 2 * (first + count))
         s.table_used = first + count
     for k in range(count):
         s.table_values[first + k] = values[k]

@@ -18,15 +18,15 @@ cdef class Store:
     cdef public long long dear_mask, dear_first, dear_last, woken_count
     cdef public long long running, conflict_kind, conflict_variable, conflict_side
     cdef public long long conflict_support, conflict_edge, updates, visits
-    cdef public long long runs, real_bounds_used, resting
+    cdef public long long runs, real_bounds_used, entailed_count
     cdef public signed char[::1] kind, is_open, decided, constant
     cdef public signed char[::1] queued, slot_mask, mode, restriction_flags
-    cdef public signed char[::1] loose, scheduled, priority, settles
+    cdef public signed char[::1] relaxed, scheduled, priority, idempotent, entailed
     cdef public long long[::1] lb, ub, lower_when, upper_when
     cdef public long long[::1] bit_base, hole_when, trail_value
-    cdef public long long[::1] trail_when, slot_key, edge_weight, aux
+    cdef public long long[::1] trail_when, slot_key, edge_weight, drawn
     cdef public long long[::1] run_epoch, reasons, visit, cone
-    cdef public long long[::1] walk
+    cdef public long long[::1] support_stack, supported
     cdef public double[::1] flo, fhi, table_values, real_bounds
     cdef public double[::1] restriction_lo, restriction_hi
     cdef public int[::1] lower_support, upper_support, word, words_of

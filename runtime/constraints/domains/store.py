@@ -3,7 +3,7 @@
 from array import array
 from typing import Any
 
-from runtime.constraints.domains.arrays import grown, grown_ring, next_room
+from runtime.constraints.domains.arrays import grow_rows, grown, grown_ring, next_room
 from runtime.constraints.domains.tags import (
     CONFLICT_DOMAIN,
     EVENT_DECIDED,
@@ -87,7 +87,7 @@ class Store:
         self.trail_when = array("q", [0]) * room
         self.real_bounds = array("d", [0.0]) * room  # those of floats; the trail has their places
         self.real_bounds_used = 0
-        self.resting = 0
+        self.entailed_count = 0
         self.marks = 0
         # Watches: who wakes when a variable changes. A constraint's watches are consecutive, as are its arguments.
         self.slot_variable = array("i", [-1]) * room
@@ -121,7 +121,8 @@ class Store:
         self.owner = array("i", [-1]) * room
         self.link_a = array("i", [-1]) * room
         self.link_b = array("i", [-1]) * room
-        self.aux = array("q", [0]) * room
+        self.drawn = array("q", [0]) * room  # the number that `rand` drew
+        self.entailed = array("b", [0]) * room
         self.run_count = array("i", [0]) * room
         self.run_epoch = array("q", [0]) * room
         self.epoch = 1
@@ -152,10 +153,11 @@ class Store:
         self.reason_count = 0
         self.visit = array("q", [0]) * (4 * room)
         self.visits_begun = 0
-        self.loose = array("b", [0]) * room
+        self.relaxed = array("b", [0]) * room
         self.cone = array("q", [0]) * room
         self.cone_count = 0
-        self.walk = array("q", [0]) * room
+        self.support_stack = array("q", [0]) * room
+        self.supported = array("q", [0]) * room  # by a row of the look-up that runs: 32 values to a cell
         # Queues: bounds whose edges must be visited, variables whose bounds may stand in a hole, constraints to run.
         self.edge_queue = array("i", [0]) * (4 * room)
         self.edge_mask = 4 * room - 1
@@ -175,7 +177,7 @@ class Store:
         self.dear_last = 0
         self.scheduled = array("b", [0]) * room
         self.priority = array("b", [0]) * room
-        self.settles = array("b", [0]) * room  # whether one run leaves a constraint nothing more to narrow
+        self.idempotent = array("b", [0]) * room  # whether one run leaves a constraint nothing more to narrow
         self.woken = array("i", [0]) * room
         self.woken_count = 0
         self.running = -1
@@ -197,36 +199,20 @@ class Store:
     def grow_variables(self) -> None:
         """Double the rows of variables."""
         room = 2 * len(self.kind)
-        self.kind = grown(self.kind, "b", room, 0)
-        self.lb = grown(self.lb, "q", room, 0)
-        self.ub = grown(self.ub, "q", room, 0)
-        self.flo = grown(self.flo, "d", room, 0.0)
-        self.fhi = grown(self.fhi, "d", room, 0.0)
-        self.lower_support = grown(self.lower_support, "i", room, -1)
-        self.upper_support = grown(self.upper_support, "i", room, -1)
-        self.lower_when = grown(self.lower_when, "q", room, -1)
-        self.upper_when = grown(self.upper_when, "q", room, -1)
-        self.word = grown(self.word, "i", room, -1)
-        self.words_of = grown(self.words_of, "i", room, 0)
-        self.bit_base = grown(self.bit_base, "q", room, 0)
-        self.table = grown(self.table, "i", room, -1)
-        self.table_length = grown(self.table_length, "i", room, 0)
-        self.hole_head = grown(self.hole_head, "i", room, -1)
-        self.is_open = grown(self.is_open, "b", room, 0)
-        self.decided = grown(self.decided, "b", room, 0)
-        self.constant = grown(self.constant, "b", room, 0)
-        self.restriction_head = grown(self.restriction_head, "i", room, -1)
-        self.watch_head = grown(self.watch_head, "i", room, -1)
-        self.mute_head = grown(self.mute_head, "i", room, -1)
-        self.out_head = grown(self.out_head, "i", room, -1)
-        self.in_head = grown(self.in_head, "i", room, -1)
-        self.queued = grown(self.queued, "b", room, 0)
-        self.visit = grown(self.visit, "q", 4 * room, 0)
-        self.loose = grown(self.loose, "b", room, 0)
-        self.block_first = grown(self.block_first, "i", room, 0)
-        self.block_size = grown(self.block_size, "i", room, 0)
-        self.block_left = grown(self.block_left, "i", room, 0)
-        self.block_next = grown(self.block_next, "i", room, -1)
+        grow_rows(
+            self,
+            "kind lb ub flo fhi words_of bit_base table_length is_open decided constant queued relaxed block_first "
+            "block_size block_left",
+            room,
+        )
+        grow_rows(
+            self,
+            "lower_support upper_support lower_when upper_when word table hole_head restriction_head watch_head "
+            "mute_head out_head in_head block_next",
+            room,
+            -1,
+        )
+        self.visit = grown(self.visit, 4 * room)
         self.edge_queue = grown_ring(self.edge_queue, self.edge_first, self.edge_last, 4 * room)
         self.edge_last = (self.edge_last - self.edge_first) & self.edge_mask
         self.edge_first = 0
@@ -238,10 +224,7 @@ class Store:
 
     def grow_constraint_queues(self, room: int) -> None:
         """Make place for `room` constraints in both queues."""
-        self.scheduled = grown(self.scheduled, "b", room, 0)
-        self.priority = grown(self.priority, "b", room, 0)
-        self.settles = grown(self.settles, "b", room, 0)
-        self.woken = grown(self.woken, "i", room, 0)
+        grow_rows(self, "scheduled priority idempotent woken", room)
         self.cheap_queue = grown_ring(self.cheap_queue, self.cheap_first, self.cheap_last, 2 * room)
         self.cheap_last = (self.cheap_last - self.cheap_first) & self.cheap_mask
         self.cheap_first = 0
@@ -254,10 +237,7 @@ class Store:
     def grow_trail(self) -> None:
         """Make the trail longer."""
         room = next_room(self.trail_room)
-        self.trail_key = grown(self.trail_key, "i", room, 0)
-        self.trail_value = grown(self.trail_value, "q", room, 0)
-        self.trail_support = grown(self.trail_support, "i", room, 0)
-        self.trail_when = grown(self.trail_when, "q", room, 0)
+        grow_rows(self, "trail_key trail_value trail_support trail_when", room)
         self.trail_room = room
 
     # --------------------------------------------------------------------------------------------- saving, waking
@@ -266,7 +246,7 @@ class Store:
         """Keep a float's bound for the way back; give its place."""
         i = self.real_bounds_used
         if i == len(self.real_bounds):
-            self.real_bounds = grown(self.real_bounds, "d", 2 * i, 0.0)
+            self.real_bounds = grown(self.real_bounds, 2 * i)
         self.real_bounds[i] = x
         self.real_bounds_used = i + 1
         return i

@@ -2,7 +2,7 @@
 
 from math import inf
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.bitset import (
     attach_table,
     attach_words,
@@ -121,13 +121,8 @@ def drop_variable(s: Store, v: int) -> None:
 def grow_restrictions(s: Store) -> None:
     """Double the rows of restrictions."""
     room = 2 * len(s.restriction_lo)
-    s.restriction_variable = grown(s.restriction_variable, "i", room, -1)
-    s.restriction_lo = grown(s.restriction_lo, "d", room, 0.0)
-    s.restriction_hi = grown(s.restriction_hi, "d", room, 0.0)
-    s.restriction_next = grown(s.restriction_next, "i", room, -1)
-    s.restriction_span = grown(s.restriction_span, "i", room, -1)
-    s.restriction_owner = grown(s.restriction_owner, "i", room, -1)
-    s.restriction_flags = grown(s.restriction_flags, "b", room, 0)
+    grow_rows(s, "restriction_variable restriction_next restriction_span restriction_owner", room, -1)
+    grow_rows(s, "restriction_lo restriction_hi restriction_flags", room)
 
 
 def add_restriction(s: Store, v: int, lo: float, hi: float, flags: int, span: int, owner: int) -> int:

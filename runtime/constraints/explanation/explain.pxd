@@ -1,33 +1,40 @@
 # The C types of `explain.py`.
 
 cimport cython
-from runtime.constraints.explanation.reasons cimport collect_all, collect_reasons, collect_weight
 from runtime.constraints.domains.store cimport Store
+from runtime.constraints.explanation.reasons cimport collect_all_reasons
+from runtime.constraints.explanation.support_walk cimport SupportWalk
 
-cdef long long CONFLICT_CYCLE, CONFLICT_DOMAIN, FLAG_VALUES, KIND_BOOL, KIND_FLOAT, SIDE_HOLES, SIDE_LOWER
-cdef long long SIDE_UPPER, SUPPORT_CONSTRAINT, SUPPORT_EDGE, SUPPORT_RESTRICTION, TRAIL_REAL_LOWER, TRAIL_REAL_UPPER
+cdef long long CONFLICT_CYCLE, CONFLICT_DOMAIN, FLAG_VALUES, KIND_BOOL, KIND_FLOAT, OP_EXTERNAL, SIDE_HOLES
+cdef long long SIDE_LOWER, SIDE_UPPER, SUPPORT_EDGE, SUPPORT_RESTRICTION
 
 
 @cython.locals(name="long long")
 cpdef cause_of(Store s, long long support)
 
-@cython.locals(found=dict, now="long long", side="long long", support="long long", v="long long", waiting=list)
+
+cdef class CauseWalk(SupportWalk):
+    cdef public dict found
+    cdef public list links
+    cdef public set committed
+
+    cpdef bint visit(self, long long support, long long v, long long side, long long when) except -1
+
+    cpdef int visit_support(self, long long support) except -1
+
+    @cython.locals(r="long long", s=Store)
+    cpdef int visit_set(self, long long v) except -1
+
+    @cython.locals(is_real=bint, s=Store, value="long long")
+    cpdef double value(self, long long v, long long side) except? -1.0
+
+    @cython.locals(e="long long", now="long long", s=Store, side="long long", support="long long", v="long long")
+    cpdef int ask_conflict(self) except -1
+
+    @cython.locals(e="long long", s=Store, side="long long", time="long long")
+    cpdef int ask_cycle(self, long long now) except -1
+
+
 cpdef list explain_conflict(Store s)
 
-@cython.locals(links=list)
 cpdef list explain_bound(Store s, long long v, long long side)
-
-cpdef add_cause(Store s, dict found, long long support)
-
-cpdef list read_reasons(Store s, long long time)
-
-@cython.locals(side="long long", u="long long", waiting=list)
-cpdef list walk_cycle(Store s, dict found, long long now)
-
-@cython.locals(code="long long", i="long long", support="long long", value=double, when="long long")
-cpdef state_before(Store s, long long v, long long side, long long time)
-
-@cython.locals(entry="long long", i="long long", r="long long", seen=set)
-cpdef int walk_back(Store s, dict found, list waiting, list links) except -1
-
-cpdef void step_back(Store s, dict found, list waiting, list links, change, long long support, double value) except *

@@ -29,3 +29,7 @@ cpdef int collect_all(Store s, long long c, long long v, long long side) except 
 cpdef bint reads_itself(Store s, long long op, long long v, long long side) except -1
 
 cpdef bint is_carried(Store s, long long c) except -1
+
+cpdef int collect_weight_reasons(Store s, long long e) except -1
+
+cpdef int collect_all_reasons(Store s, long long c) except -1

@@ -60,7 +60,7 @@ def add_reason(s: Store, v: int, side: int) -> None:
     if s.constant[v]:
         return
     if s.reason_count == len(s.reasons):
-        s.reasons = grown(s.reasons, "q", 2 * len(s.reasons), 0)
+        s.reasons = grown(s.reasons, 2 * len(s.reasons))
     s.reasons[s.reason_count] = v * 4 + side
     s.reason_count += 1
 
@@ -72,6 +72,18 @@ def collect_edge(s: Store, e: int, v: int, side: int) -> None:
     else:
         add_reason(s, s.edge_target[e], SIDE_LOWER)
     collect_weight(s, e)
+
+
+def collect_weight_reasons(s: Store, e: int) -> None:
+    """Put into `reasons`, alone, the bound that the weight of an edge follows, if it does."""
+    s.reason_count = 0
+    collect_weight(s, e)
+
+
+def collect_all_reasons(s: Store, c: int) -> None:
+    """Put into `reasons`, alone, every bound of all arguments of a constraint."""
+    s.reason_count = 0
+    collect_all(s, c, -1, SIDE_HOLES)
 
 
 def collect_weight(s: Store, e: int) -> None:

@@ -153,7 +153,7 @@ class Scratch:
         else:
             c = copy.post(op, variables, cause.span, cause.owner)
             if op == OP_RAND:
-                copy.aux[c] = engine.aux[k]
+                copy.drawn[c] = engine.drawn[k]
         return True
 
     def is_judge(self, causes: Sequence[Cause]) -> bool:

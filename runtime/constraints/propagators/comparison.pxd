@@ -8,7 +8,7 @@ from runtime.constraints.domains.narrow cimport (
     high, is_single, low, raise_to, reduce_to, remove_value, round_bounds, set_lower, set_upper,
 )
 from runtime.constraints.stn.network cimport tie_edge, tie_edges, tighten_edge
-from runtime.constraints.stn.entailment cimport rest
+from runtime.constraints.stn.entailment cimport entail
 from runtime.constraints.domains.store cimport Store
 
 cdef long long HALF_INF, KIND_FLOAT, KIND_INT, MODE_EDGES, MODE_REAL, MOST_VALUES, NEVER, OP_ALL_DIFF, OP_EQ, OP_LEQ, OP_LT

@@ -49,7 +49,7 @@ from runtime.constraints.propagators.opcodes import (
     OP_WITHIN_BOUNDS,
 )
 from runtime.constraints.propagators.strict_cycles import is_in_strict_cycle
-from runtime.constraints.stn.entailment import rest
+from runtime.constraints.stn.entailment import entail
 from runtime.constraints.stn.network import tie_edge, tie_edges, tighten_edge
 
 
@@ -70,7 +70,7 @@ def propagate_comparison(s: Store, c: int) -> bool:
         if not precede(s, a, b, op == OP_LT, support):
             return False
         if s.mode[c] != MODE_REAL and s.ub[a] + (op == OP_LT) <= s.lb[b]:
-            rest(s, c)  # neither bound will come back
+            entail(s, c)  # neither bound will come back
         return True
     if op == OP_EQ:
         if s.mode[c] == MODE_EDGES and s.link_a[c] < 0 and not tie_edges(s, c, a, b, 0, 0):
@@ -228,7 +228,7 @@ def _keep_distance(s: Store, c: int, start: int, distance: int, end: int, suppor
         if not _follow_distance(s, c, start, distance, end, is_telling):
             return False
     if is_known:  # the edges say all that there is to say
-        rest(s, c)
+        entail(s, c)
         return True
     if s.ub[end] < HALF_INF and s.lb[start] > -HALF_INF:
         x = s.ub[end] - s.lb[start]

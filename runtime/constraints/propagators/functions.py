@@ -30,7 +30,7 @@ def propagate_function(s: Store, c: int) -> bool:
     r = s.slot_variable[first]
     support = c * 4 + SUPPORT_CONSTRAINT
     if op == OP_RAND:
-        return assign(s, r, s.aux[c], support)
+        return assign(s, r, s.drawn[c], support)
     a = s.slot_variable[first + 1]
     if op == OP_SAMPLE:
         return raise_to(s, r, low(s, a), support) and reduce_to(s, r, high(s, a), support)

@@ -2,6 +2,7 @@
 
 cimport cython
 from runtime.constraints.domains.store cimport Store
+from runtime.constraints.stn.watch_lists cimport link_slot, unlink_slot
 
 cdef long long EVENT_DOMAIN, KIND_BOOL, KIND_FLOAT, KIND_INT, MODE_DISTANCE, MODE_EDGES, MODE_REAL, MODE_WHOLE
 cdef long long OP_ADD_EQ, OP_ELEMENT, OP_EXTERNAL, OP_PLUS, OP_RAND, OP_TEMPORAL_DISTANCE, TRAIL_CONSTRAINT
@@ -22,10 +23,10 @@ cpdef long long _allocate_slots(Store s, long long count) except? -1
 @cython.locals(c="long long")
 cpdef long long _new_constraint(Store s, long long op, long long arity, long long span, long long owner) except? -1
 
-@cython.locals(other="long long", slot="long long")
+@cython.locals(slot="long long")
 cpdef void _watch(Store s, long long c, long long position, long long v, long long mask) except *
 
-@cython.locals(after="long long", before="long long", count="long long", first="long long", slot="long long")
+@cython.locals(count="long long", first="long long", slot="long long")
 cpdef int release_constraint(Store s, long long c) except -1
 
 @cython.locals(c="long long", position="long long")

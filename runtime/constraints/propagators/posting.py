@@ -1,6 +1,6 @@
 """Keep constraints in rows and their arguments in slots; put them on the watch lists of their variables."""
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     EVENT_DOMAIN,
@@ -31,6 +31,7 @@ from runtime.constraints.propagators.registry import (
     WAKES_FIRST,
     WAKES_OTHERS,
 )
+from runtime.constraints.stn.watch_lists import link_slot, unlink_slot
 
 _MASK = 2**64 - 1
 
@@ -38,18 +39,8 @@ _MASK = 2**64 - 1
 def _grow_constraints(s: Store) -> None:
     """Double the rows of constraints, and the queues with them."""
     room = 2 * len(s.op)
-    s.op = grown(s.op, "i", room, -1)
-    s.mode = grown(s.mode, "b", room, 0)
-    s.first = grown(s.first, "i", room, 0)
-    s.arity = grown(s.arity, "i", room, 0)
-    s.span = grown(s.span, "i", room, -1)
-    s.owner = grown(s.owner, "i", room, -1)
-    s.link_a = grown(s.link_a, "i", room, -1)
-    s.link_b = grown(s.link_b, "i", room, -1)
-    s.aux = grown(s.aux, "q", room, 0)
-    s.run_count = grown(s.run_count, "i", room, 0)
-    s.run_epoch = grown(s.run_epoch, "q", room, 0)
-    s.constraint_next = grown(s.constraint_next, "i", room, -1)
+    grow_rows(s, "op span owner link_a link_b constraint_next", room, -1)
+    grow_rows(s, "mode first arity drawn entailed run_count run_epoch", room)
     s.grow_constraint_queues(room)
 
 
@@ -58,12 +49,8 @@ def _grow_slots(s: Store, need: int) -> None:
     room = len(s.slot_variable)
     while room < s.slots_used + need:
         room *= 2
-    s.slot_variable = grown(s.slot_variable, "i", room, -1)
-    s.slot_constraint = grown(s.slot_constraint, "i", room, -1)
-    s.slot_mask = grown(s.slot_mask, "b", room, 0)
-    s.slot_next = grown(s.slot_next, "i", room, -1)
-    s.slot_prev = grown(s.slot_prev, "i", room, -1)
-    s.slot_key = grown(s.slot_key, "q", room, 0)
+    grow_rows(s, "slot_variable slot_constraint slot_next slot_prev", room, -1)
+    grow_rows(s, "slot_mask slot_key", room)
 
 
 def _allocate_slots(s: Store, count: int) -> int:
@@ -97,7 +84,7 @@ def _new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int
     s.owner[c] = owner
     s.link_a[c] = -1
     s.link_b[c] = -1
-    s.aux[c] = 0
+    s.entailed[c] = 0
     s.priority[c] = PRIORITIES[op]
     s.scheduled[c] = 0
     s.run_epoch[c] = 0
@@ -106,24 +93,12 @@ def _new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int
 
 
 def _watch(s: Store, c: int, position: int, v: int, mask: int) -> None:
-    """Fill in an argument and wake `c` at the events of `mask`; without any it is mute. Constants have no lists."""
+    """Fill in an argument and wake `c` at the events of `mask`; without any it is mute."""
     slot = s.first[c] + position
     s.slot_variable[slot] = v
     s.slot_constraint[slot] = c
     s.slot_mask[slot] = mask
-    if s.constant[v]:
-        s.slot_next[slot] = -2
-        return
-    s.slot_prev[slot] = -1
-    if mask:
-        other = s.watch_head[v]
-        s.watch_head[v] = slot
-    else:
-        other = s.mute_head[v]
-        s.mute_head[v] = slot
-    s.slot_next[slot] = other
-    if other >= 0:
-        s.slot_prev[other] = slot
+    link_slot(s, slot)
 
 
 def release_constraint(s: Store, c: int) -> None:
@@ -131,17 +106,7 @@ def release_constraint(s: Store, c: int) -> None:
     first = s.first[c]
     count = s.arity[c]
     for slot in range(first, first + count):
-        after = s.slot_next[slot]
-        if after != -2:
-            before = s.slot_prev[slot]
-            if before >= 0:
-                s.slot_next[before] = after
-            elif s.slot_mask[slot]:
-                s.watch_head[s.slot_variable[slot]] = after
-            else:
-                s.mute_head[s.slot_variable[slot]] = after
-            if after >= 0:
-                s.slot_prev[after] = before
+        unlink_slot(s, slot)
         s.slot_constraint[slot] = -1
     if 0 < count <= 64:
         s.slot_next[first] = s.slot_free[count]
@@ -165,10 +130,10 @@ def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: i
     c = _new_constraint(s, op, len(arguments), span, owner)
     _choose_mode(s, c, arguments)
     if op == OP_RAND:
-        s.aux[c] = _random_whole(s.seed, span, owner)
+        s.drawn[c] = _random_whole(s.seed, span, owner)
     for position in range(s.arity[c]):
         _watch(s, c, position, arguments[position], _events_of(s, c, position))
-    s.settles[c] = _is_idempotent(s, c) and len(set(arguments)) == len(arguments)
+    s.idempotent[c] = _is_idempotent(s, c) and len(set(arguments)) == len(arguments)
     s.schedule(c)
     return c
 
@@ -180,7 +145,7 @@ def start_element(s: Store, result: int, index: int, rows: int, span: int, owner
         s.mode[c] = MODE_REAL
     _watch(s, c, 0, result, EVENT_DOMAIN)
     _watch(s, c, 1, index, EVENT_DOMAIN)
-    s.settles[c] = 0
+    s.idempotent[c] = 0
     s.schedule(c)
     return c
 

@@ -184,13 +184,13 @@ def _remove_unsupported(s: Store, first: int, count: int, support: int) -> bool:
     if s.ub[result] - base >= MOST_VALUES:
         return True
     for k in range(((s.ub[result] - base) >> 5) + 1):
-        s.walk[k] = 0  # 32 values to a cell: 1 where one is served
+        s.supported[k] = 0
     for k in range(first + 2, first + count):
         if has_value(s, index, s.slot_key[k]):
             _note_served(s, s.slot_variable[k], base, s.ub[result])
     x = base
     while x <= s.ub[result]:
-        if not (s.walk[(x - base) >> 5] >> ((x - base) & 31)) & 1:
+        if not (s.supported[(x - base) >> 5] >> ((x - base) & 31)) & 1:
             if s.word[result] >= 0 and s.table[result] < 0:
                 break
             if not remove_value(s, result, x, support):
@@ -203,7 +203,7 @@ def _remove_unsupported(s: Store, first: int, count: int, support: int) -> bool:
         mask = 0
         while place >= 0 and place >> 6 == k:
             x = s.bit_base[result] + place - base
-            if base + x <= s.ub[result] and not (s.walk[x >> 5] >> (x & 31)) & 1:
+            if base + x <= s.ub[result] and not (s.supported[x >> 5] >> (x & 31)) & 1:
                 mask |= ONE_BIT << (place & 63)
             place = next_place(s, result, place + 1)
         if mask:
@@ -212,12 +212,12 @@ def _remove_unsupported(s: Store, first: int, count: int, support: int) -> bool:
 
 
 def _note_served(s: Store, v: int, base: int, last: int) -> None:
-    """Mark in `walk` which whole numbers from `base` to `last` a variable may take."""
+    """Mark in `supported` which whole numbers from `base` to `last` a variable may take."""
     if s.kind[v] != KIND_FLOAT:
         last = min(last, s.ub[v])
     for x in range(base if s.kind[v] == KIND_FLOAT else max(base, s.lb[v]), last + 1):
         if _serves(s, v, x):
-            s.walk[(x - base) >> 5] |= ONE_BIT << ((x - base) & 31)
+            s.supported[(x - base) >> 5] |= ONE_BIT << ((x - base) & 31)
 
 
 def _serves(s: Store, v: int, x: int) -> bool:

@@ -1,8 +1,8 @@
-"""Find the cone of what is taken out: all bounds that it held up, and all that those held up in turn.
+"""Cone of a retraction: the bounds that what is removed supports, and in turn all that these support.
 
-A support that was overwritten is forgotten, so a bound that the removed thing once held may since hold itself up in a
-circle (x <= y / 2 and y <= x have shrunk both from 10). Such bounds are in the cone too: any bound of a touched
-constraint or edge whose supports do not lead back to restrictions without a circle.
+A support that was overwritten is forgotten, so a bound that the removed thing once supported may since support itself
+in a cycle (x <= y / 2 and y <= x have shrunk both from 10). Such bounds are in the cone too: any bound of a touched
+constraint or edge whose supports do not lead back to restrictions without a cycle.
 """
 
 from runtime.constraints.domains.arrays import grown
@@ -17,110 +17,86 @@ from runtime.constraints.domains.tags import (
     SUPPORT_RESTRICTION,
 )
 from runtime.constraints.propagators.opcodes import OP_TEMPORAL_DISTANCE, OP_WATCH
-from runtime.constraints.relaxation.support_cycles import holds_itself
+from runtime.constraints.relaxation.support_cycles import is_self_supporting
 
 
-def loosen(s: Store, v: int, side: int) -> None:
+def _relax(s: Store, v: int, side: int) -> None:
     """Put a bound into the cone; a variable with a bit set goes in whole."""
-    if s.constant[v]:
-        return
     if s.word[v] >= 0:
         side = SIDE_HOLES
     bit = 7 if side == SIDE_HOLES else 1 << side
-    new = bit & ~s.loose[v]
-    if new == 0:
-        return
-    s.loose[v] |= bit
+    new = bit & ~s.relaxed[v]
+    s.relaxed[v] |= bit
     if s.cone_count + 2 > len(s.cone):
-        s.cone = grown(s.cone, "q", 2 * len(s.cone), 0)
-    if new & 1:
-        s.cone[s.cone_count] = v * 4 + SIDE_LOWER
-        s.cone_count += 1
-    if new & 2:
-        s.cone[s.cone_count] = v * 4 + SIDE_UPPER
-        s.cone_count += 1
+        s.cone = grown(s.cone, 2 * len(s.cone))
+    for bound in range(2):
+        if new & (1 << bound):
+            s.cone[s.cone_count] = v * 4 + bound
+            s.cone_count += 1
 
 
-def loosen_by(s: Store, v: int, support: int) -> None:
-    """Loosen what `support` holds of `v`, and what of `v` holds itself up."""
-    if s.constant[v]:
-        return
-    if s.word[v] >= 0:
-        entry = s.hole_head[v]
-        while entry >= 0:
-            if s.hole_support[entry] == support:
-                loosen(s, v, SIDE_HOLES)
-                return
-            entry = s.hole_next[entry]
-        if support & 3 == SUPPORT_RESTRICTION:
-            loosen(s, v, SIDE_HOLES)
-            return
-    for side in range(2):
-        if s.loose[v] & (1 << side) == 0:
-            holder = s.lower_support[v] if side == SIDE_LOWER else s.upper_support[v]
-            if holder == support or holds_itself(s, v, side):
-                loosen(s, v, side)
+def _relax_bound(s: Store, v: int, side: int, support: int) -> None:
+    """Relax a bound that `support` holds, or that supports itself."""
+    if s.relaxed[v] & (1 << side) == 0 and not s.constant[v]:
+        holder = s.lower_support[v] if side == SIDE_LOWER else s.upper_support[v]
+        if holder == support or is_self_supporting(s, v, side):
+            _relax(s, v, side)
 
 
-def loosen_by_edge(s: Store, e: int) -> None:
-    """Loosen what an edge holds at both of its ends."""
-    support = e * 4 + SUPPORT_EDGE
-    v = s.edge_target[e]
-    if s.loose[v] & 2 == 0 and (s.upper_support[v] == support or holds_itself(s, v, SIDE_UPPER)):
-        loosen(s, v, SIDE_UPPER)
-    v = s.edge_source[e]
-    if s.loose[v] & 1 == 0 and (s.lower_support[v] == support or holds_itself(s, v, SIDE_LOWER)):
-        loosen(s, v, SIDE_LOWER)
+def relax_by(s: Store, v: int, support: int) -> None:
+    """Relax what `support` holds of `v`, and the bounds of `v` that support themselves."""
+    entry = s.hole_head[v] if s.word[v] >= 0 else -1
+    while entry >= 0 and s.hole_support[entry] != support:
+        entry = s.hole_next[entry]
+    if entry >= 0 or (s.word[v] >= 0 and support & 3 == SUPPORT_RESTRICTION and not s.constant[v]):
+        _relax(s, v, SIDE_HOLES)
+    _relax_bound(s, v, SIDE_LOWER, support)
+    _relax_bound(s, v, SIDE_UPPER, support)
 
 
-def loosen_by_constraint(s: Store, c: int) -> None:
-    """Loosen what a constraint holds, itself or by its edges."""
+def relax_by_edge(s: Store, e: int) -> None:
+    """Relax what an edge holds at both of its ends."""
+    _relax_bound(s, s.edge_target[e], SIDE_UPPER, e * 4 + SUPPORT_EDGE)
+    _relax_bound(s, s.edge_source[e], SIDE_LOWER, e * 4 + SUPPORT_EDGE)
+
+
+def relax_by_constraint(s: Store, c: int) -> None:
+    """Relax what a constraint holds, itself or by its edges."""
     if s.link_a[c] >= 0:
-        loosen_by_edge(s, s.link_a[c])
+        relax_by_edge(s, s.link_a[c])
     if s.link_b[c] >= 0:
-        loosen_by_edge(s, s.link_b[c])
-    support = c * 4 + SUPPORT_CONSTRAINT
+        relax_by_edge(s, s.link_b[c])
     for slot in range(s.first[c], s.first[c] + s.arity[c]):
-        loosen_by(s, s.slot_variable[slot], support)
+        relax_by(s, s.slot_variable[slot], c * 4 + SUPPORT_CONSTRAINT)
 
 
-def follow_cone(s: Store) -> None:
-    """Let the cone grow until it holds all that was held by its own bounds."""
+def close_cone(s: Store) -> None:
+    """Let the cone grow until it holds all that its own bounds support. Upper bounds support along the edges."""
     i = 0
     while i < s.cone_count:
         v = s.cone[i] >> 2
-        if s.cone[i] & 3 == SIDE_UPPER:
-            e = s.out_head[v]
-            while e >= 0:
-                u = s.edge_target[e]
-                if s.loose[u] & 2 == 0 and s.edge_weight[e] < HALF_INF:
-                    if s.upper_support[u] == e * 4 + SUPPORT_EDGE or holds_itself(s, u, SIDE_UPPER):
-                        loosen(s, u, SIDE_UPPER)
-                e = s.out_next[e]
-        else:
-            e = s.in_head[v]
-            while e >= 0:
-                u = s.edge_source[e]
-                if s.loose[u] & 1 == 0 and s.edge_weight[e] < HALF_INF:
-                    if s.lower_support[u] == e * 4 + SUPPORT_EDGE or holds_itself(s, u, SIDE_LOWER):
-                        loosen(s, u, SIDE_LOWER)
-                e = s.in_next[e]
+        side = s.cone[i] & 3
+        is_upper = side == SIDE_UPPER
+        e = s.out_head[v] if is_upper else s.in_head[v]
+        while e >= 0:
+            if s.edge_weight[e] < HALF_INF:
+                _relax_bound(s, s.edge_target[e] if is_upper else s.edge_source[e], side, e * 4 + SUPPORT_EDGE)
+            e = s.out_next[e] if is_upper else s.in_next[e]
         slot = s.watch_head[v]
         while slot >= 0:
             c = s.slot_constraint[slot]
             if s.op[c] == OP_TEMPORAL_DISTANCE:
-                loosen_by_distance(s, c, v, s.cone[i] & 3)
+                _relax_by_distance(s, c, v, side)
             elif s.op[c] != OP_WATCH:
-                loosen_by_constraint(s, c)
+                relax_by_constraint(s, c)
             slot = s.slot_next[slot]
         i += 1
 
 
-def loosen_by_distance(s: Store, c: int, v: int, side: int) -> None:
-    """Loosen what a distance holds: by its edge if it is the distance that has changed, else the distance itself."""
+def _relax_by_distance(s: Store, c: int, v: int, side: int) -> None:
+    """Relax what a distance holds: by its edge if it is the distance that has changed, else the distance itself."""
     d = s.slot_variable[s.first[c] + 1]
-    if v == d:
-        if s.link_a[c] >= 0:
-            loosen_by_edge(s, s.link_a[c] if side == SIDE_UPPER else s.link_b[c])
-    else:
-        loosen_by(s, d, c * 4 + SUPPORT_CONSTRAINT)
+    if v != d:
+        relax_by(s, d, c * 4 + SUPPORT_CONSTRAINT)
+    elif s.link_a[c] >= 0:
+        relax_by_edge(s, s.link_a[c] if side == SIDE_UPPER else s.link_b[c])

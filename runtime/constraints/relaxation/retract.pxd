@@ -4,7 +4,7 @@ cimport cython
 from libc cimport math
 from runtime.constraints.domains.base_domain cimport is_listing
 from runtime.constraints.domains.bitset cimport detach_words, drop_log
-from runtime.constraints.relaxation.cone cimport follow_cone, loosen_by, loosen_by_constraint, loosen_by_edge
+from runtime.constraints.relaxation.cone cimport close_cone, relax_by, relax_by_constraint, relax_by_edge
 from runtime.constraints.domains.narrow cimport raise_to, reduce_to
 from runtime.constraints.stn.network cimport attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
 from runtime.constraints.propagators.posting cimport release_constraint

@@ -1,7 +1,7 @@
-"""Take constraints, edges, restrictions and variables out again at level 0, in any order, and loosen what they held.
+"""Retraction at level 0: remove constraints, edges, restrictions and variables in any order; relax what they support.
 
-The cone of a removed thing is what it supported, what that supported, and so on. Its bounds go back to their base and
-are pulled tight along the remaining edges; what touches them is propagated again. Cost: the cone and its neighbours.
+The bounds of the cone (cone.py) go back to their base and are tightened along the remaining edges; what touches them
+is propagated again. Cost: the cone and its neighbours.
 """
 
 import math
@@ -28,7 +28,7 @@ from runtime.constraints.domains.variables import drop_restriction, drop_variabl
 from runtime.constraints.explanation.reasons import is_carried
 from runtime.constraints.propagators.opcodes import OP_TEMPORAL_DISTANCE
 from runtime.constraints.propagators.posting import release_constraint
-from runtime.constraints.relaxation.cone import follow_cone, loosen_by, loosen_by_constraint, loosen_by_edge
+from runtime.constraints.relaxation.cone import close_cone, relax_by, relax_by_constraint, relax_by_edge
 from runtime.constraints.relaxation.trail import clear_queues, commit_trail
 from runtime.constraints.stn.network import attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
 
@@ -36,7 +36,7 @@ from runtime.constraints.stn.network import attach_edge, detach_edge, follow_edg
 def retract(
     s: Store, constraints: list[int], edges: list[int], restrictions: list[int], variables: list[int]
 ) -> list[int]:
-    """Remove and loosen; leave the rest scheduled. Give the edges that must be followed again, one by one.
+    """Remove and relax; leave the rest scheduled. Give the edges that must be followed again, one by one.
 
     Constraints, edges and restrictions of the removed variables go too.
     """
@@ -50,16 +50,16 @@ def retract(
     s.cone_count = 0
     doomed = gather(s, constraints, variables)
     for e in edges:
-        loosen_by_edge(s, e)
+        relax_by_edge(s, e)
     for c in doomed:
-        loosen_by_constraint(s, c)
+        relax_by_constraint(s, c)
     for r in restrictions:
-        loosen_by(s, s.restriction_variable[r], r * 4 + SUPPORT_RESTRICTION)
+        relax_by(s, s.restriction_variable[r], r * 4 + SUPPORT_RESTRICTION)
     suspects = [e for e in s.suspects if s.edge_source[e] >= 0]
     s.suspects.clear()
     for e in suspects:
-        loosen_by_edge(s, e)
-    follow_cone(s)
+        relax_by_edge(s, e)
+    close_cone(s)
     gone = set(edges)
     for c in doomed:
         for e in (s.link_a[c], s.link_b[c]):
@@ -105,7 +105,7 @@ def gather(s: Store, constraints: list[int], variables: list[int]) -> list[int]:
         for e in edges_of(s, v):
             if s.edge_link[e] >= 0:
                 doomed[s.edge_link[e]] = None
-            loosen_by_edge(s, e)
+            relax_by_edge(s, e)
     return list(doomed)
 
 
@@ -130,7 +130,7 @@ def reset_cone(s: Store) -> None:
         side = s.cone[i] & 3
         if s.word[v] >= 0:
             reset_set(s, v)
-        elif s.loose[v]:
+        elif s.relaxed[v]:
             reset_bound(s, v, side)
         slot = s.watch_head[v]
         while slot >= 0:
@@ -212,7 +212,7 @@ def renew_cone(s: Store) -> None:
     """Pull the bounds of the cone tight along the edges, restrict to sets, and schedule all that touches them."""
     for i in range(s.cone_count):
         v = s.cone[i] >> 2
-        s.loose[v] = 0
+        s.relaxed[v] = 0
         if s.kind[v] >= 0:
             uncross(s, v, s.cone[i] & 3)
     for i in range(s.cone_count):

@@ -4,13 +4,13 @@ cimport cython
 from runtime.constraints.domains.bitset cimport detach_words, restore_bits
 from runtime.constraints.stn.network cimport detach_edge, free_edge
 from runtime.constraints.propagators.posting cimport release_constraint
-from runtime.constraints.stn.entailment cimport relink, waken
+from runtime.constraints.stn.entailment cimport revive, undo_entailment
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.domains.variables cimport drop_restriction, drop_variable
 
 cdef long long CONFLICT_NONE, TRAIL_CONSTRAINT, TRAIL_DECIDED, TRAIL_EDGE, TRAIL_HOLES, TRAIL_LINK, TRAIL_LOWER
 cdef long long TRAIL_OPEN, TRAIL_REAL_LOWER, TRAIL_REAL_UPPER, TRAIL_RESTRICTION, TRAIL_UPPER, TRAIL_VARIABLE
-cdef long long TRAIL_REST, TRAIL_WEIGHT, TRAIL_WORDS
+cdef long long TRAIL_ENTAILED, TRAIL_WEIGHT, TRAIL_WORDS
 cdef double inf
 
 

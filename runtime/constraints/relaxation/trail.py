@@ -9,13 +9,13 @@ from runtime.constraints.domains.tags import (
     TRAIL_CONSTRAINT,
     TRAIL_DECIDED,
     TRAIL_EDGE,
+    TRAIL_ENTAILED,
     TRAIL_HOLES,
     TRAIL_LINK,
     TRAIL_LOWER,
     TRAIL_OPEN,
     TRAIL_REAL_LOWER,
     TRAIL_REAL_UPPER,
-    TRAIL_REST,
     TRAIL_RESTRICTION,
     TRAIL_UPPER,
     TRAIL_VARIABLE,
@@ -24,7 +24,7 @@ from runtime.constraints.domains.tags import (
 )
 from runtime.constraints.domains.variables import drop_restriction, drop_variable
 from runtime.constraints.propagators.posting import release_constraint
-from runtime.constraints.stn.entailment import relink, waken
+from runtime.constraints.stn.entailment import revive, undo_entailment
 from runtime.constraints.stn.network import detach_edge, free_edge
 
 
@@ -75,8 +75,8 @@ def undo_to(s: Store, size: int) -> None:
         elif code == TRAIL_LINK:
             s.link_a[name] = -1
             s.link_b[name] = -1
-        elif code == TRAIL_REST:
-            relink(s, name)
+        elif code == TRAIL_ENTAILED:
+            undo_entailment(s, name)
         elif code == TRAIL_REAL_LOWER:
             s.real_bounds_used = s.trail_value[i]
             s.flo[name] = s.real_bounds[s.trail_value[i]]
@@ -111,10 +111,10 @@ def undo_to(s: Store, size: int) -> None:
 def commit_trail(s: Store) -> None:
     """Forget how to go back; time stamps go on counting, also past those of what `retract` wrote without a trail."""
     i = s.trail_size
-    while s.resting:  # what rests does so for a search, which is over
+    while s.entailed_count:  # entailed for a search, which is over
         i -= 1
-        if s.trail_key[i] & 15 == TRAIL_REST:
-            waken(s, s.trail_key[i] >> 4)
+        if s.trail_key[i] & 15 == TRAIL_ENTAILED:
+            revive(s, s.trail_key[i] >> 4)
     s.trail_base += s.trail_size + 1
     s.trail_size = 0
     s.real_bounds_used = 0

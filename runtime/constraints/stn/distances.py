@@ -2,10 +2,10 @@
 
 from array import array
 
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import MODE_DISTANCE
 from runtime.constraints.stn.heap import Heap
-from runtime.solver.widening import widened
 
 
 class Distances:
@@ -36,9 +36,7 @@ class Distances:
         if limit <= 0 or engine.lb[target] <= engine.lb[source] + weight or source == target:
             return source != target or weight >= 0
         if len(self.stamped) < len(engine.kind):
-            self.stamped = widened(self.stamped, len(engine.kind), 0)
-            self.distance = widened(self.distance, len(engine.kind), 0)
-            self.via = widened(self.via, len(engine.kind), 0)
+            grow_rows(self, "stamped distance via", len(engine.kind))
         self.stamp += 1
         heap = self.heap
         heap.clear()

@@ -7,7 +7,7 @@ cdef class Heap:
     cdef public long long capacity, length
     cdef public long long[::1] first, second, item
 
-    @cython.locals(above="long long", at="long long", first="long long[::1]", second="long long[::1]")
+    @cython.locals(above="long long", at="long long")
     cpdef long long push(self, long long key, long long tie, long long entry) except? -1
 
     cpdef long long top_key(self) except? -1
@@ -17,8 +17,7 @@ cdef class Heap:
     cpdef long long top_item(self) except? -1
 
     @cython.locals(
-        at="long long", below="long long", entry="long long", first="long long[::1]", key="long long",
-        last="long long", second="long long[::1]", tie="long long"
+        at="long long", below="long long", entry="long long", key="long long", last="long long", tie="long long"
     )
     cpdef long long pop(self) except? -1
 

@@ -1,6 +1,6 @@
 """Keep entries in the order of a key and a tie; the smallest is on top. Entries may be stale: who reads them checks."""
 
-from array import array
+from runtime.constraints.domains.arrays import blank, grow_rows
 
 
 class Heap:
@@ -9,28 +9,27 @@ class Heap:
     def __init__(self) -> None:
         self.capacity = 64
         self.length = 0
-        self.first = array("q", bytes(8 * 64))
-        self.second = array("q", bytes(8 * 64))
-        self.item = array("q", bytes(8 * 64))
+        self.first = blank(64)
+        self.second = blank(64)
+        self.item = blank(64)
 
     def push(self, key: int, tie: int, entry: int) -> int:
         """Add an entry."""
         if self.length == self.capacity:
-            self.grow()
-        first = self.first
-        second = self.second
+            self.capacity *= 2
+            grow_rows(self, "first second item", self.capacity)
         at = self.length
         self.length = at + 1
         while at > 0:
             above = (at - 1) >> 1
-            if first[above] < key or (first[above] == key and second[above] <= tie):
+            if self.first[above] < key or (self.first[above] == key and self.second[above] <= tie):
                 break
-            first[at] = first[above]
-            second[at] = second[above]
+            self.first[at] = self.first[above]
+            self.second[at] = self.second[above]
             self.item[at] = self.item[above]
             at = above
-        first[at] = key
-        second[at] = tie
+        self.first[at] = key
+        self.second[at] = tie
         self.item[at] = entry
         return 0
 
@@ -48,12 +47,10 @@ class Heap:
 
     def pop(self) -> int:
         """Take the top off."""
-        first = self.first
-        second = self.second
         last = self.length - 1
         self.length = last
-        key = first[last]
-        tie = second[last]
+        key = self.first[last]
+        tie = self.second[last]
         entry = self.item[last]
         at = 0
         while True:
@@ -61,30 +58,21 @@ class Heap:
             if below >= last:
                 break
             if below + 1 < last and (
-                first[below + 1] < first[below]
-                or (first[below + 1] == first[below] and second[below + 1] < second[below])
+                self.first[below + 1] < self.first[below]
+                or (self.first[below + 1] == self.first[below] and self.second[below + 1] < self.second[below])
             ):
                 below += 1
-            if key < first[below] or (key == first[below] and tie <= second[below]):
+            if key < self.first[below] or (key == self.first[below] and tie <= self.second[below]):
                 break
-            first[at] = first[below]
-            second[at] = second[below]
+            self.first[at] = self.first[below]
+            self.second[at] = self.second[below]
             self.item[at] = self.item[below]
             at = below
-        first[at] = key
-        second[at] = tie
+        self.first[at] = key
+        self.second[at] = tie
         self.item[at] = entry
         return 0
 
     def clear(self) -> None:
         """Forget all entries."""
         self.length = 0
-
-    def grow(self) -> int:
-        """Double the arrays."""
-        empty = bytes(8 * self.capacity)
-        for name in ("first", "second", "item"):
-            longer = array("q", bytes(getattr(self, name)) + empty)
-            setattr(self, name, longer)
-        self.capacity *= 2
-        return 0

@@ -1,6 +1,6 @@
 """Propagate bounds along temporal edges, one new edge at a time, with exact detection of negative cycles."""
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import grow_rows, grown
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     CONFLICT_CYCLE,
@@ -21,16 +21,8 @@ from runtime.constraints.domains.tags import (
 def grow_edges(s: Store) -> None:
     """Double the rows of edges."""
     room = 2 * len(s.edge_weight)
-    s.edge_source = grown(s.edge_source, "i", room, -1)
-    s.edge_target = grown(s.edge_target, "i", room, -1)
-    s.edge_weight = grown(s.edge_weight, "q", room, 0)
-    s.out_next = grown(s.out_next, "i", room, -1)
-    s.out_prev = grown(s.out_prev, "i", room, -1)
-    s.in_next = grown(s.in_next, "i", room, -1)
-    s.in_prev = grown(s.in_prev, "i", room, -1)
-    s.edge_span = grown(s.edge_span, "i", room, -1)
-    s.edge_owner = grown(s.edge_owner, "i", room, -1)
-    s.edge_link = grown(s.edge_link, "i", room, -1)
+    grow_rows(s, "edge_source edge_target out_next out_prev in_next in_prev edge_span edge_owner edge_link", room, -1)
+    s.edge_weight = grown(s.edge_weight, room)
 
 
 def link_edge(s: Store, source: int, target: int, weight: int, span: int, owner: int, link: int) -> int:

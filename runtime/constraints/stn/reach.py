@@ -2,12 +2,13 @@
 
 from array import array
 
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import MODE_DISTANCE
-from runtime.solver.widening import widened
+from runtime.constraints.stn.heap import Heap
 
-MOST_NEAR = 16
-UNKNOWN, APART, REACHED = range(3)
+_MOST_NEAR = 16
+_UNKNOWN, _APART, _REACHED = range(3)
 
 
 class Reach:
@@ -25,11 +26,8 @@ class Reach:
         self.near_stamp = 0
         self.near_stamped = array("q", [0]) * 64
         self.near_distance = array("q", [0]) * 64
-        self.near = array("q", [0]) * MOST_NEAR
-        self.length = 0
-        self.room = 64
-        self.key = array("q", [0]) * 64
-        self.item = array("q", [0]) * 64
+        self.near = array("q", [0]) * _MOST_NEAR
+        self.heap = Heap()
 
     def begin(self, origin: int, is_forward: bool) -> int:
         """Have questions be about paths from `origin` (or to it) in the network as it is now; nothing is done yet."""
@@ -53,18 +51,15 @@ class Reach:
             return True
         if limit <= self.most and self.stamped[other] == self.stamp and self.distance[other] < limit:
             return False
-        near = self.probe(other)
-        if near != UNKNOWN:
-            return near == APART
+        near = self._probe(other)
+        if near != _UNKNOWN:
+            return near == _APART
         if limit > self.most:
-            self.restart(limit if limit > 2 * self.most else 2 * self.most)
+            self._restart(limit if limit > 2 * self.most else 2 * self.most)
         while self.stamped[other] != self.stamp or self.distance[other] >= limit:
-            if self.length == 0 or self.key[0] >= limit:
+            if self.heap.length == 0 or self.heap.top_key() >= limit:
                 return True
-            if self.is_forward:
-                self.follow_out()
-            else:
-                self.follow_in()
+            self._expand()
         return False
 
     def is_plain(self, other: int) -> bool:
@@ -74,15 +69,14 @@ class Reach:
         end = other if self.is_forward else self.origin
         return bool(engine.ub[begin] <= engine.ub[end] or engine.lb[begin] <= engine.lb[end])
 
-    def probe(self, other: int) -> int:
-        """Look for a path from the far end, by a few edges: APART, REACHED, or UNKNOWN if that does not tell.
+    def _probe(self, other: int) -> int:
+        """Look for a path from the far end, by a few edges: _APART, _REACHED, or _UNKNOWN if that does not tell.
 
         Both bounds are potentials: what is left to go is never shorter than either says.
         """
         engine = self.engine
         if len(self.near_stamped) < len(engine.kind):
-            self.near_stamped = widened(self.near_stamped, len(engine.kind), 0)
-            self.near_distance = widened(self.near_distance, len(engine.kind), 0)
+            grow_rows(self, "near_stamped near_distance", len(engine.kind))
         self.near_stamp += 1
         high = engine.ub[self.origin]
         low = engine.lb[self.origin]
@@ -100,114 +94,57 @@ class Reach:
                 up = engine.ub[u] - high if self.is_forward else high - engine.ub[u]
                 down = engine.lb[u] - low if self.is_forward else low - engine.lb[u]
                 is_shorter = self.near_stamped[u] != self.near_stamp or length < self.near_distance[u]
-                if is_shorter and length + up < 0 and length + down < 0 and self.is_known(e):
+                if is_shorter and length + up < 0 and length + down < 0 and self._is_known(e):
                     if u == self.origin:
-                        return REACHED
-                    if count == MOST_NEAR:
-                        return UNKNOWN
+                        return _REACHED
+                    if count == _MOST_NEAR:
+                        return _UNKNOWN
                     self.near_stamped[u] = self.near_stamp
                     self.near_distance[u] = length
                     self.near[count] = u
                     count += 1
                 e = engine.in_next[e] if self.is_forward else engine.out_next[e]
-        return APART
+        return _APART
 
-    def restart(self, most: int) -> int:
+    def _restart(self, most: int) -> int:
         """Forget all paths, and from now on look for those up to a greater length."""
         self.most = most
         room = len(self.engine.kind)
         if len(self.stamped) < room:
-            self.stamped = widened(self.stamped, room, 0)
-            self.distance = widened(self.distance, room, 0)
+            grow_rows(self, "stamped distance", room)
         self.stamp += 1
-        self.length = 0
+        self.heap.clear()
         self.stamped[self.origin] = self.stamp
         self.distance[self.origin] = 0
-        self.push(0, self.origin)
+        self.heap.push(0, 0, self.origin)
         return 0
 
-    def follow_out(self) -> int:
-        """Take the nearest point and follow the edges that leave it."""
+    def _expand(self) -> int:
+        """Take the nearest point off the heap and follow its edges: those that leave it, or those that lead to it."""
         engine = self.engine
-        length = self.key[0]
-        v = self.item[0]
-        self.pop()
+        is_forward = self.is_forward
+        length = self.heap.top_key()
+        v = self.heap.top_item()
+        self.heap.pop()
         if length > self.distance[v]:
             return 0
-        high = length + engine.ub[v]
-        e = engine.out_head[v]
+        e = engine.out_head[v] if is_forward else engine.in_head[v]
         while e >= 0:
-            u = engine.edge_target[e]
-            longer = high + engine.edge_weight[e] - engine.ub[u]
-            if longer < self.most and (self.stamped[u] != self.stamp or longer < self.distance[u]) and self.is_known(e):
+            u = engine.edge_target[e] if is_forward else engine.edge_source[e]
+            gap = engine.ub[v] - engine.ub[u]
+            longer = length + engine.edge_weight[e] + (gap if is_forward else -gap)
+            if (
+                longer < self.most
+                and (self.stamped[u] != self.stamp or longer < self.distance[u])
+                and self._is_known(e)
+            ):
                 self.stamped[u] = self.stamp
                 self.distance[u] = longer
-                self.push(longer, u)
-            e = engine.out_next[e]
+                self.heap.push(longer, 0, u)
+            e = engine.out_next[e] if is_forward else engine.in_next[e]
         return 0
 
-    def follow_in(self) -> int:
-        """Take the nearest point and follow the edges that lead to it, backwards."""
-        engine = self.engine
-        length = self.key[0]
-        v = self.item[0]
-        self.pop()
-        if length > self.distance[v]:
-            return 0
-        high = length - engine.ub[v]
-        e = engine.in_head[v]
-        while e >= 0:
-            u = engine.edge_source[e]
-            longer = high + engine.edge_weight[e] + engine.ub[u]
-            if longer < self.most and (self.stamped[u] != self.stamp or longer < self.distance[u]) and self.is_known(e):
-                self.stamped[u] = self.stamp
-                self.distance[u] = longer
-                self.push(longer, u)
-            e = engine.in_next[e]
-        return 0
-
-    def is_known(self, e: int) -> bool:
+    def _is_known(self, e: int) -> bool:
         """Whether edge `e` is one to follow."""
         c = self.engine.edge_link[e] if self.temporal_only else -1
         return c < 0 or self.engine.mode[c] == MODE_DISTANCE
-
-    def push(self, key: int, v: int) -> int:
-        """Put a point on the heap."""
-        if self.length == self.room:
-            self.room *= 2
-            self.key = widened(self.key, self.room, 0)
-            self.item = widened(self.item, self.room, 0)
-        at = self.length
-        self.length = at + 1
-        while at > 0:
-            above = (at - 1) >> 1
-            if self.key[above] <= key:
-                break
-            self.key[at] = self.key[above]
-            self.item[at] = self.item[above]
-            at = above
-        self.key[at] = key
-        self.item[at] = v
-        return 0
-
-    def pop(self) -> int:
-        """Take the nearest point off the heap."""
-        last = self.length - 1
-        self.length = last
-        key = self.key[last]
-        v = self.item[last]
-        at = 0
-        while True:
-            below = 2 * at + 1
-            if below >= last:
-                break
-            if below + 1 < last and self.key[below + 1] < self.key[below]:
-                below += 1
-            if key <= self.key[below]:
-                break
-            self.key[at] = self.key[below]
-            self.item[at] = self.item[below]
-            at = below
-        self.key[at] = key
-        self.item[at] = v
-        return 0

@@ -120,7 +120,7 @@ class Agenda:
             self.variable_row = widened(self.variable_row, room * self.managers, NONE)
             self.variable_key = widened(self.variable_key, room * self.managers, NO_KEY)
             self.variable_deferred = widened(self.variable_deferred, room, 0)
-            self.watched = grown(self.watched, "b", room, 0)
+            self.watched = grown(self.watched, room)
             self.variable_level = widened(self.variable_level, room, 0)
             self.waits_for = widened(self.waits_for, room, NONE)
             self.waiting_next = widened(self.waiting_next, room, NONE)
