@@ -114,7 +114,7 @@ corpus: build
 	$(BIN)/python -m tests.corpus '$(CORPUS)'
 
 rules: setup
-	$(BIN)/python -m nddlc.rulebook docs/rules
+	$(BIN)/python -m checker.rulebook docs/rules
 
 bench: build
 	@for script in bench/*.py; do $(BIN)/python $$script || exit; done

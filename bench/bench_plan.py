@@ -78,7 +78,7 @@ def measure(calls: int, length: int) -> Figures:
     def token() -> None:
         mark = database.mark()
         database.new_token(at, rover, 1, -1)
-        database.settle()
+        database.fire()
         database.release(mark)
 
     def rule() -> None:
@@ -93,7 +93,7 @@ def measure(calls: int, length: int) -> Figures:
 
     def remove() -> None:
         t = database.new_token(at, rover, 1, -1)
-        database.settle()
+        database.fire()
         database.remove_tokens([t])
         database.commit()
 

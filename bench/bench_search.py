@@ -14,7 +14,7 @@ from runtime.build_form import build_form
 from bench.hard_models import SIZES, model
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.source import Source
-from nddlc.loading import load
+from runtime.loading import load
 from runtime.solver.configuration.read import read_configuration
 from runtime.solver.search import Solver
 from runtime.solver.tags import RESULT_NAMES

@@ -10,10 +10,10 @@ from compiler.program import (
     DURATION,
     END,
     START,
-    Foreach,
     Guard,
     Instruction,
     LocalVariable,
+    ObjectLoop,
     Post,
     Program,
     Sample,
@@ -84,5 +84,5 @@ def _flat(body: Iterable[Instruction]) -> Iterator[Instruction]:
             case Guard(then=then, otherwise=otherwise):
                 yield from _flat(then)
                 yield from _flat(otherwise)
-            case Foreach(body=inner):
+            case ObjectLoop(body=inner):
                 yield from _flat(inner)

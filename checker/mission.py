@@ -4,18 +4,18 @@ The format is described in docs/mission.md; its parts are those of T-REX's agent
 file (reference of T-REX, 3.1 and 5.5).
 """
 
-import re
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
 from checker.codes import CIRCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE
-from checker.mission_table import MissionText, Table, nearest
+from checker.mission_table import MissionText, Table
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source, Span
-from nddl_lang.text.toml_places import find_places, toml_of
+from nddl_lang.text.toml_places import find_places, split_error, toml_of
 from runtime.executive.configuration import (
     AgentConfiguration,
     Bounds,
@@ -98,13 +98,8 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
 
 
 def _not_toml(source: Source, problem: str) -> Diagnostic:
-    text = MissionText(source, {})
-    place = re.search(r" \(at (?:line (\d+), column (\d+)|end of document)\)", problem)
-    offset = len(source.text)
-    if place and place[1]:
-        offset = source.line_starts[min(int(place[1]), len(source.line_starts)) - 1] + int(place[2]) - 1
-    reason = problem[: place.start()] if place else problem
-    return NOT_TOML.at(text.span(offset, offset + 1), reason=reason[:1].lower() + reason[1:])
+    reason, offset = split_error(source, problem)
+    return NOT_TOML.at(MissionText(source, {}).span(offset, offset + 1), reason=reason)
 
 
 def _read_check(table: Table) -> CheckConfiguration:

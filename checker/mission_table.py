@@ -1,6 +1,5 @@
 """Take values out of one TOML table, each with its type and its limits; complain with places about all else."""
 
-import difflib
 import math
 from collections.abc import Sequence
 
@@ -13,17 +12,12 @@ from checker.codes import (
     WRONG_TYPE,
 )
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path, Stretch
 from runtime.executive.configuration import Bounds
 
 TomlTable = dict[str, object]
-
-
-def nearest(word: str, known: Sequence[str]) -> str | None:
-    """The word of `known` that `word` was probably meant to be."""
-    found = difflib.get_close_matches(word.lower(), [name.lower() for name in known], n=1, cutoff=0.6)
-    return next((name for name in known if found and name.lower() == found[0]), None)
 
 
 class MissionText:

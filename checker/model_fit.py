@@ -5,9 +5,9 @@ from dataclasses import replace
 
 from checker.codes import NO_ARGUMENT, NO_PREDICATE, NO_RANGE, NO_TIMELINE, UNUSED_PARAMETER
 from checker.mission import Mission
-from checker.mission_table import nearest
 from compiler.program import DomainConstant, ParameterSite, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
+from nddl_lang.text.nearest import nearest
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 
 Bounds = tuple[float, float]

@@ -135,7 +135,7 @@ class Body:
                 return self.frame.variables[variable]
             case schema.TokenReference(label=label):
                 return TokenVariable(self.frame.token(label), STATE)
-            case schema.TokenVariable(label=label, name=name):
+            case schema.TokenVariableReference(label=label, name=name):
                 return TokenVariable(self.frame.token(label), variable_number(label.predicate, name))
             case schema.MemberReference(base=base, members=members):
                 names = tuple(member.name for member in members)

@@ -5,6 +5,7 @@ from typing import assert_never
 
 from compiler.program import (
     FIRST_PARAMETER,
+    TOKEN_VARIABLES,
     Assign,
     Call,
     Child,
@@ -12,7 +13,6 @@ from compiler.program import (
     Constant,
     DomainConstant,
     Field,
-    Foreach,
     GlobalVariable,
     Guard,
     Instruction,
@@ -21,6 +21,7 @@ from compiler.program import (
     NewObject,
     NewToken,
     NewVariable,
+    ObjectLoop,
     Operand,
     ParameterCode,
     Post,
@@ -34,7 +35,6 @@ from compiler.program import (
     UnionOf,
 )
 
-BUILT_IN = ("state", "object", "duration", "start", "end")
 INDENT = "  "
 
 
@@ -95,7 +95,7 @@ def body(code: tuple[SuperCode | Instruction, ...], depth: int) -> Iterator[str]
                 if otherwise:
                     yield INDENT * depth + "else"
                     yield from body(otherwise, depth + 1)
-            case Foreach(body=inner):
+            case ObjectLoop(body=inner):
                 yield from body(inner, depth + 1)
             case _:
                 pass
@@ -123,7 +123,7 @@ def instruction_text(instruction: SuperCode | Instruction) -> str:
             return f"t{instruction.origin} {instruction.relation}{_bounds(instruction.bounds)} t{instruction.target}"
         case Guard(condition=condition, decided_by=decided_by):
             return f"if {operand_text(condition)} decided by ({_operands(decided_by)})"
-        case Foreach(slot=slot, collection=collection):
+        case ObjectLoop(slot=slot, collection=collection):
             return f"foreach v{slot} in {operand_text(collection)}"
         case NewGlobal(index=index, name=name, type=type_, domain=domain, copy_of=copy_of):
             return f"g{index}: {type_text(type_)} {name}{_given(domain, copy_of)}"
@@ -152,7 +152,7 @@ def operand_text(operand: Operand) -> str:
         case LocalVariable(slot=slot):
             return f"v{slot}"
         case TokenVariable(token=token, variable=number):
-            return f"t{token}.{BUILT_IN[number] if number < FIRST_PARAMETER else f'p{number - FIRST_PARAMETER}'}"
+            return f"t{token}.{TOKEN_VARIABLES[number] if number < FIRST_PARAMETER else f'p{number - FIRST_PARAMETER}'}"
         case Field(base=base, members=members):
             return ".".join(("this" if base is None else operand_text(base), *members))
         case UnionOf(operands=operands):

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from nddl_lang.text.source import Span
 
 STATE, OBJECT, DURATION, START, END, FIRST_PARAMETER = range(6)  # variables of a token, in order
+TOKEN_VARIABLES = ("state", "object", "duration", "start", "end")
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,7 +201,7 @@ class Guard:
 
 
 @dataclass(frozen=True, slots=True)
-class Foreach:
+class ObjectLoop:
     """Run `body` once per object in the collection's domain now, with the object in `slot`; freeze the domain."""
 
     slot: int
@@ -271,7 +272,7 @@ class Call:
 
 
 Instruction = (
-    NewVariable | NewObject | Post | Sample | Child | Relate | Guard | Foreach | NewGlobal | Assign | NewToken | Call
+    NewVariable | NewObject | Post | Sample | Child | Relate | Guard | ObjectLoop | NewGlobal | Assign | NewToken | Call
 )
 
 

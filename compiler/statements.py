@@ -10,19 +10,18 @@ from compiler.program import (
     Child,
     Constant,
     DomainConstant,
-    Foreach,
     Guard,
     Instruction,
     LocalVariable,
     NewObject,
     NewVariable,
+    ObjectLoop,
     Operand,
     Post,
     Relate,
     TypeCode,
 )
-from nddl_lang.semantics.schema import Kind, Variable
-from nddl_lang.semantics.schema import TokenVariable as TokenVariableReference
+from nddl_lang.semantics.schema import Kind, TokenVariableReference, Variable
 from nddl_lang.syntax import nodes
 from nddl_lang.syntax.nodes import (
     BrokenStatement,
@@ -248,7 +247,7 @@ def _foreach(node: nodes.Foreach, body: Body) -> None:
     slot = body.frame.new_slot()
     variable: Variable = body.model.tables.locals[node]
     body.frame.variables[variable] = LocalVariable(slot)
-    body.emit(Foreach(slot, collection, _block(node.body, body), node.span))
+    body.emit(ObjectLoop(slot, collection, _block(node.body, body), node.span))
 
 
 def _block(statements: tuple[RuleStatement, ...], body: Body) -> tuple[Instruction, ...]:

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from compiler.body import Body
 from compiler.constants import interval, single
 from compiler.program import END, START, Constant, Operand, Post, TokenVariable
-from nddl_lang.semantics.schema import INFINITY, Kind, Reference
-from nddl_lang.semantics.schema import TokenVariable as TokenVariableReference
+from nddl_lang.semantics.schema import INFINITY, Kind, Reference, TokenVariableReference
 from nddl_lang.syntax.nodes import BinaryExpr, Expr, PathExpr
 from nddl_lang.text.source import Span
 

@@ -12,7 +12,7 @@ from nddl_lang.semantics.schema import (
     EnumValue,
     Label,
     Predicate,
-    TokenVariable,
+    TokenVariableReference,
     Type,
     Typedef,
     Variable,
@@ -32,7 +32,7 @@ def definition_of(analysis: Analysis, meaning: Meaning) -> Span | None:
             return span or (owner.span if owner is not None else None)
         case EnumValue(enum=enum, value=value):
             return value_span(analysis, enum, value)
-        case TokenVariable() as variable:
+        case TokenVariableReference() as variable:
             found = parameter_of(variable)
             return found.span if found is not None else None
         case Source() as source:
@@ -49,6 +49,6 @@ def value_span(analysis: Analysis, enum: str, value: str) -> Span | None:
     return next((name.span for name in found.node.values if name.name == value), None)
 
 
-def parameter_of(variable: TokenVariable) -> Variable | None:
+def parameter_of(variable: TokenVariableReference) -> Variable | None:
     """The parameter that a variable of a token is; None where every token has it."""
     return next((each for each in variable.label.predicate.parameters if each.name == variable.name), None)

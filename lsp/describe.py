@@ -17,7 +17,7 @@ from nddl_lang.semantics.schema import (
     Kind,
     Label,
     Predicate,
-    TokenVariable,
+    TokenVariableReference,
     Type,
     Typedef,
     Variable,
@@ -142,7 +142,7 @@ class Describer:
             yield from _listed("Given", given)
             yield from self._sampled(variable, self._range(variable))
 
-    def token_variable(self, variable: TokenVariable) -> Iterator[str]:
+    def token_variable(self, variable: TokenVariableReference) -> Iterator[str]:
         """A variable of a token."""
         parameter = parameter_of(variable)
         owner = variable.label.predicate.full_name

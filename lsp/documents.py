@@ -7,11 +7,11 @@ from pathlib import Path
 from lsprotocol.types import Diagnostic as Shown
 from lsprotocol.types import Range
 
-from lsp.codes import Conversion
-from lsp.places import key_of, path_of, uri_of
+from lsp.diagnostics import Conversion
 from lsp.positions import Encoding, Lines, replaced
-from lsp.project import Project, Settings, Snapshot
+from lsp.project import Project, ServerSettings, Snapshot
 from lsp.roots import root_of
+from lsp.uris import key_of, path_of, uri_of
 from nddl_lang.syntax.parser import Parse
 from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Source
@@ -39,7 +39,7 @@ class Publication:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class View:
+class DocumentContext:
     """An open text as part of its model: what requests about it are answered from."""
 
     document: Document
@@ -53,9 +53,9 @@ class Documents:
     Methods that change something return what the editor must be told, each file that changed once.
     """
 
-    def __init__(self, settings: Settings | None = None, encoding: Encoding = Encoding.UTF16) -> None:
+    def __init__(self, settings: ServerSettings | None = None, encoding: Encoding = Encoding.UTF16) -> None:
         self.encoding = encoding
-        self.settings = settings or Settings()
+        self.settings = settings or ServerSettings()
         self._open: dict[str, Document] = {}  # by key, in order of opening
         self._uris: dict[str, str] = {}  # of what is open: URI -> key
         self._projects: dict[str, Project] = {}
@@ -112,13 +112,13 @@ class Documents:
         key = self._uris.get(uri)
         return self._open[key] if key is not None else None
 
-    def view(self, uri: str) -> View | None:
+    def view(self, uri: str) -> DocumentContext | None:
         """The open text with the model that it belongs to."""
         document = self.find(uri)
         if document is None:
             return None
         for project in self._around(document.key):
-            return View(document, project.snapshot, project.snapshot.parses[document.key])
+            return DocumentContext(document, project.snapshot, project.snapshot.parses[document.key])
         return None
 
     def uri(self, source: Source) -> str:

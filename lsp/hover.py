@@ -5,9 +5,9 @@ from typing import assert_never
 
 from lsprotocol.types import Hover, MarkupContent, MarkupKind, Position
 
-from lsp.codes import Conversion
 from lsp.describe import Describer
-from lsp.documents import View
+from lsp.diagnostics import Conversion
+from lsp.documents import DocumentContext
 from lsp.meaning import WORDS, Meaning, Word, meaning_at
 from lsp.rows import (
     constraint_text,
@@ -31,7 +31,7 @@ from nddl_lang.semantics.schema import (
     GlobalReference,
     Label,
     Predicate,
-    TokenVariable,
+    TokenVariableReference,
     Type,
     Typedef,
     Variable,
@@ -40,7 +40,7 @@ from nddl_lang.syntax.nodes import CallConstraint, CallExpr, Relation
 from nddl_lang.text.source import Source, Span
 
 
-def hover_at(view: View, position: Position, conversion: Conversion) -> Hover | None:
+def hover_at(view: DocumentContext, position: Position, conversion: Conversion) -> Hover | None:
     """What to show at `position`; None where nothing has a meaning."""
     lines = view.document.lines
     meaning = meaning_at(view.snapshot.analysis, view.parse, lines.offset(position))
@@ -73,7 +73,7 @@ def describe(analysis: Analysis, meaning: Meaning, conversion: Conversion) -> It
             return describer.basic(type_)
         case Variable() as variable:
             return describer.variable(variable)
-        case TokenVariable() as variable:
+        case TokenVariableReference() as variable:
             return describer.token_variable(variable)
         case Label() as label:
             return describer.label(label)

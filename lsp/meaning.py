@@ -22,7 +22,7 @@ from nddl_lang.semantics.schema import (
     Predicate,
     Reference,
     TokenReference,
-    TokenVariable,
+    TokenVariableReference,
     Type,
     Typedef,
     Variable,
@@ -63,7 +63,7 @@ Thing = (
     | Typedef
     | Type
     | Variable
-    | TokenVariable
+    | TokenVariableReference
     | Label
     | RelationRow
     | ConstraintRow
@@ -211,7 +211,7 @@ def _part(analysis: Analysis, part: Identifier, path: PathExpr, owner: Any) -> T
 def referred(analysis: Analysis, reference: Reference) -> Thing | None:
     """What a reference leads to."""
     match reference:
-        case EnumValue() | TokenVariable():
+        case EnumValue() | TokenVariableReference():
             return reference
         case GlobalReference(variable=variable) | LocalReference(variable=variable):
             return variable

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from lsprotocol.types import CodeAction, CodeActionKind, Range, TextEdit, WorkspaceEdit
 
-from lsp.codes import Conversion
-from lsp.documents import View
+from lsp.diagnostics import Conversion
+from lsp.documents import DocumentContext
 from lsp.positions import Lines
 from nddl_lang.formatter.format import format_parse
 from nddl_lang.syntax.incremental import common_ends
@@ -13,7 +13,7 @@ from nddl_lang.syntax.parser import Parse
 from nddl_lang.text.diagnostic import Diagnostic, Fix
 
 
-def mends(view: View, place: Range, conversion: Conversion) -> list[CodeAction]:
+def mends(view: DocumentContext, place: Range, conversion: Conversion) -> list[CodeAction]:
     """The fixes of all complaints that touch `place`, as actions; those that keep the meaning are preferred."""
     lines = view.document.lines
     begin, finish = lines.offset(place.start), lines.offset(place.end)
@@ -25,7 +25,7 @@ def mends(view: View, place: Range, conversion: Conversion) -> list[CodeAction]:
     ]
 
 
-def _touches(view: View, diagnostic: Diagnostic, begin: int, finish: int) -> bool:
+def _touches(view: DocumentContext, diagnostic: Diagnostic, begin: int, finish: int) -> bool:
     span = diagnostic.span
     return span.source is view.parse.source and span.begin <= finish and begin <= span.finish
 

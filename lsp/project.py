@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from lsp.places import key_of
+from lsp.uris import key_of
 from nddl_lang.analysis import Analyser, Analysis
 from nddl_lang.lint.configuration import find_configuration, read_configuration
 from nddl_lang.lint.linter import Linter
@@ -26,7 +26,7 @@ _Place = tuple[str, Dialect, bool]
 
 
 @dataclass(frozen=True, slots=True)
-class Settings:
+class ServerSettings:
     """What holds for all models: the dialect that is asked for, and where included files are looked for."""
 
     dialect: Dialect | None = None
@@ -48,7 +48,7 @@ class Snapshot:
 class Project:
     """A text, known by the key of its file, with all that it includes."""
 
-    def __init__(self, key: str, settings: Settings) -> None:
+    def __init__(self, key: str, settings: ServerSettings) -> None:
         self.key = key
         self._settings = settings
         self._configuration = _configuration(Path(key))

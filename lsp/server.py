@@ -17,7 +17,7 @@ from lsp.hover import hover_at
 from lsp.meaning import meaning_at
 from lsp.mending import formatting, mends
 from lsp.positions import Encoding
-from lsp.project import Settings
+from lsp.project import ServerSettings
 from lsp.symbols import outline
 
 _logger = logging.getLogger(__name__)
@@ -44,7 +44,7 @@ class Protocol(LanguageServerProtocol):
 class Server(LanguageServer):
     """The server, with the documents that it speaks about."""
 
-    def __init__(self, settings: Settings) -> None:
+    def __init__(self, settings: ServerSettings) -> None:
         super().__init__("nddlc", _version(), protocol_cls=Protocol, converter_factory=default_converter)
         self.settings = settings
         self.documents = Documents(settings)
@@ -71,7 +71,7 @@ def _version() -> str:
         return "unknown"
 
 
-def make_server(settings: Settings) -> Server:
+def make_server(settings: ServerSettings) -> Server:
     """A server that knows what to answer."""
     server = Server(settings)
     _answer_lifecycle(server)
@@ -80,7 +80,7 @@ def make_server(settings: Settings) -> Server:
     return server
 
 
-def serve(settings: Settings) -> bool:
+def serve(settings: ServerSettings) -> bool:
     """Serve until the editor leaves or is gone; whether it said goodbye first, as it should."""
     server = make_server(settings)
     server.start_io()
@@ -98,13 +98,13 @@ def _answer_lifecycle(server: Server) -> None:
         server.is_dismissed = True
 
 
-def _settings(given: Settings, options: Any) -> Settings:
+def _settings(given: ServerSettings, options: Any) -> ServerSettings:
     """The settings of the command line, with the include directories that the editor adds."""
     directories = options.get("includeDirectories") if isinstance(options, dict) else None
     if not isinstance(directories, list):
         return given
     added = tuple(each for each in directories if isinstance(each, str) and "\0" not in each)
-    return Settings(given.dialect, (*given.directories, *added))
+    return ServerSettings(given.dialect, (*given.directories, *added))
 
 
 def _answer_edits(server: Server) -> None:

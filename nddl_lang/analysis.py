@@ -5,14 +5,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
-from nddl_lang.semantics.allocation import settle
+from nddl_lang.semantics.allocation import check_deferred
 from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
-from nddl_lang.semantics.names import UNKNOWN_NAME
+from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_TYPE
 from nddl_lang.semantics.schema import Schema, SideTables
 from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
-from nddl_lang.semantics.typenames import UNKNOWN_CLASS, UNKNOWN_TYPE
-from nddl_lang.semantics.world import Fact, World
+from nddl_lang.semantics.symbol_table import Entry, SymbolTable
 from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import LoadedModules, load_module_graph
@@ -68,8 +67,8 @@ class Analysis:
 class _Unit:
     """What became of one statement: what it looked at, left behind, and what was found out about it."""
 
-    reads: dict[Fact, object]
-    writes: dict[Fact, object]
+    reads: dict[Entry, object]
+    writes: dict[Entry, object]
     tables: SideTables
     complaints: tuple[Diagnostic, ...]
     deferred: tuple[Deferred, ...]
@@ -92,20 +91,23 @@ class Analyser:
         if loaded.dialect is not self._dialect:
             self._units, self._dialect = {}, loaded.dialect
         statements = loaded.module.statements
-        world = World()
-        _foresee(world, loaded)
+        symbols = SymbolTable()
+        _note_declarations(symbols, loaded)
         units: dict[Statement, _Unit] = {}
         for statement in statements:
             unit = self._units.get(statement)
-            if unit is not None and world.answers(unit.reads):
-                world.replay(unit.writes)
+            if unit is not None and symbols.answers(unit.reads):
+                symbols.replay(unit.writes)
             else:
-                unit = _check(world, statement, loaded.dialect, self._callables)
+                unit = _check(symbols, statement, loaded.dialect, self._callables)
             units[statement] = unit
         self._units = units
         echoes = _Echoes(loaded)
         complaints = [
-            (statement, tuple(echoes.without((*unit.complaints, *_settle(world, unit, loaded, self._callables)))))
+            (
+                statement,
+                tuple(echoes.without((*unit.complaints, *_deferred(symbols, unit, loaded, self._callables)))),
+            )
             for statement, unit in units.items()
         ]
         tables = SideTables()
@@ -115,7 +117,7 @@ class Analyser:
                     getattr(tables, name).update(table)
         found = tuple(_in_order(loaded, complaints))
         by_statement = {statement: unit.tables for statement, unit in units.items()}
-        return Analysis(loaded, statements, world.schema, tables, by_statement, found, self._callables)
+        return Analysis(loaded, statements, symbols.schema, tables, by_statement, found, self._callables)
 
 
 def analyse(loaded: LoadedModules, callables: Callables = NATIVE_CALLABLES) -> Analysis:
@@ -147,37 +149,37 @@ def analyse_text(
     return analyse(load_module_graph(Source(name, text), include_directories, dialect), callables)
 
 
-def _check(world: World, statement: Statement, dialect: Dialect, callables: Callables) -> _Unit:
-    world.begin()
-    context = Context(world, dialect, callables=callables)
+def _check(symbols: SymbolTable, statement: Statement, dialect: Dialect, callables: Callables) -> _Unit:
+    symbols.begin()
+    context = Context(symbols, dialect, callables=callables)
     check_statement(context, statement)
-    return _Unit(world.reads, world.writes, context.tables, tuple(context.complaints), tuple(context.deferred))
+    return _Unit(symbols.reads, symbols.writes, context.tables, tuple(context.complaints), tuple(context.deferred))
 
 
-def _settle(world: World, unit: _Unit, loaded: LoadedModules, callables: Callables) -> tuple[Diagnostic, ...]:
+def _deferred(symbols: SymbolTable, unit: _Unit, loaded: LoadedModules, callables: Callables) -> tuple[Diagnostic, ...]:
     """What had to wait until the whole script was read."""
     if not unit.deferred:
         return ()
-    world.begin()
-    context = Context(world, loaded.dialect, unit.tables, callables=callables)
+    symbols.begin()
+    context = Context(symbols, loaded.dialect, unit.tables, callables=callables)
     for deferred in unit.deferred:
-        settle(context, deferred)
+        check_deferred(context, deferred)
     return tuple(context.complaints)
 
 
-def _foresee(world: World, loaded: LoadedModules) -> None:
+def _note_declarations(symbols: SymbolTable, loaded: LoadedModules) -> None:
     """Note what is declared where, and which names are doubtful because text was not understood or is missing."""
     for statement in loaded.module.statements:
         if isinstance(statement, BrokenStatement):
             words = names_in(statement.span.text)
             for word in words:
-                world.doubt(word)
+                symbols.doubt(word)
             if "include" in words:
-                world.doubt()
+                symbols.doubt()
         for name in _declared_names(statement):
-            world.suppose("below", name.name, name.span)
+            symbols.suppose("below", name.name, name.span)
     if any(diagnostic.code in _TEXT_IS_MISSING for diagnostic in loaded.diagnostics):
-        world.doubt()
+        symbols.doubt()
 
 
 def _declared_names(statement: Statement) -> Iterator[Identifier]:

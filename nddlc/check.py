@@ -21,12 +21,12 @@ from checker.report.html import html_report
 from checker.report.junit import junit_report
 from checker.report.sarif import sarif_report
 from checker.report.text import text_report
-from checker.report.write import write_whole
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import as_dict, render
-from nddlc.inputs import Unusable, chosen_dialect, colours, readable
-from nddlc.libraries import library_of
+from nddl_lang.text.write import write_whole
+from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
+from runtime.user.library import library_of
 
 HOLDS, FINDINGS, UNUSABLE, BUG, INTERRUPTED = 0, 1, 2, 3, 130
 STORE = Path(".nddlc/runs.sqlite")
@@ -66,7 +66,7 @@ def command(
     """
     (file,) = readable((path,), ())
     if file.suffix == ".nddl":
-        analysis = analyse_file(file, chosen_dialect(ctx, None), callables=library_of(file).callables)
+        analysis = analyse_file(file, chosen_dialect(ctx, None), callables=library_of(configured(file)).callables)
         _tell(analysis.diagnostics, style)
         if style == "text" and not analysis.has_errors:
             click.echo(f"the text of `{path}` is in order; missions are flown from a mission file (.toml)")

@@ -1,7 +1,6 @@
 """`nddlc fmt`: put models into the one style, or tell which are not in it."""
 
 import difflib
-import os
 import sys
 from pathlib import Path
 
@@ -11,7 +10,7 @@ from nddl_lang.formatter.format import format_text
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.text.diagnostic import Severity
 from nddl_lang.text.render import render
-from nddlc.inputs import Unusable, chosen_dialect, colours, readable
+from nddlc.inputs import Unusable, chosen_dialect, colours, readable, write_text
 
 STDIN = "-"
 
@@ -45,7 +44,7 @@ def command(ctx: click.Context, files: tuple[str, ...], dialect: str | None, onl
             elif only_check:
                 click.echo(f"would format {name}")
             elif name != STDIN:
-                _write(Path(name), formatted.text)
+                write_text(Path(name), formatted.text)
                 click.echo(f"formatted {name}")
         if name == STDIN and not dry:
             sys.stdout.buffer.write(formatted.text.encode("utf-8"))
@@ -65,19 +64,6 @@ def _read(name: str) -> str:
         raise Unusable(
             f"`{name}` is not UTF-8 text (line {place})", "formatting it could change what it says"
         ) from None
-
-
-def _write(path: Path, text: str) -> None:
-    """Put the file in place whole: written beside, then renamed."""
-    target = path.resolve()
-    beside = target.with_name(f".{target.name}.{os.getpid()}.tmp")
-    try:
-        beside.write_bytes(text.encode("utf-8"))
-        beside.chmod(target.stat().st_mode)
-        beside.replace(target)
-    except OSError as problem:
-        beside.unlink(missing_ok=True)
-        raise Unusable(f"cannot write `{path}`: {problem.strerror or problem}") from None
 
 
 def _difference(name: str, before: str, after: str) -> str:

@@ -17,6 +17,7 @@ from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.roots import parts_of, roots_among
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
+from nddl_lang.text.write import write_whole
 
 LARGEST = 64 * 2**20  # bytes of a file
 
@@ -104,14 +105,9 @@ def configured(path: Path) -> Settings:
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a file beside itself and put it into its place, so that it is never half there."""
-    content = text.encode()
+    """Put a text into a file; complains where that cannot be."""
     try:
-        mode = path.stat().st_mode
-        beside = path.resolve().with_name(f".{path.name}.nddlc")
-        beside.write_bytes(content)
-        beside.chmod(mode)
-        beside.replace(path.resolve())
+        write_whole(path, text)
     except OSError as problem:
         raise Unusable(f"cannot write `{path}`: {problem.strerror or problem}") from None
 

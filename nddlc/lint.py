@@ -107,7 +107,7 @@ def _settings(path: Path, codes: dict[str, tuple[str, ...]], fail_on: str | None
     """The settings of the project that a file belongs to, with what the command line adds."""
     settings = configured(path)
     if settings.modules or entry_points(group=ENTRY_POINTS):  # else the engine need not be imported
-        settings = replace(settings, callables=named("nddlc.libraries:library_of")(path).callables)
+        settings = replace(settings, callables=named("runtime.user.library:library_of")(settings).callables)
     if codes["select"]:
         settings = replace(settings, select=codes["select"])
     if codes["ignore"]:

@@ -2,7 +2,7 @@
 
 import click
 
-from lsp.project import Settings
+from lsp.project import ServerSettings
 from lsp.server import serve
 from nddlc.inputs import chosen_dialect, readable
 
@@ -16,4 +16,4 @@ def command(ctx: click.Context, directories: tuple[str, ...], dialect: str | Non
     """Serve an editor over standard input and output: complaints while typing, and what is under the cursor."""
     del stdio
     readable((), directories)
-    return 0 if serve(Settings(chosen_dialect(ctx, dialect), directories)) else 1
+    return 0 if serve(ServerSettings(chosen_dialect(ctx, dialect), directories)) else 1

@@ -5,28 +5,32 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import redirect_stdout
 from pathlib import Path
+from typing import Any
 
 import click
 
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
-from nddlc.because import as_data, shortened, story
 from nddlc.cancellation import Clock
-from nddlc.gantt import drawing
-from nddlc.inputs import Unusable, chosen_dialect, colours, columns, readable
-from nddlc.levels import Run, runs
-from nddlc.loading import Facts, Loaded, facts, load
-from nddlc.picture import page, svg
-from nddlc.plan_text import INTERRUPTED, found_values, lines, tokens_shown, verdict
+from nddlc.inputs import Unusable, chosen_dialect, colours, columns, configured, readable
 from runtime.constraints.domains.tags import HALF_INF, INF
-from runtime.plan.readout.readout import live_tokens, read, token_names
+from runtime.loading import Loaded, as_data, load
+from runtime.plan.database import PlanDatabase
+from runtime.plan.readout.level_profile import LevelProfile, level_profiles
+from runtime.plan.readout.readout import live_tokens, read_state, token_names
 from runtime.plan.tags import REJECTED
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.limits import Limits, model_limits
 from runtime.solver.configuration.read import read_configuration
-from runtime.solver.learning.failure_log import Failure, Recorder
+from runtime.solver.learning.failure_log import FailedFlaw, FailureLog
+from runtime.solver.learning.rendering import as_data as reason_data
+from runtime.solver.learning.rendering import story
 from runtime.solver.search import Solver
 from runtime.solver.tags import PLAN, RESULT_NAMES
+from runtime.user.library import library_of
+from runtime.view.drawing import drawing
+from runtime.view.picture import page, svg
+from runtime.view.plan_text import INTERRUPTED, PlanReport, found_values, lines, verdict
 
 DEFAULT_HORIZON = (0, 1000)
 
@@ -86,60 +90,73 @@ def command(
     configuration = _configuration(config)
     if horizon is not None and horizon[0] >= horizon[1]:
         raise Unusable(f"the horizon from {horizon[0]} to {horizon[1]} is empty")
-    loaded = load(path, directories, chosen_dialect(ctx, dialect), file)
-    told = facts(loaded)
-    if loaded.database is None or loaded.is_refused:
-        _show_refusal(loaded, told, as_json)
+    loaded = load(path, directories, chosen_dialect(ctx, dialect), library_of(configured(path)), file)
+    before = loaded.state()
+    if loaded.database is None or before is None:
+        _show_refusal(loaded, as_json)
         return 1
-    limits = _limits(loaded, horizon, max_steps, max_depth)
-    solver = Solver(loaded.database, configuration, limits.start, limits.end, strategy == "europa")
-    recorder = Recorder(loaded.database, solver.queues, solver.stack) if explain else None
-    solver.account = recorder
+    database = loaded.database
+    limits = _limits(database, horizon, max_steps, max_depth)
+    solver = Solver(database, configuration, limits.start, limits.end, strategy == "europa")
+    log = FailureLog(database, solver.agenda, solver.stack) if explain else None
+    solver.failure_log = log
     clock = Clock(solver, max_seconds)
     with clock, redirect_stdout(sys.stderr):  # what constraints print there would be read by programs
         result = solver.solve(limits.steps, limits.depth, clock)
-    reasons = _reasons(recorder, told, result)
-    before = told["domains"]
-    told |= read(loaded.database) | {"consistent": told["consistent"]}
+    reasons = _reasons(log, before.is_consistent, result)
+    plan = read_state(database)
     ended = INTERRUPTED if clock.is_interrupted and result != PLAN else RESULT_NAMES[result]
-    told["solve"] = {"result": ended, "steps": solver.steps, "depth": solver.depth}
-    levels = runs(loaded.database, limits.start)
-    if explain:
-        told["explanation"] = {name: as_data(failure) for name, failure in reasons.items()}
-    told["levels"] = {name: each.as_data() for name, each in levels.items()}
-    found = found_values(told, before) if ended != "exhausted" else []
-    _show(loaded, told, levels, found, reasons, limits, as_json, style)
+    report = PlanReport(
+        plan,
+        ended,
+        solver.steps,
+        solver.depth,
+        limits,
+        frozenset(name for t in live_tokens(database) if (name := database.token_label(t)) is not None),
+        found_values(plan, before.variables) if ended != "exhausted" else [],
+        before.is_consistent,
+        explain,
+    )
+    profiles = level_profiles(database, limits.start)
+    if as_json:
+        click.echo(json.dumps(_data(loaded, report, profiles, reasons), ensure_ascii=False))
+    else:
+        _show(loaded, report, profiles, reasons, style)
     if ended == INTERRUPTED:
         return 130
     return 0 if result == PLAN else 1
 
 
+def _data(
+    loaded: Loaded, report: PlanReport, profiles: Mapping[str, LevelProfile], reasons: Mapping[str, FailedFlaw]
+) -> dict[str, Any]:
+    """The result for programs."""
+    data = as_data(loaded, report.plan) | {"consistent": report.was_consistent}
+    data["solve"] = {"result": report.result, "steps": report.steps, "depth": report.depth}
+    if report.is_explained:
+        data["explanation"] = {name: reason_data(failure) for name, failure in reasons.items()}
+    data["levels"] = {name: each.as_data() for name, each in profiles.items()}
+    return data
+
+
 def _show(
     loaded: Loaded,
-    told: Facts,
-    levels: Mapping[str, Run],
-    found: list[tuple[str, str]],
-    reasons: dict[str, Failure],
-    limits: Limits,
-    as_json: bool,
+    report: PlanReport,
+    profiles: Mapping[str, LevelProfile],
+    reasons: Mapping[str, FailedFlaw],
     style: str,
 ) -> None:
     """Print what was found in the form that was asked for."""
-    assert loaded.database is not None
-    named = [name for t in live_tokens(loaded.database) if (name := loaded.database.token_label(t)) is not None]
-    drawn = drawing(told, (limits.start, limits.end), levels)
-    if as_json:
-        click.echo(json.dumps(told, ensure_ascii=False))
-    elif style == "svg":
+    drawn = drawing(report.plan, (report.limits.start, report.limits.end), profiles)
+    if style == "svg":
         click.echo(svg(drawn), nl=False)
     elif style == "html":
         reason = [line for name, failure in reasons.items() for line in _why(name, failure)]
-        said = [*verdict(told, limits, named), *reason]
-        click.echo(page(told, drawn, tokens_shown(told, named), found, Path(loaded.file).name, said), nl=False)
+        click.echo(page(report, drawn, Path(loaded.file).name, [*verdict(report), *reason]), nl=False)
     else:
         for each in loaded.diagnostics:
             click.echo(render(each, colour=colours()))
-        click.echo("\n".join(lines(told, drawn, limits, named, found, columns())))
+        click.echo("\n".join(lines(report, drawn, columns())))
         for name, failure in reasons.items():
             click.echo("\n".join(_why(name, failure)))
 
@@ -160,42 +177,39 @@ def _configuration(name: str | None) -> Configuration:
     return configuration
 
 
-def _limits(loaded: Loaded, horizon: tuple[int, int] | None, steps: int | None, depth: int | None) -> Limits:
+def _limits(database: PlanDatabase, horizon: tuple[int, int] | None, steps: int | None, depth: int | None) -> Limits:
     """What the command line says, else what the model says, else the default."""
-    assert loaded.database is not None
-    own = model_limits(loaded.database) or Limits(*DEFAULT_HORIZON)
+    own = model_limits(database) or Limits(*DEFAULT_HORIZON)
     start, end = horizon or (own.start, own.end)
     return Limits(start, end, own.steps if steps is None else steps, own.depth if depth is None else depth)
 
 
-def _show_refusal(loaded: Loaded, told: Facts, as_json: bool) -> None:
+def _show_refusal(loaded: Loaded, as_json: bool) -> None:
     if as_json:
-        click.echo(json.dumps(told, ensure_ascii=False))
+        click.echo(json.dumps(as_data(loaded, None), ensure_ascii=False))
         return
     for each in loaded.diagnostics:
         click.echo(render(each, colour=colours()))
     click.echo("refused: the model is in error")
 
 
-def _reasons(recorder: Recorder | None, told: Facts, result: int) -> dict[str, Failure]:
+def _reasons(log: FailureLog | None, was_consistent: bool, result: int) -> dict[str, FailedFlaw]:
     """What an explanation was asked for: why there is no plan, or why tokens were rejected."""
-    if recorder is None:
+    if log is None:
         return {}
-    if told["consistent"] is False:
-        return {"there is no plan": recorder.contradiction()}
+    if not was_consistent:
+        return {"there is no plan": log.note_contradiction()}
     if result == PLAN:
-        return {
-            f"`{name}` was rejected": failure for name, failure in recorder.reasons.items() if _is_out(recorder, name)
-        }
-    return {} if recorder.end is None else {"there is no plan": recorder.end}
+        return {f"`{name}` was rejected": failure for name, failure in log.rejections.items() if _is_out(log, name)}
+    return {} if log.end is None else {"there is no plan": log.end}
 
 
-def _why(name: str, failure: Failure) -> Iterator[str]:
+def _why(name: str, failure: FailedFlaw) -> Iterator[str]:
     """The lines that explain one thing."""
-    yield from ("", f"why {name}:", *shortened(story(failure, 1)))
+    yield from ("", f"why {name}:", *story(failure))
 
 
-def _is_out(recorder: Recorder, name: str) -> bool:
+def _is_out(log: FailureLog, name: str) -> bool:
     """Whether the token of that name is rejected now."""
-    tokens = token_names(recorder.database, live_tokens(recorder.database))
-    return any(tokens[t] == name and recorder.plan.rows.status[t] == REJECTED for t in tokens)
+    tokens = token_names(log.database, live_tokens(log.database))
+    return any(tokens[t] == name and log.plan.rows.status[t] == REJECTED for t in tokens)

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 
 import click
 
+from checker.rulebook import PAGES
 from nddl_lang.rulebook import configuration, readable
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.page import RulePage
 from nddlc.inputs import Unusable
-from nddlc.rulebook import PAGES
 
 WIDTH = 100
 

@@ -18,7 +18,7 @@ from typing import TypeVar
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Severity
 from nddl_lang.text.read import read_source
-from nddlc.loading import load
+from runtime.loading import load
 from runtime.solver.configuration.limits import Limits, model_limits
 from runtime.solver.configuration.read import read_configuration
 from runtime.solver.search import Solver

@@ -1,6 +1,5 @@
 """Draws of passing and failing missions in, small pictures out, as SVG that takes its colours from the page."""
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
@@ -8,6 +7,7 @@ from html import escape
 from checker.sampling.wording import number
 from checker.statistics import Rate
 from checker.threshold import Threshold
+from runtime.view.axis import ticks
 
 WIDTH, MARGIN = 760.0, 14.0
 GOLDEN = 0.6180339887498949  # multiples of it spread evenly, so that dots of near values do not hide each other
@@ -40,13 +40,7 @@ class Axis:
 
     def ticks(self) -> list[float]:
         """Round numbers along the axis, about six."""
-        width = self.upper - self.lower or 1.0
-        rough = width / 6.0
-        power = 10.0 ** math.floor(math.log10(rough))
-        step = next(factor * power for factor in (1.0, 2.0, 2.5, 5.0, 10.0) if factor * power >= rough * 0.999)
-        first = math.ceil(self.lower / step - 1e-9)
-        last = math.floor(self.upper / step + 1e-9)
-        return [round(count * step, 12) for count in range(first, last + 1)]
+        return ticks(self.lower, self.upper, (self.upper - self.lower or 1.0) / 6.0)
 
 
 def strip_plot(name: str, dots: Sequence[Dot], box: Box, thresholds: Sequence[Threshold]) -> str:

@@ -8,7 +8,7 @@ _CONTINUATION = 2 * INDENT
 _CHANGES = {"(": 1, "[": 1, "SET": 1, "{": 1, ")": -1, "]": -1, "}": -1}
 
 
-class Words:
+class LineWords:
     """The words of one line, in chunks between which a break may or must stand.
 
     `gap` is the stretch of text between them and what was written before.

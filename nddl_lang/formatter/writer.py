@@ -2,7 +2,7 @@
 
 from nddl_lang.formatter.layout import INDENT, WIDTH, Layout
 from nddl_lang.formatter.spacing import BLANKS
-from nddl_lang.formatter.words import Words, is_inline
+from nddl_lang.formatter.words import LineWords, is_inline
 from nddl_lang.syntax.piece import Piece
 
 # After one of these a line that is too long may go on below.
@@ -35,7 +35,7 @@ class Writer:
         offset = piece.anchor.offset
         comments = [(start + offset, end + offset) for start, end in piece.comments]
         used = 0
-        words: Words | None = None
+        words: LineWords | None = None
         for index, start in enumerate(piece.starts):
             if index in layout.dropped:
                 if self._text.count("\n", self._at, start + offset) < 2:
@@ -59,18 +59,18 @@ class Writer:
         self._write_words(words)
         self.write_comments(comments[used:])
 
-    def _begin_words(self, comments: list[Comment], start: int, level: int, is_closing: bool, first: str) -> Words:
+    def _begin_words(self, comments: list[Comment], start: int, level: int, is_closing: bool, first: str) -> LineWords:
         """Write `comments`, and begin the words of the line for what stands at `start`."""
         inner = (level + is_closing) * INDENT
         for number, comment in enumerate(comments):
             text = self._text[slice(*comment)].rstrip(BLANKS)
             is_last = number == len(comments) - 1
             if is_last and not is_closing and is_inline(text) and "\n" not in self._text[comment[1] : start]:
-                return Words(level * INDENT, f"{text} {first}", (self._at, comment[0]), is_closing)
+                return LineWords(level * INDENT, f"{text} {first}", (self._at, comment[0]), is_closing)
             self._write_comment(comment, text, inner)
-        return Words(level * INDENT, first, (self._at, start), is_closing)
+        return LineWords(level * INDENT, first, (self._at, start), is_closing)
 
-    def _write_words(self, words: Words | None) -> None:
+    def _write_words(self, words: LineWords | None) -> None:
         """Write a line of words; short statements that stood in one line stay together."""
         if words is None:
             return

@@ -6,18 +6,15 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from nddl_lang.lint.codes import NOT_TOML, UNKNOWN_KEY, WRONG_VALUE
 from nddl_lang.lint.settings import Settings
 from nddl_lang.syntax.dialect import Dialect
-from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Severity
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path as Key
 from nddl_lang.text.toml_places import find_places, toml_of
-
-NOT_TOML = Code("NDDL595", Severity.ERROR, "syntax", "this is not TOML: {reason}")
-UNKNOWN_KEY = Code("NDDL596", Severity.ERROR, "name", "there is no setting `{key}`")
-WRONG_VALUE = Code("NDDL597", Severity.ERROR, "type", "`{key}` must be {wanted}")
 
 NAME = "nddlc.toml"
 PROJECT = "pyproject.toml"

@@ -6,6 +6,14 @@ declare for them.
 
 from collections.abc import Iterator
 
+from nddl_lang.lint.codes import (
+    FREE_PARAMETER,
+    UNUSED_GLOBAL,
+    UNUSED_MEMBER,
+    UNUSED_PARAMETER,
+    UNUSED_TYPE,
+    UNUSED_VALUE,
+)
 from nddl_lang.lint.part import Part
 from nddl_lang.lint.removal import removal, undeclare
 from nddl_lang.lint.whole import Whole
@@ -18,14 +26,7 @@ from nddl_lang.syntax.nodes import (
     TypedefDecl,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Diagnostic, Fix, Severity
-
-UNUSED_GLOBAL = Code("NDDL504", Severity.WARNING, "lint", "the global variable `{name}` is never used")
-UNUSED_MEMBER = Code("NDDL505", Severity.INFO, "lint", "the member `{name}` of class `{owner}` is never {done}")
-UNUSED_VALUE = Code("NDDL506", Severity.HINT, "lint", "the value `{name}` of enum `{enum}` is never used")
-UNUSED_TYPE = Code("NDDL507", Severity.INFO, "lint", "the {what} `{name}` is never used")
-FREE_PARAMETER = Code("NDDL508", Severity.WARNING, "lint", "nothing ever says what `{name}` of `{predicate}` is")
-UNUSED_PARAMETER = Code("NDDL509", Severity.INFO, "lint", "the parameter `{name}` of `{predicate}` is never used")
+from nddl_lang.text.diagnostic import Diagnostic, Fix
 
 AGENT_TIMELINE = "AgentTimeline"
 

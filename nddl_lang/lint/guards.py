@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator
 
+from nddl_lang.lint.codes import ALWAYS_TRUE, NEVER_DECIDED, NEVER_TRUE, SEVERAL_VALUES, VARYING_FIELD
 from nddl_lang.lint.logic import Known, assume, truth
 from nddl_lang.lint.part import Facts, Finding, Part
 from nddl_lang.lint.reading import declared, is_finite
-from nddl_lang.semantics.schema import Kind, LocalReference, MemberReference, TokenVariable, Variable
+from nddl_lang.semantics.schema import Kind, LocalReference, MemberReference, TokenVariableReference, Variable
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import (
     BinaryExpr,
@@ -21,13 +22,7 @@ from nddl_lang.syntax.nodes import (
     SetExpr,
 )
 from nddl_lang.syntax.walk import descendants
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
-
-NEVER_TRUE = Code("NDDL520", Severity.WARNING, "lint", "this condition can never hold")
-ALWAYS_TRUE = Code("NDDL521", Severity.WARNING, "lint", "this condition always holds")
-SEVERAL_VALUES = Code("NDDL522", Severity.WARNING, "lint", "a comparison with several values is never decided")
-NEVER_DECIDED = Code("NDDL523", Severity.WARNING, "lint", "`{name}` is only ever narrowed, so this is not decided")
-VARYING_FIELD = Code("NDDL524", Severity.WARNING, "lint", "EUROPA does not decide this while `{name}` may be several")
+from nddl_lang.text.diagnostic import Diagnostic, Note
 
 _ASKING = frozenset({"isSingleton", "isSpecified"})
 
@@ -73,7 +68,7 @@ def _notes(part: Part, condition: Expr) -> tuple[Note, ...]:
         variable: Variable | None = None
         if isinstance(reference, LocalReference):
             variable = reference.variable
-        elif isinstance(reference, TokenVariable):
+        elif isinstance(reference, TokenVariableReference):
             names = (p for p in reference.label.predicate.parameters if p.name == reference.name)
             variable = next(names, None)
         if variable is not None and variable.span is not None:
@@ -108,8 +103,12 @@ def _undecided_path(part: Part, path: PathExpr, sampled: set[object]) -> Iterato
             yield NEVER_DECIDED.at(path.span, help=help_, name=variable.name)
     elif isinstance(reference, MemberReference) and part.dialect is Dialect.NDDL3:
         base = reference.base
-        type_ = base.type if isinstance(base, TokenVariable) else getattr(getattr(base, "variable", None), "type", None)
-        if type_ is not None and isinstance(base, TokenVariable | LocalReference):
+        type_ = (
+            base.type
+            if isinstance(base, TokenVariableReference)
+            else getattr(getattr(base, "variable", None), "type", None)
+        )
+        if type_ is not None and isinstance(base, TokenVariableReference | LocalReference):
             yield _varying(path, type_.base)
 
 

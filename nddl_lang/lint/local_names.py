@@ -2,6 +2,16 @@
 
 from collections.abc import Iterator
 
+from nddl_lang.lint.codes import (
+    HIDDEN_BY_VALUE,
+    HIDDEN_GLOBAL,
+    HIDDEN_LOCAL,
+    HIDDEN_PARAMETER,
+    HIDDEN_TOKEN,
+    UNUSED_FORMAL,
+    UNUSED_LABEL,
+    UNUSED_LOCAL,
+)
 from nddl_lang.lint.part import Facts, Finding, Part, mentioned_labels
 from nddl_lang.lint.removal import undeclare
 from nddl_lang.semantics.schema import (
@@ -9,7 +19,7 @@ from nddl_lang.semantics.schema import (
     Kind,
     LocalReference,
     MemberReference,
-    TokenVariable,
+    TokenVariableReference,
     Variable,
 )
 from nddl_lang.syntax.nodes import (
@@ -25,18 +35,7 @@ from nddl_lang.syntax.nodes import (
     RuleDecl,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
-
-UNUSED_LOCAL = Code("NDDL501", Severity.WARNING, "lint", "the local variable `{name}` is never used")
-UNUSED_LABEL = Code("NDDL502", Severity.HINT, "lint", "the token `{name}` is never referred to")
-UNUSED_FORMAL = Code("NDDL503", Severity.WARNING, "lint", "the constructor does not use its parameter `{name}`")
-HIDDEN_PARAMETER = Code("NDDL510", Severity.WARNING, "lint", "this `{name}` hides the parameter `{name}` of the token")
-HIDDEN_LOCAL = Code("NDDL511", Severity.WARNING, "lint", "this `{name}` hides the one declared before it")
-HIDDEN_TOKEN = Code("NDDL514", Severity.INFO, "lint", "another token is called `{name}` already; this one counts now")
-HIDDEN_BY_VALUE = Code(
-    "NDDL512", Severity.WARNING, "lint", "`{name}` is a value of enum `{enum}`, and means that value"
-)
-HIDDEN_GLOBAL = Code("NDDL513", Severity.INFO, "lint", "this `{name}` hides the global variable `{name}`")
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note
 
 
 def used_variables(part: Part) -> set[Variable]:
@@ -46,7 +45,7 @@ def used_variables(part: Part) -> set[Variable]:
         base = reference.base if isinstance(reference, MemberReference) else reference
         if isinstance(base, LocalReference | GlobalReference):
             used.add(base.variable)
-        elif isinstance(base, TokenVariable):
+        elif isinstance(base, TokenVariableReference):
             used.update(p for p in base.label.predicate.parameters if p.name == base.name)
         if isinstance(reference, MemberReference):
             used.update(reference.members)

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from nddl_lang.lint.codes import CHAINED, FLOAT_EQUALITY, INT_AMONG_FLOATS, INT_RESULT, WHOLE_FLOAT
 from nddl_lang.lint.part import Finding, Part
 from nddl_lang.semantics.literals import number
 from nddl_lang.semantics.schema import Kind, LocalReference
@@ -24,16 +25,8 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 from nddl_lang.syntax.walk import descendants
-from nddl_lang.text.diagnostic import Code, Edit, Fix, Note, Severity
+from nddl_lang.text.diagnostic import Edit, Fix, Note
 from nddl_lang.text.source import Span
-
-FLOAT_EQUALITY = Code("NDDL550", Severity.WARNING, "lint", "`{op}` compares a computed float")
-INT_AMONG_FLOATS = Code(
-    "NDDL551", Severity.WARNING, "lint", "`{name}` is an int, and `{constraint}` rounds it against floats"
-)
-INT_RESULT = Code("NDDL552", Severity.WARNING, "lint", "`{name}` is an int: this holds only where the float is whole")
-WHOLE_FLOAT = Code("NDDL553", Severity.WARNING, "lint", "EUROPA lets `{name}` take whole numbers only")
-CHAINED = Code("NDDL554", Severity.WARNING, "lint", "`{op}` compares the truth of `{text}`")
 
 _COMPARISONS = frozenset({"==", "!=", "<", "<=", ">", ">="})
 _ARITHMETIC = frozenset({"+", "-", "*", "/"})

@@ -1,24 +1,23 @@
 """The pages of the findings about names: what has no use, and what hides something else."""
 
-from nddl_lang.lint.declarations import (
+from nddl_lang.lint.codes import (
     FREE_PARAMETER,
-    UNUSED_GLOBAL,
-    UNUSED_MEMBER,
-    UNUSED_PARAMETER,
-    UNUSED_TYPE,
-    UNUSED_VALUE,
-)
-from nddl_lang.lint.local_names import (
     HIDDEN_BY_VALUE,
     HIDDEN_GLOBAL,
     HIDDEN_LOCAL,
     HIDDEN_PARAMETER,
     HIDDEN_TOKEN,
+    NO_SUCH_CODE,
     UNUSED_FORMAL,
+    UNUSED_GLOBAL,
     UNUSED_LABEL,
     UNUSED_LOCAL,
+    UNUSED_MEMBER,
+    UNUSED_PARAMETER,
+    UNUSED_SUPPRESSION,
+    UNUSED_TYPE,
+    UNUSED_VALUE,
 )
-from nddl_lang.lint.suppression import NO_SUCH_CODE, UNUSED_SUPPRESSION
 from nddl_lang.text.page import RulePage
 
 _ARM = "class Arm extends Timeline { predicate grab { int force; } predicate release { } }\n"

@@ -1,9 +1,22 @@
 """The pages of the findings about rules: conditions, times, and what asks for what."""
 
-from nddl_lang.lint.guards import ALWAYS_TRUE, NEVER_DECIDED, NEVER_TRUE, SEVERAL_VALUES, VARYING_FIELD
-from nddl_lang.lint.structure import CHAIN, ENDLESS, NEVER_FIRES, NO_EFFECT, UNREACHABLE
-from nddl_lang.lint.subgoals import ANY_OBJECT, ANY_OF_MANY
-from nddl_lang.lint.timing import CONTRADICTION, NO_DURATION, TOO_LONG
+from nddl_lang.lint.codes import (
+    ALWAYS_TRUE,
+    ANY_OBJECT,
+    ANY_OF_MANY,
+    CHAIN,
+    CONTRADICTION,
+    ENDLESS,
+    NEVER_DECIDED,
+    NEVER_FIRES,
+    NEVER_TRUE,
+    NO_DURATION,
+    NO_EFFECT,
+    SEVERAL_VALUES,
+    TOO_LONG,
+    UNREACHABLE,
+    VARYING_FIELD,
+)
 from nddl_lang.text.page import RulePage
 
 _GAUGE = "class Gauge extends Timeline { predicate shown { int level = [0 3]; } predicate dark { } }\n"
@@ -55,7 +68,7 @@ RULE_LINT_PAGES = (
         "Relations, durations and comparisons of times exclude each other: in one rule or one branch of it, in a rule "
         "and those that fire before it for the same token, or in the script.",
         "Each is a bound on the distance of two times, or of a time and an int variable; the ones that are listed form "
-        "a circle which adds up to less than nothing. A token of the predicate can never be part of a plan in which "
+        "a cycle whose bounds sum to less than 0. A token of the predicate can never be part of a plan in which "
         "the branch holds. A script that resets, cancels or frees something is not judged, nor are its rejectable "
         "tokens.",
         _GAUGE + "Gauge::shown { meets(dark d); met_by(dark e); d before e; level >= 1; }\n",

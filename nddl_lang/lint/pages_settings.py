@@ -1,6 +1,6 @@
 """The pages of the codes about the settings of a project."""
 
-from nddl_lang.lint.configuration import NOT_TOML, UNKNOWN_KEY, WRONG_VALUE
+from nddl_lang.lint.codes import NOT_TOML, UNKNOWN_KEY, WRONG_VALUE
 from nddl_lang.text.page import RulePage
 
 SETTINGS_PAGES = (

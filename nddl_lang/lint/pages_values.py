@@ -1,19 +1,31 @@
 """The pages of the findings about numbers, draws, the script, and what EUROPA does otherwise."""
 
-from nddl_lang.lint.numbers import CHAINED, FLOAT_EQUALITY, INT_AMONG_FLOATS, INT_RESULT, WHOLE_FLOAT
-from nddl_lang.lint.portability import (
+from nddl_lang.lint.codes import (
     BESIDE_FILE,
+    CHAINED,
+    DRAWN_IN_VAIN,
+    DRAWS_OUTSIDE,
     ESCAPE,
     EXACT_TYPES,
+    FLOAT_EQUALITY,
+    IDLE_FACT,
+    INT_AMONG_FLOATS,
+    INT_RESULT,
     LITERAL_TRUTH,
+    NEVER_PLANNED,
+    NEVER_VARIED,
     NO_FILTER,
+    NO_MERGE,
     OBJECT_IN_PREDICATE,
     OTHER_METHOD,
+    OTHER_RANGE,
     OTHER_RELATION,
+    OUTSIDE_HORIZON,
+    OVER_CAPACITY,
     OVERLOOKED,
+    UNCLOSED,
+    WHOLE_FLOAT,
 )
-from nddl_lang.lint.sampling import DRAWN_IN_VAIN, DRAWS_OUTSIDE, NEVER_VARIED, OTHER_RANGE
-from nddl_lang.lint.scripts import IDLE_FACT, NEVER_PLANNED, NO_MERGE, OUTSIDE_HORIZON, OVER_CAPACITY, UNCLOSED
 from nddl_lang.text.page import RulePage
 
 _ARM = "class Arm extends Timeline { predicate grab { } }\nArm arm = new Arm();\n"

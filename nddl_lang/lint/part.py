@@ -7,14 +7,13 @@ from typing import Any, TypeVar
 from nddl_lang.semantics.schema import (
     Domain,
     Label,
-    LocalReference,
     MemberReference,
     Predicate,
     Reference,
     Schema,
     SideTables,
     TokenReference,
-    TokenVariable,
+    TokenVariableReference,
     Variable,
 )
 from nddl_lang.syntax.dialect import Dialect
@@ -73,19 +72,6 @@ Finding = Diagnostic | Conditional
 PartLint = Callable[[Part], Iterable[Finding]]
 
 
-def variable_of(reference: Reference | None) -> Variable | None:
-    """The variable that a reference ends in, None for what is no variable with a declaration of its own."""
-    match reference:
-        case LocalReference(variable=variable):
-            return variable
-        case MemberReference(members=members) if members:
-            return members[-1]
-        case TokenVariable(label=label, name=name):
-            return parameter_of(label.predicate, name)
-        case _:
-            return getattr(reference, "variable", None)
-
-
 def parameter_of(predicate: Predicate, name: str) -> Variable | None:
     """The parameter of that name."""
     return next((parameter for parameter in predicate.parameters if parameter.name == name), None)
@@ -95,5 +81,5 @@ def mentioned_labels(part: Part) -> Iterator[Label]:
     """The tokens that a statement refers to after their creation."""
     for reference in part.tables.references.values():
         base = reference.base if isinstance(reference, MemberReference) else reference
-        if isinstance(base, TokenReference | TokenVariable):
+        if isinstance(base, TokenReference | TokenVariableReference):
             yield base.label

@@ -3,12 +3,23 @@
 from collections.abc import Iterator
 from pathlib import Path
 
+from nddl_lang.lint.codes import (
+    BESIDE_FILE,
+    ESCAPE,
+    EXACT_TYPES,
+    LITERAL_TRUTH,
+    NO_FILTER,
+    OBJECT_IN_PREDICATE,
+    OTHER_METHOD,
+    OTHER_RELATION,
+    OVERLOOKED,
+)
 from nddl_lang.lint.part import Finding, Part
 from nddl_lang.lint.whole import Whole
 from nddl_lang.semantics.constraints import CONSTRAINTS
 from nddl_lang.semantics.functions import FUNCTIONS
 from nddl_lang.semantics.relations import RELATIONS
-from nddl_lang.semantics.schema import Kind, MemberReference, TokenVariable
+from nddl_lang.semantics.schema import Kind, MemberReference, TokenVariableReference
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import (
     BoolLiteral,
@@ -23,22 +34,8 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 from nddl_lang.syntax.walk import descendants
-from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Severity
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
 from nddl_lang.text.source import Span
-
-ESCAPE = Code("NDDL570", Severity.INFO, "lint", "`{text}` is two characters, not one: escapes are not decoded")
-OTHER_RELATION = Code("NDDL571", Severity.INFO, "lint", "EUROPA understands `{name}` otherwise")
-NO_FILTER = Code("NDDL572", Severity.INFO, "lint", "`filter` has no effect")
-LITERAL_TRUTH = Code(
-    "NDDL574", Severity.WARNING, "lint", "EUROPA takes only `true` or `false` as the truth of `{name}`"
-)
-EXACT_TYPES = Code(
-    "NDDL575", Severity.WARNING, "lint", "EUROPA finds no constructor of `{name}` that takes {found} here"
-)
-OBJECT_IN_PREDICATE = Code("NDDL576", Severity.WARNING, "lint", "EUROPA stops when a token of `{name}` is made")
-OTHER_METHOD = Code("NDDL577", Severity.WARNING, "lint", "EUROPA does something else for `{name}`")
-BESIDE_FILE = Code("NDDL573", Severity.INFO, "lint", "EUROPA does not look beside this file for `{path}`")
-OVERLOOKED = Code("NDDL561", Severity.WARNING, "lint", "EUROPA overlooks what follows the first {count} of `{name}`")
 
 
 def lint_texts(part: Part) -> Iterator[Finding]:
@@ -110,7 +107,7 @@ def _predicates(part: Part) -> Iterator[Finding]:
     for predicate in part.all(PredicateDecl):
         for node in descendants(predicate):
             reference = part.reference(node) if isinstance(node, PathExpr) else None
-            if isinstance(reference, MemberReference) and isinstance(reference.base, TokenVariable):
+            if isinstance(reference, MemberReference) and isinstance(reference.base, TokenVariableReference):
                 help_ = f"`{node.span.text}` belongs into a rule"
                 yield OBJECT_IN_PREDICATE.at(node.span, help=help_, name=predicate.name.name)
 

@@ -14,7 +14,7 @@ from nddl_lang.semantics.schema import (
     LocalReference,
     Predicate,
     Reference,
-    TokenVariable,
+    TokenVariableReference,
     Type,
     Values,
     Variable,
@@ -75,7 +75,7 @@ def key_of(reference: Reference | None) -> Key | None:
     match reference:
         case LocalReference(variable=variable) | GlobalReference(variable=variable):
             return variable, ""
-        case TokenVariable(label=label, name=name):
+        case TokenVariableReference(label=label, name=name):
             return label, name
         case _:
             return None
@@ -91,7 +91,7 @@ def domain_of(part: Part, expression: Expr) -> Domain | None:
             return Values((value,))
         case LocalReference(variable=variable) | GlobalReference(variable=variable):
             return declared(variable)
-        case TokenVariable(label=label, name=name, type=type_):
+        case TokenVariableReference(label=label, name=name, type=type_):
             return token_domain(label.predicate, name, type_)
         case _:
             return None

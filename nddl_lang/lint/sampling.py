@@ -3,27 +3,19 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from nddl_lang.lint.codes import DRAWN_IN_VAIN, DRAWS_OUTSIDE, NEVER_VARIED, OTHER_RANGE
 from nddl_lang.lint.local_names import used_variables
 from nddl_lang.lint.part import Facts, Finding, Key, Part
 from nddl_lang.lint.reading import declared, domain_of, key_of
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.schema import Domain, GlobalReference, LocalReference, Reference, Variable
 from nddl_lang.syntax.nodes import BinaryExpr, CallConstraint, CallExpr, Expr, ExprConstraint, PathExpr, RuleDecl
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
+from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.source import Span
-
-DRAWN_IN_VAIN = Code("NDDL562", Severity.WARNING, "lint", "what is drawn for `{name}` is never used")
-DRAWS_OUTSIDE = Code(
-    "NDDL563", Severity.WARNING, "lint", "`{name}` is drawn from {range}, but {receiver} takes {domain}"
-)
-NEVER_VARIED = Code("NDDL564", Severity.WARNING, "lint", "the sampled parameter `{name}` has one value only, {value}")
-OTHER_RANGE = Code(
-    "NDDL565", Severity.WARNING, "lint", "`{name}` is drawn into {domain} here, and into {other} elsewhere"
-)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Draw:
+class DrawSite:
     """One place where a sampled parameter is drawn; `receiver` is what takes the value, where it is a variable."""
 
     parameter: Reference
@@ -34,7 +26,7 @@ class Draw:
     domain: Domain | None
 
 
-def draws(part: Part) -> Iterator[Draw]:
+def draws(part: Part) -> Iterator[DrawSite]:
     """The draws of a statement."""
     tables = part.tables
     if not tables.sampled:
@@ -50,10 +42,10 @@ def draws(part: Part) -> Iterator[Draw]:
             yield _draw(part, tables.sampled[statement], statement.arguments[-1], statement.arguments[0])
 
 
-def _draw(part: Part, parameter: Reference, argument: Expr, receiver: Expr) -> Draw:
+def _draw(part: Part, parameter: Reference, argument: Expr, receiver: Expr) -> DrawSite:
     key = key_of(part.reference(receiver)) if isinstance(receiver, PathExpr) else None
     domain = domain_of(part, receiver) if key is not None else None
-    return Draw(parameter, argument.span.text, argument.span, key, receiver.span.text, domain)
+    return DrawSite(parameter, argument.span.text, argument.span, key, receiver.span.text, domain)
 
 
 def lint_draws(part: Part) -> Iterator[Finding]:
@@ -74,7 +66,7 @@ def lint_draws(part: Part) -> Iterator[Finding]:
         yield _fitting(draw)
 
 
-def _fitting(draw: Draw) -> Finding:
+def _fitting(draw: DrawSite) -> Finding:
     def finding(facts: Facts) -> Diagnostic | None:
         parameter = draw.parameter
         if not isinstance(parameter, GlobalReference):
@@ -106,7 +98,7 @@ def _fitting(draw: Draw) -> Finding:
 
 def compare_draws(parts: list[Part]) -> Iterator[Diagnostic]:
     """A parameter without a range of its own that is drawn into variables with different ranges."""
-    first: dict[object, Draw] = {}
+    first: dict[object, DrawSite] = {}
     for part in parts:
         for draw in draws(part):
             if isinstance(draw.parameter, GlobalReference) and declared(draw.parameter.variable) is not None:

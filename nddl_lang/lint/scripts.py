@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from nddl_lang.lint.codes import IDLE_FACT, NEVER_PLANNED, NO_MERGE, OUTSIDE_HORIZON, OVER_CAPACITY, UNCLOSED
 from nddl_lang.lint.part import Part
 from nddl_lang.lint.whole import Whole, hull_of
 from nddl_lang.semantics import domains
@@ -29,17 +30,8 @@ from nddl_lang.syntax.nodes import (
     SuperCall,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
+from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.source import Span
-
-OUTSIDE_HORIZON = Code("NDDL533", Severity.WARNING, "lint", "`{name}` lies outside the horizon, {horizon}")
-NEVER_PLANNED = Code("NDDL534", Severity.WARNING, "lint", "`{name}` has no bound on its time, so it is never planned")
-NO_MERGE = Code("NDDL535", Severity.WARNING, "lint", "`{name}` and `{other}` cannot be one token: `{variable}` differs")
-UNCLOSED = Code("NDDL546", Severity.WARNING, "lint", "no class is closed, so no object is ever chosen")
-IDLE_FACT = Code("NDDL548", Severity.HINT, "lint", "a fact is a goal like others until it is activated")
-OVER_CAPACITY = Code(
-    "NDDL560", Severity.WARNING, "lint", "`{name}` takes {demand} of `{resource}`, which has {capacity}"
-)
 
 _DEFAULT_HORIZON = Interval(0, 100)
 
@@ -136,24 +128,24 @@ def _difference(whole: Whole, node: MethodCall, one: Label, other: Label) -> Ite
 def _facts(whole: Whole, goals: list[tuple[Part, GoalStatement]]) -> Iterator[Diagnostic]:
     if not whole.is_whole:
         return
-    settled: set[Label] = set()
+    planned: set[Label] = set()
     for part in whole.parts:
         node = part.node
         if isinstance(node, MethodCall) and node.method.name in ("activate", "merge", "constrain"):
             for path in (node.target, *node.arguments):
                 reference = part.reference(path)
                 if isinstance(reference, TokenReference):
-                    settled.add(reference.label)
+                    planned.add(reference.label)
         elif isinstance(node, Assignment) and node.target.parts[-1].name == "state":
             label = getattr(part.reference(node.target), "label", None)
             if isinstance(label, Label):
-                settled.add(label)
+                planned.add(label)
     for part, node in goals:
         if node.kind != "fact" or not whole.is_own(node.span):
             continue
         for instance in node.instances:
             label = part.label_of(instance)
-            if label is None or label not in settled:
+            if label is None or label not in planned:
                 how = f"`{label.name}.activate();`" if label is not None else "a name, and `activate()`"
                 yield IDLE_FACT.at(instance.span, help=f"to put it into the plan, add {how}")
 

@@ -3,11 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from nddl_lang.lint.codes import CHAIN, ENDLESS, NEVER_FIRES, NO_EFFECT, UNREACHABLE
 from nddl_lang.lint.declarations import AGENT_TIMELINE
 from nddl_lang.lint.part import Part
 from nddl_lang.lint.whole import Whole
 from nddl_lang.semantics.literals import number
-from nddl_lang.semantics.schema import Predicate, TokenVariable
+from nddl_lang.semantics.schema import Predicate, TokenVariableReference
 from nddl_lang.syntax.nodes import (
     BinaryExpr,
     ClassDecl,
@@ -21,20 +22,14 @@ from nddl_lang.syntax.nodes import (
     Relation,
     RuleDecl,
 )
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
-
-UNREACHABLE = Code("NDDL540", Severity.WARNING, "lint", "no goal leads to {what}")
-NEVER_FIRES = Code("NDDL541", Severity.WARNING, "lint", "no token of `{name}` is ever made, so this rule never runs")
-ENDLESS = Code("NDDL542", Severity.WARNING, "lint", "each `{name}` asks for another one, without an end")
-CHAIN = Code("NDDL547", Severity.HINT, "lint", "each `{name}` asks for a later one: the chain ends at the horizon")
-NO_EFFECT = Code("NDDL545", Severity.WARNING, "lint", "the action `{name}` has no effect, so no goal is achieved by it")
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note
 
 _FORWARD = frozenset({"meets", "before"})
 _BACKWARD = frozenset({"met_by", "after"})
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Request:
+class ChildRequest:
     """A rule asks for a token; not `is_certain` where that depends on a condition."""
 
     wanted: Predicate
@@ -44,7 +39,7 @@ class Request:
     is_other: bool  # whether it certainly differs from the one that asks, so that they cannot be merged
 
 
-Followers = dict[str, list[tuple[str, Request]]]
+Followers = dict[str, list[tuple[str, ChildRequest]]]
 
 
 class Graph:
@@ -54,7 +49,7 @@ class Graph:
         self.whole = whole
         self.schema = whole.analysis.schema
         self.rules: dict[str, list[Part]] = {}
-        self.requests: dict[Part, list[Request]] = {}
+        self.requests: dict[Part, list[ChildRequest]] = {}
         for part in whole.parts:
             if isinstance(part.node, RuleDecl) and part.node in part.tables.predicates:
                 self.rules.setdefault(part.tables.predicates[part.node].full_name, []).append(part)
@@ -87,7 +82,7 @@ class Graph:
         return found
 
 
-def _requests(part: Part, rule: RuleDecl) -> Iterator[Request]:
+def _requests(part: Part, rule: RuleDecl) -> Iterator[ChildRequest]:
     changed = _changed(part)
     pending = [(rule.body, True)]
     while pending:
@@ -98,7 +93,7 @@ def _requests(part: Part, rule: RuleDecl) -> Iterator[Request]:
                     for instance in statement.created:
                         if (predicate := part.predicate_of(instance)) is not None:
                             is_other = part.label_of(instance) in changed
-                            yield Request(predicate, statement, is_certain, instance.role == "effect", is_other)
+                            yield ChildRequest(predicate, statement, is_certain, instance.role == "effect", is_other)
                 case IfStatement(then=then, otherwise=otherwise):
                     pending += [(block, False) for block in (then, otherwise) if block]
                 case Foreach(body=inner):
@@ -114,10 +109,14 @@ def _changed(part: Part) -> set[object]:
             continue
         for path, other in ((expression.left, expression.right), (expression.right, expression.left)):
             one = part.reference(path) if isinstance(path, PathExpr) else None
-            if not isinstance(one, TokenVariable) or not isinstance(other, BinaryExpr) or other.op not in ("+", "-"):
+            if (
+                not isinstance(one, TokenVariableReference)
+                or not isinstance(other, BinaryExpr)
+                or other.op not in ("+", "-")
+            ):
                 continue
             source = part.reference(other.left) if isinstance(other.left, PathExpr) else None
-            if isinstance(source, TokenVariable) and source.label.name == "this" and source.name == one.name:
+            if isinstance(source, TokenVariableReference) and source.label.name == "this" and source.name == one.name:
                 if number(other.right) not in (None, 0):
                     found.add(one.label)
     return found
@@ -206,32 +205,32 @@ def _endless(graph: Graph) -> Iterator[Diagnostic]:
                 later.setdefault(own.full_name, []).append((request.wanted.full_name, request))
             elif word not in _BACKWARD:
                 same.setdefault(own.full_name, []).append((request.wanted.full_name, request))
-    yield from _circles(graph, same, ENDLESS)
-    yield from _circles(graph, later, CHAIN)
+    yield from _cycles(graph, same, ENDLESS)
+    yield from _cycles(graph, later, CHAIN)
 
 
-def _circles(graph: Graph, followers: Followers, code: Code) -> Iterator[Diagnostic]:
+def _cycles(graph: Graph, followers: Followers, code: Code) -> Iterator[Diagnostic]:
     _prune(followers)
     told: set[str] = set()
     for name in followers:
         owner, _, word = name.partition(".")
         if name in told:
             continue
-        circle = _circle(name, followers)
-        told.update(each for each, _ in circle)
-        if not circle or not graph.whole.is_own(circle[0][1].relation.span):
+        cycle = _cycle(name, followers)
+        told.update(each for each, _ in cycle)
+        if not cycle or not graph.whole.is_own(cycle[0][1].relation.span):
             continue
         # Tokens that may be equal are merged; and what an agent plans ends with how far it looks ahead.
-        if code is ENDLESS and not any(request.is_other for _, request in circle):
+        if code is ENDLESS and not any(request.is_other for _, request in cycle):
             continue
         if code is CHAIN and AGENT_TIMELINE in graph.schema.ancestry(owner):
             continue
-        notes = tuple(Note(f"which asks for `{each}` here", request.relation.span) for each, request in circle[1:])
-        yield code.at(circle[0][1].relation.span, notes=notes, name=word)
+        notes = tuple(Note(f"which asks for `{each}` here", request.relation.span) for each, request in cycle[1:])
+        yield code.at(cycle[0][1].relation.span, notes=notes, name=word)
 
 
 def _prune(followers: Followers) -> None:
-    """Leave out what leads to no circle."""
+    """Leave out what leads to no cycle."""
     before: dict[str, list[str]] = {}
     count = {name: len(requests) for name, requests in followers.items()}
     for name, requests in followers.items():
@@ -246,7 +245,7 @@ def _prune(followers: Followers) -> None:
                 pending.append(name)
 
 
-def _circle(name: str, followers: Followers) -> list[tuple[str, Request]]:
+def _cycle(name: str, followers: Followers) -> list[tuple[str, ChildRequest]]:
     """The shortest way from a predicate back to itself."""
     ways: Followers = {}
     frontier: list[str] = [name]

@@ -2,13 +2,11 @@
 
 from collections.abc import Iterator
 
+from nddl_lang.lint.codes import ANY_OBJECT, ANY_OF_MANY
 from nddl_lang.lint.part import Facts, Finding, Part
-from nddl_lang.semantics.schema import TokenVariable
+from nddl_lang.semantics.schema import TokenVariableReference
 from nddl_lang.syntax.nodes import Instance, PathExpr, Relation, RuleDecl
-from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Severity
-
-ANY_OBJECT = Code("NDDL543", Severity.WARNING, "lint", "`{text}` may stand on any object of class `{owner}`")
-ANY_OF_MANY = Code("NDDL544", Severity.INFO, "lint", "`any` says nothing about when this `{name}` holds")
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
 
 
 def lint_subgoals(part: Part) -> Iterator[Finding]:
@@ -21,7 +19,7 @@ def lint_subgoals(part: Part) -> Iterator[Finding]:
     placed = {
         reference.label
         for path in part.all(PathExpr)
-        if isinstance(reference := part.reference(path), TokenVariable) and reference.name == "object"
+        if isinstance(reference := part.reference(path), TokenVariableReference) and reference.name == "object"
     }
     for instance in part.all(Instance):
         target = part.tables.targets.get(instance)

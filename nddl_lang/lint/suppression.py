@@ -10,12 +10,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from nddl_lang.analysis import Analysis
+from nddl_lang.lint.codes import NO_SUCH_CODE, UNUSED_SUPPRESSION
 from nddl_lang.lint.removal import removal
-from nddl_lang.text.diagnostic import Code, Diagnostic, Fix, Severity
+from nddl_lang.text.diagnostic import Diagnostic, Fix, Severity
 from nddl_lang.text.source import Source, Span
-
-UNUSED_SUPPRESSION = Code("NDDL590", Severity.WARNING, "lint", "there is nothing{what} to ignore here")
-NO_SUCH_CODE = Code("NDDL591", Severity.WARNING, "lint", "`{text}` is no code of a finding")
 
 _COMMENT = re.compile(r"nddlc:[ \t]*ignore(?P<file>-file)?\b[ \t]*(?P<codes>\[[^\]\n]*\]|[^\n]*)")
 _CODE = re.compile(r"NDDL\d{0,3}\Z")

@@ -17,7 +17,7 @@ from nddl_lang.semantics.schema import (
     Label,
     LocalReference,
     Predicate,
-    TokenVariable,
+    TokenVariableReference,
     Variable,
 )
 from nddl_lang.semantics.types import INT
@@ -185,7 +185,7 @@ class RuleTimes:
     def _duration(self, expression: Expr) -> tuple[object, str] | None:
         """The token whose duration an expression is, and its name."""
         reference = self._part.reference(expression) if isinstance(expression, PathExpr) else None
-        if not isinstance(reference, TokenVariable) or reference.name != "duration":
+        if not isinstance(reference, TokenVariableReference) or reference.name != "duration":
             return None
         return self._token(reference.label), reference.label.name
 
@@ -209,12 +209,12 @@ class RuleTimes:
                 return None
             return inner[0], inner[1] + (offset if expression.op == "+" else -offset)
         reference = self._part.reference(expression) if isinstance(expression, PathExpr) else None
-        if isinstance(reference, TokenVariable) and reference.name in ("start", "end", "time"):
+        if isinstance(reference, TokenVariableReference) and reference.name in ("start", "end", "time"):
             return self._time(self._token(reference.label), reference.name, reference.label.predicate), 0
         match reference:
             case LocalReference(variable=variable) | GlobalReference(variable=variable):
                 return ((variable, "value"), 0) if variable.type.kind is Kind.INT else None
-            case TokenVariable(label=label, name=name, type=type_):
+            case TokenVariableReference(label=label, name=name, type=type_):
                 is_number = type_.kind is Kind.INT and name not in ("duration", "state", "object")
                 return ((self._token(label), name), 0) if is_number else None
             case _:

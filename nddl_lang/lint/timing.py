@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from nddl_lang.lint.codes import CONTRADICTION, NO_DURATION, TOO_LONG
 from nddl_lang.lint.network import Edge, negative_cycle
 from nddl_lang.lint.part import Finding, Part
 from nddl_lang.lint.temporal import RuleTimes
@@ -19,11 +20,7 @@ from nddl_lang.syntax.nodes import (
     RuleStatement,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
-
-CONTRADICTION = Code("NDDL530", Severity.WARNING, "lint", "what is demanded here cannot all hold")
-TOO_LONG = Code("NDDL531", Severity.WARNING, "lint", "a token lasts longer here than the one that contains it")
-NO_DURATION = Code("NDDL532", Severity.WARNING, "lint", "a token lasts at least 1, so this cannot hold")
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note
 
 _TAKING_BACK = frozenset(("reset", "cancel", "free"))
 _OF_SCRIPT = (Assignment, CallConstraint, ExprConstraint, GoalStatement, MethodCall, Relation, VariableDecl)

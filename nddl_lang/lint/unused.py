@@ -1,17 +1,21 @@
 """List the codes about what has no use, and those that only all models together can tell."""
 
-from nddl_lang.lint.declarations import (
+from nddl_lang.lint.codes import (
     FREE_PARAMETER,
+    NEVER_FIRES,
+    NO_EFFECT,
+    NO_FILTER,
+    UNREACHABLE,
+    UNUSED_FORMAL,
     UNUSED_GLOBAL,
+    UNUSED_LABEL,
+    UNUSED_LOCAL,
     UNUSED_MEMBER,
     UNUSED_PARAMETER,
+    UNUSED_SUPPRESSION,
     UNUSED_TYPE,
     UNUSED_VALUE,
 )
-from nddl_lang.lint.local_names import UNUSED_FORMAL, UNUSED_LABEL, UNUSED_LOCAL
-from nddl_lang.lint.portability import NO_FILTER
-from nddl_lang.lint.structure import NEVER_FIRES, NO_EFFECT, UNREACHABLE
-from nddl_lang.lint.suppression import UNUSED_SUPPRESSION
 
 # Editors show such text faded.
 UNUSED = (

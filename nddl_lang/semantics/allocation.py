@@ -2,52 +2,44 @@
 
 from collections.abc import Sequence
 
+from nddl_lang.semantics.codes import CLASS_IS_CLOSED, NO_BASE_CONSTRUCTOR, NO_CONSTRUCTOR
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.schema import Chosen, Class, Constructor, Kind, Type
-from nddl_lang.semantics.scope import Context, Deferred, Place, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Deferred, Scope
+from nddl_lang.semantics.symbol_table import SymbolTable
 from nddl_lang.semantics.typenames import find_defined_class
 from nddl_lang.semantics.types import fits, object_type
 from nddl_lang.semantics.values import check_restriction
-from nddl_lang.semantics.world import World
 from nddl_lang.syntax.nodes import Assignment, Expr, NewExpr
-from nddl_lang.text.diagnostic import Code, Note, Severity
+from nddl_lang.text.diagnostic import Note
 from nddl_lang.text.source import Span
-
-NO_CONSTRUCTOR = Code("NDDL323", Severity.ERROR, "arity", "class `{name}` has no constructor {arguments}")
-NO_BASE_CONSTRUCTOR = Code(
-    "NDDL324",
-    Severity.ERROR,
-    "arity",
-    "`{name}` cannot be made: its base `{base}` has no constructor without arguments",
-)
-CLASS_IS_CLOSED = Code("NDDL403", Severity.ERROR, "state", "no object of class `{name}` can join after `close()`")
 
 
 def check_allocation(context: Context, scope: Scope, new: NewExpr) -> Class | None:
     """Check `new C(...)` and choose its constructor; the class, None after a complaint."""
     types = argument_types(context, scope, new.arguments)
     context.tables.types[new] = object_type(new.class_name.name)
-    known = context.world.find_class(new.class_name.name)
-    if scope.place is not Place.SCRIPT and (known is None or not known.is_defined):
+    known = context.symbols.find_class(new.class_name.name)
+    if scope.kind is not BlockKind.SCRIPT and (known is None or not known.is_defined):
         context.deferred.append(Deferred(new, tuple(types)))
         return None
     owner = find_defined_class(context, new.class_name)
     if owner is None:
-        context.world.put_faulty("new")
+        context.symbols.put_faulty("new")
         return None
     is_sound = _choose_for(context, owner, new, types)
-    if is_sound and scope.place is Place.SCRIPT:
-        closed = context.world.closed_at(owner.name)
+    if is_sound and scope.kind is BlockKind.SCRIPT:
+        closed = context.symbols.closed_at(owner.name)
         if closed is not None:
             notes = (Note("it is closed here", closed),)
             context.complain(CLASS_IS_CLOSED.at(new.span, notes=notes, name=owner.name))
-    if scope.place in (Place.SCRIPT, Place.RULE):
-        for name in _made_with(context.world, owner.name):
-            context.world.put_object(name)
+    if scope.kind in (BlockKind.SCRIPT, BlockKind.RULE):
+        for name in _made_with(context.symbols, owner.name):
+            context.symbols.put_object(name)
     return owner if is_sound else None
 
 
-def settle(context: Context, deferred: Deferred) -> None:
+def check_deferred(context: Context, deferred: Deferred) -> None:
     """Choose the constructor of a `new` whose class was not defined above it, now that the script is read."""
     context.tables.constructors.pop(deferred.new, None)
     owner = find_defined_class(context, deferred.new.class_name)
@@ -60,7 +52,7 @@ def _choose_for(context: Context, owner: Class, new: NewExpr, types: Sequence[Ty
     if constructor is None:
         return False
     context.tables.constructors[new] = Chosen(constructor)
-    lacking = _lacking_base(context.world, constructor)
+    lacking = _lacking_base(context.symbols, constructor)
     if lacking is not None:
         notes = constructor_notes(lacking)
         context.complain(NO_BASE_CONSTRUCTOR.at(new.span, notes=notes, name=owner.name, base=lacking.name))
@@ -83,11 +75,11 @@ def choose(
     best: Constructor | None = None
     least = 0
     for constructor in owner.constructors:
-        cost = _conversions(context.world, constructor, types)
+        cost = _conversions(context.symbols, constructor, types)
         if cost is not None and (best is None or cost < least):
             best, least = constructor, cost
     if best is None:
-        if not context.world.is_partial(owner.name):
+        if not context.symbols.is_partial(owner.name):
             described = ", ".join("?" if type_ is None else type_.name for type_ in types)
             text = f"that takes `({described})`" if types else "without arguments"
             notes = constructor_notes(owner)
@@ -114,7 +106,7 @@ def has_empty_constructor(owner: Class) -> bool:
     return any(not constructor.parameters for constructor in owner.constructors)
 
 
-def _conversions(world: World, constructor: Constructor, types: Sequence[Type | None]) -> int | None:
+def _conversions(symbols: SymbolTable, constructor: Constructor, types: Sequence[Type | None]) -> int | None:
     if len(constructor.parameters) != len(types):
         return None
     cost = 0
@@ -122,32 +114,32 @@ def _conversions(world: World, constructor: Constructor, types: Sequence[Type | 
         target = parameter.type
         if type_ is None:
             continue
-        if not fits(type_, target, world.is_subclass):
+        if not fits(type_, target, symbols.is_subclass):
             return None
         if target.kind is Kind.OBJECT:
-            if not world.is_subclass(type_.base, target.base):
+            if not symbols.is_subclass(type_.base, target.base):
                 return None
-            cost += _distance(world, type_.base, target.base)
+            cost += _distance(symbols, type_.base, target.base)
         elif type_.kind is not target.kind:
             cost += 1
     return cost
 
 
-def _distance(world: World, name: str, ancestor: str) -> int:
-    for steps, owner in enumerate(world.ancestry(name)):
+def _distance(symbols: SymbolTable, name: str, ancestor: str) -> int:
+    for steps, owner in enumerate(symbols.ancestry(name)):
         if owner.name == ancestor:
             return steps
     return 0
 
 
-def _lacking_base(world: World, constructor: Constructor) -> Class | None:
+def _lacking_base(symbols: SymbolTable, constructor: Constructor) -> Class | None:
     """The ancestor without empty constructor that an implicit constructor would have to call."""
     while constructor.node is None:
-        owner = world.find_class(constructor.class_name)
+        owner = symbols.find_class(constructor.class_name)
         if owner is None or owner.is_native or owner.base is None:
             return None
-        base = world.find_class(owner.base)
-        if base is None or world.is_partial(base.name):
+        base = symbols.find_class(owner.base)
+        if base is None or symbols.is_partial(base.name):
             return None
         empty = next((item for item in base.constructors if not item.parameters), None)
         if empty is None:
@@ -156,7 +148,7 @@ def _lacking_base(world: World, constructor: Constructor) -> Class | None:
     return None
 
 
-def _made_with(world: World, class_name: str) -> list[str]:
+def _made_with(symbols: SymbolTable, class_name: str) -> list[str]:
     """The classes whose objects may come into being with one of `class_name`: those its constructors allocate."""
     made: list[str] = []
     pending = [class_name]
@@ -165,7 +157,7 @@ def _made_with(world: World, class_name: str) -> list[str]:
         if name in made:
             continue
         made.append(name)
-        for owner in world.ancestry(name):
+        for owner in symbols.ancestry(name):
             for constructor in owner.constructors:
                 if constructor.node is None:
                     continue

@@ -2,19 +2,14 @@
 
 from collections.abc import Sequence
 
+from nddl_lang.semantics.codes import ARGUMENTS_DIFFER, WRONG_ARGUMENT, WRONG_COUNT
 from nddl_lang.semantics.schema import Kind, Reference, TokenReference, Type
 from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.signature import Argument, ArgumentKind, Signature
 from nddl_lang.semantics.types import COUNTABLE, always_differ, comparable, phrase
 from nddl_lang.syntax.nodes import Expr
-from nddl_lang.text.diagnostic import Code, Note, Severity
+from nddl_lang.text.diagnostic import Note
 from nddl_lang.text.source import Span
-
-WRONG_COUNT = Code("NDDL320", Severity.ERROR, "arity", "`{name}` takes {expected}, found {found}")
-WRONG_ARGUMENT = Code("NDDL321", Severity.ERROR, "type", "`{name}` needs {expected} here; `{text}` is {found}")
-ARGUMENTS_DIFFER = Code(
-    "NDDL322", Severity.ERROR, "type", "`{name}` compares its arguments; `{text}` is {found}, `{other}` is {expected}"
-)
 
 _RESOURCE_CLASS = "CBReusable"
 
@@ -47,7 +42,7 @@ def check_types(
                 complain_argument(context, name, argument, expression, phrase(type_))
         elif like is None:
             like = (expression, type_)
-        elif not comparable(like[1], type_, context.world.is_subclass):
+        elif not comparable(like[1], type_, context.symbols.is_subclass):
             if name == "neq" and always_differ(like[1], type_):
                 continue
             context.complain(
@@ -83,6 +78,6 @@ def _is_of_kind(context: Context, argument: Argument, type_: Type, reference: Re
         case ArgumentKind.TOKEN:
             return isinstance(reference, TokenReference)
         case ArgumentKind.RESOURCE:
-            return type_.kind is Kind.OBJECT and context.world.is_subclass(type_.base, _RESOURCE_CLASS)
+            return type_.kind is Kind.OBJECT and context.symbols.is_subclass(type_.base, _RESOURCE_CLASS)
         case ArgumentKind.PARAMETER | ArgumentKind.ANY | ArgumentKind.SAME:
             return True

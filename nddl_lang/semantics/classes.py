@@ -1,10 +1,18 @@
 """Declare classes with their members; tell the user where a declaration contradicts another."""
 
+from nddl_lang.semantics.codes import (
+    DUPLICATE_MEMBER,
+    DUPLICATE_TYPE,
+    ENUM_OF_THAT_NAME,
+    MEMBER_VALUE,
+    NATIVE_CLASS,
+    OWN_BASE,
+)
 from nddl_lang.semantics.constructors import check_constructor, declare_constructors
 from nddl_lang.semantics.natives import ROOT_CLASS
 from nddl_lang.semantics.predicates import check_predicate
 from nddl_lang.semantics.schema import Class, Predicate, Variable
-from nddl_lang.semantics.scope import Context, Place, Scope, names_in
+from nddl_lang.semantics.scope import BlockKind, Context, Scope, names_in
 from nddl_lang.semantics.typenames import find_defined_class, find_type, known_type
 from nddl_lang.semantics.types import BASIC_TYPES
 from nddl_lang.semantics.values import check_value, constant
@@ -17,29 +25,18 @@ from nddl_lang.syntax.nodes import (
     PredicateDecl,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Note, Severity
-
-DUPLICATE_TYPE = Code("NDDL220", Severity.ERROR, "duplicate", "`{name}` is declared twice")
-DUPLICATE_MEMBER = Code("NDDL221", Severity.ERROR, "duplicate", "class `{owner}` has a member `{name}` already")
-ENUM_OF_THAT_NAME = Code(
-    "NDDL235", Severity.WARNING, "duplicate", "`{name}` is an enum already; as a type it means the class from here on"
-)
-OWN_BASE = Code("NDDL236", Severity.ERROR, "name", "class `{name}` cannot extend itself")
-NATIVE_CLASS = Code("NDDL222", Severity.WARNING, "duplicate", "class `{name}` is built in; this text is not read")
-MEMBER_VALUE = Code(
-    "NDDL325", Severity.ERROR, "type", "the value of a member is written out; `{text}` depends on others"
-)
+from nddl_lang.text.diagnostic import Note
 
 
 def check_class(context: Context, node: ClassDecl) -> None:
     """Declare the class of `node` and check what it declares."""
-    world, name = context.world, node.name.name
-    known = world.find_class(name)
+    symbols, name = context.symbols, node.name.name
+    known = symbols.find_class(name)
     if known is not None and known.is_native:
         context.complain(NATIVE_CLASS.at(node.name.span, name=name))
         return
     is_open = known is not None and (node.members is None or not known.is_defined)
-    if known is None and (enum := world.find_enum(name)) is not None and world.find_typedef(name) is None:
+    if known is None and (enum := symbols.find_enum(name)) is not None and symbols.find_typedef(name) is None:
         notes = (Note("the enum is here", enum.span),) if enum.span else ()
         context.complain(ENUM_OF_THAT_NAME.at(node.name.span, notes=notes, name=name))
     elif not is_open and complain_taken(context, node.name):
@@ -47,7 +44,7 @@ def check_class(context: Context, node: ClassDecl) -> None:
     if node.members is None:
         if known is None:
             announced = Class(name, ROOT_CLASS, is_defined=False, node=node, span=node.name.span, doc=node.doc)
-            world.put("class", name, announced)
+            symbols.put("class", name, announced)
             context.tables.declared[node.name] = announced
         return
     base = None
@@ -56,9 +53,9 @@ def check_class(context: Context, node: ClassDecl) -> None:
     elif node.base is not None:
         base = find_defined_class(context, node.base)
     if node.base is not None and base is None:
-        world.put_partial(name)
+        symbols.put_partial(name)
     owner = Class(name, base.name if base is not None else ROOT_CLASS, node=node, span=node.name.span, doc=node.doc)
-    world.put("class", name, owner)
+    symbols.put("class", name, owner)
     context.tables.declared[node.name] = owner
     _inherit_predicates(context, owner)
     _check_members(context, owner, node)
@@ -66,10 +63,10 @@ def check_class(context: Context, node: ClassDecl) -> None:
 
 def complain_taken(context: Context, name: Identifier) -> bool:
     """Complain if there is a type of that name already."""
-    world, word = context.world, name.name
+    symbols, word = context.symbols, name.name
     if known_type(context, word) is None:
         return False
-    first = world.find_typedef(word) or world.find_enum(word) or world.find_class(word)
+    first = symbols.find_typedef(word) or symbols.find_enum(word) or symbols.find_class(word)
     if word in BASIC_TYPES:
         notes: tuple[Note, ...] = (Note(f"`{word}` is a type of the language"),)
     else:
@@ -80,7 +77,7 @@ def complain_taken(context: Context, name: Identifier) -> bool:
 
 def _inherit_predicates(context: Context, owner: Class) -> None:
     """Give the class its ancestors' predicates under names of its own."""
-    base = context.world.find_class(owner.base) if owner.base is not None else None
+    base = context.symbols.find_class(owner.base) if owner.base is not None else None
     if base is None:
         return
     for name, of_base in {**base.inherited, **base.predicates}.items():
@@ -108,9 +105,9 @@ def _check_members(context: Context, owner: Class, node: ClassDecl) -> None:
                     for declarator in declarators:
                         scope.expect(declarator.name.name, declarator.name.span)
             case BrokenStatement(span=span):
-                context.world.put_partial(owner.name)
+                context.symbols.put_partial(owner.name)
                 for name in names_in(span.text):
-                    context.world.put_faulty(name)
+                    context.symbols.put_faulty(name)
             case _:
                 pass
     for member in members:
@@ -129,14 +126,14 @@ def _check_variables(context: Context, owner: Class, node: VariableDecl) -> None
     type_ = find_type(context, node.type_name)
     for declarator in node.declarators:
         name = declarator.name.name
-        first = context.world.find_member(owner.name, name)
+        first = context.symbols.find_member(owner.name, name)
         if first is not None:
             notes = (Note("the first one is here", first.span),) if first.span is not None else ()
             complaint = DUPLICATE_MEMBER.at(declarator.name.span, notes=notes, owner=owner.name, name=name)
             context.complain(complaint)
         elif type_ is None:
-            context.world.put_partial(owner.name)
-            context.world.put_faulty(name)
+            context.symbols.put_partial(owner.name)
+            context.symbols.put_faulty(name)
         else:
             variable = Variable(name, type_, declarator.name.span, declarator.initialiser, node, node.doc)
             owner.members[name] = variable
@@ -149,7 +146,7 @@ def _check_initialiser(context: Context, owner: Class, declarator: Declarator, v
     value = declarator.initialiser
     if value is None:
         return
-    scope = Scope(Place.CONSTRUCTOR, owner.name)
+    scope = Scope(BlockKind.CONSTRUCTOR, owner.name)
     if check_value(context, scope, value, variable.type, variable.name) is None:
         return
     if constant(context, value) is None:

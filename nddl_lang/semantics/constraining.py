@@ -1,18 +1,16 @@
 """Check constraint statements: named ones against the table, expressions for having a truth value."""
 
 from nddl_lang.semantics.arguments import check_count, check_types
+from nddl_lang.semantics.codes import FORMER_CONSTRAINT, NOT_IN_NDDL3, UNKNOWN_CONSTRAINT
 from nddl_lang.semantics.constraints import FORMER_CONSTRAINTS, ConstraintRow, Origin
-from nddl_lang.semantics.expressions import NO_ENVIRONMENT, NOT_IN_NDDL3, check_condition, sampled_parameter, type_of
+from nddl_lang.semantics.expressions import NO_ENVIRONMENT, check_condition, sampled_parameter, type_of
 from nddl_lang.semantics.functions import FUNCTIONS
 from nddl_lang.semantics.names import suggest_name
 from nddl_lang.semantics.scope import Context, Scope
 from nddl_lang.semantics.signature import ArgumentKind
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import CallConstraint, ExprConstraint
-from nddl_lang.text.diagnostic import Code, Edit, Fix, Severity
-
-UNKNOWN_CONSTRAINT = Code("NDDL208", Severity.ERROR, "name", "there is no constraint `{name}`")
-FORMER_CONSTRAINT = Code("NDDL210", Severity.ERROR, "name", "the constraint `{name}` is called `{today}` today")
+from nddl_lang.text.diagnostic import Edit, Fix
 
 
 def check_expression_constraint(context: Context, scope: Scope, node: ExprConstraint) -> None:

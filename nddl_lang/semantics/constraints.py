@@ -73,7 +73,6 @@ _ADD = _row("addEq", "a:number b:number sum:number", -1, "a + b = sum")
 _MUL = _row("mulEq", "a:number b:number product:number", -1, "a × b = product")
 _MAXIMUM = _row("eqMaximum", "result:number x:number y:number rest*:number", 0, "result is the greatest of the rest")
 _MINIMUM = _row("eqMinimum", "result:number x:number y:number rest*:number", 0, "result is the least of the rest")
-_ROTATED = "x:number y:number result:number rest*:number"  # in truth the result stands after the rest
 _ALL_MAX = _row(
     "allMax", "x:number y:number result:number rest*:number", -1, "the last one is the greatest of the others"
 )

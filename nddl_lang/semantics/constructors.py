@@ -9,6 +9,15 @@ from nddl_lang.semantics.allocation import (
     has_empty_constructor,
     signature_text,
 )
+from nddl_lang.semantics.codes import (
+    ASSIGNED_TWICE,
+    CONSTRUCTOR_NAME,
+    DUPLICATE_CONSTRUCTOR,
+    DUPLICATE_FORMAL,
+    MISSING_SUPER,
+    NOT_A_MEMBER,
+    SUPER_NOT_FIRST,
+)
 from nddl_lang.semantics.names import complain_unknown_member, follow, resolve
 from nddl_lang.semantics.schema import (
     Chosen,
@@ -20,22 +29,12 @@ from nddl_lang.semantics.schema import (
     Reference,
     Variable,
 )
-from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.typenames import find_type
 from nddl_lang.semantics.values import check_value, constant
 from nddl_lang.syntax.nodes import Assignment, BrokenStatement, ConstructorDecl, NewExpr, PathExpr, SuperCall
-from nddl_lang.text.diagnostic import Code, Edit, Fix, Note, Severity
+from nddl_lang.text.diagnostic import Edit, Fix, Note
 from nddl_lang.text.source import Span
-
-CONSTRUCTOR_NAME = Code("NDDL215", Severity.ERROR, "name", "a constructor is called like its class, `{owner}`")
-DUPLICATE_CONSTRUCTOR = Code("NDDL226", Severity.ERROR, "duplicate", "`{signature}` is declared twice")
-DUPLICATE_FORMAL = Code("NDDL227", Severity.ERROR, "duplicate", "two parameters are called `{name}`")
-MISSING_SUPER = Code(
-    "NDDL326", Severity.ERROR, "arity", "base `{base}` has no constructor without arguments: `super(...)` is needed"
-)
-ASSIGNED_TWICE = Code("NDDL327", Severity.ERROR, "domain", "`{name}` is {first} already, and cannot become {second}")
-SUPER_NOT_FIRST = Code("NDDL401", Severity.ERROR, "rule", "`super(...)` must be the first statement of a constructor")
-NOT_A_MEMBER = Code("NDDL402", Severity.ERROR, "rule", "a constructor can assign only members; `{name}` is none")
 
 
 def declare_constructors(context: Context, owner: Class, nodes: list[ConstructorDecl]) -> dict[ConstructorDecl, Scope]:
@@ -46,10 +45,10 @@ def declare_constructors(context: Context, owner: Class, nodes: list[Constructor
         if node.name.name != owner.name:
             fix = Fix(f"write `{owner.name}`", (Edit(node.name.span, owner.name),), safe=False)
             context.complain(CONSTRUCTOR_NAME.at(node.name.span, fixes=(fix,), owner=owner.name))
-        scope = scopes[node] = Scope(Place.CONSTRUCTOR, owner.name)
+        scope = scopes[node] = Scope(BlockKind.CONSTRUCTOR, owner.name)
         parameters = _declare_formals(context, scope, node)
         if parameters is None:
-            context.world.put_partial(owner.name)
+            context.symbols.put_partial(owner.name)
             continue
         constructor = Constructor(owner.name, tuple(parameters), node, node.name.span)
         key = tuple(parameter.type.name for parameter in parameters)
@@ -89,9 +88,9 @@ def _declare_formals(context: Context, scope: Scope, node: ConstructorDecl) -> l
 
 def check_constructor(context: Context, owner: Class, node: ConstructorDecl, scope: Scope) -> None:
     """Check the body of a constructor."""
-    base = context.world.find_class(owner.base) if owner.base is not None else None
+    base = context.symbols.find_class(owner.base) if owner.base is not None else None
     calls_super = any(isinstance(statement, SuperCall | BrokenStatement) for statement in node.body)
-    is_certain = not context.world.is_partial(owner.name)
+    is_certain = not context.symbols.is_partial(owner.name)
     if base is not None and not calls_super and is_certain and not has_empty_constructor(base):
         notes = constructor_notes(base)
         context.complain(MISSING_SUPER.at(node.name.span, notes=notes, base=base.name))
@@ -110,7 +109,7 @@ def check_constructor(context: Context, owner: Class, node: ConstructorDecl, sco
 
 def _check_super(context: Context, scope: Scope, base: Class | None, node: SuperCall) -> None:
     types = argument_types(context, scope, node.arguments)
-    if base is None or (scope.own_class is not None and context.world.is_partial(scope.own_class)):
+    if base is None or (scope.own_class is not None and context.symbols.is_partial(scope.own_class)):
         return
     constructor = choose(context, base, node.arguments, types, node.span)
     if constructor is not None:
@@ -148,10 +147,10 @@ def _resolve_target(context: Context, scope: Scope, path: PathExpr) -> Reference
     assert scope.own_class is not None
     if head.name == "this" and rest:
         head, *rest = rest
-        if context.world.find_member(scope.own_class, head.name) is None:
+        if context.symbols.find_member(scope.own_class, head.name) is None:
             complain_unknown_member(context, scope.own_class, head)
             return None
-    member = context.world.find_member(scope.own_class, head.name)
+    member = context.symbols.find_member(scope.own_class, head.name)
     if member is None:
         return resolve(context, scope, path)
     start = MemberReference(None, (member,))

@@ -3,21 +3,14 @@
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.allocation import check_allocation
 from nddl_lang.semantics.classes import complain_taken
+from nddl_lang.semantics.codes import CLASS_TYPEDEF, DUPLICATE_NAME, DUPLICATE_VALUE
 from nddl_lang.semantics.schema import Domain, Enumeration, EnumValue, Kind, Type, Typedef, Values, Variable
-from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.typenames import find_type
 from nddl_lang.semantics.types import TOKEN_STATES
 from nddl_lang.semantics.values import check_value, constant
 from nddl_lang.syntax.nodes import EnumDecl, Identifier, NewExpr, TypedefDecl, VariableDecl
-from nddl_lang.text.diagnostic import Code, Note, Severity
-
-DUPLICATE_NAME = Code("NDDL228", Severity.ERROR, "duplicate", "`{name}` is declared twice")
-DUPLICATE_VALUE = Code("NDDL230", Severity.ERROR, "duplicate", "`{name}` is a value of enum `{enum}` already")
-
-
-CLASS_TYPEDEF = Code(
-    "NDDL333", Severity.ERROR, "type", "a typedef restricts numbers, texts or an enum; `{name}` is a class"
-)
+from nddl_lang.text.diagnostic import Note
 
 
 def check_enum(context: Context, node: EnumDecl) -> None:
@@ -28,11 +21,11 @@ def check_enum(context: Context, node: EnumDecl) -> None:
         return
     values = tuple(dict.fromkeys(value.name for value in node.values))
     enum = Enumeration(name, values, node, node.name.span, node.doc)
-    context.world.put("enum", name, enum)
+    context.symbols.put("enum", name, enum)
     context.tables.declared[node.name] = enum
     own: dict[str, Identifier] = {}
     for value in node.values:
-        known = context.world.find_value(value.name)
+        known = context.symbols.find_value(value.name)
         if known is not None:
             first = own.get(value.name)
             notes = _enum_note(context, known) if first is None else (Note("the first one is here", first.span),)
@@ -40,12 +33,12 @@ def check_enum(context: Context, node: EnumDecl) -> None:
             continue
         own[value.name] = value
         declared = EnumValue(name, value.name)
-        context.world.put("value", value.name, declared)
+        context.symbols.put("value", value.name, declared)
         context.tables.declared[value] = declared
 
 
 def _enum_note(context: Context, value: EnumValue) -> tuple[Note, ...]:
-    enum = context.world.find_enum(value.enum)
+    enum = context.symbols.find_enum(value.enum)
     if enum is None or enum.node is None:
         return (Note(f"`{value.value}` is a state of tokens"),)
     spans = [identifier.span for identifier in enum.node.values if identifier.name == value.value]
@@ -58,30 +51,30 @@ def check_typedef(context: Context, node: TypedefDecl) -> None:
     base = find_type(context, node.base)
     is_taken = complain_taken(context, node.name)
     if base is None:
-        context.world.put_faulty(name)
+        context.symbols.put_faulty(name)
         return
     if base.kind is Kind.OBJECT:
         context.complain(CLASS_TYPEDEF.at(node.base.span, name=base.base))
-        context.world.put_faulty(name)
+        context.symbols.put_faulty(name)
         return
-    is_sound = check_value(context, Scope(Place.SCRIPT), node.domain, base, name) is not None
+    is_sound = check_value(context, Scope(BlockKind.SCRIPT), node.domain, base, name) is not None
     if is_taken:
         return
     restriction = constant(context, node.domain) if is_sound else None
     if restriction is not None and base.restriction is not None:
         restriction = domains.intersect(restriction, base.restriction, base.kind)
     typedef = Typedef(name, Type(base.kind, name, base.base, restriction), node, node.name.span, node.doc)
-    context.world.put("typedef", name, typedef)
+    context.symbols.put("typedef", name, typedef)
     context.tables.declared[node.name] = typedef
 
 
 def check_globals(context: Context, node: VariableDecl) -> None:
     """Declare global variables."""
-    scope = Scope(Place.SCRIPT)
+    scope = Scope(BlockKind.SCRIPT)
     type_ = find_type(context, node.type_name)
     for declarator in node.declarators:
         name = declarator.name.name
-        first = context.world.find_global(name) or context.world.find_goal(name)
+        first = context.symbols.find_global(name) or context.symbols.find_goal(name)
         if first is not None:
             notes = (Note("the first declaration is here", first.span),) if first.span is not None else ()
             context.complain(DUPLICATE_NAME.at(declarator.name.span, notes=notes, name=name))
@@ -89,21 +82,21 @@ def check_globals(context: Context, node: VariableDecl) -> None:
         if isinstance(value, NewExpr):
             check_allocation(context, scope, value)
         if type_ is None:
-            context.world.put_faulty(name)
+            context.symbols.put_faulty(name)
             continue
         is_sound = value is None or check_value(context, scope, value, type_, name) is not None
         if first is not None:
             continue
         variable = Variable(name, type_, declarator.name.span, value, node, node.doc)
-        context.world.put("global", name, variable)
+        context.symbols.put("global", name, variable)
         context.tables.declared[declarator.name] = variable
         context.tables.locals[declarator] = variable
         if isinstance(value, NewExpr):
-            context.world.put("object", name, declarator.name.span)
-            context.world.put_base_domain(name, Values((name,)))
+            context.symbols.put("object", name, declarator.name.span)
+            context.symbols.put_base_domain(name, Values((name,)))
         elif is_sound:
             given = constant(context, value) if value is not None else None
-            context.world.put_base_domain(name, _narrowed(type_, given))
+            context.symbols.put_base_domain(name, _narrowed(type_, given))
 
 
 def _narrowed(type_: Type, given: Domain | None) -> Domain | None:

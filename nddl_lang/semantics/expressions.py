@@ -1,6 +1,20 @@
 """Give every expression its type; tell the user where operands do not go together."""
 
 from nddl_lang.semantics.arguments import check_count, check_types, complain_argument
+from nddl_lang.semantics.codes import (
+    ALWAYS_DIFFERENT,
+    INCOMPARABLE,
+    MIXED_ARITHMETIC,
+    MIXED_SET,
+    NO_ORDER,
+    NOT_A_BOUND,
+    NOT_A_CONDITION,
+    NOT_A_NUMBER,
+    NOT_IN_NDDL3,
+    REVERSED_INTERVAL,
+    SUM_OF_TIMES,
+    UNKNOWN_FUNCTION,
+)
 from nddl_lang.semantics.constraints import Origin
 from nddl_lang.semantics.functions import FunctionRow, ResultKind
 from nddl_lang.semantics.literals import number
@@ -11,7 +25,7 @@ from nddl_lang.semantics.schema import (
     EnumValue,
     GlobalReference,
     Kind,
-    TokenVariable,
+    TokenVariableReference,
     Type,
 )
 from nddl_lang.semantics.scope import Context, Scope
@@ -44,31 +58,9 @@ from nddl_lang.syntax.nodes import (
     StringLiteral,
     UnaryExpr,
 )
-from nddl_lang.text.diagnostic import Code, Edit, Fix, Severity
+from nddl_lang.text.diagnostic import Edit, Fix
 
-UNKNOWN_FUNCTION = Code("NDDL209", Severity.ERROR, "name", "there is no function `{name}`")
-NOT_IN_NDDL3 = Code("NDDL211", Severity.ERROR, "name", "`{name}` is not part of nddl3")
 NO_ENVIRONMENT = "give the value from outside: compare with a number, or with a global variable that the script assigns"
-MIXED_SET = Code(
-    "NDDL303", Severity.ERROR, "type", "the values of a set have one type; `{text}` is {found}, `{first}` is {expected}"
-)
-INCOMPARABLE = Code("NDDL305", Severity.ERROR, "type", "`{left}` is {one} and `{right}` is {other}: never equal")
-ALWAYS_DIFFERENT = Code(
-    "NDDL334", Severity.WARNING, "type", "`{left}` is {one} and `{right}` is {other}: they always differ"
-)
-NO_ORDER = Code("NDDL306", Severity.ERROR, "type", "`{op}` compares numbers; `{text}` is {found}")
-NOT_A_NUMBER = Code("NDDL307", Severity.ERROR, "type", "`{op}` needs numbers; `{text}` is {found}")
-MIXED_ARITHMETIC = Code(
-    "NDDL308", Severity.ERROR, "type", "nddl3 does not combine int and float: `{left}` is {one}, `{right}` is {other}"
-)
-NOT_A_CONDITION = Code("NDDL309", Severity.ERROR, "type", "a condition is needed here; `{text}` is {found}")
-SUM_OF_TIMES = Code("NDDL310", Severity.ERROR, "type", "the sum of two times is not a time")
-REVERSED_INTERVAL = Code(
-    "NDDL311", Severity.ERROR, "domain", "the lower bound {lower} is above the upper bound {upper}"
-)
-NOT_A_BOUND = Code(
-    "NDDL312", Severity.ERROR, "type", "the bounds of an interval are written out as numbers; `{text}` is not one"
-)
 
 _ORDERS = frozenset({"<", "<=", ">", ">="})
 _EQUALITIES = frozenset({"==", "!="})
@@ -130,7 +122,7 @@ def _simple_type(context: Context, scope: Scope, expression: Expr) -> Type | Non
         type_ = _unary_type(context, scope, expression)
     else:
         assert isinstance(expression, NewExpr)
-        known = context.world.find_class(expression.class_name.name) is not None
+        known = context.symbols.find_class(expression.class_name.name) is not None
         type_ = object_type(expression.class_name.name) if known else None
     if type_ is not None:
         context.tables.types[expression] = type_
@@ -159,7 +151,7 @@ def _binary_type(context: Context, binary: BinaryExpr, left: Type | None, right:
 def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, right: Type | None) -> None:
     if left is None or right is None:
         return
-    if not comparable(left, right, context.world.is_subclass):
+    if not comparable(left, right, context.symbols.is_subclass):
         differing = binary.op == "!=" and always_differ(left, right)
         context.complain(
             (ALWAYS_DIFFERENT if differing else INCOMPARABLE).at(
@@ -177,7 +169,7 @@ def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, rig
 
 def _is_time(context: Context, expression: Expr) -> bool:
     reference = context.tables.references.get(expression)
-    return isinstance(reference, TokenVariable) and reference.name in TIME_NAMES
+    return isinstance(reference, TokenVariableReference) and reference.name in TIME_NAMES
 
 
 def _is_sum_of_times(context: Context, expression: Expr) -> bool:
@@ -276,7 +268,7 @@ def _set_type(context: Context, scope: Scope, values: SetExpr) -> Type | None:
             first, result = (item, type_), plain(type_)
         elif type_.kind in NUMBERS and result.kind in NUMBERS:
             result = FLOAT if Kind.FLOAT in (type_.kind, result.kind) else INT
-        elif type_.kind is not result.kind or not comparable(type_, result, context.world.is_subclass):
+        elif type_.kind is not result.kind or not comparable(type_, result, context.symbols.is_subclass):
             context.complain(
                 MIXED_SET.at(
                     item.span,
@@ -287,7 +279,7 @@ def _set_type(context: Context, scope: Scope, values: SetExpr) -> Type | None:
                 )
             )
             return None
-        elif type_.kind is Kind.OBJECT and context.world.is_subclass(result.base, type_.base):
+        elif type_.kind is Kind.OBJECT and context.symbols.is_subclass(result.base, type_.base):
             result = plain(type_)
     return result
 

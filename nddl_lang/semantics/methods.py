@@ -1,6 +1,16 @@
 """Check method calls: the method exists for what it is called on, fits, and is possible in the state reached."""
 
 from nddl_lang.semantics.arguments import check_count, check_types
+from nddl_lang.semantics.codes import (
+    CLOSED_TWICE,
+    MERGE_INACTIVE,
+    MERGE_OTHER,
+    NOT_INACTIVE,
+    NOT_REJECTABLE,
+    ORDER_INACTIVE,
+    UNKNOWN_METHOD,
+    WRONG_RECEIVER,
+)
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.functions import METHODS, MethodRow, Receiver
 from nddl_lang.semantics.names import resolve, suggest_name
@@ -11,34 +21,23 @@ from nddl_lang.semantics.schema import (
     Label,
     Reference,
     TokenReference,
-    TokenVariable,
+    TokenVariableReference,
     Type,
 )
-from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.script import check_domain, note_state
 from nddl_lang.semantics.types import STATE, reference_type
 from nddl_lang.semantics.values import check_value, domain_key
 from nddl_lang.syntax.nodes import MethodCall, PathExpr
-from nddl_lang.text.diagnostic import Code, Note, Severity
+from nddl_lang.text.diagnostic import Note
 from nddl_lang.text.source import Span
-
-UNKNOWN_METHOD = Code("NDDL234", Severity.ERROR, "name", "there is no method `{name}`")
-WRONG_RECEIVER = Code("NDDL332", Severity.ERROR, "type", "`{name}` is called on {wanted}; `{text}` is {found}")
-CLOSED_TWICE = Code("NDDL406", Severity.ERROR, "state", "{what} is closed already")
-NOT_INACTIVE = Code("NDDL407", Severity.ERROR, "state", "`{name}` cannot be {done}: it is {state}")
-MERGE_INACTIVE = Code("NDDL408", Severity.ERROR, "state", "`{name}` is not active, so nothing can be merged into it")
-MERGE_OTHER = Code(
-    "NDDL409", Severity.ERROR, "state", "`{name}` is a token of `{one}`; only another one of them can stand for it"
-)
-NOT_REJECTABLE = Code("NDDL410", Severity.ERROR, "state", "`{name}` is a {kind}, which cannot be rejected")
-ORDER_INACTIVE = Code("NDDL411", Severity.ERROR, "state", "`{name}` is not active, so it has no place on `{object}`")
 
 _STATE_WORDS = {"ACTIVE": "active", "INACTIVE": "inactive", "MERGED": "merged", "REJECTED": "rejected"}
 
 
 def check_method(context: Context, node: MethodCall) -> None:
     """Check `target.method(...);` or `close();`."""
-    scope = Scope(Place.SCRIPT)
+    scope = Scope(BlockKind.SCRIPT)
     if not node.target.parts:
         _close(context, None, node.span, "everything")
         return
@@ -95,7 +94,7 @@ def _check_effect(context: Context, scope: Scope, node: MethodCall, row: MethodR
         case Receiver.OBJECT, _ if row.name == "constrain":
             for argument in node.arguments:
                 token = _token(context, argument)
-                if token is not None and context.world.token_state(token.name) not in (None, "ACTIVE"):
+                if token is not None and context.symbols.token_state(token.name) not in (None, "ACTIVE"):
                     text = node.target.span.text
                     context.complain(ORDER_INACTIVE.at(argument.span, name=token.name, object=text))
         case Receiver.VARIABLE, _:
@@ -105,11 +104,11 @@ def _check_effect(context: Context, scope: Scope, node: MethodCall, row: MethodR
 
 
 def _close(context: Context, class_name: str | None, span: Span, what: str) -> None:
-    closed = context.world.closed_at(class_name if class_name is not None else "*")
+    closed = context.symbols.closed_at(class_name if class_name is not None else "*")
     if closed is not None:
         context.complain(CLOSED_TWICE.at(span, notes=(Note("it is closed here", closed),), what=what))
     else:
-        context.world.put_closed(class_name, span)
+        context.symbols.put_closed(class_name, span)
 
 
 def _check_decision(context: Context, scope: Scope, node: MethodCall, row: MethodRow, reference: Reference) -> None:
@@ -119,17 +118,17 @@ def _check_decision(context: Context, scope: Scope, node: MethodCall, row: Metho
         return
     if row.name == "specify":
         _check_specify(context, scope, node, type_, reference)
-    elif row.name == "reset" and isinstance(reference, TokenVariable) and reference.name == "state":
+    elif row.name == "reset" and isinstance(reference, TokenVariableReference) and reference.name == "state":
         note_state(context, reference.label, None)
     elif row.name == "close":
         key = domain_key(context, node.target)
         if key is None:
             return
-        if (closed := context.world.look("closed variable", key)) is not None:
+        if (closed := context.symbols.look("closed variable", key)) is not None:
             assert isinstance(closed, Span)
             notes = (Note("it is closed here", closed),)
             context.complain(CLOSED_TWICE.at(node.span, notes=notes, what=f"`{node.target.span.text}`"))
-        context.world.put("closed variable", key, node.span)
+        context.symbols.put("closed variable", key, node.span)
 
 
 def _check_specify(context: Context, scope: Scope, node: MethodCall, type_: Type, reference: Reference) -> None:
@@ -137,52 +136,52 @@ def _check_specify(context: Context, scope: Scope, node: MethodCall, type_: Type
     if check_value(context, scope, value, type_, node.target.span.text) is None:
         return
     left = check_domain(context, node.target, type_, value)
-    if isinstance(reference, TokenVariable) and reference.name == "state":
+    if isinstance(reference, TokenVariableReference) and reference.name == "state":
         note_state(context, reference.label, left)
 
 
 def _check_transaction(context: Context, node: MethodCall, row: MethodRow, label: Label) -> None:
     """`activate`, `merge`, `reject` and `cancel` of a token, as far as its state is known for certain."""
-    world = context.world
-    state = world.token_state(label.name)
+    symbols = context.symbols
+    state = symbols.token_state(label.name)
     match row.name:
         case "activate":
             if state in ("MERGED", "REJECTED"):
                 _complain_state(context, node, label, "activated", state)
-            world.put_token_state(label.name, "ACTIVE")
+            symbols.put_token_state(label.name, "ACTIVE")
         case "merge":
             if state in ("ACTIVE", "REJECTED", "MERGED"):
                 _complain_state(context, node, label, "merged", state)
             else:
                 _check_merge(context, node, label)
-            world.put_token_state(label.name, "MERGED")
-            world.put("merged", "*", True)
+            symbols.put_token_state(label.name, "MERGED")
+            symbols.put("merged", "*", True)
         case "reject":
-            kind = world.token_kind(label.name)
+            kind = symbols.token_kind(label.name)
             if kind != "rejectable":
                 context.complain(NOT_REJECTABLE.at(node.span, name=label.name, kind=kind))
             elif state in ("ACTIVE", "REJECTED", "MERGED"):
                 _complain_state(context, node, label, "rejected", state)
-            world.put_token_state(label.name, "REJECTED")
+            symbols.put_token_state(label.name, "REJECTED")
         case "cancel":
             if state == "INACTIVE":
                 _complain_state(context, node, label, "cancelled", state)
-            world.put_token_state(label.name, "INACTIVE")
+            symbols.put_token_state(label.name, "INACTIVE")
             if state != "MERGED":
                 _forget_merged(context)
         case _:
-            world.put_token_state(label.name, None)
+            symbols.put_token_state(label.name, None)
 
 
 def _forget_merged(context: Context) -> None:
     """A cancelled token lets go of the tokens that were merged into it; which they are is not kept."""
-    world = context.world
-    if world.look("merged", "*") is None:
+    symbols = context.symbols
+    if symbols.look("merged", "*") is None:
         return
-    world.put("merged", "*", None)
-    for name in list(world.names("goal")):
-        if world.token_state(name) == "MERGED":
-            world.put_token_state(name, None)
+    symbols.put("merged", "*", None)
+    for name in list(symbols.names("goal")):
+        if symbols.token_state(name) == "MERGED":
+            symbols.put_token_state(name, None)
 
 
 def _complain_state(context: Context, node: MethodCall, label: Label, done: str, state: str) -> None:
@@ -195,10 +194,10 @@ def _check_merge(context: Context, node: MethodCall, label: Label) -> None:
     if active is None:
         return
     one, other = label.predicate, active.predicate
-    if one.name != other.name or not context.world.is_subclass(other.class_name, one.class_name):
+    if one.name != other.name or not context.symbols.is_subclass(other.class_name, one.class_name):
         notes = (Note(f"`{active.name}` is a token of `{other.full_name}`", active.span),)
         context.complain(MERGE_OTHER.at(argument.span, notes=notes, name=label.name, one=one.full_name))
-    elif context.world.token_state(active.name) not in (None, "ACTIVE"):
+    elif context.symbols.token_state(active.name) not in (None, "ACTIVE"):
         help_ = f"activate it first: `{active.name}.activate();`"
         context.complain(MERGE_INACTIVE.at(argument.span, help=help_, name=active.name))
 

@@ -6,6 +6,17 @@ globals, classes. Before a dot a token comes first: `x.y` is the token's variabl
 
 from collections.abc import Iterable, Sequence
 
+from nddl_lang.semantics.codes import (
+    CLASS_AS_VALUE,
+    DECLARED_BELOW,
+    MISPLACED_THIS,
+    NAME_OF_OTHER_BLOCK,
+    NOT_AN_OBJECT,
+    UNKNOWN_ENUM_VALUE,
+    UNKNOWN_MEMBER,
+    UNKNOWN_NAME,
+    UNKNOWN_TOKEN_VARIABLE,
+)
 from nddl_lang.semantics.natives import builtin_names, builtin_type
 from nddl_lang.semantics.schema import (
     ClassReference,
@@ -18,26 +29,15 @@ from nddl_lang.semantics.schema import (
     Predicate,
     Reference,
     TokenReference,
-    TokenVariable,
+    TokenVariableReference,
 )
-from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.types import reference_type
 from nddl_lang.syntax.nodes import Identifier, PathExpr
-from nddl_lang.text.diagnostic import Code, Diagnostic, Edit, Fix, Note, Severity
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
 from nddl_lang.text.nearest import nearest
 
-UNKNOWN_NAME = Code("NDDL201", Severity.ERROR, "name", "nothing named `{name}` is in scope here")
-DECLARED_BELOW = Code("NDDL202", Severity.ERROR, "name", "`{name}` is used above its declaration")
-NAME_OF_OTHER_BLOCK = Code(
-    "NDDL203", Severity.ERROR, "name", "`{name}` is known only inside the block that declares it"
-)
 TOKEN_OF_SCRIPT = "`{name}` is a token of the script; rules and predicates see only tokens of their own"
-UNKNOWN_MEMBER = Code("NDDL204", Severity.ERROR, "name", "class `{owner}` has no member `{name}`")
-UNKNOWN_TOKEN_VARIABLE = Code("NDDL205", Severity.ERROR, "name", "a token of `{predicate}` has no parameter `{name}`")
-UNKNOWN_ENUM_VALUE = Code("NDDL206", Severity.ERROR, "name", "`{name}` is no value of enum `{enum}`")
-MISPLACED_THIS = Code("NDDL207", Severity.ERROR, "name", "`this` has no meaning in {place}")
-NOT_AN_OBJECT = Code("NDDL301", Severity.ERROR, "type", "`{name}` is {type}, so `.{member}` finds nothing in it")
-CLASS_AS_VALUE = Code("NDDL302", Severity.ERROR, "type", "`{name}` is a class, not a value")
 
 _VALUE_TABLES = ("global", "goal", "value")
 _LITERALS = ("true", "false", "inf", "inff")
@@ -69,30 +69,30 @@ def resolve_value(context: Context, scope: Scope, path: PathExpr) -> Reference |
 
 def find(context: Context, scope: Scope, name: str) -> Reference | None:
     """What a bare name means."""
-    world = context.world
-    reference: Reference | None = world.find_value(name) or scope.find_local(name) or scope.find_own(name)
+    symbols = context.symbols
+    reference: Reference | None = symbols.find_value(name) or scope.find_local(name) or scope.find_own(name)
     if reference is not None:
         return reference
-    if scope.place is Place.CONSTRUCTOR and scope.own_class is not None:
+    if scope.kind is BlockKind.CONSTRUCTOR and scope.own_class is not None:
         if name == "this":
             return MemberReference(None, ())
-        if (member := world.find_member(scope.own_class, name)) is not None:
+        if (member := symbols.find_member(scope.own_class, name)) is not None:
             return MemberReference(None, (member,))
     if (label := scope.find_label(name) or find_script_token(context, scope, name)) is not None:
         return TokenReference(label)
-    if (variable := world.find_global(name)) is not None:
+    if (variable := symbols.find_global(name)) is not None:
         return GlobalReference(variable)
-    return ClassReference(name) if world.find_class(name) is not None else None
+    return ClassReference(name) if symbols.find_class(name) is not None else None
 
 
 def find_script_token(context: Context, scope: Scope, name: str) -> Label | None:
     """The token of the script with that name, where it can be seen: rules are about tokens that are not made yet."""
-    return context.world.find_goal(name) if scope.place is Place.SCRIPT else None
+    return context.symbols.find_goal(name) if scope.kind is BlockKind.SCRIPT else None
 
 
 def resolve_dotted(context: Context, scope: Scope, parts: Sequence[Identifier]) -> Reference | None:
     """What `a.b.c` names; None, after a complaint, where it names nothing."""
-    world, (head, *rest) = context.world, parts
+    symbols, (head, *rest) = context.symbols, parts
     label = scope.find_label(head.name)
     start: Reference | None
     if label is None:
@@ -105,7 +105,7 @@ def resolve_dotted(context: Context, scope: Scope, parts: Sequence[Identifier]) 
         if start is None:
             return None
         head = rest.pop(0)
-    elif start is None and len(rest) == 1 and (enum := world.find_enum(head.name)) is not None:
+    elif start is None and len(rest) == 1 and (enum := symbols.find_enum(head.name)) is not None:
         return _qualified_value(context, enum.name, rest[0])
     elif start is None:
         start = find(context, scope, head.name)
@@ -122,11 +122,11 @@ def resolve_dotted(context: Context, scope: Scope, parts: Sequence[Identifier]) 
 
 
 def _qualified_value(context: Context, enum: str, name: Identifier) -> EnumValue | None:
-    value = context.world.find_value(name.name)
+    value = context.symbols.find_value(name.name)
     if value is not None and value.enum == enum:
         return value
-    found = context.world.find_enum(enum)
-    if found is not None and not context.world.is_doubtful(name.name):
+    found = context.symbols.find_enum(enum)
+    if found is not None and not context.symbols.is_doubtful(name.name):
         complaint = UNKNOWN_ENUM_VALUE.at(name.span, name=name.name, enum=enum)
         context.complain(suggest_name(complaint, name, found.values))
     return None
@@ -145,31 +145,31 @@ def follow(
             what = f"of type `{type_.name}`" if not isinstance(reference, EnumValue) else "an enum value"
             context.complain(NOT_AN_OBJECT.at(head.span.to(part.span), name=head.name, type=what, member=part.name))
             return None
-        member = context.world.find_member(type_.base, part.name)
+        member = context.symbols.find_member(type_.base, part.name)
         if member is None:
             complain_unknown_member(context, type_.base, part)
             return None
         if isinstance(reference, MemberReference):
             reference = MemberReference(reference.base, (*reference.members, member))
         else:
-            assert isinstance(reference, GlobalReference | LocalReference | TokenVariable)
+            assert isinstance(reference, GlobalReference | LocalReference | TokenVariableReference)
             reference = MemberReference(reference, (member,))
         context.tables.references[part] = reference
         head = part
     return reference
 
 
-def find_token_variable(context: Context, label: Label, name: Identifier) -> TokenVariable | None:
+def find_token_variable(context: Context, label: Label, name: Identifier) -> TokenVariableReference | None:
     """The variable `name` of a token; a complaint where it has none."""
     predicate = label.predicate
     type_ = builtin_type(name.name, predicate)
     if type_ is None:
         type_ = next((p.type for p in predicate.parameters if p.name == name.name), None)
     if type_ is not None:
-        variable = TokenVariable(label, name.name, type_)
+        variable = TokenVariableReference(label, name.name, type_)
         context.tables.references[name] = variable
         return variable
-    if not context.world.is_partial(predicate.class_name) and not context.world.is_doubtful(name.name):
+    if not context.symbols.is_partial(predicate.class_name) and not context.symbols.is_doubtful(name.name):
         complaint = UNKNOWN_TOKEN_VARIABLE.at(
             name.span, notes=declared_note(predicate), predicate=predicate.full_name, name=name.name
         )
@@ -192,16 +192,16 @@ def declared_note(predicate: Predicate) -> tuple[Note, ...]:
 
 def complain_unknown_member(context: Context, class_name: str, name: Identifier) -> None:
     """Say that a class has no such member."""
-    world = context.world
-    if world.is_partial(class_name) or world.is_doubtful(name.name):
+    symbols = context.symbols
+    if symbols.is_partial(class_name) or symbols.is_doubtful(name.name):
         return
-    owner = world.find_class(class_name)
+    owner = symbols.find_class(class_name)
     span = owner.span if owner is not None else None
     notes = (Note(f"`{class_name}` is declared here", span),) if span is not None else ()
     complaint = UNKNOWN_MEMBER.at(name.span, notes=notes, owner=class_name, name=name.name)
     if owner is not None and not owner.is_defined:
         complaint = _with(complaint, f"`{class_name}` is only announced so far; define it above this place", ())
-    members = [member for ancestor in world.ancestry(class_name) for member in ancestor.members]
+    members = [member for ancestor in symbols.ancestry(class_name) for member in ancestor.members]
     context.complain(suggest_name(complaint, name, members))
 
 
@@ -210,12 +210,12 @@ def complain_unknown(context: Context, scope: Scope, name: Identifier, tables: t
 
     What may have been meant is looked for among values, and in `tables` too.
     """
-    world, word = context.world, name.name
-    if word in context.reported or scope.is_doubtful(word) or world.is_doubtful(word):
+    symbols, word = context.symbols, name.name
+    if word in context.reported or scope.is_doubtful(word) or symbols.is_doubtful(word):
         return
     context.reported.add(word)
     if word == "this":
-        context.complain(MISPLACED_THIS.at(name.span, place=scope.place.value))
+        context.complain(MISPLACED_THIS.at(name.span, place=scope.kind.value))
     elif (lost := scope.lost_at(word)) is not None:
         note = Note(f"`{word}` is declared in a block that ends before this place", lost)
         context.complain(NAME_OF_OTHER_BLOCK.at(name.span, notes=(note,), name=word))
@@ -223,22 +223,22 @@ def complain_unknown(context: Context, scope: Scope, name: Identifier, tables: t
         fix = Fix(f"write `object.{word}`", (Edit(name.span, f"object.{word}"),))
         help_ = f"`{word}` is a member of class `{scope.own_class}`; in a rule or predicate write `object.{word}`"
         context.complain(_with(UNKNOWN_NAME.at(name.span, name=word), help_, (fix,)))
-    elif world.find_goal(word) is not None and scope.place is not Place.SCRIPT:
+    elif symbols.find_goal(word) is not None and scope.kind is not BlockKind.SCRIPT:
         context.complain(_with(UNKNOWN_NAME.at(name.span, name=word), TOKEN_OF_SCRIPT.format(name=word), ()))
-    elif (below := scope.declared_below(word) or world.declared_below(word)) is not None:
+    elif (below := scope.declared_below(word) or symbols.declared_below(word)) is not None:
         note = Note(f"`{word}` is declared here; statements run in order", below)
         context.complain(DECLARED_BELOW.at(name.span, notes=(note,), name=word))
     else:
         own = builtin_names(scope.own.predicate.is_event) if scope.own is not None else ()
-        values = [each for each in _VALUE_TABLES if each != "goal" or scope.place is Place.SCRIPT]
-        candidates = [*scope.visible(), *own, *world.names(*values, *tables), *_LITERALS]
+        values = [each for each in _VALUE_TABLES if each != "goal" or scope.kind is BlockKind.SCRIPT]
+        candidates = [*scope.visible(), *own, *symbols.names(*values, *tables), *_LITERALS]
         context.complain(suggest_name(UNKNOWN_NAME.at(name.span, name=word), name, candidates))
 
 
 def _is_own_member(context: Context, scope: Scope, name: str) -> bool:
-    if scope.own_class is None or scope.place not in (Place.RULE, Place.PREDICATE):
+    if scope.own_class is None or scope.kind not in (BlockKind.RULE, BlockKind.PREDICATE):
         return False
-    return context.world.find_member(scope.own_class, name) is not None
+    return context.symbols.find_member(scope.own_class, name) is not None
 
 
 def suggest_name(

@@ -1,12 +1,20 @@
 """The pages of the codes about constraints, functions, constructors and methods."""
 
-from nddl_lang.semantics.allocation import NO_BASE_CONSTRUCTOR, NO_CONSTRUCTOR
-from nddl_lang.semantics.arguments import ARGUMENTS_DIFFER, WRONG_ARGUMENT, WRONG_COUNT
-from nddl_lang.semantics.constraining import FORMER_CONSTRAINT, UNKNOWN_CONSTRAINT
-from nddl_lang.semantics.constructors import MISSING_SUPER
-from nddl_lang.semantics.expressions import NOT_IN_NDDL3, UNKNOWN_FUNCTION
-from nddl_lang.semantics.methods import UNKNOWN_METHOD, WRONG_RECEIVER
-from nddl_lang.semantics.tokens import WHOLE_BOUNDS
+from nddl_lang.semantics.codes import (
+    ARGUMENTS_DIFFER,
+    FORMER_CONSTRAINT,
+    MISSING_SUPER,
+    NO_BASE_CONSTRUCTOR,
+    NO_CONSTRUCTOR,
+    NOT_IN_NDDL3,
+    UNKNOWN_CONSTRAINT,
+    UNKNOWN_FUNCTION,
+    UNKNOWN_METHOD,
+    WHOLE_BOUNDS,
+    WRONG_ARGUMENT,
+    WRONG_COUNT,
+    WRONG_RECEIVER,
+)
 from nddl_lang.text.page import RulePage
 
 _ARM = "class Arm extends Timeline { predicate grab { } predicate release { } }\n"

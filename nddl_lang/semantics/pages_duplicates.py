@@ -1,11 +1,21 @@
 """The pages of the codes about names that are taken."""
 
-from nddl_lang.semantics.classes import DUPLICATE_MEMBER, DUPLICATE_TYPE, ENUM_OF_THAT_NAME, NATIVE_CLASS
-from nddl_lang.semantics.constructors import CONSTRUCTOR_NAME, DUPLICATE_CONSTRUCTOR, DUPLICATE_FORMAL
-from nddl_lang.semantics.declarations import DUPLICATE_NAME, DUPLICATE_VALUE
-from nddl_lang.semantics.predicates import BUILTIN_PARAMETER, DUPLICATE_PARAMETER, DUPLICATE_PREDICATE
-from nddl_lang.semantics.script import DUPLICATE_OBJECT
-from nddl_lang.semantics.tokens import DUPLICATE_TOKEN
+from nddl_lang.semantics.codes import (
+    BUILTIN_PARAMETER,
+    CONSTRUCTOR_NAME,
+    DUPLICATE_CONSTRUCTOR,
+    DUPLICATE_FORMAL,
+    DUPLICATE_MEMBER,
+    DUPLICATE_NAME,
+    DUPLICATE_OBJECT,
+    DUPLICATE_PARAMETER,
+    DUPLICATE_PREDICATE,
+    DUPLICATE_TOKEN,
+    DUPLICATE_TYPE,
+    DUPLICATE_VALUE,
+    ENUM_OF_THAT_NAME,
+    NATIVE_CLASS,
+)
 from nddl_lang.text.page import RulePage
 
 _ARM = "class Arm extends Timeline { predicate grab { int force; } }\nArm a = new Arm();\n"

@@ -1,24 +1,24 @@
 """The pages of the codes about names that are not known."""
 
-from nddl_lang.semantics.classes import OWN_BASE
-from nddl_lang.semantics.names import (
+from nddl_lang.semantics.codes import (
     DECLARED_BELOW,
     MISPLACED_THIS,
+    MISSING_OBJECT,
+    MISSING_ORIGIN,
     NAME_OF_OTHER_BLOCK,
+    OWN_BASE,
+    THIS_AS_OBJECT,
+    UNDEFINED_CLASS,
+    UNKNOWN_CLASS,
     UNKNOWN_ENUM_VALUE,
     UNKNOWN_MEMBER,
     UNKNOWN_NAME,
-    UNKNOWN_TOKEN_VARIABLE,
-)
-from nddl_lang.semantics.tokens import (
-    MISSING_OBJECT,
-    MISSING_ORIGIN,
-    THIS_AS_OBJECT,
     UNKNOWN_PREDICATE,
     UNKNOWN_RELATION,
     UNKNOWN_TOKEN,
+    UNKNOWN_TOKEN_VARIABLE,
+    UNKNOWN_TYPE,
 )
-from nddl_lang.semantics.typenames import UNDEFINED_CLASS, UNKNOWN_CLASS, UNKNOWN_TYPE
 from nddl_lang.text.page import RulePage
 
 _ARM = "class Arm extends Timeline { int reach; predicate grab { int force; } predicate release { } }\n"

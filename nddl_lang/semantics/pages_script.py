@@ -1,17 +1,18 @@
 """The pages of the codes about what is not possible at its place, or in the state that the script has reached."""
 
-from nddl_lang.semantics.allocation import CLASS_IS_CLOSED
-from nddl_lang.semantics.constructors import NOT_A_MEMBER, SUPER_NOT_FIRST
-from nddl_lang.semantics.methods import (
+from nddl_lang.semantics.codes import (
+    CLASS_IS_CLOSED,
     CLOSED_TWICE,
+    FOREIGN_TARGET,
     MERGE_INACTIVE,
     MERGE_OTHER,
+    NO_OBJECT_YET,
+    NOT_A_MEMBER,
     NOT_INACTIVE,
     NOT_REJECTABLE,
     ORDER_INACTIVE,
+    SUPER_NOT_FIRST,
 )
-from nddl_lang.semantics.predicates import FOREIGN_TARGET
-from nddl_lang.semantics.tokens import NO_OBJECT_YET
 from nddl_lang.text.page import RulePage
 
 _ARM = "class Arm extends Timeline { predicate grab { } predicate release { } }\n"

@@ -1,25 +1,28 @@
 """The pages of the codes about types and domains."""
 
-from nddl_lang.semantics.classes import MEMBER_VALUE
-from nddl_lang.semantics.constructors import ASSIGNED_TWICE
-from nddl_lang.semantics.declarations import CLASS_TYPEDEF
-from nddl_lang.semantics.expressions import (
+from nddl_lang.semantics.codes import (
     ALWAYS_DIFFERENT,
+    ASSIGNED_TWICE,
+    CLASS_AS_VALUE,
+    CLASS_TYPEDEF,
+    DOES_NOT_FIT,
     INCOMPARABLE,
+    LEAVES_DOMAIN,
+    MEMBER_VALUE,
     MIXED_ARITHMETIC,
     MIXED_SET,
+    NO_OBJECT_PREFIX,
     NO_ORDER,
     NOT_A_BOUND,
+    NOT_A_COLLECTION,
     NOT_A_CONDITION,
     NOT_A_NUMBER,
+    NOT_A_VARIABLE,
+    NOT_AN_OBJECT,
+    OUTSIDE_TYPE,
     REVERSED_INTERVAL,
     SUM_OF_TIMES,
 )
-from nddl_lang.semantics.names import CLASS_AS_VALUE, NOT_AN_OBJECT
-from nddl_lang.semantics.rules import NOT_A_COLLECTION
-from nddl_lang.semantics.script import LEAVES_DOMAIN, NOT_A_VARIABLE
-from nddl_lang.semantics.tokens import NO_OBJECT_PREFIX
-from nddl_lang.semantics.values import DOES_NOT_FIT, OUTSIDE_TYPE
 from nddl_lang.text.page import RulePage
 
 _ARM = "class Arm extends Timeline { predicate grab { int force; Arm other; } }\n"

@@ -1,10 +1,11 @@
 """Declare predicates, and check their bodies: parameters, and constraints that hold for every token."""
 
+from nddl_lang.semantics.codes import BUILTIN_PARAMETER, DUPLICATE_PARAMETER, DUPLICATE_PREDICATE, FOREIGN_TARGET
 from nddl_lang.semantics.constraining import check_call_constraint, check_expression_constraint
 from nddl_lang.semantics.names import resolve
 from nddl_lang.semantics.natives import builtin_type
-from nddl_lang.semantics.schema import Class, Label, Predicate, TokenVariable, Variable
-from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.schema import Class, Label, Predicate, TokenVariableReference, Variable
+from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.typenames import find_type
 from nddl_lang.semantics.values import check_value
 from nddl_lang.syntax.nodes import (
@@ -16,12 +17,7 @@ from nddl_lang.syntax.nodes import (
     PredicateDecl,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Note, Severity
-
-DUPLICATE_PREDICATE = Code("NDDL223", Severity.ERROR, "duplicate", "class `{owner}` has a predicate `{name}` already")
-DUPLICATE_PARAMETER = Code("NDDL224", Severity.ERROR, "duplicate", "`{owner}` has a parameter `{name}` already")
-BUILTIN_PARAMETER = Code("NDDL225", Severity.ERROR, "duplicate", "every token has a variable `{name}` of its own")
-FOREIGN_TARGET = Code("NDDL404", Severity.ERROR, "rule", "a predicate can restrict only the variables of its own token")
+from nddl_lang.text.diagnostic import Note
 
 
 def check_predicate(context: Context, owner: Class, node: PredicateDecl) -> None:
@@ -47,7 +43,7 @@ def check_predicate(context: Context, owner: Class, node: PredicateDecl) -> None
     )
     owner.predicates[name] = predicate
     context.tables.declared[node.name] = predicate
-    scope = Scope(Place.PREDICATE, owner.name, Label("this", predicate, node.name.span))
+    scope = Scope(BlockKind.PREDICATE, owner.name, Label("this", predicate, node.name.span))
     scope.parameters = {parameter.name: parameter for parameter in parameters}
     for declarator, parameter in own.items():
         scope.expect(parameter.name, declarator.name.span)
@@ -75,7 +71,7 @@ def _declare_parameters(
                 complaint = DUPLICATE_PARAMETER.at(declarator.name.span, notes=notes, owner=full_name, name=name)
                 context.complain(complaint)
             elif type_ is None:
-                context.world.put_faulty(name)
+                context.symbols.put_faulty(name)
             else:
                 parameter = Variable(
                     name, type_, declarator.name.span, declarator.initialiser, statement, statement.doc
@@ -114,7 +110,7 @@ def _check_assignment(context: Context, scope: Scope, node: Assignment) -> None:
     reference = resolve(context, scope, node.target)
     if reference is None:
         return
-    if not isinstance(reference, TokenVariable):
+    if not isinstance(reference, TokenVariableReference):
         context.complain(FOREIGN_TARGET.at(node.target.span))
         return
     check_value(context, scope, node.value, reference.type, node.target.span.text)

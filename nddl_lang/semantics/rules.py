@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from nddl_lang.semantics.allocation import check_allocation
+from nddl_lang.semantics.codes import NOT_A_COLLECTION
 from nddl_lang.semantics.constraining import check_call_constraint, check_expression_constraint
 from nddl_lang.semantics.expressions import check_guard
 from nddl_lang.semantics.names import resolve_value
@@ -24,9 +25,6 @@ from nddl_lang.syntax.nodes import (
     RuleStatement,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Severity
-
-NOT_A_COLLECTION = Code("NDDL330", Severity.ERROR, "type", "`foreach` runs over objects; `{text}` is {found}")
 
 _Block = tuple[Iterator[RuleStatement], Scope]
 
@@ -38,7 +36,7 @@ def check_rule(context: Context, node: RuleDecl) -> None:
     if predicate is None:
         return
     context.tables.predicates[node] = predicate
-    context.world.put("rule", predicate.full_name, Rule(predicate, node))
+    context.symbols.put("rule", predicate.full_name, Rule(predicate, node))
     # Blocks are kept on a list and not on Python's stack: `else if` may go on for long.
     open_blocks: list[_Block] = [(iter(node.body), rule_scope(predicate, node))]
     while open_blocks:

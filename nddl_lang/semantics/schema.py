@@ -208,7 +208,7 @@ class TokenReference:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class TokenVariable:
+class TokenVariableReference:
     """A variable of a token: a parameter or one of state, object, start, end, duration, time."""
 
     label: Label
@@ -223,12 +223,18 @@ class MemberReference:
     `base` None is the constructor's own object; without members it is that object itself (`this`).
     """
 
-    base: "GlobalReference | LocalReference | TokenVariable | None"
+    base: "GlobalReference | LocalReference | TokenVariableReference | None"
     members: tuple[Variable, ...]
 
 
 Reference = (
-    EnumValue | GlobalReference | LocalReference | ClassReference | TokenReference | TokenVariable | MemberReference
+    EnumValue
+    | GlobalReference
+    | LocalReference
+    | ClassReference
+    | TokenReference
+    | TokenVariableReference
+    | MemberReference
 )
 
 

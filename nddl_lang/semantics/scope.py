@@ -11,11 +11,11 @@ from nddl_lang.semantics.schema import (
     LocalReference,
     Predicate,
     SideTables,
-    TokenVariable,
+    TokenVariableReference,
     Type,
     Variable,
 )
-from nddl_lang.semantics.world import World
+from nddl_lang.semantics.symbol_table import SymbolTable
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import NewExpr, Relation, RuleDecl, RuleStatement, VariableDecl
 from nddl_lang.text.diagnostic import Diagnostic
@@ -28,7 +28,7 @@ _NAME = re.compile(r"[A-Za-z_$][A-Za-z0-9_$]*")
 class Context:
     """What the passes over one top-level statement share."""
 
-    world: World
+    symbols: SymbolTable
     dialect: Dialect
     tables: SideTables = field(default_factory=SideTables)
     complaints: list[Diagnostic] = field(default_factory=list)
@@ -49,7 +49,7 @@ class Deferred:
     types: tuple[Type | None, ...]
 
 
-class Place(Enum):
+class BlockKind(Enum):
     """What a statement is part of; the value completes `cannot stand in ...`."""
 
     SCRIPT = "the script"
@@ -59,7 +59,7 @@ class Place(Enum):
 
 
 class Scope:
-    """The names of one block; those of the script are the world's.
+    """The names of one block; those of the script are in the symbol table.
 
     `own` is the rule's or predicate's own token, `own_class` its class or the one that is constructed.
     A predicate's parameters become visible one by one.
@@ -71,24 +71,24 @@ class Scope:
         "_lost",
         "_own",
         "_vague",
+        "kind",
         "labels",
         "own",
         "own_class",
         "parameters",
         "parent",
-        "place",
         "variables",
     )
 
-    def __init__(self, place: Place, own_class: str | None = None, own: Label | None = None) -> None:
-        self.place = place
+    def __init__(self, kind: BlockKind, own_class: str | None = None, own: Label | None = None) -> None:
+        self.kind = kind
         self.own_class = own_class
         self.own = own
         self.parent: Scope | None = None
         self.variables: dict[str, LocalReference] = {}
         self.labels: dict[str, Label] = {}
         self.parameters: dict[str, Variable] = {}
-        self._own: dict[str, TokenVariable] = {}
+        self._own: dict[str, TokenVariableReference] = {}
         self._lost: dict[str, Span] = {}
         self._later: dict[str, Span] = {}
         self._body: tuple[RuleStatement, ...] = ()
@@ -96,7 +96,7 @@ class Scope:
 
     def block(self) -> "Scope":
         """The scope of a block inside this one."""
-        inner = Scope(self.place, self.own_class, self.own)
+        inner = Scope(self.kind, self.own_class, self.own)
         inner.parent = self
         inner.parameters = self.parameters
         inner._own = self._own
@@ -158,7 +158,7 @@ class Scope:
             scope = scope.parent
         return None
 
-    def find_own(self, name: str) -> TokenVariable | None:
+    def find_own(self, name: str) -> TokenVariableReference | None:
         """The variable of that name of the own token."""
         if self.own is None:
             return None
@@ -167,7 +167,7 @@ class Scope:
             parameter = self.parameters.get(name)
             type_ = parameter.type if parameter is not None else builtin_type(name, self.own.predicate)
             if type_ is not None:
-                found = self._own[name] = TokenVariable(self.own, name, type_)
+                found = self._own[name] = TokenVariableReference(self.own, name, type_)
         return found
 
     def visible_labels(self) -> list[str]:
@@ -180,7 +180,7 @@ class Scope:
         return names
 
     def visible(self) -> list[str]:
-        """The names that this scope adds to those of the world."""
+        """The names that this scope adds to those of the script."""
         names: list[str] = []
         scope: Scope | None = self
         while scope is not None:
@@ -196,7 +196,7 @@ def names_in(text: str) -> list[str]:
 
 def rule_scope(predicate: Predicate, rule: RuleDecl) -> Scope:
     """The scope of a rule on `predicate`."""
-    scope = Scope(Place.RULE, predicate.class_name, Label("this", predicate, rule.predicate.span))
+    scope = Scope(BlockKind.RULE, predicate.class_name, Label("this", predicate, rule.predicate.span))
     scope._body = rule.body
     scope.parameters = {parameter.name: parameter for parameter in predicate.parameters}
     return scope

@@ -2,6 +2,7 @@
 
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.allocation import check_allocation
+from nddl_lang.semantics.codes import DUPLICATE_OBJECT, LEAVES_DOMAIN, NOT_A_VARIABLE
 from nddl_lang.semantics.names import resolve
 from nddl_lang.semantics.natives import LEAST_DURATION, SELF_ACTIVATING
 from nddl_lang.semantics.schema import (
@@ -12,11 +13,11 @@ from nddl_lang.semantics.schema import (
     Label,
     Reference,
     TokenReference,
-    TokenVariable,
+    TokenVariableReference,
     Type,
     Values,
 )
-from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.tokens import check_instance, check_relation
 from nddl_lang.semantics.types import reference_type
 from nddl_lang.semantics.values import check_value, constant, domain_key, reference_key
@@ -31,11 +32,6 @@ from nddl_lang.syntax.nodes import (
     Relation,
     VariableDecl,
 )
-from nddl_lang.text.diagnostic import Code, Severity
-
-DUPLICATE_OBJECT = Code("NDDL233", Severity.ERROR, "duplicate", "an object called `{name}` exists already")
-NOT_A_VARIABLE = Code("NDDL331", Severity.ERROR, "type", "`{name}` is {what}, not a variable")
-LEAVES_DOMAIN = Code("NDDL314", Severity.ERROR, "domain", "`{text}` is outside the domain of `{name}`, {domain}")
 
 _GOAL_STATES = ("ACTIVE", "MERGED")
 _REJECTABLE_STATES = (*_GOAL_STATES, "REJECTED")
@@ -43,7 +39,7 @@ _REJECTABLE_STATES = (*_GOAL_STATES, "REJECTED")
 
 def check_goal(context: Context, node: GoalStatement) -> None:
     """Check `goal(object.p q);`, `fact(...)` or `rejectable(...)`."""
-    scope = Scope(Place.SCRIPT)
+    scope = Scope(BlockKind.SCRIPT)
     for instance in node.instances:
         label = check_instance(context, scope, instance)
         if label is not None:
@@ -52,7 +48,7 @@ def check_goal(context: Context, node: GoalStatement) -> None:
 
 def check_script_relation(context: Context, node: Relation) -> None:
     """Check a relation between tokens of the script."""
-    labels = check_relation(context, Scope(Place.SCRIPT), node)
+    labels = check_relation(context, Scope(BlockKind.SCRIPT), node)
     for label, instance in zip(labels, node.created, strict=True):
         if label is not None:
             _note_token(context, label, "child", instance)
@@ -60,12 +56,12 @@ def check_script_relation(context: Context, node: Relation) -> None:
 
 def check_new(context: Context, node: Allocation) -> None:
     """Check `new C(...);`."""
-    check_allocation(context, Scope(Place.SCRIPT), node.value)
+    check_allocation(context, Scope(BlockKind.SCRIPT), node.value)
 
 
 def check_assignment(context: Context, node: Assignment) -> None:
     """Check `a = value;`: it fits, and leaves the variable a value."""
-    scope = Scope(Place.SCRIPT)
+    scope = Scope(BlockKind.SCRIPT)
     reference = resolve(context, scope, node.target)
     if isinstance(node.value, NewExpr):
         check_allocation(context, scope, node.value)
@@ -77,8 +73,8 @@ def check_assignment(context: Context, node: Assignment) -> None:
     left = check_domain(context, node.target, type_, node.value)
     key = domain_key(context, node.target)
     if key is not None and left is not None:
-        context.world.put_base_domain(key, left)
-    if isinstance(reference, TokenVariable) and reference.name == "state":
+        context.symbols.put_base_domain(key, left)
+    if isinstance(reference, TokenVariableReference) and reference.name == "state":
         note_state(context, reference.label, left)
 
 
@@ -117,11 +113,11 @@ def check_domain(context: Context, target: PathExpr, type_: Type, value: Expr) -
 def known_domain(context: Context, target: PathExpr, type_: Type) -> Domain | None:
     """What the base domain of a variable of the script lies within, None where nothing is known."""
     key = domain_key(context, target)
-    known = context.world.base_domain(key) if key is not None else None
+    known = context.symbols.base_domain(key) if key is not None else None
     if known is not None:
         return known
     reference = context.tables.references.get(target)
-    if isinstance(reference, TokenVariable):
+    if isinstance(reference, TokenVariableReference):
         return _declared_domain(context, reference)
     return type_.restriction
 
@@ -129,30 +125,30 @@ def known_domain(context: Context, target: PathExpr, type_: Type) -> Domain | No
 def note_state(context: Context, label: Label, state: Domain | None) -> None:
     """Note that the state of a token of the script was given."""
     known = str(state.items[0]) if isinstance(state, Values) and len(state.items) == 1 else None
-    context.world.put_token_state(label.name, known)
+    context.symbols.put_token_state(label.name, known)
 
 
 def _note_token(context: Context, label: Label, kind: str, instance: Instance) -> None:
-    world = context.world
+    symbols = context.symbols
     prefix = context.tables.targets[instance].object
     key = reference_key(context, prefix) if not isinstance(prefix, str) else None
-    object_domain = world.base_domain(key) if key is not None else None
-    is_active = any(owner.name in SELF_ACTIVATING for owner in world.ancestry(label.predicate.class_name))
-    world.put_token(label.name, kind, "ACTIVE" if is_active else "INACTIVE")
+    object_domain = symbols.base_domain(key) if key is not None else None
+    is_active = any(owner.name in SELF_ACTIVATING for owner in symbols.ancestry(label.predicate.class_name))
+    symbols.put_token(label.name, kind, "ACTIVE" if is_active else "INACTIVE")
     if object_domain is not None:
-        world.put_base_domain(f"{label.name}.object", object_domain)
-    world.put_base_domain(f"{label.name}.state", Values(_REJECTABLE_STATES if kind == "rejectable" else _GOAL_STATES))
+        symbols.put_base_domain(f"{label.name}.object", object_domain)
+    symbols.put_base_domain(f"{label.name}.state", Values(_REJECTABLE_STATES if kind == "rejectable" else _GOAL_STATES))
 
 
 def _note_object(context: Context, name: str, node: Assignment) -> None:
-    first = context.world.look("object", name)
+    first = context.symbols.look("object", name)
     if first is not None:
         context.complain(DUPLICATE_OBJECT.at(node.span, name=name))
     else:
-        context.world.put("object", name, node.target.span)
+        context.symbols.put("object", name, node.target.span)
 
 
-def _declared_domain(context: Context, variable: TokenVariable) -> Domain | None:
+def _declared_domain(context: Context, variable: TokenVariableReference) -> Domain | None:
     """What the declaration of a token's variable leaves of its type, as far as it is written out there."""
     domain = LEAST_DURATION if variable.name == "duration" and not variable.label.predicate.is_event else None
     known: Domain | None = domain or variable.type.restriction
@@ -165,7 +161,7 @@ def _declared_domain(context: Context, variable: TokenVariable) -> Domain | None
     return known
 
 
-def _written_values(variable: TokenVariable) -> list[Expr]:
+def _written_values(variable: TokenVariableReference) -> list[Expr]:
     values: list[Expr] = []
     for node in variable.label.predicate.nodes:
         for statement in node.body:

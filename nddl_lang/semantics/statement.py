@@ -1,4 +1,4 @@
-"""Check one top-level statement in the world that the statements above it made."""
+"""Check one top-level statement with the declarations of the statements above it."""
 
 from typing import assert_never
 
@@ -7,7 +7,7 @@ from nddl_lang.semantics.constraining import check_call_constraint, check_expres
 from nddl_lang.semantics.declarations import check_enum, check_globals, check_typedef
 from nddl_lang.semantics.methods import check_method
 from nddl_lang.semantics.rules import check_rule
-from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.script import check_assignment, check_goal, check_new, check_script_relation
 from nddl_lang.syntax.nodes import (
     Allocation,
@@ -46,9 +46,9 @@ def check_statement(context: Context, node: Statement) -> None:
         case Assignment():
             check_assignment(context, node)
         case CallConstraint():
-            check_call_constraint(context, Scope(Place.SCRIPT), node)
+            check_call_constraint(context, Scope(BlockKind.SCRIPT), node)
         case ExprConstraint():
-            check_expression_constraint(context, Scope(Place.SCRIPT), node)
+            check_expression_constraint(context, Scope(BlockKind.SCRIPT), node)
         case Relation():
             check_script_relation(context, node)
         case MethodCall():

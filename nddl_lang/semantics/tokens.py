@@ -1,9 +1,21 @@
 """Check what creates tokens and relates them: instances such as `object.p q`, and relations."""
 
-from nddl_lang.semantics.arguments import WRONG_COUNT
+from nddl_lang.semantics.codes import (
+    DUPLICATE_TOKEN,
+    MISPLACED_THIS,
+    MISSING_OBJECT,
+    MISSING_ORIGIN,
+    NO_OBJECT_PREFIX,
+    NO_OBJECT_YET,
+    THIS_AS_OBJECT,
+    UNKNOWN_PREDICATE,
+    UNKNOWN_RELATION,
+    UNKNOWN_TOKEN,
+    WHOLE_BOUNDS,
+    WRONG_COUNT,
+)
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.names import (
-    MISPLACED_THIS,
     TOKEN_OF_SCRIPT,
     complain_unknown,
     find,
@@ -21,24 +33,13 @@ from nddl_lang.semantics.schema import (
     Reference,
     Target,
     TokenReference,
-    TokenVariable,
+    TokenVariableReference,
 )
-from nddl_lang.semantics.scope import Context, Place, Scope
+from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.types import object_type, phrase, reference_type
 from nddl_lang.semantics.values import constant
 from nddl_lang.syntax.nodes import Identifier, Instance, IntervalExpr, PathExpr, Relation
-from nddl_lang.text.diagnostic import Code, Edit, Fix, Note, Severity
-
-UNKNOWN_PREDICATE = Code("NDDL216", Severity.ERROR, "name", "class `{owner}` has no predicate `{name}`")
-UNKNOWN_TOKEN = Code("NDDL217", Severity.ERROR, "name", "there is no token `{name}` here")
-UNKNOWN_RELATION = Code("NDDL218", Severity.ERROR, "name", "`{name}` names no relation")
-MISSING_ORIGIN = Code("NDDL219", Severity.ERROR, "name", "outside a rule a relation needs a token on its left")
-MISSING_OBJECT = Code("NDDL231", Severity.ERROR, "name", "outside a rule a token needs its object: `object.{name}`")
-THIS_AS_OBJECT = Code("NDDL232", Severity.ERROR, "name", "`this` is the token, not its object")
-NO_OBJECT_PREFIX = Code("NDDL328", Severity.ERROR, "type", "`{name}` is {type}, not an object")
-DUPLICATE_TOKEN = Code("NDDL229", Severity.ERROR, "duplicate", "`{name}` is declared twice")
-NO_OBJECT_YET = Code("NDDL405", Severity.ERROR, "state", "no object of class `{name}` exists yet to hold this token")
-WHOLE_BOUNDS = Code("NDDL329", Severity.ERROR, "type", "the bounds of a relation are whole numbers; `{text}` is not")
+from nddl_lang.text.diagnostic import Edit, Fix, Note
 
 
 def check_relation(context: Context, scope: Scope, node: Relation) -> list[Label | None]:
@@ -66,8 +67,8 @@ def check_instance(context: Context, scope: Scope, instance: Instance) -> Label 
     if instance.name is not None:
         label = Label(instance.name.name, predicate, instance.name.span)
         context.tables.declared[instance.name] = label
-    if scope.place is Place.SCRIPT:
-        if not context.world.has_objects(predicate.class_name) and not context.world.is_doubtful("new"):
+    if scope.kind is BlockKind.SCRIPT:
+        if not context.symbols.has_objects(predicate.class_name) and not context.symbols.is_doubtful("new"):
             context.complain(NO_OBJECT_YET.at(instance.span, name=predicate.class_name))
         if label is not None and instance.name is not None and not _declare_goal(context, label, instance.name):
             label = None
@@ -84,26 +85,26 @@ def find_token(context: Context, scope: Scope, name: Identifier) -> Label | None
         context.tables.references[name] = TokenReference(label)
         return label
     if name.name == "this":
-        context.complain(MISPLACED_THIS.at(name.span, place=scope.place.value))
+        context.complain(MISPLACED_THIS.at(name.span, place=scope.kind.value))
     elif (other := find(context, scope, name.name)) is not None:
         what = "a class" if isinstance(other, ClassReference) else "a variable"
         help_ = f"`{name.name}` is {what}; relations link tokens"
         context.complain(UNKNOWN_TOKEN.at(name.span, help=help_, name=name.name))
-    elif context.world.find_goal(name.name) is not None:
+    elif context.symbols.find_goal(name.name) is not None:
         help_ = TOKEN_OF_SCRIPT.format(name=name.name)
         context.complain(UNKNOWN_TOKEN.at(name.span, help=help_, name=name.name))
-    elif any(is_known(name.name) for is_known in (scope.lost_at, scope.declared_below, context.world.declared_below)):
+    elif any(is_known(name.name) for is_known in (scope.lost_at, scope.declared_below, context.symbols.declared_below)):
         complain_unknown(context, scope, name)
-    elif not scope.is_doubtful(name.name) and not context.world.is_doubtful(name.name):
+    elif not scope.is_doubtful(name.name) and not context.symbols.is_doubtful(name.name):
         complaint = UNKNOWN_TOKEN.at(name.span, name=name.name)
-        if scope.own_class is not None and context.world.find_predicate(scope.own_class, name.name) is not None:
+        if scope.own_class is not None and context.symbols.find_predicate(scope.own_class, name.name) is not None:
             text = f"({name.name})"
             fix = Fix(f"write `{text}`", (Edit(name.span, text),))
             help_ = f"a name in parentheses creates a token: `{text}`"
             complaint = UNKNOWN_TOKEN.at(name.span, help=help_, fixes=(fix,), name=name.name)
             context.complain(complaint)
-        elif scope.place is Place.SCRIPT:
-            context.complain(suggest_name(complaint, name, [*scope.visible_labels(), *context.world.names("goal")]))
+        elif scope.kind is BlockKind.SCRIPT:
+            context.complain(suggest_name(complaint, name, [*scope.visible_labels(), *context.symbols.names("goal")]))
         else:
             context.complain(suggest_name(complaint, name, scope.visible_labels()))
     return None
@@ -111,11 +112,11 @@ def find_token(context: Context, scope: Scope, name: Identifier) -> Label | None
 
 def find_predicate(context: Context, owner: Class, name: Identifier) -> Predicate | None:
     """The predicate of a class; a complaint where it has none of that name."""
-    found = context.world.find_predicate(owner.name, name.name)
-    if found is None and not context.world.is_partial(owner.name) and not context.world.is_doubtful(name.name):
+    found = context.symbols.find_predicate(owner.name, name.name)
+    if found is None and not context.symbols.is_partial(owner.name) and not context.symbols.is_doubtful(name.name):
         notes = (Note(f"`{owner.name}` is declared here", owner.span),) if owner.span is not None else ()
         complaint = UNKNOWN_PREDICATE.at(name.span, notes=notes, owner=owner.name, name=name.name)
-        others = [other for other in context.world.names("class") if _has_predicate(context, other, name.name)]
+        others = [other for other in context.symbols.names("class") if _has_predicate(context, other, name.name)]
         if others:
             help_ = (
                 "write " + " or ".join(f"`{other}.{name.name}`" for other in others[:3]) + " for that of another class"
@@ -126,7 +127,7 @@ def find_predicate(context: Context, owner: Class, name: Identifier) -> Predicat
 
 
 def _has_predicate(context: Context, class_name: str, name: str) -> bool:
-    owner = context.world.find_class(class_name)
+    owner = context.symbols.find_class(class_name)
     return owner is not None and name in owner.predicates
 
 
@@ -182,8 +183,8 @@ def _find_target(context: Context, scope: Scope, path: PathExpr) -> tuple[Predic
     if not prefix:
         return _find_own(context, scope, name)
     head = prefix[0]
-    world = context.world
-    if len(prefix) == 1 and (owner := world.find_class(head.name)) is not None:
+    symbols = context.symbols
+    if len(prefix) == 1 and (owner := symbols.find_class(head.name)) is not None:
         context.tables.references[head] = ClassReference(owner.name)
         context.tables.type_names[head] = object_type(owner.name)
         predicate = find_predicate(context, owner, name)
@@ -204,20 +205,22 @@ def _find_target(context: Context, scope: Scope, path: PathExpr) -> tuple[Predic
         span = head.span.to(prefix[-1].span)
         context.complain(NO_OBJECT_PREFIX.at(span, name=span.text, type=found))
         return None
-    owner = world.find_class(type_.base)
+    owner = symbols.find_class(type_.base)
     predicate = find_predicate(context, owner, name) if owner is not None else None
     if predicate is None:
         return None
-    is_own = isinstance(reference, TokenVariable) and reference.label is scope.own and reference.name == "object"
+    is_own = (
+        isinstance(reference, TokenVariableReference) and reference.label is scope.own and reference.name == "object"
+    )
     return predicate, "own" if is_own else reference
 
 
 def _find_own(context: Context, scope: Scope, name: Identifier) -> tuple[Predicate, Reference | str] | None:
-    owner = context.world.find_class(scope.own_class) if scope.own_class is not None else None
+    owner = context.symbols.find_class(scope.own_class) if scope.own_class is not None else None
     if owner is None:
         context.complain(MISSING_OBJECT.at(name.span, name=name.name))
         return None
-    predicate = context.world.find_predicate(owner.name, name.name)
+    predicate = context.symbols.find_predicate(owner.name, name.name)
     if predicate is None and scope.find_label(name.name) is not None:
         fix = Fix(f"write `{name.name}` without parentheses", (Edit(name.span, name.name),), safe=False)
         help_ = f"`{name.name}` is a token: without parentheses the relation leads to it"
@@ -230,17 +233,17 @@ def _find_own(context: Context, scope: Scope, name: Identifier) -> tuple[Predica
 
 
 def _declare_goal(context: Context, label: Label, name: Identifier) -> bool:
-    first = context.world.find_goal(label.name) or context.world.find_global(label.name)
+    first = context.symbols.find_goal(label.name) or context.symbols.find_global(label.name)
     if first is not None:
         notes = (Note("the first declaration is here", first.span),) if first.span is not None else ()
         context.complain(DUPLICATE_TOKEN.at(name.span, notes=notes, name=label.name))
         return False
-    context.world.put("goal", label.name, label)
+    context.symbols.put("goal", label.name, label)
     return True
 
 
 def _doubt(context: Context, scope: Scope, name: Identifier) -> None:
-    if scope.place is Place.SCRIPT:
-        context.world.put_faulty(name.name)
+    if scope.kind is BlockKind.SCRIPT:
+        context.symbols.put_faulty(name.name)
     else:
         scope.doubt(name.name)

@@ -2,17 +2,14 @@
 
 from collections.abc import Iterable
 
+from nddl_lang.semantics.codes import UNDEFINED_CLASS, UNKNOWN_CLASS, UNKNOWN_TYPE
 from nddl_lang.semantics.names import suggest_name
 from nddl_lang.semantics.schema import Class, Type
 from nddl_lang.semantics.scope import Context
 from nddl_lang.semantics.types import BASIC_TYPES, enum_type, object_type
 from nddl_lang.syntax.nodes import Identifier
-from nddl_lang.text.diagnostic import Code, Diagnostic, Note, Severity
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note
 from nddl_lang.text.nearest import nearest
-
-UNKNOWN_TYPE = Code("NDDL212", Severity.ERROR, "name", "there is no type `{name}`")
-UNKNOWN_CLASS = Code("NDDL213", Severity.ERROR, "name", "there is no class `{name}`")
-UNDEFINED_CLASS = Code("NDDL214", Severity.ERROR, "name", "class `{name}` is announced, but not defined so far")
 
 _TYPE_TABLES = ("typedef", "enum", "class")
 # What other languages call the basic types.
@@ -33,7 +30,7 @@ def find_type(context: Context, name: Identifier) -> Type | None:
     """The type of that name; a complaint where there is none."""
     type_ = known_type(context, name.name)
     if type_ is None:
-        known = [*BASIC_TYPES, *context.world.names(*_TYPE_TABLES)]
+        known = [*BASIC_TYPES, *context.symbols.names(*_TYPE_TABLES)]
         word = name.name.casefold()
         meant = word if word in _ELSEWHERE else nearest(name.name, [*known, *_ELSEWHERE])
         complain_missing(context, name, UNKNOWN_TYPE, known, _ELSEWHERE.get(meant or ""))
@@ -44,21 +41,21 @@ def find_type(context: Context, name: Identifier) -> Type | None:
 
 def known_type(context: Context, name: str) -> Type | None:
     """The type of that name: a basic one, a typedef, a class or an enum."""
-    world = context.world
+    symbols = context.symbols
     if (basic := BASIC_TYPES.get(name)) is not None:
         return basic
-    if (typedef := world.find_typedef(name)) is not None:
+    if (typedef := symbols.find_typedef(name)) is not None:
         return typedef.type
-    if world.find_class(name) is not None:
+    if symbols.find_class(name) is not None:
         return object_type(name)  # also where an enum above has that name, as in EUROPA
-    return enum_type(name) if world.find_enum(name) is not None else None
+    return enum_type(name) if symbols.find_enum(name) is not None else None
 
 
 def find_class(context: Context, name: Identifier) -> Class | None:
     """The class of that name; a complaint where there is none."""
-    found = context.world.find_class(name.name)
+    found = context.symbols.find_class(name.name)
     if found is None:
-        complain_missing(context, name, UNKNOWN_CLASS, context.world.names("class"))
+        complain_missing(context, name, UNKNOWN_CLASS, context.symbols.names("class"))
         return None
     context.tables.type_names[name] = object_type(name.name)
     return found
@@ -68,9 +65,9 @@ def find_defined_class(context: Context, name: Identifier) -> Class | None:
     """The class of that name; a complaint where there is none, or where it is only announced."""
     found = find_class(context, name)
     if found is not None and not found.is_defined:
-        if not context.world.is_doubtful(name.name):
+        if not context.symbols.is_doubtful(name.name):
             notes = (Note("it is announced here", found.span),) if found.span is not None else ()
-            below = context.world.declared_below(name.name)
+            below = context.symbols.declared_below(name.name)
             if below is not None:
                 notes = (*notes, Note("it is defined here; statements run in order", below))
             context.complain(UNDEFINED_CLASS.at(name.span, notes=notes, name=name.name))
@@ -86,11 +83,11 @@ def complain_missing(
     `meant` is what should stand here where that is known, else the nearest of the candidates.
     """
     word = name.name
-    if word in context.reported or context.world.is_doubtful(word):
+    if word in context.reported or context.symbols.is_doubtful(word):
         return
     context.reported.add(word)
     complaint: Diagnostic = code.at(name.span, name=word)
-    if (below := context.world.declared_below(word)) is not None:
+    if (below := context.symbols.declared_below(word)) is not None:
         note = Note(f"`{word}` is declared here; statements run in order", below)
         context.complain(code.at(name.span, notes=(note,), name=word))
         return

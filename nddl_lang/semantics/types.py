@@ -11,7 +11,7 @@ from nddl_lang.semantics.schema import (
     MemberReference,
     Reference,
     TokenReference,
-    TokenVariable,
+    TokenVariableReference,
     Type,
 )
 
@@ -45,7 +45,7 @@ def reference_type(reference: Reference, own_class: str | None) -> Type | None:
     """The type of what a name refers to, None for a class; `own_class` is that of a constructor's own object."""
     if isinstance(reference, GlobalReference | LocalReference):
         return reference.variable.type
-    if isinstance(reference, TokenVariable):
+    if isinstance(reference, TokenVariableReference):
         return reference.type
     if isinstance(reference, EnumValue):
         return enum_type(reference.enum)

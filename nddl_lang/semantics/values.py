@@ -1,6 +1,7 @@
 """Check that a value fits the variable that it is given to, and read the values that a text fixes."""
 
 from nddl_lang.semantics import domains
+from nddl_lang.semantics.codes import DOES_NOT_FIT, OUTSIDE_TYPE
 from nddl_lang.semantics.expressions import type_of
 from nddl_lang.semantics.literals import is_infinite, number
 from nddl_lang.semantics.schema import (
@@ -11,7 +12,7 @@ from nddl_lang.semantics.schema import (
     Kind,
     MemberReference,
     Reference,
-    TokenVariable,
+    TokenVariableReference,
     Type,
     Values,
 )
@@ -30,10 +31,7 @@ from nddl_lang.syntax.nodes import (
     StringLiteral,
     UnaryExpr,
 )
-from nddl_lang.text.diagnostic import Code, Edit, Fix, Severity
-
-DOES_NOT_FIT = Code("NDDL304", Severity.ERROR, "type", "`{text}` is {found}; `{name}` takes {wanted}")
-OUTSIDE_TYPE = Code("NDDL313", Severity.ERROR, "domain", "`{text}` lies outside `{type}`, which is {domain}")
+from nddl_lang.text.diagnostic import Edit, Fix
 
 
 def check_value(context: Context, scope: Scope, expression: Expr, target: Type, name: str) -> Type | None:
@@ -102,21 +100,21 @@ def _path_constant(context: Context, path: PathExpr) -> Domain | None:
     if isinstance(reference, EnumValue):
         return Values((reference.value,))
     key = domain_key(context, path)
-    return context.world.base_domain(key) if key is not None else None
+    return context.symbols.base_domain(key) if key is not None else None
 
 
 def domain_key(context: Context, path: PathExpr) -> str | None:
-    """The name under which the world keeps the base domain of a variable of the script, None for any other."""
+    """The name under which the symbol table keeps the base domain of a variable of the script, None for any other."""
     reference = context.tables.references.get(path)
     return reference_key(context, reference) if reference is not None else None
 
 
 def reference_key(context: Context, reference: Reference) -> str | None:
-    """The name under which the world keeps the base domain of what `reference` denotes, None where it keeps none."""
+    """The name under which the symbol table keeps the base domain of `reference`, None where it keeps none."""
     match reference:
         case GlobalReference(variable=variable):
             return variable.name
-        case TokenVariable(label=label, name=name) if context.world.find_goal(label.name) is label:
+        case TokenVariableReference(label=label, name=name) if context.symbols.find_goal(label.name) is label:
             return f"{label.name}.{name}"
         case MemberReference(base=GlobalReference(variable=variable), members=members):
             return ".".join((variable.name, *(member.name for member in members)))
@@ -126,8 +124,8 @@ def reference_key(context: Context, reference: Reference) -> str | None:
 
 def _fits(context: Context, expression: Expr, found: Type, target: Type) -> bool:
     if isinstance(expression, NewExpr):
-        return target.kind is Kind.OBJECT and context.world.is_subclass(found.base, target.base)
-    if fits(found, target, context.world.is_subclass):
+        return target.kind is Kind.OBJECT and context.symbols.is_subclass(found.base, target.base)
+    if fits(found, target, context.symbols.is_subclass):
         return True
     if target.kind is not Kind.INT or found.kind is not Kind.FLOAT:
         return False

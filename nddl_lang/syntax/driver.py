@@ -8,7 +8,7 @@ from nddl_lang.syntax.builder import Builder, Maker, pass_on, refuse_waiting
 from nddl_lang.syntax.codes import TOO_DEEP
 from nddl_lang.syntax.former import replace_former
 from nddl_lang.syntax.piece import Piece
-from nddl_lang.syntax.placement import CLASS, Place, break_statement, head_of, place_statements
+from nddl_lang.syntax.placement import CLASS, BlockGrammar, break_statement, head_of, place_statements
 from nddl_lang.syntax.recovery import Recovery
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS, RULES
 from nddl_lang.syntax.walk import is_deeper
@@ -30,15 +30,15 @@ _MAKERS: list[tuple[str, int, Maker]] = [(head, size, _maker(name)) for head, si
 _PASSED_ON: dict[int | None, str] = {-number: rule[0] for number, rule in enumerate(RULES) if number and not rule[2]}
 
 
-def parse_piece(piece: Piece, place: Place, is_strict: bool) -> None:
-    """Fill in the statements of `piece`, which stands in `place`, and what is wrong with them."""
+def parse_piece(piece: Piece, block: BlockGrammar, is_strict: bool) -> None:
+    """Fill in the statements of `piece`, which stands in `block`, and what is wrong with them."""
     b = Builder(piece, is_strict)
     if piece.mends:
         _mend(b)
     if piece.has_former_words:
         replace_former(b)
-    piece.statements = place_statements(b, _run(b), place)
-    if place is CLASS and is_strict:
+    piece.statements = place_statements(b, _run(b), block)
+    if block is CLASS and is_strict:
         statements.report_member_initialisers(b, piece.statements)
     if b.waiting:
         refuse_waiting(b)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.parser import Parse, collect, understand
 from nddl_lang.syntax.piece import Piece
-from nddl_lang.syntax.placement import TOP, Place
+from nddl_lang.syntax.placement import TOP, BlockGrammar
 from nddl_lang.syntax.scan import Scanner
 from nddl_lang.text.source import Source
 
@@ -18,10 +18,10 @@ class Incremental:
     soon as it comes to a place where a piece began before, in text that is the same to the end.
     """
 
-    def __init__(self, name: str, dialect: Dialect = Dialect.NDDLC, place: Place = TOP) -> None:
+    def __init__(self, name: str, dialect: Dialect = Dialect.NDDLC, block: BlockGrammar = TOP) -> None:
         self._name = name
         self._dialect = dialect
-        self._place = place
+        self._block = block
         self._text = ""
         self._pieces: tuple[Piece, ...] = ()
 
@@ -55,7 +55,7 @@ class Incremental:
             if same is not None and same.kinds == piece.kinds and not piece.mends:
                 piece = self._moved(same, source, at, piece.reach)
             else:
-                understand(piece, self._dialect, self._place)
+                understand(piece, self._dialect, self._block)
             pieces.append(piece)
             at += piece.length
 

@@ -7,7 +7,7 @@ from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.driver import parse_piece
 from nddl_lang.syntax.nodes import BrokenStatement, Module, Statement
 from nddl_lang.syntax.piece import Piece
-from nddl_lang.syntax.placement import CLASS, TOP, Place
+from nddl_lang.syntax.placement import CLASS, TOP, BlockGrammar
 from nddl_lang.syntax.scan import Scanner
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source, Span
@@ -39,26 +39,26 @@ def parse_members(source: Source, dialect: Dialect = Dialect.NDDLC) -> Parse:
     return _parse(source, dialect, CLASS)
 
 
-def _parse(source: Source, dialect: Dialect, place: Place) -> Parse:
+def _parse(source: Source, dialect: Dialect, block: BlockGrammar) -> Parse:
     scanner = Scanner(source, dialect is Dialect.NDDL3)
     pieces = []
     at = 0
     while at < len(source.text):
         piece = scanner.read(at)
-        understand(piece, dialect, place)
+        understand(piece, dialect, block)
         pieces.append(piece)
         at += piece.length
     return collect(source, dialect, tuple(pieces))
 
 
-def understand(piece: Piece, dialect: Dialect, place: Place = TOP) -> None:
+def understand(piece: Piece, dialect: Dialect, block: BlockGrammar = TOP) -> None:
     """Make the statements of a piece that has just been read."""
     if piece.is_too_deep:
         start, end = piece.starts[0], piece.ends[-1]
         piece.broken.append((start, end))
         piece.statements = (BrokenStatement(piece.span(start, end)),)
     elif piece.kinds:
-        parse_piece(piece, place, dialect is Dialect.NDDL3)
+        parse_piece(piece, block, dialect is Dialect.NDDL3)
     if len(piece.diagnostics) > 1:
         piece.diagnostics.sort(key=lambda diagnostic: diagnostic.span.start)
 

@@ -47,14 +47,14 @@ class Block:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class BlockGrammar:
     """A kind of block: how messages call it, and what may stand there."""
 
     where: str
     allowed: frozenset[type]
 
 
-TOP = Place(
+TOP = BlockGrammar(
     "at the top level",
     frozenset(
         (
@@ -74,10 +74,12 @@ TOP = Place(
         )
     ),
 )
-CLASS = Place("in a class", frozenset((VariableDecl, ConstructorDecl, PredicateDecl, Include)))
-CONSTRUCTOR = Place("in a constructor", frozenset((Assignment, SuperCall)))
-PREDICATE = Place("in a predicate", frozenset((VariableDecl, CallConstraint, ExprConstraint, Assignment)))
-RULE = Place("in a rule", frozenset((Relation, VariableDecl, CallConstraint, ExprConstraint, IfStatement, Foreach)))
+CLASS = BlockGrammar("in a class", frozenset((VariableDecl, ConstructorDecl, PredicateDecl, Include)))
+CONSTRUCTOR = BlockGrammar("in a constructor", frozenset((Assignment, SuperCall)))
+PREDICATE = BlockGrammar("in a predicate", frozenset((VariableDecl, CallConstraint, ExprConstraint, Assignment)))
+RULE = BlockGrammar(
+    "in a rule", frozenset((Relation, VariableDecl, CallConstraint, ExprConstraint, IfStatement, Foreach))
+)
 
 _NAMES: dict[type, str] = {
     TypedefDecl: "a typedef",
@@ -119,54 +121,54 @@ _HOMES: dict[type, str] = {
 }
 
 
-def statements_of(b: Builder, body: Any, place: Place) -> tuple[Any, ...]:
-    """What stands in `body`, a block or a single statement, with what may not stand in `place` reported as broken."""
+def statements_of(b: Builder, body: Any, block: BlockGrammar) -> tuple[Any, ...]:
+    """What stands in `body`, a block or a single statement, with what may not stand in `block` reported as broken."""
     statements = body.statements if type(body) is Block else (body,)
-    return place_statements(b, statements, place)
+    return place_statements(b, statements, block)
 
 
-def place_statements(b: Builder, statements: list[Any] | tuple[Any, ...], place: Place) -> tuple[Any, ...]:
-    """`statements` as they may stand in `place`, the others reported and replaced by a broken statement."""
+def place_statements(b: Builder, statements: list[Any] | tuple[Any, ...], block: BlockGrammar) -> tuple[Any, ...]:
+    """`statements` as they may stand in `block`, the others reported and replaced by a broken statement."""
     placed: list[Any] = []
     for statement in statements:
         kind = type(statement)
-        if kind in place.allowed or kind is BrokenStatement:
+        if kind in block.allowed or kind is BrokenStatement:
             placed.append(statement)
         elif kind is EmptyStatement:
-            if place is PREDICATE and b.is_strict:
+            if block is PREDICATE and b.is_strict:
                 fix = Fix("remove the `;`", (Edit(statement.span, ""),))
                 b.report(EMPTY_IN_PREDICATE, statement.span, fixes=(fix,))
         else:
-            placed.append(_misplaced(b, statement, place))
+            placed.append(_misplaced(b, statement, block))
     return tuple(placed)
 
 
-def _misplaced(b: Builder, statement: Any, place: Place) -> BrokenStatement:
+def _misplaced(b: Builder, statement: Any, block: BlockGrammar) -> BrokenStatement:
     """Report `statement` instead of anything that is wrong inside it."""
     span: Span = statement.span
     broken = break_statement(b, span)
     help_text = _HOMES.get(type(statement))
     fixes: tuple[Fix, ...] = ()
-    if isinstance(statement, Assignment) and place is RULE:
+    if isinstance(statement, Assignment) and block is RULE:
         help_text = "a rule states constraints: write `==`"
         between = Span(b.anchor, statement.target.span.end, statement.value.span.start)
         if statement.op == "=":
             sign = between.text.index("=")
             at = between.start + sign
             fixes = (Fix("write `==`", (Edit(Span(b.anchor, at, at + 1), "=="),)),)
-    elif isinstance(statement, CallConstraint | ExprConstraint) and place is CLASS:
+    elif isinstance(statement, CallConstraint | ExprConstraint) and block is CLASS:
         help_text = "put it into a predicate or a rule; a constructor needs a body: `{ }`"
-    elif isinstance(statement, CallConstraint) and place is CONSTRUCTOR and nearest(statement.name.name, ["super"]):
+    elif isinstance(statement, CallConstraint) and block is CONSTRUCTOR and nearest(statement.name.name, ["super"]):
         help_text = "did you mean `super`?"
-    elif isinstance(statement, CallConstraint | ExprConstraint) and place is CONSTRUCTOR:
+    elif isinstance(statement, CallConstraint | ExprConstraint) and block is CONSTRUCTOR:
         help_text = "a constructor gives members their values: write `member = value;`"
-    elif isinstance(statement, Assignment) and place is CLASS:
+    elif isinstance(statement, Assignment) and block is CLASS:
         help_text = "put it into a constructor"
     elif isinstance(statement, Relation):
         help_text = "put it into a rule: `Class::predicate { ... }`"
-    elif isinstance(statement, VariableDecl) and place is CONSTRUCTOR:
+    elif isinstance(statement, VariableDecl) and block is CONSTRUCTOR:
         help_text = "declare it as a member of the class"
-    b.report(MISPLACED, head_of(span), what=_NAMES[type(statement)], where=place.where, help=help_text, fixes=fixes)
+    b.report(MISPLACED, head_of(span), what=_NAMES[type(statement)], where=block.where, help=help_text, fixes=fixes)
     return broken
 
 

@@ -10,7 +10,7 @@ _INCLUDE = re.compile(r'^[ \t]*#include[ \t]*"([^"\n]+)"', re.MULTILINE)
 
 
 def roots_among(files: Sequence[Path], directories: Sequence[Path] = ()) -> list[Path]:
-    """The files that no other one includes; of files that include each other in a circle, the first."""
+    """The files that no other one includes; of files that include each other in a cycle, the first."""
     by_key = {file.resolve(): file for file in files}
     included = {key: [each for each in _included(file, directories) if each in by_key] for key, file in by_key.items()}
     parts = {target for targets in included.values() for target in targets}

@@ -52,13 +52,13 @@ class Workbench(PlanView):
         if self.engine.lower(v) >= bound:
             return True
         self.moved[v] = None
-        return self.engine.restrict_base(v, bound, inf, span, t) and self.database.settle()
+        return self.engine.restrict_base(v, bound, inf, span, t) and self.database.fire()
 
     def at_most(self, v: int, bound: float, span: int, t: int) -> bool:
         """Reduce an upper bound."""
         if self.engine.upper(v) <= bound:
             return True
-        return self.engine.restrict_base(v, -inf, bound, span, t) and self.database.settle()
+        return self.engine.restrict_base(v, -inf, bound, span, t) and self.database.fire()
 
     def within(self, v: int, bounds: tuple[float, float], span: int, t: int) -> bool:
         """Keep a variable between two bounds."""
@@ -66,7 +66,7 @@ class Workbench(PlanView):
 
     def fix(self, v: int, value: float, span: int, t: int) -> bool:
         """Give a variable its value."""
-        return self.engine.restrict_base(v, value, value, span, t) and self.database.settle()
+        return self.engine.restrict_base(v, value, value, span, t) and self.database.fire()
 
     def restrict_parameters(self, t: int, arguments: Arguments, span: int) -> bool:
         """Narrow parameters to what somebody else knows of them; a name that `t` does not have is a misfit."""
@@ -78,7 +78,7 @@ class Workbench(PlanView):
             v = self.rows.var0[t] + FIRST_PARAMETER + names[name]
             if not self._restrict(v, domain, span, t):
                 return False
-        return self.database.settle()
+        return self.database.fire()
 
     def _restrict(self, v: int, domain: DomainConstant, span: int, t: int) -> bool:
         if domain.kind == "object" and domain.values is not None:
@@ -149,7 +149,7 @@ class Workbench(PlanView):
                 kept.add(int(self.rows.link_before[LISTS * line.current + LIST_ORDER]))
         count = self.rows.token_count
         over = [t for t in range(count) if t not in kept and not self.is_freed(t) and self.is_over(t, tick)]
-        return archive(self.database.plan, over, tick) if over and self.database.settle() else 0
+        return archive(self.database.plan, over, tick) if over and self.database.fire() else 0
 
     def tidy(self) -> None:
         """Forget limits of times that a later one of the same kind has made needless: they grow with every tick."""
@@ -165,7 +165,7 @@ class Workbench(PlanView):
         self.moved.clear()
         if needless:
             engine.retract((), (), needless, ())
-            self.database.settle()
+            self.database.fire()
 
     def detach(self, t: int) -> None:
         """Let a token stay when the one that asked for it goes."""

@@ -1,1 +1,1 @@
-"""Tokens, timelines and rule firing: the plan so far."""
+"""Plan database: tokens, timelines and rules."""

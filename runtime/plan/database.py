@@ -1,4 +1,4 @@
-"""The plan database: a program in; tokens, timelines and rules at work, and everything that changes them."""
+"""Plan database: the face of the room; a program in, tokens, timelines and rules changed by its methods."""
 
 from collections.abc import Callable, Sequence
 
@@ -8,12 +8,12 @@ from nddl_lang.text.diagnostic import Diagnostic
 from runtime.constraints.engine import Engine
 from runtime.plan import lifecycle
 from runtime.plan.loading import load_code, load_members, load_predicates, load_prototypes, load_relations
-from runtime.plan.resources.envelope import Flaws
-from runtime.plan.rules.rule_bytecode import Code
+from runtime.plan.resources.envelope import Envelope
+from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.script.codes import LOOSE_ITEM, NO_OBJECT
 from runtime.plan.script.objects import Objects
 from runtime.plan.script.script import Script
-from runtime.plan.script.user_constraints import WrittenConstraints
+from runtime.plan.script.user_constraints import UserConstraints
 from runtime.plan.store import marks
 from runtime.plan.store.names import Names
 from runtime.plan.store.plan import Plan
@@ -42,9 +42,9 @@ class PlanDatabase:
         self.relation_names = list(RELATIONS)
         relations = {name: number for number, name in enumerate(self.relation_names)}
         load_members(self.plan, program, self.prototypes, self.names)
-        self.written = WrittenConstraints(self.engine, self.prototypes, constraints)
+        self.written = UserConstraints(self.engine, self.prototypes, constraints)
         written = {constraint.name: number for number, constraint in enumerate(constraints)}
-        self.code = Code(self.prototypes, self.names, predicates, relations, written)
+        self.code = RuleBytecode(self.prototypes, self.names, predicates, relations, written)
         self.written.spans = self.code.spans
         load_prototypes(self.plan, program, self.prototypes)
         load_relations(self.plan)
@@ -55,7 +55,7 @@ class PlanDatabase:
         self.script = Script(self.plan, program, self.prototypes, self.code, predicates, self.objects)
         load_code(self.plan, self.code)
         self.plan.services = self
-        self.plan.envelope = Flaws(self.plan.engine, self.plan.resources)
+        self.plan.envelope = Envelope(self.plan.engine, self.plan.resources)
         self.plan.resources.grounded_text = self.prototypes.texts.number(GROUNDED)
         self.environment = environment
         self.ranges = {
@@ -115,14 +115,14 @@ class PlanDatabase:
         """Whether nothing contradicts anything so far."""
         return bool(self.engine.consistent)
 
-    def settle(self) -> bool:
-        """Propagate, and let guards fire, until nothing is left to do; False on a conflict."""
-        return lifecycle.settle(self.plan)
+    def fire(self) -> bool:
+        """Fire rules and propagate to the fixpoint of both; False on a conflict."""
+        return lifecycle.fire(self.plan)
 
     # ---- time ----
 
     def mark(self) -> int:
-        """Remember the present state, which must be settled; what `rewind` and `release` take."""
+        """Remember the present state, which must be a fixpoint; what `rewind` and `release` take."""
         return marks.mark(self.plan)
 
     def rewind(self, mark: int) -> None:
@@ -140,7 +140,7 @@ class PlanDatabase:
     # ---- tokens: False on a conflict; undone by `rewind`, or at level 0 by `cancel`, `free` and `remove_tokens` ----
 
     def new_token(self, predicate: int, o: int, flags: int, span: int) -> int:
-        """Make a token of predicate number `predicate` on object `o` (NONE: on any); settle it yourself."""
+        """Make a token of predicate number `predicate` on object `o` (NONE: on any); call `fire` behind it."""
         given = NONE if o < 0 else self.plan.object_constant[o]
         return make_token(self.plan, predicate, flags, NONE, NONE, given, span)
 
@@ -158,29 +158,29 @@ class PlanDatabase:
 
     def cancel(self, t: int) -> bool:
         """Make a token inactive again (level 0)."""
-        return retraction.cancel(self.plan, t) and self.settle()
+        return retraction.cancel(self.plan, t) and self.fire()
 
     def remove_tokens(self, tokens: list[int]) -> bool:
         """Take tokens away with all that followed from them (level 0)."""
-        return retraction.remove_tokens(self.plan, tokens) and self.settle()
+        return retraction.remove_tokens(self.plan, tokens) and self.fire()
 
     def order(self, o: int, before: int, after: int, span: int = NONE) -> bool:
         """Put `before` in front of `after` on object `o`; the same token twice: it alone, behind what is there."""
-        return timelines.order(self.plan, o, before, after, span) and self.settle()
+        return timelines.order(self.plan, o, before, after, span) and self.fire()
 
     def free(self, before: int, after: int) -> bool:
         """Undo `order` (level 0)."""
-        return retraction.free(self.plan, before, after, NONE) and self.settle()
+        return retraction.free(self.plan, before, after, NONE) and self.fire()
 
     # ---- variables ----
 
     def specify(self, v: int, value: float, span: int = NONE) -> bool:
         """Decide a variable."""
-        return self.engine.decide(v, value, span, NONE) and self.settle()
+        return self.engine.decide(v, value, span, NONE) and self.fire()
 
     def reset(self, v: int) -> bool:
         """Undo the decision of a variable (level 0)."""
-        return retraction.reset(self.plan, v) and self.settle()
+        return retraction.reset(self.plan, v) and self.fire()
 
     # ---- names ----
 

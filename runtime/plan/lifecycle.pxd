@@ -17,7 +17,7 @@ cdef long long SCOPE_MERGE, START, STATE, SYMBOL_MERGED, SYMBOL_REJECTED
 
 
 @cython.locals(count="long long", engine=Engine, i="long long")
-cpdef bint settle(Plan plan) except -1
+cpdef bint fire(Plan plan) except -1
 
 
 @cython.locals(

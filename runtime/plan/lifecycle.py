@@ -1,4 +1,4 @@
-"""Settle the plan after a change, and change the states of tokens: activate, merge, reject."""
+"""Fire rules to a fixpoint after a change, and change the states of tokens: activate, merge, reject."""
 
 from runtime.constraints.stn.entailment import entail_distance
 from runtime.plan.rules.guards import choice, follow
@@ -27,8 +27,8 @@ from runtime.plan.tokens.retraction import retract_branch
 from runtime.plan.tokens.tokens import activation
 
 
-def settle(plan: Plan) -> bool:
-    """Run what is on the stack, propagate, and let guards fire, until nothing is left to do; False on a conflict."""
+def fire(plan: Plan) -> bool:
+    """Run the rules on the stack, propagate, decide guards, until a fixpoint; False on a conflict."""
     engine = plan.engine
     if plan.stack_length and not run(plan) and plan.rows.level:
         return False
@@ -75,7 +75,7 @@ def decide_guard(plan: Plan, s: int) -> None:
 def activate(plan: Plan, t: int, span: int) -> bool:
     """Make an inactive token active and let its rules fire."""
     activation(plan, t, span)
-    return settle(plan)
+    return fire(plan)
 
 
 def merge(plan: Plan, t: int, other: int, span: int) -> bool:
@@ -104,7 +104,7 @@ def merge(plan: Plan, t: int, other: int, span: int) -> bool:
             return False
     if rows.level:
         entail_distance(engine, mine + DURATION)
-    return settle(plan)
+    return fire(plan)
 
 
 def reject(plan: Plan, t: int, span: int) -> bool:
@@ -113,4 +113,4 @@ def reject(plan: Plan, t: int, span: int) -> bool:
     rows.set_status(t, REJECTED)
     unlink(rows, t, LIST_OPEN)
     plan.engine.decide(rows.var0[t] + STATE, SYMBOL_REJECTED, span, t)
-    return settle(plan)
+    return fire(plan)

@@ -1,4 +1,4 @@
-"""Fill a plan's tables from a program: predicates, rules, relations, members, flattened code, prototypes."""
+"""Tables of a plan, filled from a program: predicates, rules, relations, members, bytecode, prototypes."""
 
 from array import array
 from collections.abc import Iterable
@@ -7,7 +7,7 @@ from math import inf
 from compiler.program import DomainConstant, Program, TypeCode
 from nddl_lang.semantics.relations import RELATIONS, DurationRule, Point
 from runtime.constraints.domains.tags import KIND_INT
-from runtime.plan.rules.rule_bytecode import Code
+from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.store.links import new_head
 from runtime.plan.store.names import Names
 from runtime.plan.store.plan import Plan
@@ -104,7 +104,7 @@ def load_relations(plan: Plan) -> None:
     plan.relation_duration = packed(durations)
 
 
-def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: Code) -> None:
+def load_predicates(plan: Plan, program: Program, prototypes: Prototypes, code: RuleBytecode) -> None:
     """Predicates with parameters, bodies and the rules that fire on them."""
     numbers = prototypes.class_numbers
     flags: list[int] = []
@@ -184,8 +184,8 @@ def load_kinds(plan: Plan, program: Program, prototypes: Prototypes) -> None:
     plan.predicate_root = packed(roots)
 
 
-def load_code(plan: Plan, code: Code) -> None:
-    """Hand the flattened code over."""
+def load_code(plan: Plan, code: RuleBytecode) -> None:
+    """Hand the bytecode over."""
     plan.code = packed(code.cells)
     plan.block_start = packed(code.block_start)
     plan.block_end = packed(code.block_end)

@@ -1,4 +1,4 @@
-"""Name the integer codes of the plan database: states, flags, operands, instructions, trail entries."""
+"""Integer codes of the plan database: states, flags, operands, instructions, trail entries."""
 
 NONE = -1
 
@@ -27,7 +27,7 @@ STATE, OBJECT, DURATION, START, END, FIRST_PARAMETER = range(6)
 IN_CONSTANT, IN_PROTOTYPE, IN_GLOBAL, IN_LOCAL, IN_TOKEN, IN_FIELD, IN_SELF, IN_UNION, IN_NONE = range(9)
 TOKEN_SHIFT = 65536  # an operand IN_TOKEN is token slot * TOKEN_SHIFT + variable
 
-# ---- instructions of flattened bodies ----
+# ---- instructions of the bytecode ----
 (
     DO_VARIABLE,
     DO_POST,
@@ -45,9 +45,9 @@ TOKEN_SHIFT = 65536  # an operand IN_TOKEN is token slot * TOKEN_SHIFT + variabl
 # ---- object of a child ----
 OBJECT_ANY, OBJECT_OWN, OBJECT_GIVEN = range(3)
 
-# ---- what a scope may be: a token's body, a rule instance, a guard, the branch that it runs, a merge, a place on a
+# ---- kinds of scopes: a token's body, a rule instance, a guard, the branch that it runs, a merge, an insertion into a
 # timeline, the script ----
-SCOPE_BODY, SCOPE_RULE, SCOPE_GUARD, SCOPE_BRANCH, SCOPE_MERGE, SCOPE_PLACE, SCOPE_SCRIPT = range(7)
+SCOPE_BODY, SCOPE_RULE, SCOPE_GUARD, SCOPE_BRANCH, SCOPE_MERGE, SCOPE_INSERTION, SCOPE_SCRIPT = range(7)
 BRANCH_WAITING, BRANCH_THEN, BRANCH_ELSE = range(3)
 
 # ---- what a scope holds ----
@@ -66,7 +66,6 @@ TOO_LOW, TOO_HIGH, TOO_FAST, TOO_MUCH, TOO_TIGHT = range(1, 6)
 # ---- trail entries: a field's old value, or something to take back ----
 (
     UNDO_STATUS,
-    UNDO_FLAGS,
     UNDO_BRANCH,
     UNDO_INPUTS,
     UNDO_MERGED,
@@ -77,7 +76,7 @@ TOO_LOW, TOO_HIGH, TOO_FAST, TOO_MUCH, TOO_TIGHT = range(1, 6)
     UNDO_LINK,
     UNDO_UNLINK,
     UNDO_NEW_PAIR,
-) = range(12)
+) = range(11)
 
 # ---- lists that tokens are on ----
 LIST_OPEN, LIST_THREAT, LIST_PREDICATE, LIST_ORDER = range(4)

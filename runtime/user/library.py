@@ -3,11 +3,13 @@
 import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from hashlib import sha256
 from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from types import ModuleType
 
+from nddl_lang.lint.settings import Settings
 from nddl_lang.semantics.callables import ENTRY_POINTS, NATIVE_CALLABLES, Callables, owner_of
 from nddl_lang.semantics.constraints import ConstraintRow, Origin
 from nddl_lang.semantics.functions import FunctionRow, ResultKind
@@ -77,6 +79,18 @@ def load_library(
             if module_file is not None:
                 _note_texts(texts, f"{point.name}:{Path(module_file).name}", Path(module_file), [each])
     return _checked(found, texts) if found else NO_LIBRARY
+
+
+def library_of(settings: Settings) -> Library:
+    """The constraints that a project names in its settings, loaded once; raises UserCodeError as `load_library`."""
+    return _library(settings.modules, settings.seconds or USUAL)
+
+
+@cache
+def _library(modules: tuple[Path, ...], seconds: float) -> Library:
+    here = Path.cwd()
+    names = [module.relative_to(here) if module.is_relative_to(here) else module for module in modules]
+    return load_library(Path(), [name.as_posix() for name in names], seconds=seconds)
 
 
 def load_module(path: Path) -> ModuleType:

@@ -77,7 +77,7 @@ class _Bench:
         """The number of a name; of one that no sample has, none."""
         return self.names.index(text) if text in self.names else None
 
-    def place(self, span: int) -> str | None:
+    def source_place(self, span: int) -> str | None:
         """Nowhere: there is no model."""
         return None
 

@@ -33,7 +33,7 @@ class Words(Protocol):
     def number(self, kind: int, text: str) -> int | None:
         """The number of a name; None if nothing of that kind has it."""
 
-    def place(self, span: int) -> str | None:
+    def source_place(self, span: int) -> str | None:
         """File and line of a stretch of the model; None where there is no model."""
 
 

@@ -29,7 +29,7 @@ class Written(External):
 
     def told(self, s: Store | None, c: int) -> str:
         """What it is and where it is called, for complaints."""
-        place = None if s is None else self.words.place(int(s.span[c]))
+        place = None if s is None else self.words.source_place(int(s.span[c]))
         return f"the constraint `{self.name}`{'' if place is None else f', called at {place},'}"
 
     @property

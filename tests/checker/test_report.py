@@ -23,7 +23,7 @@ from checker.report.junit import junit_report
 from checker.report.sarif import sarif_report
 from checker.report.svg import Axis
 from checker.report.text import text_report
-from checker.report.write import write_whole
+from nddl_lang.text.write import write_whole
 from runtime.executive.outcome import Place
 from tests.checker.fake_agent import load_split
 from tests.sarif import check_sarif

@@ -6,7 +6,7 @@ import pytest
 
 from compiler.listing import body
 from compiler.lower import compile_model
-from compiler.program import Child, Foreach, Guard, Instruction, NewVariable, Program
+from compiler.program import Child, Guard, Instruction, NewVariable, ObjectLoop, Program
 from nddl_lang.analysis import analyse_text
 from nddl_lang.syntax.dialect import Dialect
 
@@ -382,7 +382,7 @@ def _flat(code: tuple[Instruction, ...]) -> Iterator[Instruction]:
             case Guard(then=then, otherwise=otherwise):
                 yield from _flat(then)
                 yield from _flat(otherwise)
-            case Foreach(body=inner):
+            case ObjectLoop(body=inner):
                 yield from _flat(inner)
             case _:
                 pass

@@ -8,12 +8,12 @@ import pytest
 
 import runtime.build_form
 from checker.mission_pages import MISSION_PAGES
+from checker.rulebook import PAGES
 from nddl_lang.lint.configuration import read_configuration
 from nddl_lang.lint.pages_settings import SETTINGS_PAGES
 from nddl_lang.text.page import RulePage
 from nddl_lang.text.source import Source
-from nddlc.loading import load
-from nddlc.rulebook import PAGES
+from runtime.loading import load
 from runtime.plan.script.pages import SCRIPT_PAGES
 from runtime.solver.configuration.pages import SOLVER_PAGES
 from runtime.solver.configuration.read import read_configuration as read_solver
@@ -28,20 +28,24 @@ def by_id(page: RulePage) -> str:
     return page.code.id
 
 
-def declared_codes() -> list[str]:
-    """The id of each code, once for each time that it is declared."""
+def declared_codes() -> list[tuple[str, str]]:
+    """The id of each code and the name of its file, once for each time that it is declared."""
     found = []
     for path in (path for folder in FOLDERS for path in sorted((ROOT / folder).rglob("*.py"))):
         for node in ast.walk(ast.parse(path.read_bytes())):
             if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "Code":
                 match node.args:
                     case [ast.Constant(value=str(name)), *_]:
-                        found.append(name)
+                        found.append((name, path.name))
     return found
 
 
 def test_every_code_is_declared_once_and_has_a_page() -> None:
-    assert sorted(declared_codes()) == list(PAGES)
+    assert sorted(name for name, _ in declared_codes()) == list(PAGES)
+
+
+def test_every_code_stands_in_the_codes_of_its_room() -> None:
+    assert [(name, file) for name, file in declared_codes() if file != "codes.py"] == []
 
 
 @pytest.mark.parametrize("page", SETTINGS_PAGES, ids=by_id)

@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-import nddl_lang.lint
+from checker.rulebook import PAGES as ALL_PAGES
+from checker.rulebook import files
 from nddl_lang.analysis import analyse_file, analyse_text
+from nddl_lang.lint import codes
 from nddl_lang.lint.linter import lint
 from nddl_lang.lint.pages import PAGES
-from nddl_lang.text.diagnostic import Severity
+from nddl_lang.text.diagnostic import Code, Severity
 from nddl_lang.text.page import RulePage
-from nddlc.rulebook import PAGES as ALL_PAGES
-from nddlc.rulebook import files
 from tests.semantics.marked import marked, unmarked
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -25,11 +25,7 @@ OF_SETTINGS = {"NDDL595", "NDDL596", "NDDL597"}
 OF_FILES = {"NDDL573"}
 
 
-def declared_codes() -> list[str]:
-    """The ids of all codes of the lints, one for each time that it is given."""
-    folder = Path(next(iter(nddl_lang.lint.__path__)))
-    texts = [path.read_text(encoding="utf-8") for path in sorted(folder.glob("*.py"))]
-    return re.findall(r'= Code\(\s*"(\w+)"', "\n".join(texts))
+CODES = [value for value in vars(codes).values() if isinstance(value, Code)]
 
 
 @pytest.mark.parametrize("path", PATHS, ids=lambda path: path.relative_to(FIXTURES).with_suffix("").as_posix())
@@ -40,7 +36,7 @@ def test_a_fixture_draws_the_findings_that_it_marks(path: Path) -> None:
 
 
 def test_every_code_is_given_once_and_has_a_page() -> None:
-    assert sorted(declared_codes()) == sorted({*PAGES, *OF_SETTINGS})
+    assert sorted(code.id for code in CODES) == sorted({*PAGES, *OF_SETTINGS})
 
 
 def test_every_code_has_a_fixture() -> None:
@@ -51,9 +47,9 @@ def test_every_code_has_a_fixture() -> None:
 @pytest.mark.parametrize("page", PAGES.values(), ids=PAGES.keys())
 def test_the_examples_of_a_page_are_bad_and_good(page: RulePage, tmp_path: Path) -> None:
     (tmp_path / "vehicle.nddl").write_text("class Vehicle { }\n", encoding="utf-8")
-    for name, text, codes in (("bad.nddl", page.bad, {page.code.id}), ("good.nddl", page.good, set[str]())):
+    for name, text, expected in (("bad.nddl", page.bad, {page.code.id}), ("good.nddl", page.good, set[str]())):
         (tmp_path / name).write_text(text, encoding="utf-8")
-        assert {each.code.id for each in lint(analyse_file(tmp_path / name))} == codes, name
+        assert {each.code.id for each in lint(analyse_file(tmp_path / name))} == expected, name
 
 
 def test_messages_speak_to_the_user() -> None:

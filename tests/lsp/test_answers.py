@@ -6,7 +6,7 @@ import pytest
 from lsprotocol.types import DocumentSymbol, SymbolKind
 
 from lsp.completion import completions
-from lsp.documents import Documents, View
+from lsp.documents import DocumentContext, Documents
 from lsp.links import page_of
 from lsp.mending import formatting, mends
 from lsp.roots import root_of
@@ -31,7 +31,7 @@ Gps::Active {
 """
 
 
-def view_of(text: str, uri: str = "untitled:a") -> tuple[Documents, View]:
+def view_of(text: str, uri: str = "untitled:a") -> tuple[Documents, DocumentContext]:
     documents = Documents()
     documents.open(uri, 1, text)
     view = documents.view(uri)

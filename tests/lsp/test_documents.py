@@ -10,7 +10,7 @@ from lsp.completion import completions
 from lsp.documents import Documents, Publication
 from lsp.hover import hover_at
 from lsp.mending import formatting, mends
-from lsp.project import Settings
+from lsp.project import ServerSettings
 from lsp.symbols import outline
 
 PART = "C::p { duration <= LIMIT; }\n"
@@ -124,7 +124,7 @@ FRAGMENTS = st.sampled_from(
 
 @given(st.lists(st.lists(FRAGMENTS, max_size=12).map("".join), min_size=1, max_size=4), st.data())
 def test_nothing_that_is_typed_stops_the_answers(texts: list[str], data: st.DataObject) -> None:
-    documents = Documents(Settings())
+    documents = Documents(ServerSettings())
     uri = "untitled:a"
     documents.open(
         uri, 1, "class C extends Timeline { predicate p { int x; } }\nC c = new C();\nC::p { meets(p q); }\n"
@@ -145,6 +145,6 @@ def test_nothing_that_is_typed_stops_the_answers(texts: list[str], data: st.Data
         outline(view.parse, document.lines)
         mends(view, document.lines.range(0, len(whole)), conversion)
         formatting(view.parse, document.lines)
-        fresh = Documents(Settings()).open(uri, 1, whole)[0]
+        fresh = Documents(ServerSettings()).open(uri, 1, whole)[0]
         assert documents.refresh() == []
         assert fresh.diagnostics == tuple(documents.change(uri, version, [])[0].diagnostics)

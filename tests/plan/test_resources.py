@@ -6,7 +6,7 @@ from random import Random
 import pytest
 
 from runtime.plan.database import PlanDatabase
-from runtime.plan.resources.envelope import Flaws
+from runtime.plan.resources.envelope import Envelope
 from tests.plan.models import loaded, token
 
 
@@ -15,9 +15,9 @@ def consistent(text: str) -> bool:
     return loaded(text).is_consistent
 
 
-def flaw(database: PlanDatabase) -> Flaws | None:
+def flaw(database: PlanDatabase) -> Envelope | None:
     """The first flaw of the only resource."""
-    flaws = Flaws(database.plan.engine, database.plan.resources)
+    flaws = Envelope(database.plan.engine, database.plan.resources)
     return flaws if flaws.find(0) else None
 
 
@@ -60,7 +60,7 @@ def test_two_uses_that_may_overlap_are_a_flaw_until_they_are_ordered() -> None:
     database = loaded(text)
     found = flaw(database)
     assert found is not None
-    assert (found.at, found.is_low, found.excess, found.find_pairs()) == (0, 1, 1.0, 2)
+    assert (found.at, found.is_low, found.amount, found.find_pairs()) == (0, 1, 1.0, 2)
     assert flaw(loaded(text + "a before b;")) is None
 
 

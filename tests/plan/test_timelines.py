@@ -67,11 +67,11 @@ def test_times_observed_from_outside_reach_the_plan() -> None:
     database = loaded(TIMELINES + "T::p { meets(object.q s); s.duration == 3; } T t = new T(); close();")
     predicate = next(n for n, each in enumerate(database.program.predicates) if each.name == "T.p")
     t = database.new_token(predicate, 0, 2, -7)
-    assert database.settle()
+    assert database.fire()
     assert database.activate(t, -7)
     start = database.plan.rows.var0[t] + START
-    assert database.engine.restrict_base(start, 4, 4, -7, t) and database.settle()
-    assert database.engine.restrict_base(start + 1, 9, 9, -7, t) and database.settle()
+    assert database.engine.restrict_base(start, 4, 4, -7, t) and database.fire()
+    assert database.engine.restrict_base(start + 1, 9, 9, -7, t) and database.fire()
     assert domains(database)["T.q#1.end"] == "{12} int"
     assert database.remove_tokens([t])
     assert database.plan.rows.live == 0

@@ -183,7 +183,7 @@ def test_a_plan_taken_apart_is_the_plan_that_was_loaded(seed: int) -> None:
                 database.release(mark)
                 database.commit()
         for t in live_tokens(database):
-            if database.plan.rows.status[t] not in (INACTIVE,) and database.plan.rows.master[t] < 0:
+            if database.plan.rows.status[t] not in (INACTIVE,) and database.plan.rows.parent[t] < 0:
                 assert database.cancel(t)
         for t in live_tokens(database):
             for v in range(database.plan.rows.var0[t], database.plan.rows.var0[t] + database.plan.rows.width[t]):
@@ -221,7 +221,7 @@ def test_tables_stay_as_long_as_the_longest_plan() -> None:
         database.release(mark)
         assert database.activate(trip)
         t = database.new_token(idle, 3, 1, -2)
-        assert database.settle() and database.activate(t) and database.order(3, t, t)
+        assert database.fire() and database.activate(t) and database.order(3, t, t)
         assert database.remove_tokens([t])
         assert database.cancel(trip)
         database.commit()

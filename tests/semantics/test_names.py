@@ -9,7 +9,7 @@ from nddl_lang.semantics.schema import (
     MemberReference,
     Reference,
     TokenReference,
-    TokenVariable,
+    TokenVariableReference,
 )
 from nddl_lang.syntax.nodes import PathExpr
 
@@ -58,7 +58,7 @@ def name(reference: Reference) -> str:
             return f"class {class_name}"
         case TokenReference(label=label):
             return f"token {label.name}"
-        case TokenVariable(label=label, name=variable_name):
+        case TokenVariableReference(label=label, name=variable_name):
             return f"variable {variable_name} of {label.name}"
         case MemberReference(base=base, members=members):
             owner = "this" if base is None else name(base)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.source import Source
-from nddlc.loading import Loaded, load
+from runtime.loading import Loaded, load
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.read import read_configuration
 from runtime.solver.search import Solver

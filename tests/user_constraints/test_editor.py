@@ -5,14 +5,14 @@ from pathlib import Path
 import pytest
 
 from lsp.completion import completions
-from lsp.documents import Documents, View
+from lsp.documents import DocumentContext, Documents
 from lsp.hover import hover_at
 from tests.user_constraints.own import TWICE, written
 
 MODEL = "int x = [1 10];\nint y = [0 13];\ntwice(y, x);\n"
 
 
-def opened(folder: Path, module: str) -> tuple[View, Documents, list[str]]:
+def opened(folder: Path, module: str) -> tuple[DocumentContext, Documents, list[str]]:
     """A model in a project with a module, as the editor has it: also the codes of its complaints."""
     written(folder, module)
     (folder / "nddlc.toml").write_text('[constraints]\nmodules = ["own.py"]\n', encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Tell why a token is there: the rule that asked for it, the token that fired the rule, and so on up to the goal."""
+"""Provenance of a token: the rule that asked for it, its parent, and so on up to the goal."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ from runtime.plan.tags import NONE
 
 
 @dataclass(frozen=True, slots=True)
-class Link:
+class ProvenanceStep:
     """One token of a chain; `statement` made it, in a rule that is `rule` (None: in the script, or from outside)."""
 
     token: int
@@ -18,15 +18,15 @@ class Link:
     rule: Span | None
 
 
-def chain(database: PlanDatabase, t: int) -> list[Link]:
-    """The token, its master, its master's master, and so on."""
+def chain(database: PlanDatabase, t: int) -> list[ProvenanceStep]:
+    """The token, its parent, its parent's parent, and so on."""
     rows = database.plan.rows
     links = []
     while t >= 0:
         creator = rows.creator[t]
         rule = NONE if creator < 0 else rows.scope_rule[creator]
         relation = rows.relation[t]
-        link = Link(
+        link = ProvenanceStep(
             t,
             database.program.predicates[rows.predicate[t]].name,
             None if relation < 0 else database.relation_names[relation],
@@ -34,7 +34,7 @@ def chain(database: PlanDatabase, t: int) -> list[Link]:
             None if rule < 0 else database.program.rules[rule].span,
         )
         links.append(link)
-        t = rows.master[t]
+        t = rows.parent[t]
     return links
 
 

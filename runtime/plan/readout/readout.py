@@ -1,10 +1,13 @@
-"""Tell the state of a plan as plain data, in the form that the conformance suite reads."""
+"""The state of a plan, read from its tables as values."""
 
+from math import inf
 from typing import Any
 
+from compiler.program import PredicateCode
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.plan.database import PlanDatabase
-from runtime.plan.store.domain_texts import domain_text
+from runtime.plan.readout.state import Interval, PlanState, TokenExtent, TokenState
+from runtime.plan.store.domain_texts import DomainText, domain_text
 from runtime.plan.tags import (
     DURATION,
     END,
@@ -23,25 +26,26 @@ from runtime.plan.tags import (
     STATE_NAMES,
 )
 
-Bound = int | str
-
 
 def read(database: PlanDatabase) -> dict[str, Any]:
-    """Consistency, domains of all variables, all tokens, and the sequence of tokens on each timeline."""
+    """The state of a plan as plain data."""
+    return read_state(database).as_data()
+
+
+def read_state(database: PlanDatabase) -> PlanState:
+    """The state of a plan."""
     tokens = live_tokens(database)
     names = token_names(database, tokens)
-    domains: dict[str, str] = {}
-    read_globals(database, domains)
+    variables: dict[str, DomainText] = {}
+    of_tokens: dict[str, DomainText] = {}
+    of_rules: dict[str, DomainText] = {}
+    read_globals(database, variables)
     for t in tokens:
         if database.plan.rows.status[t] != MERGED:
-            read_token_domains(database, t, names[t], domains)
-        read_locals(database, t, names[t], domains)
-    return {
-        "consistent": database.is_consistent,
-        "domains": domains,
-        "tokens": [token_facts(database, t, names) for t in tokens],
-        "order": orders(database, names),
-    }
+            read_token_domains(database, t, names[t], of_tokens)
+        read_locals(database, t, names[t], of_rules)
+    states = tuple(token_state(database, t, names) for t in tokens)
+    return PlanState(database.is_consistent, variables, of_tokens, of_rules, states, sequences(database, names))
 
 
 def live_tokens(database: PlanDatabase) -> list[int]:
@@ -65,7 +69,7 @@ def token_names(database: PlanDatabase, tokens: list[int]) -> dict[int, str]:
     return names
 
 
-def read_globals(database: PlanDatabase, domains: dict[str, str]) -> None:
+def read_globals(database: PlanDatabase, domains: dict[str, DomainText]) -> None:
     """Global variables and members of objects."""
     plan = database.plan
     for index, (name, type_) in enumerate(database.program.globals):
@@ -77,13 +81,13 @@ def read_globals(database: PlanDatabase, domains: dict[str, str]) -> None:
             domains[f"{name}.{member.name}"] = text(database, v, member.type.kind, member.type.type_name)
 
 
-def text(database: PlanDatabase, v: int, kind: str, type_name: str) -> str:
+def text(database: PlanDatabase, v: int, kind: str, type_name: str) -> DomainText:
     """The domain of a variable whose type is known."""
     shown = "symbol" if kind == "symbol" else type_name
     return domain_text(database.prototypes, database.plan.engine, v, database.objects.names, shown)
 
 
-def read_token_domains(database: PlanDatabase, t: int, name: str, domains: dict[str, str]) -> None:
+def read_token_domains(database: PlanDatabase, t: int, name: str, domains: dict[str, DomainText]) -> None:
     """The variables of a token."""
     rows = database.plan.rows
     first = rows.var0[t]
@@ -101,7 +105,7 @@ def read_token_domains(database: PlanDatabase, t: int, name: str, domains: dict[
         domains[f"{name}.{parameter.name}"] = text(database, v, parameter.type.kind, parameter.type.type_name)
 
 
-def read_locals(database: PlanDatabase, t: int, name: str, domains: dict[str, str]) -> None:
+def read_locals(database: PlanDatabase, t: int, name: str, domains: dict[str, DomainText]) -> None:
     """The named variables of the rules that ran for a token; of several with one name, the latest."""
     plan, rows = database.plan, database.plan.rows
     s = rows.scopes[t]
@@ -118,42 +122,50 @@ def read_locals(database: PlanDatabase, t: int, name: str, domains: dict[str, st
         s = rows.scope_next[s]
 
 
-def token_facts(database: PlanDatabase, t: int, names: dict[int, str]) -> dict[str, Any]:
+def token_state(database: PlanDatabase, t: int, names: dict[int, str]) -> TokenState:
     """One token."""
     rows = database.plan.rows
     predicate = database.program.predicates[rows.predicate[t]]
-    master, merged = rows.master[t], rows.merged_into[t]
-    relation = rows.relation[t]
-    facts: dict[str, Any] = {"id": names[t], "predicate": predicate.name, "state": STATE_NAMES[rows.status[t]]}
-    if rows.status[t] != MERGED:
-        first = rows.var0[t]
-        facts["object"] = text(database, first + OBJECT, "object", predicate.class_name)
-        facts["start"] = bounds(database, first + START)
-        facts["duration"] = bounds(database, first + DURATION)
-        facts["end"] = bounds(database, first + END)
-        facts["params"] = {
+    parent, merged, relation = rows.parent[t], rows.merged_into[t], rows.relation[t]
+    return TokenState(
+        names[t],
+        predicate.name,
+        STATE_NAMES[rows.status[t]],
+        None if rows.status[t] == MERGED else token_extent(database, t, predicate),
+        bool(rows.flags[t] & FLAG_FACT),
+        names.get(parent) if parent >= 0 else None,
+        database.relation_names[relation] if relation >= 0 else None,
+        names.get(merged) if merged >= 0 else None,
+    )
+
+
+def token_extent(database: PlanDatabase, t: int, predicate: PredicateCode) -> TokenExtent:
+    """The variables of a token."""
+    first = database.plan.rows.var0[t]
+    return TokenExtent(
+        text(database, first + OBJECT, "object", predicate.class_name),
+        interval(database, first + START),
+        interval(database, first + DURATION),
+        interval(database, first + END),
+        {
             parameter.name: text(database, first + FIRST_PARAMETER + k, parameter.type.kind, parameter.type.type_name)
             for k, parameter in enumerate(predicate.parameters)
-        }
-    facts["fact"] = bool(rows.flags[t] & FLAG_FACT)
-    facts["master"] = names.get(master) if master >= 0 else None
-    facts["relation"] = database.relation_names[relation] if relation >= 0 else None
-    facts["merged_into"] = names.get(merged) if merged >= 0 else None
-    return facts
+        },
+    )
 
 
-def bounds(database: PlanDatabase, v: int) -> list[Bound]:
+def interval(database: PlanDatabase, v: int) -> Interval:
     """The bounds of a time."""
     engine = database.plan.engine
-    return [bound(engine.lb[v]), bound(engine.ub[v])]
+    return bound(engine.lb[v]), bound(engine.ub[v])
 
 
-def bound(moment: int) -> Bound:
-    """A moment, or that there is none."""
-    return moment if abs(moment) < HALF_INF else "+inf" if moment > 0 else "-inf"
+def bound(moment: int) -> float:
+    """A moment, infinite where the engine counts it as infinite."""
+    return moment if abs(moment) < HALF_INF else inf if moment > 0 else -inf
 
 
-def orders(database: PlanDatabase, names: dict[int, str]) -> dict[str, list[str]]:
+def sequences(database: PlanDatabase, names: dict[int, str]) -> dict[str, list[str]]:
     """The sequence on each timeline that has one."""
     plan, rows = database.plan, database.plan.rows
     found: dict[str, list[str]] = {}

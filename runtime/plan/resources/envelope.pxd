@@ -1,51 +1,51 @@
-# The C types of `flaws.py`.
+# The C types of `envelope.py`.
 
 cimport cython
 from runtime.constraints.engine cimport Engine
-from runtime.plan.resources.profile cimport Levels
+from runtime.plan.resources.profile cimport Profile
 from runtime.plan.resources.resources cimport Resources
 
 cdef long long NONE, ROOM, SIDE_LOWER, SIDE_UPPER
 cdef double FLOAT_TOLERANCE
 
 
-cdef class Flaws:
+cdef class Envelope:
     cdef public Engine engine
     cdef public Resources resources
-    cdef public Levels levels
+    cdef public Profile profile
     cdef public long long resource, at, is_low, pair_room
     cdef public long long pair_count, variable_room, mark, use_room
     cdef public bint grounded
-    cdef public double excess
+    cdef public double amount
     cdef public long long[::1] pair_before, pair_after, use_before, use_after
     cdef public long long[::1] marks, stack, via, takes, gives
     cdef public long long[::1] instants, from_taker, from_giver, queue
     cdef public long long[::1] ordered
     cdef public double[::1] supply, demand, flow
 
-    @cython.locals(levels=Levels, resources=Resources)
+    @cython.locals(profile=Profile, resources=Resources)
     cpdef bint find(self, long long o) except -1
 
-    @cython.locals(levels=Levels)
+    @cython.locals(profile=Profile)
     cpdef bint find_certain(self, long long o) except -1
 
-    @cython.locals(i="long long", levels=Levels)
+    @cython.locals(i="long long", profile=Profile)
     cpdef bint envelope_is_outside(self, long long sign) except -1
 
-    @cython.locals(i="long long", levels=Levels, total=double)
+    @cython.locals(i="long long", profile=Profile, total=double)
     cpdef double change(self, long long sign) except? -1.0
 
-    @cython.locals(count="long long", grounded=bint, k="long long", level=double, levels=Levels)
+    @cython.locals(count="long long", grounded=bint, k="long long", level=double, profile=Profile)
     cpdef bint find_side(self, long long o, long long is_low) except -1
 
     @cython.locals(
-        count="long long", i="long long", j="long long", k="long long", levels=Levels, sign="long long",
+        count="long long", i="long long", j="long long", k="long long", profile=Profile, sign="long long",
         t="long long"
     )
     cpdef long long collect_instants(self) except? -1
 
     @cython.locals(
-        i="long long", j="long long", known=bint, levels=Levels, n="long long", resources=Resources,
+        i="long long", j="long long", known=bint, profile=Profile, n="long long", resources=Resources,
         taker="long long", u="long long", v="long long"
     )
     cpdef int prepare(self) except -1
@@ -56,7 +56,7 @@ cdef class Flaws:
     cpdef int walk_back(self, long long v) except -1
 
     @cython.locals(
-        cell="long long", i="long long", j="long long", levels=Levels, n="long long", pushed=double, t="long long",
+        cell="long long", i="long long", j="long long", profile=Profile, n="long long", pushed=double, t="long long",
         total=double
     )
     cpdef double given_back(self) except? -1.0
@@ -70,13 +70,13 @@ cdef class Flaws:
     @cython.locals(e="long long", i="long long", is_marked=bint, j="long long", n="long long", v="long long")
     cpdef int note_orders(self, list edges, list read) except -1
 
-    @cython.locals(i="long long", j="long long", levels=Levels, n="long long", v="long long")
+    @cython.locals(i="long long", j="long long", profile=Profile, n="long long", v="long long")
     cpdef long long find_pairs(self) except? -1
 
-    @cython.locals(levels=Levels)
+    @cython.locals(profile=Profile)
     cpdef bint is_charged(self, long long j) except -1
 
-    @cython.locals(levels=Levels)
+    @cython.locals(profile=Profile)
     cpdef bint may_give(self, long long i) except -1
 
     @cython.locals(k="long long")

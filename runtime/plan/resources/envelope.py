@@ -1,37 +1,36 @@
-"""Find instants at which a resource may be out of bounds though nothing is certain, and what could be ordered there.
+"""Resource envelope (Muscettola 2002): bounds on a level by the order of uses; its flaws, and orders that mend them.
 
-The level at an instant is bounded by what the order of uses allows, not by their times alone: a use that comes after
-another's end cannot be charged together with it. The worst case is a closure of greatest weight among what may have
-happened (Muscettola's resource envelope); as known orders are transitive, it is a flow from what takes to what must
-have given back before. Order is read off the network: paths of edges whose weights are not positive, and bounds.
+A use that comes after another's end is never charged together with it, whatever their times. The worst case at an
+instant is a closure of greatest weight among the uses that may have happened; as known orders are transitive, it is a
+maximum flow from takers to givers before them. Order is read off the STN: paths of edges without positive weight, and
+bounds.
 """
 
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
 from runtime.plan.arrays import blank, blank_reals, grown
-from runtime.plan.resources.profile import Levels
+from runtime.plan.resources.profile import Profile
 from runtime.plan.resources.resources import Resources
 from runtime.plan.tags import NONE
 
 ROOM = 64
 
 
-class Flaws:
-    """A search for flaws, and what it found; its arrays are used again.
+class Envelope:
+    """The flaw found last: `resource`, the instant `at`, `is_low` and `amount`; scratch arrays are used again.
 
-    A flaw is `resource`, the instant `at`, `is_low` and `excess`; the pairs are timepoints (and uses), the first of
-    which could be put before the second to mend it.
+    The pairs are timepoints (and uses): the first before the second would mend the flaw.
     """
 
     def __init__(self, engine: Engine, resources: Resources) -> None:
         self.engine = engine
         self.resources = resources
-        self.levels = Levels()
+        self.profile = Profile()
         self.resource = NONE
         self.at = 0
         self.is_low = 1
         self.grounded = False
-        self.excess = 0.0
+        self.amount = 0.0
         self.pair_room = ROOM
         self.pair_count = 0
         self.pair_before = blank(ROOM)
@@ -60,17 +59,17 @@ class Flaws:
     def find(self, o: int) -> bool:
         """The first instant at which resource `o` may be out of bounds; what it is stands in the fields."""
         resources = self.resources
-        levels = self.levels
-        resources.fill(levels, o)
+        profile = self.profile
+        resources.fill(profile, o)
         self.resource = o
-        if levels.initial_low + self.change(-1) < levels.minimum - FLOAT_TOLERANCE and self.find_side(o, 1):
+        if profile.initial_low + self.change(-1) < profile.minimum - FLOAT_TOLERANCE and self.find_side(o, 1):
             return True
-        return levels.initial_high + self.change(1) > levels.maximum + FLOAT_TOLERANCE and self.find_side(o, 0)
+        return profile.initial_high + self.change(1) > profile.maximum + FLOAT_TOLERANCE and self.find_side(o, 0)
 
     def find_certain(self, o: int) -> bool:
         """Whether the order of uses makes certain what their times alone leave open: the whole envelope is outside."""
-        levels = self.levels
-        self.resources.fill(levels, o)
+        profile = self.profile
+        self.resources.fill(profile, o)
         self.resource = o
         self.grounded = False
         self.is_low = 0
@@ -81,32 +80,32 @@ class Flaws:
 
     def envelope_is_outside(self, sign: int) -> bool:
         """Whether at some instant the highest level is below the minimum (or the lowest above the maximum)."""
-        levels = self.levels
+        profile = self.profile
         self.prepare()
-        for i in range(levels.count):
-            if levels.sign[i] == sign:
-                self.at = levels.start_high[i]
+        for i in range(profile.count):
+            if profile.sign[i] == sign:
+                self.at = profile.start_high[i]
                 if sign < 0:
-                    self.excess = levels.minimum - levels.best_for_consumers(self.at)
+                    self.amount = profile.minimum - profile.best_for_consumers(self.at)
                 else:
-                    self.excess = levels.worst_for_consumers(self.at) - levels.maximum
-                self.excess += self.given_back()
-                if self.excess > FLOAT_TOLERANCE:
+                    self.amount = profile.worst_for_consumers(self.at) - profile.maximum
+                self.amount += self.given_back()
+                if self.amount > FLOAT_TOLERANCE:
                     return True
         return False
 
     def change(self, sign: int) -> float:
         """The greatest change of the level in one direction."""
-        levels = self.levels
+        profile = self.profile
         total = 0.0
-        for i in range(levels.count):
-            if levels.sign[i] == sign:
-                total += sign * levels.most[i]
+        for i in range(profile.count):
+            if profile.sign[i] == sign:
+                total += sign * profile.most[i]
         return total
 
     def find_side(self, o: int, is_low: int) -> bool:
         """The first instant at which the level may be too low (or too high)."""
-        levels = self.levels
+        profile = self.profile
         self.is_low = is_low
         grounded = self.resources.is_grounded(o)
         self.grounded = grounded
@@ -116,25 +115,25 @@ class Flaws:
         for k in range(count):
             self.at = self.instants[k]
             if grounded:
-                level = levels.grounded(self.at)
-                self.excess = levels.minimum - level if is_low else level - levels.maximum
+                level = profile.grounded(self.at)
+                self.amount = profile.minimum - level if is_low else level - profile.maximum
             else:
-                level = levels.worst_for_consumers(self.at) if is_low else levels.best_for_consumers(self.at)
-                self.excess = levels.minimum - level if is_low else level - levels.maximum
-                if self.excess > FLOAT_TOLERANCE:
-                    self.excess -= self.given_back()
-            if self.excess > FLOAT_TOLERANCE:
+                level = profile.worst_for_consumers(self.at) if is_low else profile.best_for_consumers(self.at)
+                self.amount = profile.minimum - level if is_low else level - profile.maximum
+                if self.amount > FLOAT_TOLERANCE:
+                    self.amount -= self.given_back()
+            if self.amount > FLOAT_TOLERANCE:
                 return True
         return False
 
     def collect_instants(self) -> int:
         """The instants at which the level may change for the worse, in order; their number."""
-        levels = self.levels
+        profile = self.profile
         sign = -1 if self.is_low else 1
         count = 0
-        for i in range(levels.count):
-            if levels.sign[i] == sign:
-                t = levels.start_low[i]
+        for i in range(profile.count):
+            if profile.sign[i] == sign:
+                t = profile.start_low[i]
                 k = count
                 while k > 0 and self.instants[k - 1] > t:
                     k -= 1
@@ -150,20 +149,20 @@ class Flaws:
 
     def prepare(self) -> None:
         """Find which uses give back (or take) before which others take (or give)."""
-        levels = self.levels
-        n = levels.count
+        profile = self.profile
+        n = profile.count
         self.make_room(n)
         resources = self.resources
         taker = -1 if self.is_low else 1
         for i in range(n):
-            u = levels.use[i]
+            u = profile.use[i]
             self.takes[i] = NONE
             self.gives[i] = NONE
-            if u >= 0 and levels.sign[i] == taker:
+            if u >= 0 and profile.sign[i] == taker:
                 self.takes[i] = resources.start[u]
-                if self.is_low and not levels.lasting[i]:
+                if self.is_low and not profile.lasting[i]:
                     self.gives[i] = resources.end[u]
-            elif u >= 0 and levels.lasting[i]:
+            elif u >= 0 and profile.lasting[i]:
                 self.gives[i] = resources.start[u]
         for j in range(n):
             if self.takes[j] >= 0:
@@ -220,22 +219,22 @@ class Flaws:
 
     def given_back(self) -> float:
         """How much of what may be taken at the instant must have been given back before: the greatest flow."""
-        levels = self.levels
-        n = levels.count
+        profile = self.profile
+        n = profile.count
         t = self.at
         total = 0.0
         for i in range(n):
             self.supply[i] = 0.0
             self.demand[i] = 0.0
-            if self.takes[i] >= 0 and levels.start_low[i] <= t < levels.start_high[i]:
-                if levels.lasting[i] or levels.end_high[i] > t:
-                    self.supply[i] = levels.most[i]
+            if self.takes[i] >= 0 and profile.start_low[i] <= t < profile.start_high[i]:
+                if profile.lasting[i] or profile.end_high[i] > t:
+                    self.supply[i] = profile.most[i]
             if self.gives[i] >= 0:
                 if self.takes[i] < 0:
-                    if levels.start_low[i] <= t < levels.start_high[i]:
-                        self.demand[i] = levels.least[i]
-                elif levels.end_low[i] <= t < levels.end_high[i]:
-                    self.demand[i] = levels.most[i]
+                    if profile.start_low[i] <= t < profile.start_high[i]:
+                        self.demand[i] = profile.least[i]
+                elif profile.end_low[i] <= t < profile.end_high[i]:
+                    self.demand[i] = profile.most[i]
             total += self.demand[i]
         if total <= FLOAT_TOLERANCE:
             return 0.0
@@ -252,7 +251,7 @@ class Flaws:
 
     def augment(self, source: int) -> float:
         """Push along one shortest path from taker `source` to a giver with demand left; how much."""
-        n = self.levels.count
+        n = self.profile.count
         for k in range(n):
             self.from_taker[k] = NONE
             self.from_giver[k] = NONE
@@ -301,7 +300,7 @@ class Flaws:
 
     def note_orders(self, edges: list[int], read: list[int]) -> None:
         """After `find_certain`: add the edges that order what the flow joins, or the bounds (`4 * v + side`)."""
-        n = self.levels.count
+        n = self.profile.count
         for j in range(n):
             is_marked = False
             for i in range(n):
@@ -324,8 +323,8 @@ class Flaws:
 
     def find_pairs(self) -> int:
         """The orders that could mend the flaw: a giver before a taker, neither known to be so nor impossible."""
-        levels = self.levels
-        n = levels.count
+        profile = self.profile
+        n = profile.count
         self.pair_count = 0
         if self.grounded:
             self.prepare()
@@ -337,26 +336,26 @@ class Flaws:
                 if i == j or v < 0 or self.ordered[j * self.use_room + i] or not self.may_give(i):
                     continue
                 if self.engine.lb[v] <= self.engine.ub[self.takes[j]]:
-                    self.add_pair(v, self.takes[j], levels.use[i], levels.use[j])
+                    self.add_pair(v, self.takes[j], profile.use[i], profile.use[j])
         return self.pair_count
 
     def is_charged(self, j: int) -> bool:
         """Whether use `j` counts at the instant of the flaw."""
-        levels = self.levels
-        if levels.start_low[j] > self.at:
+        profile = self.profile
+        if profile.start_low[j] > self.at:
             return False
-        if levels.lasting[j]:
+        if profile.lasting[j]:
             return True
         if self.grounded:
-            return levels.end_low[j] > self.at
-        return levels.end_high[j] > self.at
+            return profile.end_low[j] > self.at
+        return profile.end_high[j] > self.at
 
     def may_give(self, i: int) -> bool:
         """Whether use `i` could give back before, and has not certainly done so."""
-        levels = self.levels
+        profile = self.profile
         if self.takes[i] >= 0:
             return self.is_charged(i)
-        return levels.start_high[i] > self.at or self.grounded
+        return profile.start_high[i] > self.at or self.grounded
 
     def add_pair(self, before: int, after: int, giver: int, taker: int) -> None:
         """Note one possible order."""

@@ -1,4 +1,4 @@
-# The C types of `levels.py`.
+# The C types of `profile.py`.
 
 cimport cython
 
@@ -6,12 +6,12 @@ cdef long long ROOM, TOO_FAST, TOO_HIGH, TOO_LOW, TOO_MUCH, TOO_TIGHT, HALF_INF,
 cdef double FLOAT_TOLERANCE, inf
 
 
-cdef class Levels:
+cdef class Profile:
     cdef public long long room, count, wrong, at, until
     cdef public long long[::1] use, sign, lasting, start_low
     cdef public long long[::1] start_high, end_low, end_high, length
     cdef public double[::1] least, most
-    cdef public double excess, initial_low, initial_high, minimum
+    cdef public double amount, initial_low, initial_high, minimum
     cdef public double maximum, rate, total, production_rate
     cdef public double production_total
     cdef public list limit_steps
@@ -60,7 +60,7 @@ cdef class Levels:
     )
     cpdef long long overload(self) except? -1
 
-    @cython.locals(excess=double, k="long long")
+    @cython.locals(amount=double, k="long long")
     cpdef bint is_overloaded(self, long long start, long long end, double room) except -1
 
     @cython.locals(early="long long", late="long long")

@@ -1,6 +1,6 @@
-"""The arithmetic of resource levels: which uses are certain at an instant, which possible, and what follows.
+"""Profile of a resource: bounds on its level over time, from uses that are certain and uses that are possible.
 
-Bounds of times alone are looked at; `flaws` knows the order of uses as well.
+Only the bounds of times count here; `envelope` also knows the order of uses.
 """
 
 from math import inf
@@ -13,8 +13,8 @@ ROOM = 16
 MOST_WINDOWS = 64  # above so many uses only windows from the earliest start on are looked at
 
 
-class Levels:
-    """The bounds of the uses of one resource at one moment, and the limits of its level.
+class Profile:
+    """Uses of one resource as rows, with their bounds at one moment, and the limits of its level.
 
     `sign` is -1 for what consumes, +1 for what produces. What is `lasting` has no end: an event of a reservoir. Of
     limits that are variables the value that helps the plan most is taken.
@@ -38,7 +38,7 @@ class Levels:
         self.wrong = 0
         self.at = 0
         self.until = 0
-        self.excess = 0.0
+        self.amount = 0.0
 
     def set_limits(self, initial_low: float, initial_high: float, minimum: float, maximum: float) -> None:
         """Fix the first level and its bounds, and forget all uses."""
@@ -134,7 +134,7 @@ class Levels:
     # ---- what is certainly wrong ----
 
     def violation(self) -> int:
-        """What is certainly out of bounds (0: nothing); `at` and `excess` tell when and by how much."""
+        """The violation that is certain (0: none); `at` and `amount` tell when and by how much."""
         self.wrong = self.flow_violation()
         if self.wrong == 0:
             self.wrong = self.level_violation()
@@ -155,20 +155,20 @@ class Levels:
             for i in range(self.count):
                 if self.sign[i] < 0:
                     self.at = self.start_high[i]
-                    self.excess = self.minimum - self.best_for_consumers(self.at)
-                    if self.excess > FLOAT_TOLERANCE:
+                    self.amount = self.minimum - self.best_for_consumers(self.at)
+                    if self.amount > FLOAT_TOLERANCE:
                         return TOO_LOW
         if self.initial_low + least_produced > self.maximum + FLOAT_TOLERANCE:
             for i in range(self.count):
                 if self.sign[i] > 0:
                     self.at = self.start_high[i]
-                    self.excess = self.worst_for_consumers(self.at) - self.maximum
-                    if self.excess > FLOAT_TOLERANCE:
+                    self.amount = self.worst_for_consumers(self.at) - self.maximum
+                    if self.amount > FLOAT_TOLERANCE:
                         return TOO_HIGH
         return 0
 
     def violation_of_steps(self) -> int:
-        """Whether the level is certainly out of bounds, where those change: `limit_steps` tell from when on."""
+        """Whether the level is certainly out of bounds somewhere, where the bounds change over time (`limit_steps`)."""
         steps = self.limit_steps
         instants = {step[0] for step in steps}
         for i in range(self.count):
@@ -183,11 +183,11 @@ class Levels:
                 if start <= t:
                     self.minimum = minimum
                     self.maximum = maximum
-            self.excess = self.minimum - self.best_for_consumers(t)
-            if self.excess > FLOAT_TOLERANCE:
+            self.amount = self.minimum - self.best_for_consumers(t)
+            if self.amount > FLOAT_TOLERANCE:
                 return TOO_LOW
-            self.excess = self.worst_for_consumers(t) - self.maximum
-            if self.excess > FLOAT_TOLERANCE:
+            self.amount = self.worst_for_consumers(t) - self.maximum
+            if self.amount > FLOAT_TOLERANCE:
                 return TOO_HIGH
         self.minimum = first_minimum
         self.maximum = first_maximum
@@ -204,14 +204,14 @@ class Levels:
             flow = max(self.least[i], self.together(i))
             if self.sign[i] < 0:
                 consumed += self.least[i]
-                self.excess = flow - self.rate
+                self.amount = flow - self.rate
             else:
                 produced += self.least[i]
-                self.excess = flow - self.production_rate
-            if self.excess > FLOAT_TOLERANCE:
+                self.amount = flow - self.production_rate
+            if self.amount > FLOAT_TOLERANCE:
                 return TOO_FAST
-        self.excess = max(consumed - self.total, produced - self.production_total)
-        return TOO_MUCH if self.excess > FLOAT_TOLERANCE else 0
+        self.amount = max(consumed - self.total, produced - self.production_total)
+        return TOO_MUCH if self.amount > FLOAT_TOLERANCE else 0
 
     def together(self, i: int) -> float:
         """What certainly flows at the same instant as use `i`, with it."""
@@ -227,7 +227,7 @@ class Levels:
     # ---- what cannot fit ----
 
     def overload(self) -> int:
-        """Whether some window cannot hold what must lie in it: more use times time than its length allows.
+        """Overload check: whether some window cannot hold the energy (use times time) that must lie in it.
 
         Energetic reasoning (Baptiste, Le Pape, Nuijten 2001) over windows from an earliest start to a latest end;
         `at` and `until` tell which. Only for uses that give back; O(n^3), O(n^2) above MOST_WINDOWS uses.
@@ -260,16 +260,16 @@ class Levels:
         """Whether more must lie in a window than it holds."""
         if start <= -HALF_INF or end >= HALF_INF or start >= end:
             return False
-        excess = -room * (end - start)
+        amount = -room * (end - start)
         for k in range(self.count):
             if self.least[k] > 0.0:  # in a scratch engine it may be without a bound
-                excess += self.least[k] * self.share(k, start, end)
-        if excess <= FLOAT_TOLERANCE:
+                amount += self.least[k] * self.share(k, start, end)
+        if amount <= FLOAT_TOLERANCE:
             return False
         self.at = start
         self.until = end
         self.wrong = TOO_TIGHT
-        self.excess = excess
+        self.amount = amount
         return True
 
     def share(self, k: int, start: int, end: int) -> int:

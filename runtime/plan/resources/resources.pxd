@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
-from runtime.plan.resources.profile cimport Levels
+from runtime.plan.resources.profile cimport Profile
 
 cdef long long INITIAL, LIMITS, MAXIMUM, MINIMUM, NONE, PRODUCTION_RATE, PRODUCTION_TOTAL, RATE, ROOM, SIDE_LOWER
 cdef long long SIDE_UPPER, TOO_HIGH, TOO_LOW, TOO_TIGHT, TOTAL
@@ -11,19 +11,19 @@ cdef double inf
 
 cdef class Resources:
     cdef public Engine engine
-    cdef public Levels levels
+    cdef public Profile profile
     cdef public long long room, count, object_room, grounded_text
     cdef public long long pending
     cdef public list free, refusals
     cdef public long long[::1] token, sign, holder, quantity
     cdef public long long[::1] start, end, duration, on, start_low
     cdef public long long[::1] start_high, end_low, end_high, is_resource, is_energetic
-    cdef public long long[::1] profile, changed, limits
+    cdef public long long[::1] profile_choice, changed, limits
     cdef public double[::1] least, most
     cdef public dict steps, limit_steps
 
     @cython.locals(k="long long")
-    cpdef int add_resource(self, long long o, list limits, long long profile) except -1
+    cpdef int add_resource(self, long long o, list limits, long long profile_choice) except -1
 
     @cython.locals(v="long long")
     cpdef bint is_grounded(self, long long o) except -1
@@ -59,26 +59,26 @@ cdef class Resources:
     cpdef list take_refusals(self)
 
     @cython.locals(at="long long", i="long long", u="long long")
-    cpdef int fill(self, Levels levels, long long o) except -1
+    cpdef int fill(self, Profile profile, long long o) except -1
 
-    cpdef double lower(self, long long place, double otherwise) except? -1.0
+    cpdef double lower(self, long long row, double otherwise) except? -1.0
 
-    cpdef double upper(self, long long place, double otherwise) except? -1.0
+    cpdef double upper(self, long long row, double otherwise) except? -1.0
 
     @cython.locals(o="long long")
     cpdef int set_energetic(self, long long o, bint is_energetic) except -1
 
     @cython.locals(
-        c="long long", i="long long", k="long long", levels=Levels, sign="long long", span_owner="long long",
+        c="long long", i="long long", k="long long", profile=Profile, sign="long long", span_owner="long long",
         u="long long", variables=list
     )
     cpdef bint refuse(self, long long o, long long level, envelope) except -1
 
     @cython.locals(
-        end="long long", harms="long long", is_certain=bint, levels=Levels, quantity="long long", side="long long",
+        end="long long", harms="long long", is_certain=bint, profile=Profile, quantity="long long", side="long long",
         start="long long", t="long long"
     )
-    cpdef bint note_read(self, excess, long long i, long long u, bint by_order) except -1
+    cpdef bint note_read(self, violation, long long i, long long u, bint by_order) except -1
 
 
 cpdef long long step_start(tuple step) except? -1

@@ -1,4 +1,4 @@
-"""Keep who uses which resource, and refuse what certainly exceeds one.
+"""Uses of resources: rows of a table, and the check that posts a violation where a resource is certainly exceeded.
 
 A use is charged from `start` to `end` (Reusable, Unary, CBReusable), or once at `start` (`produce`, `consume`). Bounds
 are compared with those of the last check, so that going back in time needs no notice.
@@ -10,8 +10,8 @@ from typing import Protocol
 from runtime.constraints.domains.tags import SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
 from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
-from runtime.plan.resources.profile import Levels
-from runtime.plan.resources.violation import Excess
+from runtime.plan.resources.profile import Profile
+from runtime.plan.resources.violation import Violation
 from runtime.plan.tags import (
     INITIAL,
     LIMITS,
@@ -30,8 +30,8 @@ from runtime.plan.tags import (
 ROOM = 32
 
 
-class Envelope(Protocol):
-    """What knows the order of uses."""
+class UseOrder(Protocol):
+    """The order of uses: what `envelope` knows beyond bounds of times."""
 
     is_low: int
     at: int
@@ -48,7 +48,7 @@ class Resources:
 
     def __init__(self, engine: Engine) -> None:
         self.engine = engine
-        self.levels = Levels()
+        self.profile = Profile()
         self.room = ROOM
         self.count = 0
         self.free: list[int] = []
@@ -70,7 +70,7 @@ class Resources:
         self.object_room = ROOM
         self.is_resource = blank(ROOM)
         self.is_energetic = blank(ROOM)  # also refuse what cannot fit into a window
-        self.profile = blank(ROOM)  # the variable that chooses how levels are computed
+        self.profile_choice = blank(ROOM)  # the variable that chooses how levels are computed
         self.grounded_text = NONE
         self.changed = blank(ROOM)
         self.limits = blank(ROOM * LIMITS)
@@ -81,23 +81,23 @@ class Resources:
 
     # ---- resources and uses ----
 
-    def add_resource(self, o: int, limits: list[int], profile: int) -> None:
+    def add_resource(self, o: int, limits: list[int], profile_choice: int) -> None:
         """Make object `o` a resource with the variables of its limits (NONE: not limited)."""
         while o >= self.object_room:
             self.object_room *= 2
             self.is_resource = grown(self.is_resource, self.object_room)
             self.is_energetic = grown(self.is_energetic, self.object_room)
-            self.profile = grown(self.profile, self.object_room)
+            self.profile_choice = grown(self.profile_choice, self.object_room)
             self.changed = grown(self.changed, self.object_room)
             self.limits = grown(self.limits, self.object_room * LIMITS)
         self.is_resource[o] = 1
-        self.profile[o] = profile
+        self.profile_choice[o] = profile_choice
         for k in range(LIMITS):
             self.limits[o * LIMITS + k] = limits[k]
 
     def is_grounded(self, o: int) -> bool:
         """Whether levels are those of the earliest schedule: the resource asks for a "GroundedProfile"."""
-        v = self.profile[o]
+        v = self.profile_choice[o]
         return v >= 0 and self.engine.lb[v] == self.grounded_text and self.engine.ub[v] == self.grounded_text
 
     def add_use(
@@ -208,19 +208,19 @@ class Resources:
                     self.pending = 1
         return not self.pending
 
-    def check(self, envelope: "Envelope", level: int) -> bool:
+    def check(self, envelope: "UseOrder", level: int) -> bool:
         """Refuse what certainly exceeds a resource; False if something does."""
         self.pending = 0
         for o in range(self.object_room):
             if self.changed[o] and self.is_resource[o]:
                 self.changed[o] = 0
-                self.fill(self.levels, o)
+                self.fill(self.profile, o)
                 by_order = False
-                if not self.levels.violation():
-                    by_order = o not in self.limit_steps and self.levels.flows_both_ways() and envelope.find_certain(o)
+                if not self.profile.violation():
+                    by_order = o not in self.limit_steps and self.profile.flows_both_ways() and envelope.find_certain(o)
                     is_tight = not by_order and self.is_energetic[o] != 0 and o not in self.steps
                     is_tight = is_tight and o not in self.limit_steps
-                    is_tight = is_tight and self.levels.overload() != 0
+                    is_tight = is_tight and self.profile.overload() != 0
                     if not by_order and not is_tight:
                         continue
                 self.changed[o] = 1
@@ -235,41 +235,41 @@ class Resources:
             self.pending = 1
         return taken
 
-    def fill(self, levels: Levels, o: int) -> None:
-        """Put the uses and limits of a resource into `levels`."""
+    def fill(self, profile: Profile, o: int) -> None:
+        """Put the uses and limits of a resource into `profile`."""
         at = o * LIMITS
         low = self.lower(at + INITIAL, 0.0)
         high = self.upper(at + INITIAL, 0.0)
-        levels.set_limits(low, high, self.lower(at + MINIMUM, -inf), self.upper(at + MAXIMUM, inf))
-        levels.limit_steps = self.limit_steps.get(o, [])
-        levels.rate = self.upper(at + RATE, inf)
-        levels.total = self.upper(at + TOTAL, inf)
-        levels.production_rate = self.upper(at + PRODUCTION_RATE, inf)
-        levels.production_total = self.upper(at + PRODUCTION_TOTAL, inf)
+        profile.set_limits(low, high, self.lower(at + MINIMUM, -inf), self.upper(at + MAXIMUM, inf))
+        profile.limit_steps = self.limit_steps.get(o, [])
+        profile.rate = self.upper(at + RATE, inf)
+        profile.total = self.upper(at + TOTAL, inf)
+        profile.production_rate = self.upper(at + PRODUCTION_RATE, inf)
+        profile.production_total = self.upper(at + PRODUCTION_TOTAL, inf)
         for u in range(self.count):
             if self.sign[u] and self.on[u] == o:
-                i = levels.add(u, self.sign[u], self.end[u] < 0)
-                levels.start_low[i] = self.start_low[u]
-                levels.start_high[i] = self.start_high[u]
-                levels.end_low[i] = self.end_low[u]
-                levels.end_high[i] = self.end_high[u]
-                levels.least[i] = self.least[u]
-                levels.most[i] = self.most[u]
+                i = profile.add(u, self.sign[u], self.end[u] < 0)
+                profile.start_low[i] = self.start_low[u]
+                profile.start_high[i] = self.start_high[u]
+                profile.end_low[i] = self.end_low[u]
+                profile.end_high[i] = self.end_high[u]
+                profile.least[i] = self.least[u]
+                profile.most[i] = self.most[u]
                 if self.end[u] >= 0:
-                    levels.length[i] = max(0, self.end_low[u] - self.start_high[u])
+                    profile.length[i] = max(0, self.end_low[u] - self.start_high[u])
                 if self.duration[u] >= 0:
-                    levels.length[i] = max(levels.length[i], self.engine.lb[self.duration[u]])
+                    profile.length[i] = max(profile.length[i], self.engine.lb[self.duration[u]])
         for start, lower, upper in self.steps.get(o, ()):
-            levels.add_step(start, low - upper, high - lower)
+            profile.add_step(start, low - upper, high - lower)
             low, high = lower, upper
 
-    def lower(self, place: int, otherwise: float) -> float:
+    def lower(self, row: int, otherwise: float) -> float:
         """The lower bound of a limit."""
-        return otherwise if self.limits[place] < 0 else self.engine.flo[self.limits[place]]
+        return otherwise if self.limits[row] < 0 else self.engine.flo[self.limits[row]]
 
-    def upper(self, place: int, otherwise: float) -> float:
+    def upper(self, row: int, otherwise: float) -> float:
         """The upper bound of a limit."""
-        return otherwise if self.limits[place] < 0 else self.engine.fhi[self.limits[place]]
+        return otherwise if self.limits[row] < 0 else self.engine.fhi[self.limits[row]]
 
     def set_energetic(self, o: int, is_energetic: bool) -> None:
         """Have resource `o` refuse what cannot fit into a window, or no longer."""
@@ -278,96 +278,96 @@ class Resources:
             self.changed[o] = 1
             self.pending = 1
 
-    def refuse(self, o: int, level: int, envelope: "Envelope | None") -> bool:
+    def refuse(self, o: int, level: int, envelope: "UseOrder | None") -> bool:
         """Post a constraint on the uses that exceed a resource: it finds the same, so that the engine can explain it.
 
         With an envelope the order of uses made it certain.
         """
-        levels = self.levels
-        excess = Excess(o, levels.wrong, levels.at, levels.excess, list(self.steps.get(o, ())))
-        excess.limit_steps = self.limit_steps.get(o, [])
-        excess.room = levels.initial_high - levels.minimum
-        excess.limit = levels.maximum if levels.wrong == TOO_HIGH else levels.minimum
+        profile = self.profile
+        violation = Violation(o, profile.wrong, profile.at, profile.amount, list(self.steps.get(o, ())))
+        violation.limit_steps = self.limit_steps.get(o, [])
+        violation.room = profile.initial_high - profile.minimum
+        violation.limit = profile.maximum if profile.wrong == TOO_HIGH else profile.minimum
         if envelope is not None:
-            excess.limit = levels.minimum if envelope.is_low == 0 else levels.maximum
-            excess.by_order(envelope.is_low == 0, envelope.at, Resources, type(envelope))
+            violation.limit = profile.minimum if envelope.is_low == 0 else profile.maximum
+            violation.by_order(envelope.is_low == 0, envelope.at, Resources, type(envelope))
             bounds: list[int] = []
-            envelope.note_orders(excess.edges, bounds)
+            envelope.note_orders(violation.edges, bounds)
             for key in bounds:
-                excess.note(key)
+                violation.note(key)
         variables: list[int] = []
         for k in range(LIMITS):
             if self.limits[o * LIMITS + k] >= 0:
-                excess.limits.append(k)
+                violation.limits.append(k)
                 variables.append(self.limits[o * LIMITS + k])
         for v in variables:
-            excess.note(4 * v + SIDE_LOWER)
-            excess.note(4 * v + SIDE_UPPER)
+            violation.note(4 * v + SIDE_LOWER)
+            violation.note(4 * v + SIDE_UPPER)
         span_owner = NONE
-        for i in range(levels.count):
-            u = levels.use[i]
-            if u >= 0 and self.note_read(excess, i, u, envelope is not None):
-                excess.uses.append(u)
+        for i in range(profile.count):
+            u = profile.use[i]
+            if u >= 0 and self.note_read(violation, i, u, envelope is not None):
+                violation.uses.append(u)
                 sign = self.sign[u] * (1 if self.end[u] < 0 else 2 if self.duration[u] < 0 else 3)
-                excess.signs.append(sign)
+                violation.signs.append(sign)
                 variables += [self.holder[u], self.quantity[u], self.start[u]]
                 if self.end[u] >= 0:
                     variables.append(self.end[u])
                     if self.duration[u] >= 0:
                         variables.append(self.duration[u])
                 span_owner = self.token[u]
-        c = self.engine.post_external(excess, variables, NONE, span_owner)
+        c = self.engine.post_external(violation, variables, NONE, span_owner)
         if level == 0:
             self.refusals.append(c)
         return self.engine.propagate()
 
-    def note_read(self, excess: Excess, i: int, u: int, by_order: bool) -> bool:
-        """Note which bounds of use `u`, row `i` of the levels, count for an excess; False if it has no part in it."""
-        levels = self.levels
+    def note_read(self, violation: Violation, i: int, u: int, by_order: bool) -> bool:
+        """Note which bounds of use `u`, row `i` of the profile, count for a violation; False if none does."""
+        profile = self.profile
         start = 4 * self.start[u]
         end = 4 * self.end[u]
         quantity = 4 * self.quantity[u]
-        t = excess.at
-        if excess.wrong == TOO_TIGHT:
-            share = levels.share(i, levels.at, levels.until)
+        t = violation.at
+        if violation.wrong == TOO_TIGHT:
+            share = profile.share(i, profile.at, profile.until)
             if share == 0:
                 return False
-            excess.charged.append((self.token[u], levels.least[i] * share))
-            excess.until = levels.until
-            excess.note(quantity + SIDE_LOWER)
+            violation.charged.append((self.token[u], profile.least[i] * share))
+            violation.until = profile.until
+            violation.note(quantity + SIDE_LOWER)
             if self.duration[u] >= 0:
-                excess.note(4 * self.duration[u] + SIDE_LOWER)
-                excess.parts.append((self.start[u], self.end[u], levels.length[i], levels.least[i]))
+                violation.note(4 * self.duration[u] + SIDE_LOWER)
+                violation.parts.append((self.start[u], self.end[u], profile.length[i], profile.least[i]))
             else:
                 for side in (SIDE_LOWER, SIDE_UPPER):
-                    excess.note(start + side)
-                    excess.note(end + side)
-        elif excess.wrong == TOO_LOW or excess.wrong == TOO_HIGH:
-            harms = -1 if excess.wrong == TOO_LOW else 1
+                    violation.note(start + side)
+                    violation.note(end + side)
+        elif violation.wrong == TOO_LOW or violation.wrong == TOO_HIGH:
+            harms = -1 if violation.wrong == TOO_LOW else 1
             if self.end[u] < 0:
-                excess.helper = -harms
+                violation.helper = -harms
             if self.sign[u] == harms:
-                is_certain = levels.start_high[i] <= t and (self.end[u] < 0 or levels.end_low[i] > t)
+                is_certain = profile.start_high[i] <= t and (self.end[u] < 0 or profile.end_low[i] > t)
                 if is_certain:
-                    excess.note_enough(start + SIDE_UPPER, t)
+                    violation.note_enough(start + SIDE_UPPER, t)
                     if self.end[u] >= 0:
-                        excess.note_enough(end + SIDE_LOWER, t + 1)
+                        violation.note_enough(end + SIDE_LOWER, t + 1)
                 elif not by_order:
                     return False
-                excess.charged.append((self.token[u], levels.least[i]))
-                excess.note(quantity + SIDE_LOWER)
-            elif levels.start_low[i] > t:
-                excess.note_enough(start + SIDE_LOWER, t + 1)
-            elif self.end[u] >= 0 and levels.end_high[i] <= t:
-                excess.note_enough(end + SIDE_UPPER, t)
+                violation.charged.append((self.token[u], profile.least[i]))
+                violation.note(quantity + SIDE_LOWER)
+            elif profile.start_low[i] > t:
+                violation.note_enough(start + SIDE_LOWER, t + 1)
+            elif self.end[u] >= 0 and profile.end_high[i] <= t:
+                violation.note_enough(end + SIDE_UPPER, t)
             else:
-                excess.note(quantity + SIDE_UPPER)
+                violation.note(quantity + SIDE_UPPER)
         else:
-            excess.charged.append((self.token[u], levels.least[i]))
+            violation.charged.append((self.token[u], profile.least[i]))
             for key in (start, end, quantity):
                 if key >= 0:
-                    excess.note(key + SIDE_LOWER)
-                    excess.note(key + SIDE_UPPER)
+                    violation.note(key + SIDE_LOWER)
+                    violation.note(key + SIDE_UPPER)
         return True
 
 

@@ -1,4 +1,4 @@
-"""A constraint that refuses a resource certainly exceeded: it finds the excess again from the bounds it stands on."""
+"""Violation of a resource as a constraint: it fails, and can check itself again on other bounds for explanations."""
 
 from collections.abc import Callable
 from math import inf
@@ -8,15 +8,14 @@ from runtime.constraints.domains.bitset import has_value
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.constraints.propagators.external import External, argument, refuse
-from runtime.plan import tags
-from runtime.plan.resources.profile import Levels
+from runtime.plan.resources.profile import Profile
 from runtime.plan.tags import AS_IT_IS, LIMITS, TOO_HIGH, TOO_LOW, TOO_TIGHT
 
 Step = tuple[int, float, float]  # set_capacity: from when on, between what
 
 
-class Excess(External):
-    """The limits of a resource, then holder, quantity, start, end and duration (if any) of each use, are its arguments.
+class Violation(External):
+    """Arguments: the limits of a resource, then holder, quantity, start, end and duration (if any) of each use.
 
     `read` are the bounds (`v * 4 + side`) that make it certain, each with what would be `enough`; `uses` the rows that
     count; `edges` the order between them that does. `helper` is the sign of what would help if it were there, or 0.
@@ -47,31 +46,6 @@ class Excess(External):
         self.table: Callable[[Any], Any] | None = None
         self.judge: Callable[[Any, Any], Any] | None = None
 
-    def words(self, name: str, token: Callable[[int], str]) -> str:
-        """What is wrong with the resource of that name, and who uses it; `token` knows names."""
-        who = ", ".join(f"{token(t)} {amount:g}" for t, amount in self.charged if t >= 0)
-        who = f": {who}" if who else ""
-        if self.table is not None:
-            side = "falls below its least" if self.wrong == TOO_LOW else "rises above its greatest"
-            return f"the level of {name} {side}, {self.limit:g}, by {self.at} in any order{who}"
-        match self.wrong:
-            case tags.TOO_LOW if self.helper:
-                level = self.limit - self.amount
-                return f"the level of {name} falls to {level:g} at {self.at}, its least is {self.limit:g}{who}"
-            case tags.TOO_LOW:
-                return f"{name} needs {self.room + self.amount:g} of {self.room:g} available at {self.at}{who}"
-            case tags.TOO_HIGH:
-                level = self.limit + self.amount
-                return f"the level of {name} rises to {level:g} at {self.at}, its greatest is {self.limit:g}{who}"
-            case tags.TOO_TIGHT:
-                have = self.room * (self.until - self.at)
-                unit = "ticks" if self.room == 1.0 else "amount times ticks"
-                window = f"[{self.at}, {self.until}]"
-                return f"{name} needs {have + self.amount:g} of {have:g} {unit} available in {window}{who}"
-            case tags.TOO_FAST:
-                return f"too much of {name} flows at {self.at}, by {self.amount:g}{who}"
-        return f"too much of {name} is used altogether, by {self.amount:g}{who}"
-
     def share(self, low: int, high: int, length: int) -> int:
         """How much time lies in the window of a use that may last from `low` to `high`."""
         return max(0, min(length, self.until - self.at, low + length - self.at, self.until - high + length))
@@ -97,36 +71,36 @@ class Excess(External):
         """Refuse if the level is certainly out of bounds."""
         if self.table is not None and self.judge is not None:
             return not self.is_out_by_order(s, c) or refuse(s, c)
-        levels = Levels()
-        place = 0
+        profile = Profile()
+        position = 0
         bounds = [(0.0, 0.0), (-inf, -inf), (inf, inf), (inf, inf), (inf, inf), (inf, inf), (inf, inf)]
         for k in self.limits:
-            v = argument(s, c, place)
+            v = argument(s, c, position)
             bounds[k] = (s.flo[v], s.fhi[v])
-            place += 1
+            position += 1
         initial, minimum, maximum, rate, total, production_rate, production_total = bounds
-        levels.set_limits(initial[0], initial[1], minimum[0], maximum[1])
-        levels.limit_steps = self.limit_steps
-        levels.set_flows(rate[1], total[1], production_rate[1], production_total[1])
+        profile.set_limits(initial[0], initial[1], minimum[0], maximum[1])
+        profile.limit_steps = self.limit_steps
+        profile.set_flows(rate[1], total[1], production_rate[1], production_total[1])
         for sign in self.signs:
-            parts = [argument(s, c, place + k) for k in range(2 + abs(sign))]
-            place += len(parts)
+            parts = [argument(s, c, position + k) for k in range(2 + abs(sign))]
+            position += len(parts)
             holder, quantity, start = parts[:3]
             end = parts[3] if len(parts) > 3 else start
             is_there = s.lb[holder] == self.resource == s.ub[holder]
             helps = sign > 0 if self.wrong == TOO_LOW else sign < 0 and self.wrong == TOO_HIGH
             if s.kind[quantity] != KIND_FLOAT or not (is_there or (helps and has_value(s, holder, self.resource))):
                 continue
-            i = levels.add(-1, -1 if sign < 0 else 1, len(parts) == 3)
-            levels.start_low[i], levels.start_high[i] = s.lb[start], s.ub[start]
-            levels.end_low[i], levels.end_high[i] = s.lb[end], s.ub[end]
-            levels.least[i], levels.most[i] = s.flo[quantity], s.fhi[quantity]
-            levels.length[i] = max(0, s.lb[end] - s.ub[start], s.lb[parts[4]] if len(parts) > 4 else 0)
+            i = profile.add(-1, -1 if sign < 0 else 1, len(parts) == 3)
+            profile.start_low[i], profile.start_high[i] = s.lb[start], s.ub[start]
+            profile.end_low[i], profile.end_high[i] = s.lb[end], s.ub[end]
+            profile.least[i], profile.most[i] = s.flo[quantity], s.fhi[quantity]
+            profile.length[i] = max(0, s.lb[end] - s.ub[start], s.lb[parts[4]] if len(parts) > 4 else 0)
         low, high = initial
         for at, lower, upper in self.steps:
-            levels.add_step(at, low - upper, high - lower)
+            profile.add_step(at, low - upper, high - lower)
             low, high = lower, upper
-        found = levels.overload() if self.wrong == TOO_TIGHT else levels.violation()
+        found = profile.overload() if self.wrong == TOO_TIGHT else profile.violation()
         return refuse(s, c) if found else True
 
     def is_out_by_order(self, s: Store, c: int) -> bool:
@@ -134,16 +108,16 @@ class Excess(External):
         assert self.table is not None and self.judge is not None
         table = self.table(s)
         limits = [-1] * LIMITS
-        place = 0
+        position = 0
         for k in self.limits:
-            limits[k] = argument(s, c, place)
-            place += 1
+            limits[k] = argument(s, c, position)
+            position += 1
         table.add_resource(self.resource, limits, -1)
         for at, lower, upper in self.steps:
             table.set_capacity(self.resource, at, lower, upper)
         for sign in self.signs:
-            parts = [argument(s, c, place + k) for k in range(2 + abs(sign))]
-            place += len(parts)
+            parts = [argument(s, c, position + k) for k in range(2 + abs(sign))]
+            position += len(parts)
             end = parts[3] if len(parts) > 3 else -1
             table.add_use(-1, 1 if sign > 0 else -1, parts[0], parts[1], parts[2], end, -1, 1)
         table.is_quiet()

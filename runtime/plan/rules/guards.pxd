@@ -37,7 +37,7 @@ cpdef list deciders(Plan plan, long long c)
 
 
 @cython.locals(x="long long")
-cpdef bint is_settled(Plan plan, long long v) except -1
+cpdef bint is_bound(Plan plan, long long v) except -1
 
 
 @cython.locals(engine=Engine, first="long long", v="long long")

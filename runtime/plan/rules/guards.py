@@ -1,4 +1,4 @@
-"""Let guards wait for the variables that decide them, and tell which branch they ask for."""
+"""Guards: they wait until the variables that decide them are bound, then choose a branch."""
 
 from runtime.constraints.domains.base_domain import is_growing
 from runtime.constraints.domains.tags import KIND_OBJECT, OP_WATCH
@@ -76,7 +76,7 @@ def deciders(plan: Plan, c: int) -> list[int]:
     return found
 
 
-def is_settled(plan: Plan, v: int) -> bool:
+def is_bound(plan: Plan, v: int) -> bool:
     """Whether `v` is decided; a proxy is once its object and the member it then stands for are.
 
     It also is while all objects agree: their members have the same single value. Recursion is as deep as the path.
@@ -90,7 +90,7 @@ def is_settled(plan: Plan, v: int) -> bool:
     x = plan.proxy_index[v]
     if x < 0:
         return v == plan.clock or plan.engine.is_decided(v)
-    if is_settled(plan, x):
+    if is_bound(plan, x):
         return plan.engine.is_decided(member(plan, plan.engine.lb[x], plan.proxy_member[v]))
     return plan.proxy_index[x] < 0 and agree(plan, x, plan.proxy_member[v])
 
@@ -116,7 +116,7 @@ def choice(plan: Plan, s: int) -> int:
     if engine.lb[condition] != engine.ub[condition]:
         return BRANCH_WAITING
     for i in range(inputs + 2, inputs + 2 + rows.cells[inputs]):
-        if not is_settled(plan, rows.cells[i]):
+        if not is_bound(plan, rows.cells[i]):
             return BRANCH_WAITING
     # An object that is known is there, whatever its number.
     holds = engine.kind[condition] == KIND_OBJECT or engine.lb[condition] != 0

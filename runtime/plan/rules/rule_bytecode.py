@@ -1,6 +1,6 @@
-"""Flatten the bodies of a program to integers: instructions in blocks, operands as pairs, everything else as numbers.
+"""Bytecode of rules, predicate bodies and constructors: instructions in blocks, operands as pairs, all integers.
 
-An operand is `(kind, value)`, see `codes.IN_*`. A block is a stretch of `cells`; guards and loops name their blocks by
+An operand is `(kind, value)`, see `tags.IN_*`. A block is a stretch of `cells`; guards and loops name their blocks by
 number. Nothing runs here.
 """
 
@@ -14,7 +14,6 @@ from compiler.program import (
     Constant,
     DomainConstant,
     Field,
-    Foreach,
     GlobalVariable,
     Guard,
     Instruction,
@@ -23,6 +22,7 @@ from compiler.program import (
     NewObject,
     NewToken,
     NewVariable,
+    ObjectLoop,
     Operand,
     Post,
     Relate,
@@ -69,8 +69,8 @@ from runtime.plan.tags import (
 DISTANCES = {"precedes": (0, INFINITY), "strictlyPrecedes": (1, INFINITY), "concurrent": (0, 0)}
 
 
-class Code:
-    """All bodies of a program as integers, with the tables that the integers point into."""
+class RuleBytecode:
+    """Bytecode of a program, with the tables that its integers point into."""
 
     def __init__(
         self,
@@ -110,7 +110,7 @@ class Code:
         return number
 
     def body(self, instructions: tuple[Instruction, ...]) -> int:
-        """Flatten a body with all that is nested in it; the number of its block."""
+        """Compile a body with all that is nested in it; the number of its block."""
         number = self.block(instructions)
         while self.pending:
             block, body = self.pending.popleft()
@@ -150,7 +150,7 @@ class Code:
                 blocks = self.block(then), self.block(otherwise)
                 inputs = [number for operand in decided_by for number in self.operand(operand)]
                 self.write(DO_GUARD, span, *self.operand(condition), *blocks, len(decided_by), *inputs)
-            case Foreach(slot=slot, collection=collection, body=body):
+            case ObjectLoop(slot=slot, collection=collection, body=body):
                 self.write(DO_FOREACH, span, slot, *self.operand(collection), self.block(body))
             case NewObject(slot=slot):
                 self.objects.append(instruction)

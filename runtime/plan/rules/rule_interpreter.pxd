@@ -1,4 +1,4 @@
-# The C types of `bodies.py`.
+# The C types of `rule_interpreter.py`.
 
 cimport cython
 from runtime.constraints.engine cimport Engine
@@ -45,7 +45,7 @@ cpdef long long relation(Plan plan, long long scope, long long at, long long spa
 
 
 @cython.locals(
-    flags="long long", given="long long", master="long long", mode="long long", origin="long long",
+    flags="long long", given="long long", parent="long long", mode="long long", origin="long long",
     predicate="long long", role="long long", rows=Rows, t="long long", tokens="long long"
 )
 cpdef long long child(Plan plan, long long scope, long long at, long long span) except? -1

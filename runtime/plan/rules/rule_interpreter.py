@@ -1,4 +1,4 @@
-"""Carry out flattened bodies: those of predicates when a token is made, those of rules when it becomes active.
+"""Interpreter of bytecode: bodies of predicates when a token is made, rules when it becomes active.
 
 Bodies run from a stack of (position, end, scope), so that a child's own body runs in the middle of the rule that made
 it without recursion. Nothing is propagated here, except that edges reach the network at once.
@@ -146,16 +146,16 @@ def child(plan: Plan, scope: int, at: int, span: int) -> int:
     role = plan.code[at + 5]
     mode = plan.code[at + 6]
     given = NONE
-    master = rows.scope_token[scope]
+    parent = rows.scope_token[scope]
     if mode == OBJECT_OWN:
-        given = rows.var0[master] + OBJECT
+        given = rows.var0[parent] + OBJECT
     elif mode == OBJECT_GIVEN:
         given = operand(plan, scope, plan.code[at + 7], plan.code[at + 8], span)
     flags = FLAG_CONDITION if role == 1 else FLAG_EFFECT if role == 2 else 0
     predicate = plan.code[at + 3]
     if mode == OBJECT_OWN:
-        predicate = own_predicate(plan, predicate, master)
-    t = make_token(plan, predicate, flags, master, scope, given, span)
+        predicate = own_predicate(plan, predicate, parent)
+    t = make_token(plan, predicate, flags, parent, scope, given, span)
     rows.label[t] = plan.code[at + 4]
     rows.relation[t] = plan.code[at + 9]
     tokens = rows.scope_frame[scope] + rows.scope_slots[scope]
@@ -230,7 +230,7 @@ def use(plan: Plan, scope: int, at: int, span: int) -> int:
 
 
 def guard(plan: Plan, scope: int, at: int, span: int) -> int:
-    """Leave the branches to `settle`."""
+    """Make a guard; `fire` runs its branches."""
     count = plan.code[at + 6]
     condition = operand(plan, scope, plan.code[at + 2], plan.code[at + 3], span)
     first = collect(plan, scope, at + 7, count, span)

@@ -1,4 +1,4 @@
-"""Compare and intersect base domains: what assignments and constructor arguments need."""
+"""Assignments: base domains compared and intersected, for statements and constructor arguments."""
 
 from collections.abc import Sequence
 

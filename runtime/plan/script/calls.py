@@ -1,4 +1,4 @@
-"""Carry out the method calls of the script: transactions on tokens, variables, objects and classes."""
+"""Method calls of the script: transactions on tokens, variables, objects and classes."""
 
 from collections.abc import Callable
 
@@ -7,7 +7,7 @@ from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.base_domain import is_base_growing, is_growing
 from runtime.plan import lifecycle
-from runtime.plan.rules.rule_bytecode import Code
+from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.script.codes import (
     CLOSED_ALREADY,
     NOT_ONE_OBJECT,
@@ -58,7 +58,7 @@ class Calls:
         plan: Plan,
         program: Program,
         prototypes: Prototypes,
-        code: Code,
+        code: RuleBytecode,
         objects: Objects,
         labels: dict[int, str],
         scope: int,

@@ -1,4 +1,4 @@
-"""What only running the script shows to be wrong: codes of statements that are not allowed when their turn comes."""
+"""Codes of statements of the script that are not allowed when their turn comes."""
 
 from nddl_lang.text.diagnostic import Code, Severity
 

@@ -1,4 +1,4 @@
-"""What the constructors of the native resource classes do: the members that their arguments fill, and the rest."""
+"""Constructors of the native resource classes: the members that arguments fill, and the values of the others."""
 
 from math import inf
 

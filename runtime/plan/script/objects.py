@@ -1,4 +1,4 @@
-"""Make objects: members, names, constructors; let open variables of their classes grow."""
+"""Objects: members, names, constructors; open variables of their classes grow with them."""
 
 from dataclasses import dataclass
 
@@ -6,7 +6,7 @@ from compiler.program import Assign, ClassCode, ConstructorCode, NewObject, Prog
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import KIND_FLOAT, KIND_OBJECT
-from runtime.plan.rules.rule_bytecode import Code
+from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.rules.rule_interpreter import run
 from runtime.plan.script.assignments import assign_domain, copy_current
 from runtime.plan.script.codes import CLOSED_CLASS, ENDLESS_OBJECT
@@ -20,27 +20,27 @@ from runtime.plan.tags import INITIAL, MINIMUM, NONE, ROLE_INTERNAL, ROLE_MEMBER
 
 DEEPEST = 100  # objects within objects; no model means more
 
-Place = tuple[int, int]  # an operand as flattened code has it
+OperandCode = tuple[int, int]  # an operand in bytecode
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class New:
-    """A `new` with flattened arguments."""
+    """A `new` with compiled arguments."""
 
     class_number: int
     constructor: int
-    arguments: tuple["Place | New", ...]
+    arguments: tuple["OperandCode | New", ...]
     name: str | None
     span: Span
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Super:
-    """A `super(...)` with flattened arguments."""
+    """A `super(...)` with compiled arguments."""
 
     class_number: int
     constructor: int
-    arguments: tuple[Place, ...]
+    arguments: tuple[OperandCode, ...]
     span: Span
 
 
@@ -48,14 +48,14 @@ class Super:
 class Fill:
     """An assignment to a member."""
 
-    target: Place
-    value: "Place | New"
+    target: OperandCode
+    value: "OperandCode | New"
     name: str
     span: Span
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Constructor:
+class PreparedConstructor:
     """A constructor ready to run: a step is one of the above or the number of a block."""
 
     parameters: tuple[int, ...]  # prototypes
@@ -66,7 +66,7 @@ class Constructor:
 class Objects:
     """All objects by number and name."""
 
-    def __init__(self, plan: Plan, program: Program, prototypes: Prototypes, code: Code) -> None:
+    def __init__(self, plan: Plan, program: Program, prototypes: Prototypes, code: RuleBytecode) -> None:
         self.plan = plan
         self.program = program
         self.prototypes = prototypes
@@ -80,24 +80,24 @@ class Objects:
 
     # ---- preparing ----
 
-    def prepare(self, constructor: ConstructorCode) -> Constructor:
-        """Flatten a constructor."""
+    def prepare(self, constructor: ConstructorCode) -> PreparedConstructor:
+        """Compile a constructor."""
         steps: list[Super | Fill | int] = []
         for step in constructor.body:
             match step:
                 case SuperCode(class_name=base, constructor=chosen, arguments=operands, span=span):
-                    places = tuple(self.code.operand(each) for each in operands)
-                    steps.append(Super(self.prototypes.class_numbers[base], chosen, places, span))
+                    passed = tuple(self.code.operand(each) for each in operands)
+                    steps.append(Super(self.prototypes.class_numbers[base], chosen, passed, span))
                 case Assign():
                     steps.append(self.prepare_fill(step))
                 case _:
                     steps.append(self.code.body((step,)))
         parameters = tuple(self.prototypes.of(bare(type_), None) for type_ in constructor.parameters)
-        return Constructor(parameters, tuple(steps), max(constructor.slots, len(parameters)))
+        return PreparedConstructor(parameters, tuple(steps), max(constructor.slots, len(parameters)))
 
     def prepare_fill(self, step: Assign) -> Fill:
-        """Flatten an assignment."""
-        value: Place | New
+        """Compile an assignment."""
+        value: OperandCode | New
         if isinstance(step.value, NewObject):
             value = self.prepare_new(step.value)
         else:
@@ -105,7 +105,7 @@ class Objects:
         return Fill(self.code.operand(step.target), value, step.span.text.partition("=")[0].strip(), step.span)
 
     def prepare_new(self, new: NewObject) -> New:
-        """Flatten a `new`, the ones among its arguments included."""
+        """Compile a `new`, the ones among its arguments included."""
         arguments = tuple(
             self.prepare_new(each) if isinstance(each, NewObject) else self.code.operand(each) for each in new.arguments
         )
@@ -206,8 +206,8 @@ class Objects:
         for step in constructor.steps:
             plan.self_object = o
             match step:
-                case Super(class_number=base, constructor=of_base, arguments=places, span=span):
-                    passed = [operand(plan, scope, kind, value, self.code.span(span)) for kind, value in places]
+                case Super(class_number=base, constructor=of_base, arguments=codes, span=span):
+                    passed = [operand(plan, scope, kind, value, self.code.span(span)) for kind, value in codes]
                     fault = self.construct(base, of_base, o, passed)
                 case Fill():
                     fault = self.fill(step, scope, o)

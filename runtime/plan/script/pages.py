@@ -64,7 +64,7 @@ SCRIPT_PAGES = (
     RulePage(
         CLOSED_CLASS,
         "An object is made of a class that was closed.",
-        "`close()` promises that all objects are there: variables that range over them have been settled since.",
+        "`close()` promises that all objects are there: variables that range over them have been decided since.",
         _BOX + "Lid.close();\nBox box = new Box();\n",
         _BOX + "Box box = new Box();\nLid.close();\n",
     ),

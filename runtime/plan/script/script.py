@@ -1,4 +1,4 @@
-"""Carry out the script: prepare each statement once, execute it, propagate, stop at the first that is not allowed."""
+"""Script: each statement prepared once, executed and propagated; the first that is not allowed ends it."""
 
 from collections.abc import Callable
 from typing import assert_never
@@ -7,21 +7,21 @@ from compiler.program import (
     Assign,
     Call,
     Child,
-    Foreach,
     Guard,
     Instruction,
     NewGlobal,
     NewObject,
     NewToken,
     NewVariable,
+    ObjectLoop,
     Post,
     Program,
     Relate,
     Sample,
 )
 from nddl_lang.text.diagnostic import Diagnostic
-from runtime.plan.lifecycle import settle
-from runtime.plan.rules.rule_bytecode import Code
+from runtime.plan.lifecycle import fire
+from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.script.calls import Calls
 from runtime.plan.script.codes import NO_OBJECT
 from runtime.plan.script.objects import Objects
@@ -45,7 +45,7 @@ class Script:
         plan: Plan,
         program: Program,
         prototypes: Prototypes,
-        code: Code,
+        code: RuleBytecode,
         predicates: dict[str, int],
         objects: Objects,
     ) -> None:
@@ -73,7 +73,7 @@ class Script:
             withdraw_refusals(self.plan)
             fault = action()
             if fault is None:
-                settle(self.plan)
+                fire(self.plan)
                 fault = self.objects.fault
             if fault is not None:
                 self.next = len(self.actions)
@@ -96,14 +96,14 @@ class Script:
                 return self.prepare_token(instruction)
             case Call():
                 return self.calls.prepare(instruction)
-            case Post() | Sample() | Relate() | NewVariable() | Guard() | Foreach() | Child():
+            case Post() | Sample() | Relate() | NewVariable() | Guard() | ObjectLoop() | Child():
                 block = self.code.body((instruction,))
                 return lambda: self.push(block)
             case _:
                 assert_never(instruction)
 
     def push(self, block: int) -> Diagnostic | None:
-        """Have a block run by the next `settle`."""
+        """Have a block run by the next `fire`."""
         self.plan.push(self.plan.block_start[block], self.plan.block_end[block], self.scope, NONE, NONE)
         return None
 

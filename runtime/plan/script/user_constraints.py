@@ -1,4 +1,4 @@
-"""Post the constraints that a modeler wrote in Python, and tell them the names of the plan's values."""
+"""User constraints: posted to the engine, and told the names of the values of the plan."""
 
 from collections.abc import Sequence
 
@@ -11,7 +11,7 @@ from runtime.user.constraint import Constraint
 from runtime.user.written import Written
 
 
-class WrittenConstraints:
+class UserConstraints:
     """A modeler's constraints by number, over the names of one plan."""
 
     def __init__(self, engine: Engine, prototypes: Prototypes, constraints: Sequence[Constraint]) -> None:
@@ -43,6 +43,6 @@ class WrittenConstraints:
             raise ValueError(f"no enum has a value `{text}`")
         return self.symbols.number(text)
 
-    def place(self, span: int) -> str | None:
+    def source_place(self, span: int) -> str | None:
         """File and line of what was posted from the program's stretch `span`."""
         return f"{self.spans[span].source.name}:{self.spans[span].line}" if 0 <= span < len(self.spans) else None

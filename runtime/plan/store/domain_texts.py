@@ -1,7 +1,8 @@
-"""Write domains in the notation of the conformance suite: `[1, 3] int`, `{red, green} Color`, `{a} T open`."""
+"""Domains as text in the notation of the conformance suite: `[1, 3] int`, `{red, green} Color`, `{a} T open`."""
 
 import json
 from collections.abc import Sequence
+from dataclasses import dataclass
 from math import inf
 
 from runtime.constraints.domains.base_domain import is_growing
@@ -19,26 +20,48 @@ from runtime.plan.store.prototypes import STATES, Prototypes
 NAMES = {KIND_BOOL: "bool", KIND_INT: "int", KIND_FLOAT: "float", KIND_STRING: "string"}
 
 
-def domain_text(prototypes: Prototypes, engine: Engine, v: int, names: Sequence[str], type_name: str | None) -> str:
+@dataclass(frozen=True, slots=True)
+class DomainText:
+    """A domain in the notation of the conformance suite, in its parts."""
+
+    values: str
+    type_name: str
+    is_several: bool
+    is_open: bool = False
+
+    def __str__(self) -> str:
+        return f"{self.values} {self.type_name} open" if self.is_open else f"{self.values} {self.type_name}"
+
+    @property
+    def brief(self) -> str:
+        """The values without their type, a single one without braces."""
+        return self.values if self.is_several else self.values[1:-1]
+
+
+def domain_text(
+    prototypes: Prototypes, engine: Engine, v: int, names: Sequence[str], type_name: str | None
+) -> DomainText:
     """The derived domain of a variable."""
     kind = engine.kind[v]
     name = NAMES.get(kind, type_name)
     if is_growing(engine, v):
-        return f"{set_text(prototypes, kind, engine.values_of(v), names)} {name} open"
+        values = engine.values_of(v)
+        return DomainText(set_text(prototypes, kind, values, names), str(name), len(values) > 1, is_open=True)
     lower, upper = wide(engine.lower(v)), wide(engine.upper(v))
+    between = f"[{number_text(lower, kind)}, {number_text(upper, kind)}]"
     if kind in (KIND_INT, KIND_FLOAT):
         if lower == upper or (kind == KIND_FLOAT and engine.is_singleton(v)):
-            return f"{{{number_text(lower, kind)}}} {name}"
+            return DomainText(f"{{{number_text(lower, kind)}}}", str(name), is_several=False)
         if lower > upper:
-            return f"{{}} {name}"
+            return DomainText("{}", str(name), is_several=False)
         if engine.word[v] < 0:
-            return f"[{number_text(lower, kind)}, {number_text(upper, kind)}] {name}"
+            return DomainText(between, str(name), is_several=True)
     values = list(engine.values_of(v))
     if kind == KIND_INT and len(values) > 1 and values[-1] - values[0] + 1 == len(values):
-        return f"[{number_text(lower, kind)}, {number_text(upper, kind)}] {name}"
+        return DomainText(between, str(name), is_several=True)
     if name is None:
         name = symbol_type(prototypes, values)
-    return f"{set_text(prototypes, kind, values, names)} {name}"
+    return DomainText(set_text(prototypes, kind, values, names), name, len(values) > 1)
 
 
 def wide(x: float) -> float:

@@ -3,7 +3,7 @@
 cimport cython
 from runtime.plan.store.rows cimport Rows
 
-cdef long long FREED, LISTS, NONE, SHORT, UNDO_BRANCH, UNDO_FLAGS, UNDO_INPUTS, UNDO_LINK, UNDO_MERGED
+cdef long long FREED, LISTS, NONE, SHORT, UNDO_BRANCH, UNDO_INPUTS, UNDO_LINK, UNDO_MERGED
 cdef long long UNDO_NEW_CELLS, UNDO_NEW_HOLD, UNDO_NEW_PAIR, UNDO_NEW_SCOPE, UNDO_NEW_TOKEN, UNDO_STATUS, UNDO_UNLINK
 
 
@@ -23,18 +23,18 @@ cpdef int unlink(Rows rows, long long t, long long kind) except -1
 
 
 @cython.locals(at="long long", before="long long")
-cpdef int place(Rows rows, long long t, long long kind, long long head, long long after) except -1
+cpdef int attach(Rows rows, long long t, long long kind, long long head, long long after) except -1
 
 
 @cython.locals(after="long long", at="long long", before="long long", head="long long")
-cpdef int displace(Rows rows, long long t, long long kind) except -1
+cpdef int detach(Rows rows, long long t, long long kind) except -1
 
 
 @cython.locals(at="long long", code="long long", index="long long", old="long long")
 cpdef int undo(Rows rows, long long length) except -1
 
 
-@cython.locals(master="long long")
+@cython.locals(parent="long long")
 cpdef int undo_token(Rows rows, long long t) except -1
 
 

@@ -1,4 +1,4 @@
-"""Keep tokens on ordered lists (open, threats, one per predicate, one per timeline), and take everything back.
+"""Ordered lists of tokens (open, threats, one per predicate, one per timeline), and the undo of all rows.
 
 Lists are doubly linked through the rows of tokens; a token that leaves a list keeps its neighbours' names, so that
 undoing in reverse order puts it back where it was (Knuth's dancing links).
@@ -12,7 +12,6 @@ from runtime.plan.tags import (
     NONE,
     SHORT,
     UNDO_BRANCH,
-    UNDO_FLAGS,
     UNDO_INPUTS,
     UNDO_LINK,
     UNDO_MERGED,
@@ -42,7 +41,7 @@ def new_head(rows: Rows, head: int) -> None:
 
 def link(rows: Rows, t: int, kind: int, head: int, after: int) -> None:
     """Put `t` on list `head` behind token `after` (NONE: in front)."""
-    place(rows, t, kind, head, after)
+    attach(rows, t, kind, head, after)
     if rows.level:
         rows.log(UNDO_LINK, LISTS * t + kind, 0)
 
@@ -59,12 +58,12 @@ def unlink(rows: Rows, t: int, kind: int) -> None:
     """Take `t` off its list of that kind, if it is on one."""
     head = rows.link_head[LISTS * t + kind]
     if head >= 0:
-        displace(rows, t, kind)
+        detach(rows, t, kind)
         if rows.level:
             rows.log(UNDO_UNLINK, LISTS * t + kind, head)
 
 
-def place(rows: Rows, t: int, kind: int, head: int, after: int) -> None:
+def attach(rows: Rows, t: int, kind: int, head: int, after: int) -> None:
     """Link without a trail."""
     at = LISTS * t + kind
     before = rows.head_first[head] if after < 0 else rows.link_after[LISTS * after + kind]
@@ -82,7 +81,7 @@ def place(rows: Rows, t: int, kind: int, head: int, after: int) -> None:
     rows.head_length[head] += 1
 
 
-def displace(rows: Rows, t: int, kind: int) -> None:
+def detach(rows: Rows, t: int, kind: int) -> None:
     """Unlink without a trail; the names of the neighbours stay."""
     at = LISTS * t + kind
     head = rows.link_head[at]
@@ -111,9 +110,9 @@ def undo(rows: Rows, length: int) -> None:
         if code == UNDO_NEW_HOLD:
             rows.drop_hold(index)
         elif code == UNDO_LINK:
-            displace(rows, index // LISTS, index % LISTS)
+            detach(rows, index // LISTS, index % LISTS)
         elif code == UNDO_UNLINK:
-            place(rows, index // LISTS, index % LISTS, old, rows.link_before[index])
+            attach(rows, index // LISTS, index % LISTS, old, rows.link_before[index])
         elif code == UNDO_NEW_TOKEN:
             undo_token(rows, index)
         elif code == UNDO_NEW_SCOPE:
@@ -129,8 +128,6 @@ def undo(rows: Rows, length: int) -> None:
         elif code == UNDO_INPUTS:
             rows.scope_inputs[index] = NONE
             rows.scope_watch[index] = NONE
-        elif code == UNDO_FLAGS:
-            rows.flags[index] = old
         elif code == UNDO_MERGED:
             rows.merged[old] = rows.merged_next[index]
             rows.merged_into[index] = NONE
@@ -140,9 +137,9 @@ def undo(rows: Rows, length: int) -> None:
 
 def undo_token(rows: Rows, t: int) -> None:
     """Take back the making of `t`, the latest token."""
-    master = rows.master[t]
-    if master >= 0:
-        rows.children[master] = rows.sibling[t]
+    parent = rows.parent[t]
+    if parent >= 0:
+        rows.children[parent] = rows.sibling[t]
     rows.status[t] = FREED
     rows.live -= 1
     rows.next_key -= 1

@@ -1,4 +1,4 @@
-"""Go back in time, plan and engine together: marks nest, and are named by their depth."""
+"""Marks: states of plan and engine to go back to; they nest, and are named by their depth."""
 
 from runtime.plan.arrays import grown
 from runtime.plan.store.links import undo
@@ -6,7 +6,7 @@ from runtime.plan.store.plan import Plan
 
 
 def mark(plan: Plan) -> int:
-    """Remember the present state, which must be settled; the number of the mark."""
+    """Remember the present state, which must be a fixpoint; the number of the mark."""
     level = plan.rows.level
     if level == plan.mark_capacity:
         plan.mark_capacity *= 2

@@ -1,4 +1,4 @@
-"""Number texts, so that arrays can hold them."""
+"""Numbers for texts, so that arrays can hold them."""
 
 
 class Names:

@@ -1,4 +1,4 @@
-"""Find the engine variable that an operand means; object fields become proxies while their object is unknown."""
+"""Operands: the engine variable that each means; fields of an undecided object become proxies."""
 
 from runtime.constraints.domains.tags import KIND_FLOAT, KIND_INT
 from runtime.constraints.stn.posting import add_row, start_element

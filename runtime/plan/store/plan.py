@@ -1,11 +1,11 @@
-"""Hold everything that the functions of this room work on: engine, rows, flattened code, tables, queues."""
+"""Tables of the plan: engine, rows, bytecode, predicates, objects, agenda of rules and guards."""
 
 from array import array
 from typing import Protocol
 
 from runtime.constraints.engine import Engine
 from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
-from runtime.plan.resources.resources import Envelope, Resources
+from runtime.plan.resources.resources import Resources, UseOrder
 from runtime.plan.store.rows import Rows
 from runtime.plan.tags import NONE
 
@@ -44,7 +44,7 @@ class Plan:
     def __init__(self, engine: Engine) -> None:
         self.engine = engine
         self.rows = Rows()
-        # Flattened bodies.
+        # Bytecode.
         self.code = blank(1)
         self.block_start = blank(1)
         self.block_end = blank(1)
@@ -157,7 +157,7 @@ class Plan:
         self.unions: list[tuple[tuple[int, int], ...]] = []
         self.services: Services
         self.resources = Resources(engine)
-        self.envelope: Envelope
+        self.envelope: UseOrder
 
     def set_globals(self, count: int) -> None:
         """Make room for the global variables, none of which exists yet."""

@@ -1,4 +1,4 @@
-"""Make the variables that others are copies of: one per type and restriction, one per constant, one per class."""
+"""Prototypes: variables that others copy, one per type and restriction, per constant, per class."""
 
 from math import inf
 

@@ -2,7 +2,7 @@
 
 cimport cython
 
-cdef long long FREED, INACTIVE, NONE, SHORT, UNDO_BRANCH, UNDO_FLAGS, UNDO_INPUTS, UNDO_MERGED, UNDO_NEW_CELLS
+cdef long long FREED, INACTIVE, NONE, SHORT, UNDO_BRANCH, UNDO_INPUTS, UNDO_MERGED, UNDO_NEW_CELLS
 cdef long long UNDO_NEW_HOLD, UNDO_NEW_SCOPE, UNDO_NEW_TOKEN, UNDO_STATUS
 
 
@@ -17,7 +17,7 @@ cdef class Rows:
     cdef public long long[::1] pair_next_in, cells, free_cells, head_first
     cdef public long long[::1] head_last, head_length, trail_code, trail_index
     cdef public long long[::1] trail_old, status, predicate, var0
-    cdef public long long[::1] width, flags, master, relation
+    cdef public long long[::1] width, flags, parent, relation
     cdef public long long[::1] origin, label, key, span
     cdef public long long[::1] creator, scopes, children, sibling
     cdef public long long[::1] merged_into, merged, merged_next, pairs_out
@@ -34,15 +34,13 @@ cdef class Rows:
 
     @cython.locals(at="long long", t="long long")
     cpdef long long new_token(
-        self, long long predicate, long long flags, long long master, long long creator, long long span
+        self, long long predicate, long long flags, long long parent, long long creator, long long span
     ) except? -1
 
-    @cython.locals(child="long long", master="long long")
+    @cython.locals(child="long long", parent="long long")
     cpdef int release_token(self, long long t) except -1
 
     cpdef int set_status(self, long long t, long long status) except -1
-
-    cpdef int set_flags(self, long long t, long long flags) except -1
 
     cpdef int set_merged(self, long long t, long long other) except -1
 

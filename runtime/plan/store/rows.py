@@ -1,4 +1,4 @@
-"""Hold the plan as rows of integers: tokens, scopes, what scopes hold, frames, lists of tokens; undone by a trail.
+"""Rows of integers: tokens, scopes and what they hold, frames, lists of tokens; undone by a trail.
 
 A scope is what one run of a body made: constraints, edges, variables and children hang on it, so that they can be
 taken back together. A frame is a stretch of `cells`: a scope's variable slots, then its token slots.
@@ -15,7 +15,6 @@ from runtime.plan.tags import (
     NONE,
     SHORT,
     UNDO_BRANCH,
-    UNDO_FLAGS,
     UNDO_INPUTS,
     UNDO_MERGED,
     UNDO_NEW_CELLS,
@@ -76,7 +75,7 @@ class Rows:
         self.var0 = blank(capacity)
         self.width = blank(capacity)
         self.flags = blank(capacity)
-        self.master = blank(capacity)
+        self.parent = blank(capacity)
         self.relation = blank(capacity)
         self.origin = blank(capacity)
         self.label = blank(capacity)
@@ -104,7 +103,7 @@ class Rows:
         self.var0 = grown(self.var0, size)
         self.width = grown(self.width, size)
         self.flags = grown(self.flags, size)
-        self.master = grown(self.master, size)
+        self.parent = grown(self.parent, size)
         self.relation = grown(self.relation, size)
         self.origin = grown(self.origin, size)
         self.label = grown(self.label, size)
@@ -123,7 +122,7 @@ class Rows:
         self.link_before = grown(self.link_before, size * LISTS)
         self.link_after = grown(self.link_after, size * LISTS)
 
-    def new_token(self, predicate: int, flags: int, master: int, creator: int, span: int) -> int:
+    def new_token(self, predicate: int, flags: int, parent: int, creator: int, span: int) -> int:
         """Take a row for a token; its variables are for the caller to make."""
         t = self.free_token
         if t >= 0:
@@ -136,7 +135,7 @@ class Rows:
         self.status[t] = INACTIVE
         self.predicate[t] = predicate
         self.flags[t] = flags
-        self.master[t] = master
+        self.parent[t] = parent
         self.creator[t] = creator
         self.span[t] = span
         self.var0[t] = NONE
@@ -160,20 +159,20 @@ class Rows:
         self.link_head[at + 2] = NONE
         self.link_head[at + 3] = NONE
         self.sibling[t] = NONE
-        if master >= 0:
-            self.sibling[t] = self.children[master]
-            self.children[master] = t
+        if parent >= 0:
+            self.sibling[t] = self.children[parent]
+            self.children[parent] = t
         if self.level:
             self.log(UNDO_NEW_TOKEN, t, 0)
         return t
 
     def release_token(self, t: int) -> None:
         """Give the row of `t` back; nothing may name it any more (level 0)."""
-        master = self.master[t]
-        if master >= 0:
-            child = self.children[master]
+        parent = self.parent[t]
+        if parent >= 0:
+            child = self.children[parent]
             if child == t:
-                self.children[master] = self.sibling[t]
+                self.children[parent] = self.sibling[t]
             else:
                 while self.sibling[child] != t:
                     child = self.sibling[child]
@@ -188,12 +187,6 @@ class Rows:
         if self.level:
             self.log(UNDO_STATUS, t, self.status[t])
         self.status[t] = status
-
-    def set_flags(self, t: int, flags: int) -> None:
-        """Change the flags of `t`."""
-        if self.level:
-            self.log(UNDO_FLAGS, t, self.flags[t])
-        self.flags[t] = flags
 
     def set_merged(self, t: int, other: int) -> None:
         """Note that `t` is merged into `other`."""

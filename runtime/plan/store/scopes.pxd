@@ -1,4 +1,4 @@
-# The C types of `holding.py`.
+# The C types of `scopes.py`.
 
 cimport cython
 from runtime.constraints.domains.base_domain cimport is_base_growing

@@ -1,4 +1,4 @@
-"""Post edges and constraints, make variables, and hang each on the scope that wants it: the door to the engine."""
+"""Scopes own what rules make: edges, constraints, variables and decisions; the door to the engine."""
 
 from runtime.constraints.domains.base_domain import is_base_growing
 from runtime.constraints.domains.tags import KIND_FLOAT, OP_EQ

@@ -1,6 +1,6 @@
-"""Take tokens that are over out of the plan, and let what they said of others stand as base bounds (level 0).
+"""Archive: tokens that are over leave the plan; what they implied for others stays as base bounds (level 0).
 
-A token may go when nothing that still can change hangs on it: its master goes too or is gone, so do the tokens merged
+A token may go when nothing that still can change hangs on it: its parent goes too or is gone, so do the tokens merged
 into it, its children go or have begun, and none of its guards waits. What it told its children and other variables is
 kept by restrictions that bear the span of the edge or constraint which said so, so explanations name the same lines.
 """
@@ -54,7 +54,7 @@ def removable(plan: Plan, tokens: list[int], tick: int) -> dict[int, None]:
 def is_free(plan: Plan, t: int, doomed: dict[int, None], tick: int) -> bool:
     """Whether `t` can go together with the other `doomed` tokens."""
     rows = plan.rows
-    if rows.master[t] >= 0 and rows.master[t] not in doomed:
+    if rows.parent[t] >= 0 and rows.parent[t] not in doomed:
         return False
     if rows.status[t] == MERGED and rows.merged_into[t] not in doomed:
         return False
@@ -66,8 +66,8 @@ def is_free(plan: Plan, t: int, doomed: dict[int, None], tick: int) -> bool:
     child = rows.children[t]
     while child >= 0:
         if child not in doomed:
-            is_settled = rows.status[child] == ACTIVE or rows.status[child] == MERGED
-            if not is_settled or plan.engine.upper(rows.var0[child] + START) > tick:
+            is_planned = rows.status[child] == ACTIVE or rows.status[child] == MERGED
+            if not is_planned or plan.engine.upper(rows.var0[child] + START) > tick:
                 return False
         child = rows.sibling[child]
     return True
@@ -93,7 +93,7 @@ def orphan(plan: Plan, t: int, doomed: dict[int, None]) -> None:
             rows.sibling[child] = rows.children[t]
             rows.children[t] = child
         else:
-            rows.master[child] = NONE
+            rows.parent[child] = NONE
             rows.creator[child] = NONE
             rows.sibling[child] = NONE
 
@@ -101,17 +101,17 @@ def orphan(plan: Plan, t: int, doomed: dict[int, None]) -> None:
 def detach(plan: Plan, t: int) -> None:
     """Let `t` stand by itself: it no longer goes when the token that asked for it does."""
     rows = plan.rows
-    master = rows.master[t]
-    if master < 0:
+    parent = rows.parent[t]
+    if parent < 0:
         return
-    child = rows.children[master]
+    child = rows.children[parent]
     if child == t:
-        rows.children[master] = rows.sibling[t]
+        rows.children[parent] = rows.sibling[t]
     else:
         while rows.sibling[child] != t:
             child = rows.sibling[child]
         rows.sibling[child] = rows.sibling[t]
-    rows.master[t] = NONE
+    rows.parent[t] = NONE
     rows.creator[t] = NONE
     rows.sibling[t] = NONE
 

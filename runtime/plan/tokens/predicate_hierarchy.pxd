@@ -1,4 +1,4 @@
-# The C types of `kinds.py`.
+# The C types of `predicate_hierarchy.py`.
 
 cimport cython
 from runtime.plan.store.plan cimport Plan
@@ -10,7 +10,7 @@ cpdef bint is_kind_of(Plan plan, long long predicate, long long other) except -1
 
 
 @cython.locals(class_="long long", found="long long")
-cpdef long long own_predicate(Plan plan, long long predicate, long long master) except? -1
+cpdef long long own_predicate(Plan plan, long long predicate, long long parent) except? -1
 
 
 cpdef long long active_head(Plan plan, long long predicate) except? -1

@@ -1,4 +1,4 @@
-"""Tell how predicates of one name are related through their classes: which a child has, and who may merge with whom.
+"""Hierarchy of predicates of one name through their classes: which one a child has, and who may merge with whom.
 
 Class D that extends C has C's predicates as its own: a token of `D.p` is also one of `C.p`, so a token of `C.p` may
 merge into it, and what a rule asks for on the rule's own object is a predicate of the class that the token has.
@@ -17,9 +17,9 @@ def is_kind_of(plan: Plan, predicate: int, other: int) -> bool:
     return False
 
 
-def own_predicate(plan: Plan, predicate: int, master: int) -> int:
+def own_predicate(plan: Plan, predicate: int, parent: int) -> int:
     """`predicate`, which a rule names, as the class of the rule's token has it."""
-    class_ = plan.predicate_class[plan.rows.predicate[master]]
+    class_ = plan.predicate_class[plan.rows.predicate[parent]]
     found = plan.predicate_at[class_ * plan.suffixes + plan.predicate_suffix[predicate]]
     return found if found >= 0 else predicate
 

@@ -1,4 +1,4 @@
-# The C types of `relating.py`.
+# The C types of `relations.py`.
 
 cimport cython
 from runtime.plan.store.scopes cimport between

@@ -1,4 +1,4 @@
-"""Relate two tokens: the distances between their times that a temporal relation demands."""
+"""Temporal relations: distances between the times of two tokens."""
 
 from runtime.plan.store.plan import Plan
 from runtime.plan.store.scopes import between

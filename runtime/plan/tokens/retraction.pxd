@@ -1,10 +1,10 @@
-# The C types of `retracting.py`.
+# The C types of `retraction.py`.
 
 cimport cython
 from runtime.plan.store.links cimport link_by_key, unlink
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
-from runtime.plan.tokens.timelines cimport await_order, drop_pair, has_any_pair, unplace
+from runtime.plan.tokens.timelines cimport await_order, drop_pair, has_any_pair, leave_sequence
 
 cdef long long ACTIVE, BRANCH_WAITING, FLAG_DECISION, FREED, HEAD_OPEN, HOLDS_CONSTRAINT, HOLDS_EDGE
 cdef long long HOLDS_RESTRICTION, HOLDS_USE, HOLDS_VARIABLES, INACTIVE, LISTS, LIST_OPEN, LIST_ORDER

@@ -1,4 +1,4 @@
-"""Take back at level 0 what scopes made: constraints, edges, variables, children and their children, in one sweep."""
+"""Retraction at level 0: all that scopes made goes in one sweep, children of their tokens included."""
 
 from runtime.constraints.domains.tags import FLAG_DECISION, OP_WATCH
 from runtime.plan.store.links import link_by_key, unlink
@@ -22,11 +22,11 @@ from runtime.plan.tags import (
     MERGED,
     NONE,
     SCOPE_BODY,
+    SCOPE_INSERTION,
     SCOPE_MERGE,
-    SCOPE_PLACE,
     STATE,
 )
-from runtime.plan.tokens.timelines import await_order, drop_pair, has_any_pair, unplace
+from runtime.plan.tokens.timelines import await_order, drop_pair, has_any_pair, leave_sequence
 
 
 class Sweep:
@@ -92,15 +92,15 @@ def free(plan: Plan, first: int, second: int, span: int) -> bool:
         p = after
     for t in (first, second):
         if not has_any_pair(rows, t):
-            drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_PLACE}, sweep)
+            drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_INSERTION}, sweep)
             if rows.link_head[LISTS * t + LIST_ORDER] >= 0:
-                unplace(plan, t, sweep.edges, span)
+                leave_sequence(plan, t, sweep.edges, span)
                 await_order(plan, t)
     return finish(plan, sweep)
 
 
 def withdraw_refusals(plan: Plan) -> None:
-    """Let the next statement mend what resources refuse so far: they are looked at again when it is settled."""
+    """Let the next statement mend what resources refuse so far: they are checked again when rules fire."""
     refusals = plan.resources.take_refusals()
     if refusals:
         plan.engine.retract(refusals, [], [], [])
@@ -118,13 +118,13 @@ def scopes_of(plan: Plan, t: int) -> list[int]:
 
 
 def deactivate(plan: Plan, t: int, sweep: Sweep) -> None:
-    """Collect what the state of `t` brought: rules, merge, place on a timeline, tokens merged into it."""
+    """Collect what the state of `t` brought: rules, merge, insertion into a timeline, tokens merged into it."""
     rows = plan.rows
     status = rows.status[t]
     if status == INACTIVE or status == FREED:
         return
     if status == ACTIVE:
-        unplace(plan, t, sweep.edges, NONE)
+        leave_sequence(plan, t, sweep.edges, NONE)
         unlink(rows, t, LIST_PREDICATE)
         unlink(rows, t, LIST_THREAT)
         while rows.merged[t] >= 0:

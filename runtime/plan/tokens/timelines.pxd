@@ -21,7 +21,7 @@ cpdef int insert(Plan plan, long long o, long long t, long long previous, long l
 cpdef int fix_object(Plan plan, long long o, long long t, long long span) except -1
 
 
-cpdef bint is_placed(Rows rows, long long t) except -1
+cpdef bint is_sequenced(Rows rows, long long t) except -1
 
 
 @cython.locals(p="long long", rows=Rows)
@@ -37,7 +37,7 @@ cpdef int drop_pair(Rows rows, long long p) except -1
 
 
 @cython.locals(at="long long", following="long long", previous="long long", rows=Rows)
-cpdef int unplace(Plan plan, long long t, list edges, long long span) except -1
+cpdef int leave_sequence(Plan plan, long long t, list edges, long long span) except -1
 
 
 cpdef bint has_any_pair(Rows rows, long long t) except -1

@@ -1,4 +1,4 @@
-"""Order active tokens on timelines: a sequence per object, `end <= start` between neighbours, objects fixed.
+"""Timelines: active tokens in a sequence per object, `end <= start` between neighbours, objects fixed.
 
 A pair is one posted `first.end <= second.start`. Neighbours that are separated by an insertion keep theirs.
 """
@@ -15,7 +15,7 @@ from runtime.plan.tags import (
     LISTS,
     NONE,
     OBJECT,
-    SCOPE_PLACE,
+    SCOPE_INSERTION,
     START,
     UNDO_NEW_PAIR,
 )
@@ -36,15 +36,15 @@ def order(plan: Plan, o: int, before: int, after: int, span: int) -> bool:
             pair(plan, before, after, span)
         return plan.engine.consistent
     if before == after:
-        if not is_placed(rows, before):
+        if not is_sequenced(rows, before):
             insert(plan, o, before, rows.head_last[head], span)
         return plan.engine.consistent
-    if not is_placed(rows, before):
-        if is_placed(rows, after):
+    if not is_sequenced(rows, before):
+        if is_sequenced(rows, after):
             insert(plan, o, before, rows.link_before[LISTS * after + LIST_ORDER], span)
         else:
             insert(plan, o, before, rows.head_last[head], span)
-    if not is_placed(rows, after):
+    if not is_sequenced(rows, after):
         insert(plan, o, after, before, span)
     elif rows.link_after[LISTS * before + LIST_ORDER] != after or not has_pair(rows, before, after):
         pair(plan, before, after, span)
@@ -69,11 +69,11 @@ def fix_object(plan: Plan, o: int, t: int, span: int) -> None:
     """Give `t` the object `o`, unless its object is decided."""
     v = plan.rows.var0[t] + OBJECT
     if not plan.engine.is_decided(v):
-        scope = plan.rows.new_scope(SCOPE_PLACE, t, NONE, NONE, 0, 0)
+        scope = plan.rows.new_scope(SCOPE_INSERTION, t, NONE, NONE, 0, 0)
         equate(plan, scope, v, plan.object_constant[o], span)
 
 
-def is_placed(rows: Rows, t: int) -> bool:
+def is_sequenced(rows: Rows, t: int) -> bool:
     """Whether `t` is in the sequence of an object."""
     return rows.link_head[LISTS * t + LIST_ORDER] >= 0
 
@@ -131,7 +131,7 @@ def drop_pair(rows: Rows, p: int) -> None:
     rows.free_pair = p
 
 
-def unplace(plan: Plan, t: int, edges: list[int], span: int) -> None:
+def leave_sequence(plan: Plan, t: int, edges: list[int], span: int) -> None:
     """Take `t` out of its sequence and close the gap (level 0); the edges that go are added to `edges`."""
     rows = plan.rows
     while rows.pairs_out[t] >= 0:
@@ -155,13 +155,13 @@ def has_any_pair(rows: Rows, t: int) -> bool:
 
 
 def await_order(plan: Plan, t: int) -> None:
-    """Put an active token back among those that wait for a place."""
+    """Put an active token back among those that wait for an insertion (threats)."""
     if plan.predicate_timeline[plan.rows.predicate[t]]:
         link_by_key(plan.rows, t, LIST_THREAT, HEAD_THREAT)
 
 
 def assign_object(plan: Plan, o: int, t: int, span: int) -> bool:
-    """Fix the object of `t` without a place in the sequence, unless it is the first there."""
+    """Fix the object of `t` without an insertion into the sequence, unless it is the first there."""
     rows = plan.rows
     if rows.head_first[plan.object_head[o]] < 0 and plan.object_timeline[o]:
         insert(plan, o, t, NONE, span)

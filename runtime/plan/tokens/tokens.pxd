@@ -16,11 +16,11 @@ cdef long long RESOURCE_HOLDS, RESOURCE_PRODUCES, ROLE_TOKEN, SCOPE_BODY, SCOPE_
 
 @cython.locals(
     block="long long", count="long long", duration="long long", engine=Engine, first="long long", is_fixed=bint,
-    k="long long", place="long long", rows=Rows, scope="long long", size="long long", source="long long",
+    k="long long", holder="long long", rows=Rows, scope="long long", size="long long", source="long long",
     start="long long", state="long long", t="long long", used="long long", value="long long"
 )
 cpdef long long make_token(
-    Plan plan, long long predicate, long long flags, long long master, long long creator, long long given, long long span
+    Plan plan, long long predicate, long long flags, long long parent, long long creator, long long given, long long span
 ) except? -1
 
 

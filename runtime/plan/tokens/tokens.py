@@ -1,4 +1,4 @@
-"""Make tokens: a row, consecutive variables, the body of the predicate; put the rules of an active one on the stack."""
+"""Tokens: a row, consecutive variables, the body of the predicate; an active one puts its rules on the stack."""
 
 from runtime.constraints.domains.tags import OP_TEMPORAL_DISTANCE
 from runtime.plan.store.links import link_by_key, unlink
@@ -33,12 +33,12 @@ from runtime.plan.tags import (
 from runtime.plan.tokens.predicate_hierarchy import active_head
 
 
-def make_token(plan: Plan, predicate: int, flags: int, master: int, creator: int, given: int, span: int) -> int:
+def make_token(plan: Plan, predicate: int, flags: int, parent: int, creator: int, given: int, span: int) -> int:
     """Make a token and put its body on the stack; `given` is the variable that holds its object, or NONE."""
     rows = plan.rows
     engine = plan.engine
     flags |= plan.predicate_flags[predicate]
-    t = rows.new_token(predicate, flags, master, creator, span)
+    t = rows.new_token(predicate, flags, parent, creator, span)
     count = plan.parameter_count[predicate]
     first = engine.reserve(FIRST_PARAMETER + count)
     rows.var0[t] = first
@@ -50,10 +50,10 @@ def make_token(plan: Plan, predicate: int, flags: int, master: int, creator: int
         state = plan.rejectable_prototype
     make_variable(plan, state, ROLE_TOKEN, t, STATE)
     is_fixed = given >= 0 and engine.is_base_singleton(given)
-    place = plan.class_prototype[plan.predicate_class[predicate]]
+    holder = plan.class_prototype[plan.predicate_class[predicate]]
     if is_fixed:
-        place = plan.object_constant[int(engine.base_lower(given))]
-    make_closed(plan, place, ROLE_TOKEN, t, OBJECT)
+        holder = plan.object_constant[int(engine.base_lower(given))]
+    make_closed(plan, holder, ROLE_TOKEN, t, OBJECT)
     if engine.lb[first + OBJECT] > engine.ub[first + OBJECT]:
         plan.services.note_homeless(t)
         engine.restrict_base(first + OBJECT, 1.0, 0.0, span, t)

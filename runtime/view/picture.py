@@ -1,13 +1,15 @@
-"""Draw a plan as an SVG picture or as a page that holds it: no scripts, nothing from outside."""
+"""SVG picture of a plan, and HTML page that holds it: no scripts, nothing from outside."""
 
 from collections.abc import Iterator, Sequence
 from html import escape
 from math import inf
 
-from nddlc.gantt import Bar, Drawing, Facts, lanes, shortened
-from nddlc.levels import Run, level_text
-from nddlc.plan_text import HEAD as COLUMNS
-from nddlc.plan_text import VARIABLES, hidden_text, token_cells
+from runtime.plan.readout.level_profile import LevelProfile
+from runtime.view.axis import whole_ticks
+from runtime.view.drawing import Bar, Drawing, lanes, level_text
+from runtime.view.plan_text import HEAD as COLUMNS
+from runtime.view.plan_text import VARIABLES, PlanReport, token_cells
+from runtime.view.table import shortened
 
 NARROW, WIDE = 900, 12000  # pixels for the time that is drawn
 ROOMY = 60  # pixels that a token is given where that is possible
@@ -15,6 +17,7 @@ LINE = 26
 TALL = 56  # the height of a level's row
 HEAD = 30
 LETTER = 7  # pixels, as wide as most are
+MOST_TICKS = 12  # where the picture is narrow
 LONGEST = 32  # letters of an object's name
 PALETTE = ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#997700", "#555555")
 LIGHT = {"#ee6677", "#ccbb44", "#66ccee"}  # dark letters are read better on these
@@ -45,8 +48,8 @@ def svg(drawn: Drawing) -> str:
     for row in drawn.rows:
         caption = f"<title>{escape(row)}</title>" if len(row) > LONGEST else ""
         body.append(f'<text x="4" y="{y + 17}">{escape(shortened(row, LONGEST))}{caption}</text>')
-        if row in drawn.runs:
-            body += _level(row, drawn.runs[row], drawn, margin, y, scale)
+        if row in drawn.profiles:
+            body += _level(row, drawn.profiles[row], drawn, margin, y, scale)
             y += TALL
         else:
             own = lanes(drawn.bars[row])
@@ -58,13 +61,11 @@ def svg(drawn: Drawing) -> str:
             y += 0 if own else LINE
         body.append(f'<line class="r" x1="0" y1="{y}" x2="{margin + width + 20}" y2="{y}"/>')
     axis: list[str] = []
-    step = _step((drawn.last - drawn.first) * NARROW / width * max(1.0, len(str(drawn.last)) / 7))
-    moment = -(-drawn.first // step) * step
-    while moment <= drawn.last:
+    apart = (drawn.last - drawn.first) * NARROW / width * max(1.0, len(str(drawn.last)) / 7) / MOST_TICKS
+    for moment in whole_ticks(drawn.first, drawn.last, apart):
         x = margin + (moment - drawn.first) * scale
         axis.append(f'<line class="a" x1="{x:.1f}" y1="{HEAD - 8}" x2="{x:.1f}" y2="{y}"/>')
         axis.append(f'<text x="{x:.1f}" y="{HEAD - 12}" text-anchor="middle">{moment}</text>')
-        moment += step
     size = f'width="{margin + width + 30}" height="{y + 10}"'
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img" aria-label="plan">'
@@ -89,10 +90,10 @@ def _bar(bar: Bar, x: float, width: float, y: int, colours: dict[str, str]) -> I
     yield "</g>"
 
 
-def _level(name: str, run: Run, drawn: Drawing, margin: int, y: int, scale: float) -> Iterator[str]:
+def _level(name: str, profile: LevelProfile, drawn: Drawing, margin: int, y: int, scale: float) -> Iterator[str]:
     """The level of a resource as a band, with its limits, and for the pointer each step."""
-    limits = [each for each in (run.lower, run.upper) if abs(each) < inf]
-    seen = [*limits, *(level for step in run.steps for level in step[1:] if abs(level) < inf)]
+    limits = [each for each in (profile.lower, profile.upper) if abs(each) < inf]
+    seen = [*limits, *(level for step in profile.steps for level in step[1:] if abs(level) < inf)]
     low, high = min(seen, default=0.0), max(seen, default=1.0)
     tall = (TALL - 14) / ((high - low) or 1.0)
 
@@ -103,8 +104,8 @@ def _level(name: str, run: Run, drawn: Drawing, margin: int, y: int, scale: floa
         return margin + (max(at, drawn.first) - drawn.first) * scale
 
     right = across(drawn.last)
-    ends = [across(step[0]) for step in run.steps[1:]] + [right]
-    for (at, least, most), end in zip(run.steps, ends, strict=True):
+    ends = [across(step[0]) for step in profile.steps[1:]] + [right]
+    for (at, least, most), end in zip(profile.steps, ends, strict=True):
         x, top, foot = across(at), height(most), height(low)
         text = f"{name}: {level_text(least, most)} from {at}"
         yield f"<g><title>{escape(text)}</title>"
@@ -122,28 +123,11 @@ def _level(name: str, run: Run, drawn: Drawing, margin: int, y: int, scale: floa
         yield f'<text class="s" x="{right + 3:.1f}" y="{line + 3:.1f}">{level_text(limit, limit)}</text>'
 
 
-def _step(length: float) -> int:
-    """A round distance between two numbers on the axis: 1, 2 or 5 times a power of ten."""
-    power = 1
-    while True:
-        for factor in (1, 2, 5):
-            if length <= 12 * factor * power:
-                return factor * power
-        power *= 10
-
-
-def page(
-    told: Facts,
-    drawn: Drawing,
-    tokens: Sequence[Facts],
-    found: Sequence[tuple[str, str]],
-    title: str,
-    said: Sequence[str],
-) -> str:
-    """The plan as an HTML page: what is `said` of it, the picture, and tables of `tokens` and of values `found`."""
-    picture = f'<div class="p">{svg(drawn)}</div>' if drawn and told["solve"]["result"] != "exhausted" else ""
-    tables = _table(COLUMNS, [token_cells(token) for token in tokens]) + _table(VARIABLES, found)
-    hidden = f"<p>{escape(hidden)}</p>" if (hidden := hidden_text(told, tokens)) else ""
+def page(report: PlanReport, drawn: Drawing, title: str, said: Sequence[str]) -> str:
+    """The plan as an HTML page: what is `said` of it, the picture, tables of its tokens and of the values found."""
+    picture = f'<div class="p">{svg(drawn)}</div>' if drawn and not report.is_exhausted else ""
+    tables = _table(COLUMNS, [token_cells(token) for token in report.shown]) + _table(VARIABLES, report.values)
+    hidden = f"<p>{escape(hidden)}</p>" if (hidden := report.hidden_text()) else ""
     return (
         f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
         f"<style>{LOOK}</style></head><body><h1>{escape(title)}</h1><pre>{escape(chr(10).join(said))}</pre>"

@@ -1,8 +1,8 @@
-"""Remember what the statements read so far have declared, and note what the present one looks at and leaves behind.
+"""Symbol table of a script, which records what the present statement reads and writes.
 
-A model is a script: a statement means what it means in the world that the statements above it made. Everything a
-statement can see of that world is a fact, looked up by table and name. What it looked up (with the answers) and what
-it put are recorded, so that the statement need not be analysed again while it would get the same answers.
+A model is a script: a statement means what it means after the statements above it. Everything that a statement can see
+of them is an entry, looked up by table and name. What it looked up (with the answers) and what it put are recorded, so
+that the statement need not be analysed again while it would get the same answers.
 """
 
 from collections.abc import Iterable, Iterator
@@ -23,21 +23,21 @@ from nddl_lang.semantics.schema import (
 )
 from nddl_lang.text.source import Span
 
-Fact = tuple[str, str]
+Entry = tuple[str, str]
 
 _DECLARATIONS = frozenset({"class", "enum", "value", "typedef", "global", "goal"})
-_ALL_NAMES: Fact = ("names", "*")
+_ALL_NAMES: Entry = ("names", "*")
 _EVERYTHING = "*"
 
 
-class World:
-    """The facts of a script up to one of its statements; `schema` holds the declarations among them."""
+class SymbolTable:
+    """The entries of a script up to one of its statements; `schema` holds the declarations among them."""
 
     def __init__(self) -> None:
         self.schema = Schema()
-        self.reads: dict[Fact, object] = {}
-        self.writes: dict[Fact, object] = {}
-        self._facts: dict[Fact, object] = {_ALL_NAMES: 0}
+        self.reads: dict[Entry, object] = {}
+        self.writes: dict[Entry, object] = {}
+        self._entries: dict[Entry, object] = {_ALL_NAMES: 0}
         self._names = 0
         self.replay(
             {
@@ -52,42 +52,42 @@ class World:
     def begin(self) -> None:
         """Start the record of the next statement."""
         self.reads, self.writes = {}, {}
-        self._facts[_ALL_NAMES] = self._names
+        self._entries[_ALL_NAMES] = self._names
 
-    def answers(self, reads: dict[Fact, object]) -> bool:
+    def answers(self, reads: dict[Entry, object]) -> bool:
         """Whether a statement that got these answers would get the same ones now."""
-        facts = self._facts
-        facts[_ALL_NAMES] = self._names
-        for fact, answer in reads.items():
-            current = facts.get(fact)
+        entries = self._entries
+        entries[_ALL_NAMES] = self._names
+        for entry, answer in reads.items():
+            current = entries.get(entry)
             if current is not answer and current != answer:
                 return False
         return True
 
-    def replay(self, writes: dict[Fact, object]) -> None:
+    def replay(self, writes: dict[Entry, object]) -> None:
         """Leave behind what a statement left behind when it was analysed."""
         for (table, name), value in writes.items():
             self._apply(table, name, value)
 
     def suppose(self, table: str, name: str, value: object) -> None:
-        """State a fact about the script as a whole, which no statement puts."""
-        self._facts[table, name] = value
+        """State an entry about the script as a whole, which no statement puts."""
+        self._entries[table, name] = value
 
     def look(self, table: str, name: str) -> object:
-        """The value of a fact, None where nothing has put it."""
-        fact = (table, name)
-        value = self._facts.get(fact)
-        if fact not in self.reads and fact not in self.writes:
-            self.reads[fact] = value
+        """The value of an entry, None where nothing has put it."""
+        entry = (table, name)
+        value = self._entries.get(entry)
+        if entry not in self.reads and entry not in self.writes:
+            self.reads[entry] = value
         return value
 
     def put(self, table: str, name: str, value: object) -> None:
-        """Put a fact; a declaration enters the schema."""
+        """Put an entry; a declaration enters the schema."""
         self.writes[table, name] = value
         self._apply(table, name, value)
 
     def _apply(self, table: str, name: str, value: object) -> None:
-        self._facts[table, name] = value
+        self._entries[table, name] = value
         match value:
             case Class():
                 self.schema.classes[name] = value

@@ -1,4 +1,4 @@
-"""Names of files as editors write them in, paths out; and back."""
+"""URIs of files, as editors write them: URIs in, paths out; and back."""
 
 import os
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""The pages of all codes, as files: `python -m nddlc.rulebook docs/rules` writes them."""
+"""The pages of all codes, as files: `python -m checker.rulebook docs/rules` writes them."""
 
 import sys
 from collections.abc import Iterator

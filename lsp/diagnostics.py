@@ -15,8 +15,7 @@ from lsprotocol.types import Diagnostic as Shown
 from lsp.links import page_of
 from lsp.positions import Encoding, Lines
 from nddl_lang.lint.unused import UNUSED
-from nddl_lang.semantics.classes import NATIVE_CLASS
-from nddl_lang.semantics.constraining import FORMER_CONSTRAINT
+from nddl_lang.semantics.codes import FORMER_CONSTRAINT, NATIVE_CLASS
 from nddl_lang.syntax.codes import FORMER_RELATION, FORMER_SIGNATURE, FORMER_WORD, INCLUDE_AGAIN
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.source import Source, Span

@@ -1,4 +1,4 @@
-"""How the level of each resource runs in a plan, each of its uses as early as it can be."""
+"""Profiles: the level of each resource over time, each of its uses as early as it can be."""
 
 from dataclasses import dataclass
 from math import inf
@@ -9,8 +9,8 @@ from runtime.plan.tags import INITIAL, LIMITS, MAXIMUM, MINIMUM
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
-    """The level of a resource: from each instant on between two numbers, and between what it must stay (inf: free)."""
+class LevelProfile:
+    """Level of a resource: its limits (inf: none), and from each instant on the two numbers that it lies between."""
 
     lower: float
     upper: float
@@ -22,20 +22,20 @@ class Run:
         return {"limits": limits, "steps": [list(step) for step in self.steps]}
 
 
-def runs(database: PlanDatabase, begin: int) -> dict[str, Run]:
-    """The runs of all resources by name, from `begin` or from the first use on."""
+def level_profiles(database: PlanDatabase, begin: int) -> dict[str, LevelProfile]:
+    """The profiles of all resources by name, from `begin` or from the first use on."""
     resources = database.plan.resources
     return {
-        name: _run(database, o, begin)
+        name: _profile(database, o, begin)
         for o, name in enumerate(database.objects.names)
         if o < resources.object_room and resources.is_resource[o]
     }
 
 
-def _run(database: PlanDatabase, o: int, begin: int) -> Run:
+def _profile(database: PlanDatabase, o: int, begin: int) -> LevelProfile:
     resources = database.plan.resources
-    place = o * LIMITS
-    low, high = resources.lower(place + INITIAL, 0.0), resources.upper(place + INITIAL, 0.0)
+    row = o * LIMITS
+    low, high = resources.lower(row + INITIAL, 0.0), resources.upper(row + INITIAL, 0.0)
     changes: dict[int, tuple[float, float]] = {}
 
     def change(at: int, least: float, most: float) -> None:
@@ -60,9 +60,4 @@ def _run(database: PlanDatabase, o: int, begin: int) -> Run:
         if at == steps[-1][0]:
             steps.pop()
         steps.append((at, low, high))
-    return Run(resources.lower(place + MINIMUM, -inf), resources.upper(place + MAXIMUM, inf), tuple(steps))
-
-
-def level_text(low: float, high: float) -> str:
-    """A level as people read it."""
-    return f"{low:.6g}" if low == high else f"{low:.6g}..{high:.6g}"
+    return LevelProfile(resources.lower(row + MINIMUM, -inf), resources.upper(row + MAXIMUM, inf), tuple(steps))

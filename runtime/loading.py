@@ -1,4 +1,4 @@
-"""Load one model and tell what became of it: as a value, and as the object that the conformance suite reads."""
+"""Load a model: its file in; diagnostics, and the plan database after its script, out."""
 
 import gc
 import sys
@@ -16,12 +16,10 @@ from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import Module
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import as_dict
-from nddlc.libraries import library_of
 from runtime.plan.database import PlanDatabase
-from runtime.plan.readout.readout import read
-from runtime.user.library import Library
-
-Facts = dict[str, Any]
+from runtime.plan.readout.readout import read_state
+from runtime.plan.readout.state import PlanState
+from runtime.user.library import NO_LIBRARY, Library
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +36,10 @@ class Loaded:
         """Whether the text, or a statement of the script, is in error."""
         return any(each.severity is Severity.ERROR for each in self.diagnostics)
 
+    def state(self) -> PlanState | None:
+        """The state of the plan; None where the model is refused."""
+        return None if self.database is None or self.is_refused else read_state(self.database)
+
 
 @contextmanager
 def no_collecting() -> Iterator[None]:
@@ -52,10 +54,15 @@ def no_collecting() -> Iterator[None]:
 
 
 @no_collecting()
-def load(path: Path, directories: tuple[str, ...], dialect: Dialect | None, name: str | None = None) -> Loaded:
+def load(
+    path: Path,
+    directories: tuple[str, ...] = (),
+    dialect: Dialect | None = None,
+    library: Library = NO_LIBRARY,
+    name: str | None = None,
+) -> Loaded:
     """Analyse, compile and run the script of the model at `path`; the script stops at the first error."""
     file = name or str(path)
-    library = library_of(path)
     analysis = analyse_file(path, dialect, directories, library.callables)
     found = tuple(analysis.diagnostics)
     if any(each.severity is Severity.ERROR for each in found):
@@ -90,21 +97,17 @@ def _fault_above(analysis: Analysis, library: Library) -> Diagnostic | None:
     return None if start.has_errors else _run(start, library)[2]
 
 
-def facts(loaded: Loaded) -> Facts:
-    """What became of the model, as plain data; `solve` is for whoever plans."""
-    told: Facts = {
+def as_data(loaded: Loaded, plan: PlanState | None) -> dict[str, Any]:
+    """What became of the model, for programs; `plan` is its state, None where the text is in error."""
+    ordered = sorted(loaded.diagnostics, key=_is_about_meaning)
+    return {
         "file": loaded.file,
         "load": "error" if loaded.is_refused else "ok",
         "consistent": None,
-        "diagnostics": [as_dict(each) for each in sorted(loaded.diagnostics, key=_is_about_meaning)],
-        "domains": {},
-        "tokens": [],
-        "order": {},
+        "diagnostics": [as_dict(each) for each in ordered],
+        **({"domains": {}, "tokens": [], "order": {}} if plan is None else plan.as_data()),
         "solve": None,
     }
-    if loaded.database is not None and not loaded.is_refused:
-        told |= read(loaded.database)
-    return told
 
 
 def _is_about_meaning(diagnostic: Diagnostic) -> bool:

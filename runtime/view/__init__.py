@@ -1,0 +1,1 @@
+"""Plans and traces as text and pictures."""
