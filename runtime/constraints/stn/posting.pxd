@@ -10,23 +10,23 @@ cdef long long KIND_FLOAT, KIND_INT, MODE_EDGES, MODE_REAL, MODE_WHOLE, OP_ADD_E
 cdef long long OP_EQ, OP_EQ_MAXIMUM, OP_EQ_MINIMUM, OP_EXTERNAL, OP_LEQ, OP_LT, OP_NEQ, OP_PLUS, OP_RAND
 cdef long long OP_TEMPORAL_DISTANCE, OP_TEST_SPECIFIED, OP_WATCH, PRIORITY_CHEAP, PRIORITY_DEAR, PRIORITY_WATCH
 cdef long long TRAIL_CONSTRAINT, TRAIL_LINK
-cdef unsigned long long MASK
+cdef unsigned long long _MASK
 
 
 @cython.locals(room="long long")
-cpdef int grow_constraints(Store s) except -1
+cpdef int _grow_constraints(Store s) except -1
 
 @cython.locals(room="long long")
-cpdef int grow_slots(Store s, long long need) except -1
+cpdef int _grow_slots(Store s, long long need) except -1
 
 @cython.locals(first="long long")
-cpdef long long allocate_slots(Store s, long long count) except? -1
+cpdef long long _allocate_slots(Store s, long long count) except? -1
 
 @cython.locals(c="long long")
-cpdef long long new_constraint(Store s, long long op, long long arity, long long span, long long owner) except? -1
+cpdef long long _new_constraint(Store s, long long op, long long arity, long long span, long long owner) except? -1
 
 @cython.locals(slot="long long")
-cpdef void watch(Store s, long long c, long long position, long long v, long long mask) except *
+cpdef void _watch(Store s, long long c, long long position, long long v, long long mask) except *
 
 @cython.locals(count="long long", first="long long", slot="long long")
 cpdef int release_constraint(Store s, long long c) except -1
@@ -48,15 +48,15 @@ cpdef long long start_element(
 cpdef int add_row(Store s, long long c, long long k, long long key, long long v) except -1
 
 @cython.locals(op="long long")
-cpdef bint is_idempotent(Store s, long long c) except -1
+cpdef bint _is_idempotent(Store s, long long c) except -1
 
 @cython.locals(op="long long")
-cpdef long long events_of(Store s, long long c, long long position) except? -1
+cpdef long long _events_of(Store s, long long c, long long position) except? -1
 
 @cython.locals(edges=bint, op="long long", v="long long")
-cpdef int choose_mode(Store s, long long c, list arguments) except -1
+cpdef int _choose_mode(Store s, long long c, list arguments) except -1
 
-cpdef bint is_offset(Store s, long long a, long long k, long long b) except -1
+cpdef bint _is_offset(Store s, long long a, long long k, long long b) except -1
 
 @cython.locals(x="unsigned long long")
-cpdef long long random_whole(long long seed, long long span, long long owner) except? -1
+cpdef long long _random_whole(long long seed, long long span, long long owner) except? -1

@@ -40,10 +40,10 @@ from runtime.constraints.domains.tags import (
 from runtime.constraints.stn.network import insert_edge
 from runtime.constraints.stn.watch_lists import link_slot, unlink_slot
 
-MASK = 2**64 - 1
+_MASK = 2**64 - 1
 
 
-def grow_constraints(s: Store) -> None:
+def _grow_constraints(s: Store) -> None:
     """Double the rows of constraints, and the queues with them."""
     room = 2 * len(s.op)
     grow_rows(s, "op span owner link_a link_b constraint_next", room, -1)
@@ -51,7 +51,7 @@ def grow_constraints(s: Store) -> None:
     s.grow_constraint_queues(room)
 
 
-def grow_slots(s: Store, need: int) -> None:
+def _grow_slots(s: Store, need: int) -> None:
     """Make room for `need` more slots."""
     room = len(s.slot_variable)
     while room < s.slots_used + need:
@@ -60,20 +60,20 @@ def grow_slots(s: Store, need: int) -> None:
     grow_rows(s, "slot_mask slot_key", room)
 
 
-def allocate_slots(s: Store, count: int) -> int:
+def _allocate_slots(s: Store, count: int) -> int:
     """Take `count` consecutive slots; blocks of up to 64 come back through free lists."""
     if count <= 64 and s.slot_free[count] >= 0:
         first = s.slot_free[count]
         s.slot_free[count] = s.slot_next[first]
         return first
     if s.slots_used + count > len(s.slot_variable):
-        grow_slots(s, count)
+        _grow_slots(s, count)
     first = s.slots_used
     s.slots_used = first + count
     return first
 
 
-def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
+def _new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
     """Make a constraint whose arguments are still to be filled in."""
     c = s.constraint_free
     if c >= 0:
@@ -81,11 +81,11 @@ def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
     else:
         c = s.constraints_used
         if c == len(s.op):
-            grow_constraints(s)
+            _grow_constraints(s)
         s.constraints_used = c + 1
     s.op[c] = op
     s.mode[c] = MODE_WHOLE
-    s.first[c] = allocate_slots(s, arity)
+    s.first[c] = _allocate_slots(s, arity)
     s.arity[c] = arity
     s.span[c] = span
     s.owner[c] = owner
@@ -99,7 +99,7 @@ def new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int:
     return c
 
 
-def watch(s: Store, c: int, position: int, v: int, mask: int) -> None:
+def _watch(s: Store, c: int, position: int, v: int, mask: int) -> None:
     """Fill in an argument and wake `c` at the events of `mask`; without any it is mute."""
     slot = s.first[c] + position
     s.slot_variable[slot] = v
@@ -147,28 +147,28 @@ def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: i
         arguments = [arguments[len(arguments) - 1], *arguments[: len(arguments) - 1]]
     elif op == OP_ADD_EQ and s.constant[arguments[0]] and not s.constant[arguments[1]]:
         arguments = [arguments[1], arguments[0], arguments[2]]
-    c = new_constraint(s, op, len(arguments), span, owner)
-    choose_mode(s, c, arguments)
+    c = _new_constraint(s, op, len(arguments), span, owner)
+    _choose_mode(s, c, arguments)
     if op == OP_WATCH:
         s.priority[c] = PRIORITY_WATCH
     elif op == OP_EXTERNAL:
         s.priority[c] = PRIORITY_DEAR
     elif op == OP_RAND:
-        s.drawn[c] = random_whole(s.seed, span, owner)
+        s.drawn[c] = _random_whole(s.seed, span, owner)
     for position in range(s.arity[c]):
-        watch(s, c, position, arguments[position], events_of(s, c, position))
-    s.idempotent[c] = is_idempotent(s, c) and len(set(arguments)) == len(arguments)
+        _watch(s, c, position, arguments[position], _events_of(s, c, position))
+    s.idempotent[c] = _is_idempotent(s, c) and len(set(arguments)) == len(arguments)
     s.schedule(c)
     return c
 
 
 def start_element(s: Store, result: int, index: int, rows: int, span: int, owner: int) -> int:
     """Make a look-up of `rows` rows, to be given by `add_row` in the order of their keys."""
-    c = new_constraint(s, OP_ELEMENT, rows + 2, span, owner)
+    c = _new_constraint(s, OP_ELEMENT, rows + 2, span, owner)
     if s.kind[result] == KIND_FLOAT:
         s.mode[c] = MODE_REAL
-    watch(s, c, 0, result, EVENT_DOMAIN)
-    watch(s, c, 1, index, EVENT_DOMAIN)
+    _watch(s, c, 0, result, EVENT_DOMAIN)
+    _watch(s, c, 1, index, EVENT_DOMAIN)
     s.idempotent[c] = 0
     s.schedule(c)
     return c
@@ -178,11 +178,11 @@ def add_row(s: Store, c: int, k: int, key: int, v: int) -> None:
     """Give row `k` of a look-up: the key that the index takes for variable `v`."""
     if s.kind[v] == KIND_FLOAT:
         s.mode[c] = MODE_REAL
-    watch(s, c, 2 + k, v, EVENT_DOMAIN)
+    _watch(s, c, 2 + k, v, EVENT_DOMAIN)
     s.slot_key[s.first[c] + 2 + k] = key
 
 
-def is_idempotent(s: Store, c: int) -> bool:
+def _is_idempotent(s: Store, c: int) -> bool:
     """Idempotent: one run reaches the constraint's own fixpoint, where no bound has to jump over holes."""
     op = s.op[c]
     if s.mode[c] == MODE_REAL:
@@ -190,7 +190,7 @@ def is_idempotent(s: Store, c: int) -> bool:
     return op == OP_NEQ or op == OP_ADD_EQ or op == OP_TEMPORAL_DISTANCE or (op == OP_EQ and s.arity[c] == 2)
 
 
-def events_of(s: Store, c: int, position: int) -> int:
+def _events_of(s: Store, c: int, position: int) -> int:
     """Give the events of an argument that may let the constraint narrow another one."""
     op = s.op[c]
     if s.mode[c] == MODE_EDGES:
@@ -204,7 +204,7 @@ def events_of(s: Store, c: int, position: int) -> int:
     return EVENT_ANY if op == OP_TEST_SPECIFIED else EVENT_DOMAIN
 
 
-def choose_mode(s: Store, c: int, arguments: list[int]) -> None:
+def _choose_mode(s: Store, c: int, arguments: list[int]) -> None:
     """Have comparisons of ints, and sums of an int and a constant, carried out by edges; reals by doubles."""
     op = s.op[c]
     edges = True
@@ -214,24 +214,24 @@ def choose_mode(s: Store, c: int, arguments: list[int]) -> None:
         if s.kind[v] != KIND_INT or s.constant[v]:
             edges = False
     if op == OP_ADD_EQ:
-        if is_offset(s, arguments[0], arguments[1], arguments[2]):
+        if _is_offset(s, arguments[0], arguments[1], arguments[2]):
             s.mode[c] = MODE_EDGES
             s.op[c] = OP_PLUS
     elif op == OP_PLUS or (edges and (op == OP_LEQ or op == OP_LT or (op == OP_EQ and s.arity[c] == 2))):
         s.mode[c] = MODE_EDGES
 
 
-def is_offset(s: Store, a: int, k: int, b: int) -> bool:
+def _is_offset(s: Store, a: int, k: int, b: int) -> bool:
     """Tell whether a + k = b relates two ints by a constant whole number."""
     if s.kind[a] != KIND_INT or s.kind[b] != KIND_INT or s.constant[a] or s.constant[b] or not s.constant[k]:
         return False
     return (s.kind[k] == KIND_INT or s.kind[k] == KIND_BOOL) and s.lb[k] == s.ub[k]
 
 
-def random_whole(seed: int, span: int, owner: int) -> int:
+def _random_whole(seed: int, span: int, owner: int) -> int:
     """Draw from 0 to 32767: a function of the seed and of where the constraint was posted (splitmix64)."""
-    x = (seed * 1000003 + span * 8191 + owner + 2) & MASK
-    x = (x + 0x9E3779B97F4A7C15) & MASK
-    x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & MASK
-    x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & MASK
+    x = (seed * 1000003 + span * 8191 + owner + 2) & _MASK
+    x = (x + 0x9E3779B97F4A7C15) & _MASK
+    x = ((x ^ (x >> 30)) * 0xBF58476D1CE4E5B9) & _MASK
+    x = ((x ^ (x >> 27)) * 0x94D049BB133111EB) & _MASK
     return (x ^ (x >> 31)) & 32767
