@@ -5,11 +5,11 @@ from array import array
 
 import pytest
 
-from runtime.constraints.domains.arrays import IS_LAZY, LARGE, grown, next_room
+from runtime.constraints.domains.arrays import _IS_LAZY, _LARGE, grown, next_room
 
 
 @pytest.mark.parametrize(("code", "fill"), [("q", 0), ("i", 0), ("i", -1), ("b", 0), ("d", 0.0), ("Q", 0)])
-@pytest.mark.parametrize("room", [10, LARGE + 1000])
+@pytest.mark.parametrize("room", [10, _LARGE + 1000])
 def test_an_array_keeps_what_it_had(code: str, fill: float, room: int) -> None:
     old = array(code, [1, 2, 3])
     new = grown(old, room, fill)
@@ -19,9 +19,9 @@ def test_an_array_keeps_what_it_had(code: str, fill: float, room: int) -> None:
     assert (again[1], again[room - 1], again[room], len(again)) == (2, 7, fill, next_room(room))
 
 
-@pytest.mark.skipif(not IS_LAZY, reason="no forks there")
+@pytest.mark.skipif(not _IS_LAZY, reason="no forks there")
 def test_what_a_forked_worker_writes_is_its_own() -> None:
-    large = grown(array("q", [5]), LARGE)
+    large = grown(array("q", [5]), _LARGE)
     child = os.fork()
     if child == 0:
         large[0] = 6

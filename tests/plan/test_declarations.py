@@ -41,7 +41,10 @@ def is_inherited(node: ast.ClassDef, name: str) -> bool:
 
 BASES = {
     name: set(re.findall(r"\w+", (RUNTIME / place).read_text()))
-    for name, place in (("Store", "constraints/domains/store.pxd"), ("Walk", "solver/learning/support_walk.pxd"))
+    for name, place in (
+        ("Store", "constraints/domains/store.pxd"),
+        ("SupportWalk", "constraints/explanation/support_walk.pxd"),
+    )
 }
 
 

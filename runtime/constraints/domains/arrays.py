@@ -4,8 +4,8 @@ import mmap
 from array import array
 from typing import Any, cast
 
-IS_LAZY = hasattr(mmap, "MAP_PRIVATE")  # can the system give pages that cost nothing until they are written?
-LARGE = 2**22  # bytes from which an array lives in such pages
+_IS_LAZY = hasattr(mmap, "MAP_PRIVATE")  # can the system give pages that cost nothing until they are written?
+_LARGE = 2**22  # bytes from which an array lives in such pages
 
 
 def blank(length: int, code: str = "q") -> "array[Any]":
@@ -18,7 +18,7 @@ def grown(old: "array[Any]", length: int, fill: float = 0) -> "array[Any]":
     view = memoryview(old)
     code = view.format
     size = length * view.itemsize
-    is_lazy = fill == 0 and size >= LARGE and IS_LAZY
+    is_lazy = fill == 0 and size >= _LARGE and _IS_LAZY
     new = _lazily_zeroed(code, size) if is_lazy else array(code, [fill]) * length
     memoryview(new)[: len(view)] = view
     return new
@@ -38,7 +38,7 @@ def _lazily_zeroed(code: Any, size: int) -> "array[Any]":
 
 def next_room(room: int) -> int:
     """How long the arrays of a log become that were `room` long: large ones grow faster where the end costs nothing."""
-    return room * (4 if IS_LAZY and room >= 2**18 else 2)
+    return room * (4 if _IS_LAZY and room >= 2**18 else 2)
 
 
 def grown_ring(old: "array[int]", first: int, last: int, room: int) -> "array[int]":

@@ -8,20 +8,20 @@ cdef double FLOAT_TOLERANCE
 cdef unsigned long long ALL_BITS, EVERY_SECOND_BIT, FOUR_OF_EIGHT_BITS, ONE_BIT, TWO_OF_FOUR_BITS
 
 
-cpdef long long lowest_bit(unsigned long long x) except? -1
+cpdef long long _lowest_bit(unsigned long long x) except? -1
 
-cpdef long long bits_in(unsigned long long x) except? -1
+cpdef long long _bits_in(unsigned long long x) except? -1
 
 @cython.locals(n="long long")
-cpdef long long highest_bit(unsigned long long x) except? -1
+cpdef long long _highest_bit(unsigned long long x) except? -1
 
 @cython.locals(room="long long")
-cpdef int grow_bits(Store s, long long need) except -1
+cpdef int _grow_bits(Store s, long long need) except -1
 
 @cython.locals(first="long long")
-cpdef long long allocate_words(Store s, long long count) except? -1
+cpdef long long _allocate_words(Store s, long long count) except? -1
 
-cpdef int release_words(Store s, long long first, long long count) except -1
+cpdef int _release_words(Store s, long long first, long long count) except -1
 
 @cython.locals(count="long long", first="long long", k="long long")
 cpdef int attach_words(Store s, long long v, long long base, long long values) except -1
@@ -63,12 +63,12 @@ cpdef int restore_bits(Store s, long long v) except -1
 cpdef int drop_log(Store s, long long v) except -1
 
 @cython.locals(room="long long")
-cpdef int grow_log(Store s) except -1
+cpdef int _grow_log(Store s) except -1
 
 @cython.locals(count="long long", first="long long", k="long long")
 cpdef int attach_table(Store s, long long v, list values) except -1
 
-cpdef int release_table(Store s, long long first, long long count) except -1
+cpdef int _release_table(Store s, long long first, long long count) except -1
 
 @cython.locals(
     last="long long", place="long long", rest="long long", total="long long", x="unsigned long long"

@@ -17,12 +17,12 @@ from runtime.constraints.domains.tags import (
 )
 
 
-def lowest_bit(x: int) -> int:
+def _lowest_bit(x: int) -> int:
     """Give the place of the lowest set bit, which is how many zeros stand behind it; x is not 0."""
-    return bits_in((x & -x) - 1)
+    return _bits_in((x & -x) - 1)
 
 
-def bits_in(x: int) -> int:
+def _bits_in(x: int) -> int:
     """Count the set bits of a word, in pairs, then in fours, then in bytes (Warren, Hacker's Delight, 5-1)."""
     x -= (x >> 1) & EVERY_SECOND_BIT
     x = (x & TWO_OF_FOUR_BITS) + ((x >> 2) & TWO_OF_FOUR_BITS)
@@ -33,7 +33,7 @@ def bits_in(x: int) -> int:
     return x & 127
 
 
-def highest_bit(x: int) -> int:
+def _highest_bit(x: int) -> int:
     """Give the place of the highest set bit; x is not 0."""
     n = 0
     if x >> 32:
@@ -56,7 +56,7 @@ def highest_bit(x: int) -> int:
     return n
 
 
-def grow_bits(s: Store, need: int) -> None:
+def _grow_bits(s: Store, need: int) -> None:
     """Make room for `need` more words."""
     room = len(s.bits)
     while room < s.bits_used + need:
@@ -65,20 +65,20 @@ def grow_bits(s: Store, need: int) -> None:
         s.bits = grown(s.bits, room)
 
 
-def allocate_words(s: Store, count: int) -> int:
+def _allocate_words(s: Store, count: int) -> int:
     """Take `count` consecutive words; small blocks come back through free lists."""
     if count < len(s.word_free) and s.word_free[count] >= 0:
         first = s.word_free[count]
         s.word_free[count] = s.bits[first] - 1
         return first
     if s.bits_used + count > len(s.bits):
-        grow_bits(s, count)
+        _grow_bits(s, count)
     first = s.bits_used
     s.bits_used = first + count
     return first
 
 
-def release_words(s: Store, first: int, count: int) -> None:
+def _release_words(s: Store, first: int, count: int) -> None:
     """Give words back (blocks of more than 64 words are not used again)."""
     if count < len(s.word_free):
         s.bits[first] = s.word_free[count] + 1
@@ -88,7 +88,7 @@ def release_words(s: Store, first: int, count: int) -> None:
 def attach_words(s: Store, v: int, base: int, values: int) -> None:
     """Give `v` a full bit set for the `values` places that start at `base`."""
     count = (values + 63) >> 6
-    first = allocate_words(s, count)
+    first = _allocate_words(s, count)
     for k in range(count):
         s.bits[first + k] = ALL_BITS
     if values & 63:
@@ -101,9 +101,9 @@ def attach_words(s: Store, v: int, base: int, values: int) -> None:
 
 def detach_words(s: Store, v: int) -> None:
     """Take the bit set of `v` away; its log must be empty."""
-    release_words(s, s.word[v], s.words_of[v])
+    _release_words(s, s.word[v], s.words_of[v])
     if s.table[v] >= 0:
-        release_table(s, s.table[v], s.table_length[v])
+        _release_table(s, s.table[v], s.table_length[v])
     s.word[v] = -1
     s.words_of[v] = 0
     s.table[v] = -1
@@ -155,7 +155,7 @@ def next_place(s: Store, v: int, place: int) -> int:
         if k >= s.words_of[v]:
             return -1
         x = s.bits[s.word[v] + k]
-    return (k << 6) + lowest_bit(x)
+    return (k << 6) + _lowest_bit(x)
 
 
 def previous_place(s: Store, v: int, place: int) -> int:
@@ -172,7 +172,7 @@ def previous_place(s: Store, v: int, place: int) -> int:
         if k < 0:
             return -1
         x = s.bits[s.word[v] + k]
-    return (k << 6) + highest_bit(x)
+    return (k << 6) + _highest_bit(x)
 
 
 def value_at(s: Store, v: int, place: int) -> int:
@@ -214,7 +214,7 @@ def clear_bits(s: Store, v: int, k: int, mask: int, support: int) -> None:
     else:
         entry = s.holes_used
         if entry == len(s.hole_mask):
-            grow_log(s)
+            _grow_log(s)
         s.holes_used += 1
     s.bits[s.word[v] + k] &= ALL_BITS ^ mask
     s.hole_variable[entry] = v
@@ -248,7 +248,7 @@ def drop_log(s: Store, v: int) -> None:
         s.hole_free = entry
 
 
-def grow_log(s: Store) -> None:
+def _grow_log(s: Store) -> None:
     """Double the rows of the log of holes."""
     room = 2 * len(s.hole_mask)
     grow_rows(s, "hole_variable hole_support hole_when hole_next", room, -1)
@@ -273,7 +273,7 @@ def attach_table(s: Store, v: int, values: list[float]) -> None:
     attach_words(s, v, 0, count)
 
 
-def release_table(s: Store, first: int, count: int) -> None:
+def _release_table(s: Store, first: int, count: int) -> None:
     """Give a table back (tables of more than 64 values are not used again)."""
     if count < len(s.table_free):
         s.table_values[first] = s.table_free[count]
@@ -295,6 +295,6 @@ def count_values(s: Store, v: int) -> int:
         rest = last - place
         if rest < 63:
             x &= (ONE_BIT << (rest + 1)) - 1
-        total += bits_in(x)
+        total += _bits_in(x)
         place = (place | 63) + 1
     return total

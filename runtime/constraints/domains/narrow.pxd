@@ -27,10 +27,10 @@ cpdef bint remove_value(Store s, long long v, long long x, long long support) ex
 cpdef bint round_bounds(Store s, long long v, long long support) except -1
 
 @cython.locals(place="long long")
-cpdef bint set_real_lower(Store s, long long v, double x, long long support) except -1
+cpdef bint _set_real_lower(Store s, long long v, double x, long long support) except -1
 
 @cython.locals(place="long long")
-cpdef bint set_real_upper(Store s, long long v, double x, long long support) except -1
+cpdef bint _set_real_upper(Store s, long long v, double x, long long support) except -1
 
 cpdef double low(Store s, long long v) except? -1.0
 

@@ -102,7 +102,7 @@ def round_bounds(s: Store, v: int, support: int) -> bool:
     return x >= s.ub[v] or set_upper(s, v, x, s.upper_support[v])
 
 
-def set_real_lower(s: Store, v: int, x: float, support: int) -> bool:
+def _set_real_lower(s: Store, v: int, x: float, support: int) -> bool:
     """Raise the lower bound of a float to x; a bound within the tolerance above the upper one means equality."""
     if x <= s.flo[v]:
         return True
@@ -124,7 +124,7 @@ def set_real_lower(s: Store, v: int, x: float, support: int) -> bool:
     return True
 
 
-def set_real_upper(s: Store, v: int, x: float, support: int) -> bool:
+def _set_real_upper(s: Store, v: int, x: float, support: int) -> bool:
     """Reduce the upper bound of a float to x; a bound within the tolerance below the lower one means equality."""
     if x >= s.fhi[v]:
         return True
@@ -169,7 +169,7 @@ def high(s: Store, v: int) -> float:
 def raise_to(s: Store, v: int, x: float, support: int) -> bool:
     """Raise the lower bound of any variable to x; a whole number is rounded inwards, within the tolerance."""
     if s.kind[v] == KIND_FLOAT:
-        return set_real_lower(s, v, x, support)
+        return _set_real_lower(s, v, x, support)
     if x <= s.lb[v]:
         return True
     if x >= HALF_INF:
@@ -180,7 +180,7 @@ def raise_to(s: Store, v: int, x: float, support: int) -> bool:
 def reduce_to(s: Store, v: int, x: float, support: int) -> bool:
     """Reduce the upper bound of any variable to x; a whole number is rounded inwards, within the tolerance."""
     if s.kind[v] == KIND_FLOAT:
-        return set_real_upper(s, v, x, support)
+        return _set_real_upper(s, v, x, support)
     if x >= s.ub[v]:
         return True
     if x <= -HALF_INF:

@@ -20,4 +20,4 @@ cpdef long long number_of_values(Store s, long long v) except? -1
 cpdef list listed(Store s, long long v)
 
 @cython.locals(found=list, place="long long", x=double)
-cpdef list listed_reals(Store s, long long v)
+cpdef list _listed_reals(Store s, long long v)

@@ -12,7 +12,7 @@ def may_be(s: Store, v: int, x: float) -> bool:
     if s.kind[v] != KIND_FLOAT:
         return -HALF_INF < x < HALF_INF and x == int(x) and has_value(s, v, int(x))
     if s.word[v] >= 0:
-        return is_near(x, listed_reals(s, v))
+        return is_near(x, _listed_reals(s, v))
     return s.flo[v] - FLOAT_TOLERANCE <= x <= s.fhi[v] + FLOAT_TOLERANCE
 
 
@@ -28,7 +28,7 @@ def has_finitely_many(s: Store, v: int) -> bool:
 def number_of_values(s: Store, v: int) -> int:
     """Count the values of a finite domain."""
     if s.kind[v] == KIND_FLOAT:
-        return len(listed_reals(s, v)) if s.word[v] >= 0 else 1
+        return len(_listed_reals(s, v)) if s.word[v] >= 0 else 1
     return count_values(s, v)
 
 
@@ -37,7 +37,7 @@ def listed(s: Store, v: int) -> list[float]:
     if is_growing(s, v):
         return [x for x in base_set(s, v) or [] if has_value(s, v, int(x))]
     if s.kind[v] == KIND_FLOAT:
-        return listed_reals(s, v) if s.word[v] >= 0 else [s.flo[v] + (s.fhi[v] - s.flo[v]) * 0.5]
+        return _listed_reals(s, v) if s.word[v] >= 0 else [s.flo[v] + (s.fhi[v] - s.flo[v]) * 0.5]
     if s.word[v] < 0:
         return list(range(s.lb[v], s.ub[v] + 1))
     found: list[float] = []
@@ -49,7 +49,7 @@ def listed(s: Store, v: int) -> list[float]:
     return found
 
 
-def listed_reals(s: Store, v: int) -> list[float]:
+def _listed_reals(s: Store, v: int) -> list[float]:
     """List the values of a float that has a set."""
     found: list[float] = []
     place = next_place(s, v, 0)

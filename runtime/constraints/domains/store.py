@@ -16,7 +16,7 @@ from runtime.constraints.domains.tags import (
     TRAIL_UPPER,
 )
 
-FIRST_ROOM = 64
+_FIRST_ROOM = 64
 
 
 class Store:
@@ -27,7 +27,7 @@ class Store:
     """
 
     def __init__(self) -> None:
-        room = FIRST_ROOM
+        room = _FIRST_ROOM
         # Variables.
         self.variables = 0
         self.kind = array("b", [0]) * room

@@ -28,7 +28,7 @@ cpdef int clear_row(Store s, long long v, long long kind) except -1
 cpdef int drop_variable(Store s, long long v) except -1
 
 @cython.locals(room="long long")
-cpdef int grow_restrictions(Store s) except -1
+cpdef int _grow_restrictions(Store s) except -1
 
 @cython.locals(r="long long")
 cpdef long long add_restriction(
@@ -48,7 +48,7 @@ cpdef void start_values(Store s, long long v, list values, long long r) except *
 cpdef bint keep_values(Store s, long long v, list values, long long support) except -1
 
 @cython.locals(inside=list, place="long long", x=double)
-cpdef bint keep_reals(Store s, long long v, list values, long long support) except -1
+cpdef bint _keep_reals(Store s, long long v, list values, long long support) except -1
 
 @cython.locals(r="long long")
 cpdef bint close_values(Store s, long long v) except -1

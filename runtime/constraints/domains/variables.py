@@ -118,7 +118,7 @@ def drop_variable(s: Store, v: int) -> None:
             s.block_free[count] = first
 
 
-def grow_restrictions(s: Store) -> None:
+def _grow_restrictions(s: Store) -> None:
     """Double the rows of restrictions."""
     room = 2 * len(s.restriction_lo)
     grow_rows(s, "restriction_variable restriction_next restriction_span restriction_owner", room, -1)
@@ -133,7 +133,7 @@ def add_restriction(s: Store, v: int, lo: float, hi: float, flags: int, span: in
     else:
         r = s.restrictions_used
         if r == len(s.restriction_lo):
-            grow_restrictions(s)
+            _grow_restrictions(s)
         s.restrictions_used = r + 1
     s.restriction_variable[r] = v
     s.restriction_lo[r] = lo
@@ -229,7 +229,7 @@ def keep_values(s: Store, v: int, values: list[float], support: int) -> bool:
     if not (raise_to(s, v, values[0], support) and reduce_to(s, v, values[len(values) - 1], support)):
         return False
     if s.kind[v] == KIND_FLOAT:
-        return keep_reals(s, v, values, support)
+        return _keep_reals(s, v, values, support)
     if s.word[v] < 0:
         if s.lb[v] == s.ub[v]:
             return s.lb[v] in values or s.fail(v, SIDE_HOLES, support)
@@ -258,7 +258,7 @@ def keep_values(s: Store, v: int, values: list[float], support: int) -> bool:
     return round_bounds(s, v, support)
 
 
-def keep_reals(s: Store, v: int, values: list[float], support: int) -> bool:
+def _keep_reals(s: Store, v: int, values: list[float], support: int) -> bool:
     """Narrow a float to some of the listed values."""
     if s.word[v] < 0:
         inside = [x for x in values if s.flo[v] - FLOAT_TOLERANCE <= x <= s.fhi[v] + FLOAT_TOLERANCE]

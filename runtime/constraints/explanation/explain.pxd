@@ -13,7 +13,7 @@ cdef long long SIDE_LOWER, SIDE_UPPER, SUPPORT_EDGE, SUPPORT_RESTRICTION
 cpdef cause_of(Store s, long long support)
 
 
-cdef class CauseWalk(SupportWalk):
+cdef class _CauseWalk(SupportWalk):
     cdef public dict found
     cdef public list links
     cdef public set committed

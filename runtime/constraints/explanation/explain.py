@@ -35,7 +35,7 @@ def cause_of(s: Store, support: int) -> Cause | None:
     return Cause(CauseKind.CONSTRAINT, name, s.span[name], s.owner[name])
 
 
-class CauseWalk(SupportWalk):
+class _CauseWalk(SupportWalk):
     """The visitor that collects causes, and the links of a chain, those nearest to the start first."""
 
     def __init__(self, engine: Store) -> None:
@@ -134,7 +134,7 @@ class CauseWalk(SupportWalk):
 
 def explain_conflict(s: Store) -> list[Cause]:
     """Give the causes of the present conflict, those nearest to it first."""
-    walk = CauseWalk(s)
+    walk = _CauseWalk(s)
     walk.ask_conflict()
     walk.walk()
     return list(walk.found)
@@ -142,7 +142,7 @@ def explain_conflict(s: Store) -> list[Cause]:
 
 def explain_bound(s: Store, v: int, side: int) -> list[Link]:
     """Give the chain of causes that holds one side of a domain where it is, the nearest first."""
-    walk = CauseWalk(s)
+    walk = _CauseWalk(s)
     walk.ask(v, side, s.trail_base + s.trail_size)
     walk.walk()
     return walk.links

@@ -48,7 +48,7 @@ def retract(
     s.conflict_kind = 0
     s.visits_begun += 1
     s.cone_count = 0
-    doomed = gather(s, constraints, variables)
+    doomed = _gather(s, constraints, variables)
     for e in edges:
         relax_by_edge(s, e)
     for c in doomed:
@@ -80,20 +80,20 @@ def retract(
         is_decision = s.restriction_flags[r] & FLAG_DECISION
         drop_restriction(s, r)
         if is_decision:
-            s.set_decided(v, 1 if has_decision(s, v) else 0)
-    reset_cone(s)
+            s.set_decided(v, 1 if _has_decision(s, v) else 0)
+    _reset_cone(s)
     for v in variables:
         while s.restriction_head[v] >= 0:
             drop_restriction(s, s.restriction_head[v])
         drop_variable(s, v)
-    renew_cone(s)
+    _renew_cone(s)
     commit_trail(s)
     if not was_consistent:
-        schedule_all(s)
+        _schedule_all(s)
     return [e for e in suspects if e not in gone]
 
 
-def gather(s: Store, constraints: list[int], variables: list[int]) -> list[int]:
+def _gather(s: Store, constraints: list[int], variables: list[int]) -> list[int]:
     """List the constraints that go: the given ones and those on removed variables, each once."""
     doomed = dict.fromkeys(constraints)
     for v in variables:
@@ -123,15 +123,15 @@ def edges_of(s: Store, v: int) -> list[int]:
     return found
 
 
-def reset_cone(s: Store) -> None:
+def _reset_cone(s: Store) -> None:
     """Give every bound of the cone its base value back, and every distance in it edges that hold nothing."""
     for i in range(s.cone_count):
         v = s.cone[i] >> 2
         side = s.cone[i] & 3
         if s.word[v] >= 0:
-            reset_set(s, v)
+            _reset_set(s, v)
         elif s.relaxed[v]:
-            reset_bound(s, v, side)
+            _reset_bound(s, v, side)
         slot = s.watch_head[v]
         while slot >= 0:
             c = s.slot_constraint[slot]
@@ -140,7 +140,7 @@ def reset_cone(s: Store) -> None:
             slot = s.slot_next[slot]
 
 
-def reset_bound(s: Store, v: int, side: int) -> None:
+def _reset_bound(s: Store, v: int, side: int) -> None:
     """Give one bound the tightest value that restrictions and decisions leave it."""
     best = -inf if side == SIDE_LOWER else inf
     support = -1
@@ -153,12 +153,12 @@ def reset_bound(s: Store, v: int, side: int) -> None:
             support = r * 4 + SUPPORT_RESTRICTION
         r = s.restriction_next[r]
     if side == SIDE_LOWER:
-        set_base_lower(s, v, best, support)
+        _set_base_lower(s, v, best, support)
     else:
-        set_base_upper(s, v, best, support)
+        _set_base_upper(s, v, best, support)
 
 
-def set_base_lower(s: Store, v: int, x: float, support: int) -> None:
+def _set_base_lower(s: Store, v: int, x: float, support: int) -> None:
     """Set a lower bound as it was before all propagation."""
     s.lower_support[v] = support
     s.lower_when[v] = -1
@@ -168,7 +168,7 @@ def set_base_lower(s: Store, v: int, x: float, support: int) -> None:
         s.lb[v] = -INF if x <= -HALF_INF else int(math.ceil(x - FLOAT_TOLERANCE))
 
 
-def set_base_upper(s: Store, v: int, x: float, support: int) -> None:
+def _set_base_upper(s: Store, v: int, x: float, support: int) -> None:
     """Set an upper bound as it was before all propagation."""
     s.upper_support[v] = support
     s.upper_when[v] = -1
@@ -178,15 +178,15 @@ def set_base_upper(s: Store, v: int, x: float, support: int) -> None:
         s.ub[v] = INF if x >= HALF_INF else int(math.floor(x + FLOAT_TOLERANCE))
 
 
-def reset_set(s: Store, v: int) -> None:
+def _reset_set(s: Store, v: int) -> None:
     """Take the bit set of a variable away; `renew_cone` carries its restrictions to sets out again."""
     drop_log(s, v)
     detach_words(s, v)
-    reset_bound(s, v, SIDE_LOWER)
-    reset_bound(s, v, SIDE_UPPER)
+    _reset_bound(s, v, SIDE_LOWER)
+    _reset_bound(s, v, SIDE_UPPER)
 
 
-def uncross(s: Store, v: int, side: int) -> None:
+def _uncross(s: Store, v: int, side: int) -> None:
     """Where restrictions contradict, record the conflict and let the variable's declaration alone bound this side."""
     if s.kind[v] == KIND_FLOAT:
         if s.flo[v] <= s.fhi[v]:
@@ -203,28 +203,28 @@ def uncross(s: Store, v: int, side: int) -> None:
         return
     s.fail(v, side, s.lower_support[v] if side == SIDE_LOWER else s.upper_support[v])
     if side == SIDE_LOWER:
-        set_base_lower(s, v, s.restriction_lo[r], r * 4 + SUPPORT_RESTRICTION)
+        _set_base_lower(s, v, s.restriction_lo[r], r * 4 + SUPPORT_RESTRICTION)
     else:
-        set_base_upper(s, v, s.restriction_hi[r], r * 4 + SUPPORT_RESTRICTION)
+        _set_base_upper(s, v, s.restriction_hi[r], r * 4 + SUPPORT_RESTRICTION)
 
 
-def renew_cone(s: Store) -> None:
+def _renew_cone(s: Store) -> None:
     """Pull the bounds of the cone tight along the edges, restrict to sets, and schedule all that touches them."""
     for i in range(s.cone_count):
         v = s.cone[i] >> 2
         s.relaxed[v] = 0
         if s.kind[v] >= 0:
-            uncross(s, v, s.cone[i] & 3)
+            _uncross(s, v, s.cone[i] & 3)
     for i in range(s.cone_count):
         v = s.cone[i] >> 2
         side = s.cone[i] & 3
         if s.kind[v] < 0:
             continue
         if side == SIDE_LOWER:
-            pull_lower(s, v)
+            _pull_lower(s, v)
         else:
-            pull_upper(s, v)
-        restrict_to_sets(s, v)
+            _pull_upper(s, v)
+        _restrict_to_sets(s, v)
         for head in (s.watch_head[v], s.mute_head[v]):
             slot = head
             while slot >= 0:
@@ -234,7 +234,7 @@ def renew_cone(s: Store) -> None:
                 slot = s.slot_next[slot]
 
 
-def restrict_to_sets(s: Store, v: int) -> None:
+def _restrict_to_sets(s: Store, v: int) -> None:
     """Carry the restrictions of a variable to sets of values out again, the oldest first."""
     listed = []
     r = s.restriction_head[v]
@@ -247,7 +247,7 @@ def restrict_to_sets(s: Store, v: int) -> None:
             keep_values(s, v, s.restriction_values[r], r * 4 + SUPPORT_RESTRICTION)
 
 
-def pull_lower(s: Store, v: int) -> None:
+def _pull_lower(s: Store, v: int) -> None:
     """Raise a lower bound to what its edges ask for now."""
     e = s.out_head[v]
     while e >= 0:
@@ -262,7 +262,7 @@ def pull_lower(s: Store, v: int) -> None:
     s.queue_edges(v, 0)
 
 
-def pull_upper(s: Store, v: int) -> None:
+def _pull_upper(s: Store, v: int) -> None:
     """Reduce an upper bound to what its edges ask for now."""
     e = s.in_head[v]
     while e >= 0:
@@ -277,7 +277,7 @@ def pull_upper(s: Store, v: int) -> None:
     s.queue_edges(v, 1)
 
 
-def schedule_all(s: Store) -> None:
+def _schedule_all(s: Store) -> None:
     """After a conflict at level 0 nothing is known to be carried out: restrict again, schedule all, visit all edges."""
     for r in range(s.restrictions_used):
         v = s.restriction_variable[r]
@@ -290,7 +290,7 @@ def schedule_all(s: Store) -> None:
             s.schedule(c)
     for v in range(s.variables):
         if s.kind[v] >= 0:
-            restrict_to_sets(s, v)
+            _restrict_to_sets(s, v)
             s.queue_edges(v, 0)
             s.queue_edges(v, 1)
 
@@ -305,7 +305,7 @@ def follow_again(s: Store, edges: list[int]) -> bool:
     return s.consistent
 
 
-def has_decision(s: Store, v: int) -> bool:
+def _has_decision(s: Store, v: int) -> bool:
     """Tell whether any restriction of a variable is a decision."""
     r = s.restriction_head[v]
     while r >= 0 and not s.restriction_flags[r] & FLAG_DECISION:

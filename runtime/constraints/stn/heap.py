@@ -1,5 +1,7 @@
 """Keep entries in the order of a key and a tie; the smallest is on top. Entries may be stale: who reads them checks."""
 
+from array import array
+
 from runtime.constraints.domains.arrays import blank, grow_rows
 
 
@@ -9,9 +11,9 @@ class Heap:
     def __init__(self) -> None:
         self.capacity = 64
         self.length = 0
-        self.first = blank(64)
-        self.second = blank(64)
-        self.item = blank(64)
+        self.first: array[int] = blank(64)
+        self.second: array[int] = blank(64)
+        self.item: array[int] = blank(64)
 
     def push(self, key: int, tie: int, entry: int) -> int:
         """Add an entry."""

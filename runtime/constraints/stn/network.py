@@ -18,14 +18,14 @@ from runtime.constraints.domains.tags import (
 )
 
 
-def grow_edges(s: Store) -> None:
+def _grow_edges(s: Store) -> None:
     """Double the rows of edges."""
     room = 2 * len(s.edge_weight)
     grow_rows(s, "edge_source edge_target out_next out_prev in_next in_prev edge_span edge_owner edge_link", room, -1)
     s.edge_weight = grown(s.edge_weight, room)
 
 
-def link_edge(s: Store, source: int, target: int, weight: int, span: int, owner: int, link: int) -> int:
+def _link_edge(s: Store, source: int, target: int, weight: int, span: int, owner: int, link: int) -> int:
     """Put a new edge into the lists of its ends, without propagating it."""
     e = s.edge_free
     if e >= 0:
@@ -33,7 +33,7 @@ def link_edge(s: Store, source: int, target: int, weight: int, span: int, owner:
     else:
         e = s.edges_used
         if e == len(s.edge_weight):
-            grow_edges(s)
+            _grow_edges(s)
         s.edges_used = e + 1
     s.edge_source[e] = source
     s.edge_target[e] = target
@@ -94,7 +94,7 @@ def insert_edge(s: Store, source: int, target: int, weight: int, span: int, owne
     """Add an edge and propagate the network; give the edge. The store is inconsistent if that fails."""
     if s.consistent and s.edge_first != s.edge_last:
         propagate_edges(s, -1, -1, -1)
-    e = link_edge(s, source, target, weight, span, owner, link)
+    e = _link_edge(s, source, target, weight, span, owner, link)
     s.save(e, TRAIL_EDGE, 0, 0)
     if not (s.consistent and follow_edge(s, e)):
         s.suspects.append(e)
@@ -122,7 +122,7 @@ def follow_edge(s: Store, e: int) -> bool:
     w = s.edge_weight[e]
     if u == v:
         if w < 0:
-            fail_cycle(s, v, SIDE_UPPER, e, e)
+            _fail_cycle(s, v, SIDE_UPPER, e, e)
             return False
         return True
     x = s.ub[u] + w
@@ -150,7 +150,7 @@ def follow_edge(s: Store, e: int) -> bool:
     return propagate_edges(s, u, v, e)
 
 
-def fail_cycle(s: Store, v: int, side: int, e: int, new: int) -> None:
+def _fail_cycle(s: Store, v: int, side: int, e: int, new: int) -> None:
     """Record that a path of edges, `new` the first, comes back to `v` by `e` and tightens its own start."""
     s.consistent = False
     s.conflict_kind = CONFLICT_CYCLE
@@ -173,16 +173,16 @@ def propagate_edges(s: Store, source: int, target: int, new: int) -> bool:
         v = key >> 1
         if key & 1:
             s.queued[v] &= 5
-            if not push_upper(s, v, source, new):
+            if not _push_upper(s, v, source, new):
                 return False
         else:
             s.queued[v] &= 6
-            if not push_lower(s, v, target, new):
+            if not _push_lower(s, v, target, new):
                 return False
     return True
 
 
-def push_upper(s: Store, v: int, source: int, new: int) -> bool:
+def _push_upper(s: Store, v: int, source: int, new: int) -> bool:
     """Pass the upper bound of `v` on along its edges: to targets. Written out, for nothing runs more often."""
     bound = s.ub[v]
     e = s.out_head[v]
@@ -193,7 +193,7 @@ def push_upper(s: Store, v: int, source: int, new: int) -> bool:
         x = bound + s.edge_weight[e]
         if x < s.ub[u]:
             if u == source:
-                fail_cycle(s, u, SIDE_UPPER, e, new)
+                _fail_cycle(s, u, SIDE_UPPER, e, new)
                 return False
             if x < s.lb[u]:
                 return s.fail(u, SIDE_UPPER, e * 4 + SUPPORT_EDGE)
@@ -222,7 +222,7 @@ def push_upper(s: Store, v: int, source: int, new: int) -> bool:
     return True
 
 
-def push_lower(s: Store, v: int, target: int, new: int) -> bool:
+def _push_lower(s: Store, v: int, target: int, new: int) -> bool:
     """Pass the lower bound of `v` on along its edges: back to sources."""
     bound = s.lb[v]
     e = s.in_head[v]
@@ -233,7 +233,7 @@ def push_lower(s: Store, v: int, target: int, new: int) -> bool:
         x = bound - s.edge_weight[e]
         if x > s.lb[u]:
             if u == target:
-                fail_cycle(s, u, SIDE_LOWER, e, new)
+                _fail_cycle(s, u, SIDE_LOWER, e, new)
                 return False
             if x > s.ub[u]:
                 return s.fail(u, SIDE_LOWER, e * 4 + SUPPORT_EDGE)

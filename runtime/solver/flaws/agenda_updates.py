@@ -3,8 +3,7 @@
 from runtime.constraints.domains.tags import (
     TRAIL_CONSTRAINT,
     TRAIL_EDGE,
-    TRAIL_HOLES,
-    TRAIL_REAL_UPPER,
+    TRAIL_NARROWING,
     TRAIL_RESTRICTION,
     TRAIL_VARIABLE,
 )
@@ -95,7 +94,7 @@ def update(agenda: Agenda, level: int) -> int:
     while at < engine.trail_size:
         code = engine.trail_key[at] & 15
         name = engine.trail_key[at] >> 4
-        if code <= TRAIL_REAL_UPPER or code == TRAIL_HOLES:
+        if TRAIL_NARROWING >> code & 1:
             if agenda.watched[name]:
                 _update_domain(agenda, name)
         elif code == TRAIL_VARIABLE and agenda.plan.variable_role[name] == ROLE_LOCAL:

@@ -1,21 +1,63 @@
 # The C types of `conflict_analysis.py`.
 
 cimport cython
-from runtime.constraints.engine cimport Engine
+from runtime.constraints.domains.store cimport Store
+from runtime.constraints.explanation.support_walk cimport SupportWalk
+from runtime.constraints.stn.distances cimport Distances
 from runtime.plan.resources.resources cimport Resources
+from runtime.plan.rules.guards cimport deciders
 from runtime.solver.flaws.decisions cimport Decisions
 from runtime.solver.flaws.agenda cimport Agenda
-from runtime.solver.learning.support_walk cimport Walk
 
 cdef long long END, LIST_ORDER, OBJECT, START
 cdef long long ACTIVE, CONFLICT_DOMAIN, EVERYTHING, HEAD_OPEN, LISTS, LIST_OPEN, NONE, NOW, OPEN_CONDITION
-cdef long long OP_EXTERNAL, RESOURCE_CONSUMES, RESOURCE_PRODUCES, SIDE_LOWER, SIDE_UPPER, UNBOUND_VARIABLE
+cdef long long AS_IT_IS, OP_EXTERNAL, RESOURCE_CONSUMES, RESOURCE_PRODUCES, SIDE_HOLES, SIDE_LOWER, SIDE_UPPER
+cdef long long SUPPORT_CONSTRAINT, SUPPORT_EDGE, UNBOUND_VARIABLE
 cdef double FLOAT_TOLERANCE
 
 
-cdef class ConflictAnalysis(Walk):
+cdef class ConflictAnalysis(SupportWalk):
+    cdef public Agenda agenda
+    cdef public Decisions stack
+    cdef public long long met_count, origin, opened
+    cdef public bint is_local
+    cdef public long long[::1] marked, met
+
+    cpdef int begin(self) except -1
+
+    cpdef int meet(self, long long level) except -1
+
+    cpdef bint visit(self, long long support, long long v, long long side, long long when) except -1
+
+    cpdef int visit_support(self, long long support) except -1
+
+    cpdef bint ask_more(self) except -1
+
+    @cython.locals(kind="long long")
+    cdef long long _level_of(self, long long support) except? -1
+
+    @cython.locals(at="long long", before="long long", engine=Store, old="long long", when="long long")
+    cpdef int ask_enough(self, long long v, long long side, long long enough) except -1
+
+    @cython.locals(bound="long long", engine=Store, when="long long")
+    cpdef long long base_bound(self, long long v, long long side) except? -1
+
+    cpdef int ask_domain(self, long long v) except -1
+
+    @cython.locals(agenda=Agenda, k="long long", s="long long", t="long long")
+    cdef int _ask_guards(self, long long level) except -1
+
+    @cython.locals(engine=Store, r="long long", v="long long")
+    cdef int _ask_arguments(self, long long c) except -1
+
+    @cython.locals(distances=Distances, e="long long", v="long long")
+    cpdef bint explain_edge(self, long long source, long long target, long long weight) except -1
+
+    @cython.locals(c="long long")
+    cdef int _ask_path_edge(self, long long e) except -1
+
     @cython.locals(
-        engine=Engine, first="long long", is_all=bint, k="long long", side="long long", support="long long", v="long long"
+        engine=Store, first="long long", is_all=bint, k="long long", side="long long", support="long long", v="long long"
     )
     cpdef bint learn(self, long long d) except -1
 
@@ -26,27 +68,27 @@ cdef class ConflictAnalysis(Walk):
     cpdef long long target(self, long long d) except? -1
 
     @cython.locals(is_new=bint, item="long long", kind="long long", mine="long long", agenda=Agenda)
-    cpdef bint may_bring(self, long long d, long long predicate) except -1
+    cdef bint _may_bring(self, long long d, long long predicate) except -1
 
     @cython.locals(other="long long", agenda=Agenda, t="long long")
-    cpdef long long blame_absence(self, long long d, long long predicate) except? -1
+    cpdef long long explain_absence(self, long long d, long long predicate) except? -1
 
     @cython.locals(agenda=Agenda, t="long long")
-    cpdef long long blame_use(self, long long u, long long d) except? -1
+    cpdef long long explain_use(self, long long u, long long d) except? -1
 
     @cython.locals(kind="long long", predicate="long long", agenda=Agenda, u="long long", uses=Resources)
-    cpdef bint blame_helpers(self, long long o, long long sign, long long d) except -1
+    cpdef bint explain_helpers(self, long long o, long long sign, long long d) except -1
 
     @cython.locals(
         end="long long", needed="long long", start="long long", t="long long", var0="long long[::1]"
     )
-    cpdef long long blame_window(self, excess) except? -1
+    cdef long long _explain_window(self, excess) except? -1
 
     @cython.locals(first="long long", agenda=Agenda)
-    cpdef long long blame_crowd(self, long long t) except? -1
+    cdef long long _explain_ordering(self, long long t) except? -1
 
     @cython.locals(
         e="long long", end="long long", key="long long", least=double, length="long long", loss=double,
         slack=double, start="long long", u="long long"
     )
-    cpdef bint blame_excess(self, long long c, long long d) except -1
+    cdef bint _explain_violation(self, long long c, long long d) except -1

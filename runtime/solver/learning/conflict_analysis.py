@@ -1,17 +1,30 @@
-"""Find which decisions a conflict rests on, so that the search goes back to the latest of them and no farther.
+"""Conflict analysis: the decisions that a conflict rests on, for backjumping to the latest of them.
 
-Decision `d` is level d + 1; level 0 is what held before the search. A failed choice adds to the decision's reasons the
-levels of all edges, constraints and restrictions that its conflict was derived from, and of what let the guards fire
-that posted them. When no choice is left, what took the other choices away (shortage.py) completes the reasons; the
-latest of them is where another choice may help (conflict-directed backjumping, Prosser 1993). More levels than needed
-do no harm: the search then goes back less far.
+Decision `d` is level d + 1; level 0 is what held before the search. A failed resolver adds to the conflict set of its
+decision the levels of all edges, constraints and restrictions that its conflict was derived from, and of what let the
+guards fire that posted them. When no resolver is left, what pruned the others (dead_end.py) completes the conflict set
+(conflict-directed backjumping, Prosser 1993). More levels than needed do no harm: the search then jumps less far back.
+So the walk asks for all sides of a domain without values and of the arguments of a constraint that cannot hold, and
+follows a negative cycle by the bounds of its last edge; explanations (explain.py) read less there.
 """
 
-from runtime.constraints.domains.tags import CONFLICT_DOMAIN, FLOAT_TOLERANCE, SIDE_LOWER, SIDE_UPPER
-from runtime.constraints.propagators.opcodes import OP_EXTERNAL
+from runtime.constraints.domains.arrays import blank, grow_rows
+from runtime.constraints.domains.tags import (
+    CONFLICT_DOMAIN,
+    FLOAT_TOLERANCE,
+    OP_EXTERNAL,
+    SIDE_HOLES,
+    SIDE_LOWER,
+    SIDE_UPPER,
+    SUPPORT_CONSTRAINT,
+    SUPPORT_EDGE,
+)
+from runtime.constraints.explanation.support_walk import SupportWalk
 from runtime.plan.resources.violation import Violation
+from runtime.plan.rules.guards import deciders
 from runtime.plan.tags import (
     ACTIVE,
+    AS_IT_IS,
     END,
     HEAD_OPEN,
     LIST_OPEN,
@@ -22,12 +35,151 @@ from runtime.plan.tags import (
     RESOURCE_PRODUCES,
     START,
 )
-from runtime.solver.learning.support_walk import Walk
+from runtime.solver.flaws.agenda import Agenda
+from runtime.solver.flaws.decisions import Decisions
 from runtime.solver.tags import EVERYTHING, NONE, NOW, OPEN_CONDITION, UNBOUND_VARIABLE
 
 
-class ConflictAnalysis(Walk):
-    """The reasons of decisions, as levels."""
+class ConflictAnalysis(SupportWalk):
+    """The visitor that collects decision levels: `marked[level] == stamp` for those that were met."""
+
+    def __init__(self, agenda: Agenda, stack: Decisions) -> None:
+        super().__init__(agenda.engine)
+        self.agenda = agenda
+        self.stack = stack
+        self.marked = blank(64)
+        self.met = blank(64)
+        self.met_count = 0
+        self.origin = 0
+        self.opened = 0
+        self.is_local = False  # what was met counts only as long as nothing else is decided before
+
+    def begin(self) -> int:
+        """Forget what was met; all that is older than the first decision needs no reason."""
+        self.start()
+        self.met_count = self.opened = 0
+        self.is_local = False
+        if len(self.marked) < self.stack.room + 1:
+            grow_rows(self, "marked met", self.stack.room + 1)
+        self.origin = self.engine.trail_base + self.stack.engine_seen[0]
+        return 0
+
+    def meet(self, level: int) -> int:
+        """Note a level."""
+        if level > 0 and self.marked[level] != self.stamp:
+            self.marked[level] = self.stamp
+            self.met[self.met_count] = level
+            self.met_count += 1
+        return 0
+
+    def visit(self, support: int, v: int, side: int, when: int) -> bool:
+        """Note the level of a change; changes older than the search go unnoted, declarations are read no further."""
+        if 0 <= when < self.origin:
+            return False
+        self.meet(self._level_of(support))
+        return when >= 0
+
+    def visit_support(self, support: int) -> int:
+        """Note the level of an edge, a constraint or a restriction."""
+        return self.meet(self._level_of(support))
+
+    def ask_more(self) -> bool:
+        """Ask why the guards held that fired at the levels met: what followed rests on all that decided them."""
+        if self.opened == self.met_count:
+            return False
+        self.opened += 1
+        self._ask_guards(self.met[self.opened - 1])
+        return True
+
+    def _level_of(self, support: int) -> int:
+        """The decision that posted an edge, a constraint or a restriction."""
+        kind = support & 3
+        if kind == SUPPORT_EDGE:
+            return self.agenda.edge_level[support >> 2]
+        if kind == SUPPORT_CONSTRAINT:
+            return self.agenda.constraint_level[support >> 2]
+        return self.agenda.restriction_level[support >> 2]
+
+    def ask_enough(self, v: int, side: int, enough: int) -> int:
+        """Ask why a bound of `v`, no real, is as tight as `enough`: when that was reached first."""
+        engine = self.engine
+        if enough == AS_IT_IS:
+            return self.ask(v, side, NOW)
+        before = NOW
+        when = engine.lower_when[v] if side == SIDE_LOWER else engine.upper_when[v]
+        while when >= self.origin:
+            at = when - engine.trail_base
+            old = engine.trail_value[at]
+            if (old < enough) if side == SIDE_LOWER else (old > enough):
+                break
+            before = when
+            when = engine.trail_when[at]
+        return self.ask(v, side, before)
+
+    def base_bound(self, v: int, side: int) -> int:
+        """A bound of `v`, no real, as it was before the search."""
+        engine = self.engine
+        when = engine.lower_when[v] if side == SIDE_LOWER else engine.upper_when[v]
+        bound = engine.lb[v] if side == SIDE_LOWER else engine.ub[v]
+        while when >= self.origin:
+            bound = engine.trail_value[when - engine.trail_base]
+            when = engine.trail_when[when - engine.trail_base]
+        return bound
+
+    def ask_domain(self, v: int) -> int:
+        """Ask for all sides of a domain as it is now."""
+        self.ask(v, SIDE_LOWER, NOW)
+        self.ask(v, SIDE_UPPER, NOW)
+        if self.engine.word[v] >= 0:
+            self.ask(v, SIDE_HOLES, NOW)
+        return 0
+
+    def _ask_guards(self, level: int) -> int:
+        """Ask why the guards held that fired at a level: what followed rests on all that decided them."""
+        agenda = self.agenda
+        for k in range(agenda.fired_end[level - 1], agenda.fired_end[level]):
+            s = agenda.fired_scope[k]
+            t = agenda.rows.scope_token[s]
+            if t >= 0:
+                self.meet(agenda.active_level[t])
+            while s >= 0:
+                if agenda.rows.scope_watch[s] >= 0:
+                    self._ask_arguments(agenda.rows.scope_watch[s])
+                s = agenda.rows.scope_parent[s]
+        return 0
+
+    def _ask_arguments(self, c: int) -> int:
+        """Ask for the domains of all that decides a guard which waits with a constraint, and who decided it."""
+        engine = self.engine
+        for v in deciders(self.agenda.plan, c):
+            self.ask_domain(v)
+            r = engine.restriction_head[v]
+            while r >= 0:
+                self.meet(self.agenda.restriction_level[r])
+                r = engine.restriction_next[r]
+        return 0
+
+    def explain_edge(self, source: int, target: int, weight: int) -> bool:
+        """Why `target - source <= weight` is impossible, if it is: two bounds, or a path of edges."""
+        distances = self.agenda.distances
+        if distances.admits(source, target, weight):
+            return False
+        if distances.by_bounds:
+            self.ask(target, SIDE_LOWER, NOW)
+            self.ask(source, SIDE_UPPER, NOW)
+            return True
+        v = source
+        while v != target:
+            e = distances.via[v]
+            self._ask_path_edge(e)
+            v = self.engine.edge_source[e]
+        return True
+
+    def _ask_path_edge(self, e: int) -> int:
+        """Note an edge of a path with the constraint that it carries out, and ask for its weight."""
+        self.ask_edge(e, NOW)
+        c = self.engine.edge_link[e]
+        return self.meet(self.agenda.constraint_level[c]) if c >= 0 else 0
 
     # ---- failed choices ----
 
@@ -45,21 +197,21 @@ class ConflictAnalysis(Walk):
         v = engine.conflict_variable
         side = engine.conflict_side
         if v >= 0:
-            self.meet(self.level_of(support))
+            self.visit_support(support)
             self.ask_reasons(support, v, side, NOW)
             if engine.conflict_kind == CONFLICT_DOMAIN:
                 self.ask_domain(v)
         elif engine.op[support >> 2] == OP_EXTERNAL and isinstance(engine.externals[support >> 2], Violation):
-            if not self.blame_excess(support >> 2, d):
+            if not self._explain_violation(support >> 2, d):
                 self.stack.reasons[d] = EVERYTHING
                 return False
         else:
-            self.meet(self.level_of(support))
+            self.visit_support(support)
             first = engine.first[support >> 2]
             for k in range(first, first + engine.arity[support >> 2]):
                 self.ask_domain(engine.slot_variable[k])
         self.walk()
-        is_all = self.marked[d + 1] != self.stamp
+        is_all = bool(self.marked[d + 1] != self.stamp)
         if is_all:
             self.stack.drop_reasons(d)
             self.stack.is_local[d] = 0
@@ -109,7 +261,7 @@ class ConflictAnalysis(Walk):
             self.keep(heir)
         return heir
 
-    def may_bring(self, d: int, predicate: int) -> bool:
+    def _may_bring(self, d: int, predicate: int) -> bool:
         """Whether another choice of decision `d` might lead to an active token of a predicate.
 
         Guards wait for decided variables: one that is given a value may let them fire, and one that a merge decides.
@@ -127,11 +279,11 @@ class ConflictAnalysis(Walk):
             return agenda.plan.variable_guards[item] > 0 and agenda.supports.is_guarded(predicate)
         return False
 
-    def blame_absence(self, d: int, predicate: int) -> int:
+    def explain_absence(self, d: int, predicate: int) -> int:
         """Note the decisions before `d` that might have brought a token of a predicate, and whether any still may."""
         agenda = self.agenda
         for other in range(d + 1):
-            if self.may_bring(other, predicate):
+            if self._may_bring(other, predicate):
                 self.meet(other + 1)
                 self.is_local = True
         t = agenda.rows.head_first[HEAD_OPEN]
@@ -142,7 +294,7 @@ class ConflictAnalysis(Walk):
             self.is_local = True
         return 0
 
-    def blame_use(self, u: int, d: int) -> int:
+    def explain_use(self, u: int, d: int) -> int:
         """Why use `u` of a resource exists, and is on that resource."""
         agenda = self.agenda
         self.ask_domain(agenda.plan.resources.holder[u])
@@ -154,41 +306,41 @@ class ConflictAnalysis(Walk):
         self.meet(d + 1)
         return 0
 
-    def blame_helpers(self, o: int, sign: int, d: int) -> bool:
+    def explain_helpers(self, o: int, sign: int, d: int) -> bool:
         """Why nothing else gives to (takes from) resource `o` what would help; False if that has no simple reason."""
         agenda = self.agenda
         uses = agenda.plan.resources
         for u in range(uses.count):
             if uses.sign[u] == sign and uses.end[u] < 0 and uses.on[u] != o:
-                if not self.engine.is_singleton(uses.holder[u]):
+                if not self.agenda.engine.is_singleton(uses.holder[u]):
                     return False
                 self.ask_domain(uses.holder[u])
         kind = RESOURCE_PRODUCES if sign > 0 else RESOURCE_CONSUMES
         for predicate in range(len(agenda.plan.predicate_resource)):
             if agenda.plan.predicate_resource[predicate] == kind:
-                self.blame_absence(d, predicate)
+                self.explain_absence(d, predicate)
         self.is_local = True  # in another order it may come before what it would have helped
         return True
 
-    def blame_window(self, excess: Violation) -> int:
+    def _explain_window(self, excess: Violation) -> int:
         """Why tokens lie in a window that is too narrow: the widest such, that of before the search if it will do."""
         var0 = self.agenda.rows.var0
         needed = int(excess.amount) + excess.until - excess.at
         start = excess.at
         end = excess.until
         for t in excess.tokens:
-            start = min(start, self.first(var0[t] + START, SIDE_LOWER))
-            end = max(end, self.first(var0[t] + END, SIDE_UPPER))
+            start = min(start, self.base_bound(var0[t] + START, SIDE_LOWER))
+            end = max(end, self.base_bound(var0[t] + END, SIDE_UPPER))
         if end - start >= needed:
             start = max(start, excess.until + 1 - needed)
             end = min(end, start + needed - 1)
         for t in excess.tokens:
-            self.blame_crowd(t)
+            self._explain_ordering(t)
             self.ask_enough(var0[t] + START, SIDE_LOWER, start)
             self.ask_enough(var0[t] + END, SIDE_UPPER, end)
         return 0
 
-    def blame_crowd(self, t: int) -> int:
+    def _explain_ordering(self, t: int) -> int:
         """Why token `t` is to be ordered on its timeline (disjunctive.py)."""
         agenda = self.agenda
         first = agenda.rows.var0[t]
@@ -199,7 +351,7 @@ class ConflictAnalysis(Walk):
             self.ask_enough(first + START, SIDE_UPPER, agenda.filters.upper - 1)
         return 0
 
-    def blame_excess(self, c: int, d: int) -> bool:
+    def _explain_violation(self, c: int, d: int) -> bool:
         """Why constraint `c` says that a resource is exceeded; False if that has no simple reason."""
         excess = self.engine.externals[c]
         for key, enough in zip(excess.read, excess.enough, strict=True):
@@ -207,17 +359,18 @@ class ConflictAnalysis(Walk):
         slack = excess.amount - FLOAT_TOLERANCE
         for start, end, length, least in excess.parts:
             share = excess.share(self.engine.lb[start], self.engine.ub[end], length)
-            loss = least * (share - excess.share(self.first(start, SIDE_LOWER), self.first(end, SIDE_UPPER), length))
+            loss = least * (
+                share - excess.share(self.base_bound(start, SIDE_LOWER), self.base_bound(end, SIDE_UPPER), length)
+            )
             if loss < slack:
                 slack -= loss  # it is too tight also with the times that it had before the search
                 continue
             self.ask(start, SIDE_LOWER, NOW)
             self.ask(end, SIDE_UPPER, NOW)
         for u in excess.uses:
-            self.blame_use(u, d)
+            self.explain_use(u, d)
         if excess.tokens:
-            self.blame_window(excess)
+            self._explain_window(excess)
         for e in excess.edges:
-            self.meet(self.agenda.edge_level[e])
-            self.ask_weight(e)
-        return excess.helper == 0 or self.blame_helpers(excess.resource, excess.helper, d)
+            self._ask_path_edge(e)
+        return excess.helper == 0 or self.explain_helpers(excess.resource, excess.helper, d)

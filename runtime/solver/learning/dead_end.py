@@ -147,7 +147,7 @@ def _explain_merging(analysis: ConflictAnalysis, d: int, t: int) -> int:
         analysis.meet(agenda.active_level[candidate])
         _explain_difference(analysis, rows.var0[t], rows.var0[candidate], rows.width[t])
         candidate = next_active(agenda.plan, candidate, predicate)
-    analysis.blame_absence(d, predicate)
+    analysis.explain_absence(d, predicate)
     handler = agenda.table.handler_code[analysis.stack.handler[d]]
     if handler == HANDLER_HSTS and agenda.plan.predicate_timeline[predicate]:
         _explain_insertions(analysis, t)
@@ -157,12 +157,12 @@ def _explain_merging(analysis: ConflictAnalysis, d: int, t: int) -> int:
 def _explain_difference(analysis: ConflictAnalysis, mine: int, theirs: int, width: int) -> int:
     """Why two tokens are incompatible, if they are: variables without a common value, times that differ."""
     for k in range(OBJECT, width):
-        if not analysis.engine.intersects(mine + k, theirs + k):
+        if not analysis.agenda.engine.intersects(mine + k, theirs + k):
             analysis.ask_domain(mine + k)
             analysis.ask_domain(theirs + k)
             return 0
     for k in range(START, END + 1):
-        if analysis.blame_edge(mine + k, theirs + k, 0) or analysis.blame_edge(theirs + k, mine + k, 0):
+        if analysis.explain_edge(mine + k, theirs + k, 0) or analysis.explain_edge(theirs + k, mine + k, 0):
             return 0
     return 0
 
@@ -174,7 +174,7 @@ def _explain_insertions(analysis: ConflictAnalysis, t: int) -> int:
     analysis.meet(agenda.active_level[t])
     analysis.ask_domain(v)
     for o in range(analysis.engine.lb[v], analysis.engine.ub[v] + 1):
-        if agenda.plan.object_timeline[o] and analysis.engine.contains(v, o):
+        if agenda.plan.object_timeline[o] and analysis.agenda.engine.contains(v, o):
             other = agenda.rows.head_first[agenda.plan.object_head[o]]
             while other >= 0:
                 analysis.meet(agenda.order_level[other])
@@ -189,8 +189,8 @@ def _explain_insertion(analysis: ConflictAnalysis, t: int, other: int, after: in
     var0 = analysis.agenda.rows.var0
     lb = analysis.engine.lb
     ub = analysis.engine.ub
-    analysis.blame_edge(var0[other] + START, var0[t] + END, 0)
-    analysis.blame_edge(var0[t] + START, var0[other] + END, 0)
+    analysis.explain_edge(var0[other] + START, var0[t] + END, 0)
+    analysis.explain_edge(var0[t] + START, var0[other] + END, 0)
     if after >= 0 and ub[var0[after] + START] - lb[var0[other] + END] < lb[var0[t] + DURATION]:
         analysis.ask(var0[other] + END, SIDE_LOWER, NOW)
         analysis.ask(var0[after] + START, SIDE_UPPER, NOW)
@@ -242,7 +242,7 @@ def _explain_resource(analysis: ConflictAnalysis, d: int, o: int) -> bool:
                 owners.append(u)
             else:
                 level += uses.sign[u] * uses.most[u]
-                analysis.blame_use(u, d)
+                analysis.explain_use(u, d)
                 analysis.ask(uses.quantity[u], SIDE_UPPER, NOW)
     side = MINIMUM if sign < 0 else MAXIMUM
     limit = agenda.uses.limit(o, side, 0 if sign < 0 else 1)
@@ -253,7 +253,7 @@ def _explain_resource(analysis: ConflictAnalysis, d: int, o: int) -> bool:
             break
     for u in charged:
         level += uses.sign[u] * uses.least[u]
-        analysis.blame_use(u, d)
+        analysis.explain_use(u, d)
         analysis.ask(uses.quantity[u], SIDE_LOWER, NOW)
     if (limit - level if sign < 0 else level - limit) <= FLOAT_TOLERANCE:
         return False
@@ -266,8 +266,8 @@ def _explain_resource(analysis: ConflictAnalysis, d: int, o: int) -> bool:
             continue
         for u in charged:
             if owners[k] != u:
-                analysis.blame_edge(uses.start[u], givers[k], 0)
-    return not lasts or analysis.blame_helpers(o, -sign, d)
+                analysis.explain_edge(uses.start[u], givers[k], 0)
+    return not lasts or analysis.explain_helpers(o, -sign, d)
 
 
 def _unordered(analysis: ConflictAnalysis, takers: list[int], first: int) -> list[int]:
