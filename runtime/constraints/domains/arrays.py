@@ -2,24 +2,30 @@
 
 import mmap
 from array import array
-from typing import Any, cast
+from typing import Any, Literal, TypeVar, cast, overload
 
 _IS_LAZY = hasattr(mmap, "MAP_PRIVATE")  # can the system give pages that cost nothing until they are written?
+Number = TypeVar("Number", int, float)
+
 _LARGE = 2**22  # bytes from which an array lives in such pages
 
 
+@overload
+def blank(length: int, code: Literal["b", "h", "i", "q"] = ...) -> "array[int]": ...
+@overload
+def blank(length: int, code: Literal["d"]) -> "array[float]": ...
 def blank(length: int, code: str = "q") -> "array[Any]":
     """Zeros: `length` whole numbers, or what the type code of `array` says."""
     return array(code, bytes(array(code).itemsize * length))
 
 
-def grown(old: "array[Any]", length: int, fill: float = 0) -> "array[Any]":
+def grown(old: "array[Number]", length: int, fill: float = 0) -> "array[Number]":
     """Longer copy of `old`: `length` cells, the new ones hold `fill`."""
     view = memoryview(old)
     code = view.format
     size = length * view.itemsize
     is_lazy = fill == 0 and size >= _LARGE and _IS_LAZY
-    new = _lazily_zeroed(code, size) if is_lazy else array(code, [fill]) * length
+    new: array[Any] = _lazily_zeroed(code, size) if is_lazy else array(code, [fill]) * length
     memoryview(new)[: len(view)] = view
     return new
 

@@ -6,9 +6,9 @@ maximum flow from takers to givers before them. Order is read off the STN: paths
 bounds.
 """
 
+from runtime.constraints.domains.arrays import blank, grown
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
-from runtime.plan.arrays import blank, blank_reals, grown
 from runtime.plan.resources.profile import Profile
 from runtime.plan.resources.resources import Resources
 from runtime.plan.tags import NONE
@@ -46,12 +46,12 @@ class Envelope:
         self.takes = blank(ROOM)  # the timepoint at which use i takes from the level, or gives to it
         self.gives = blank(ROOM)
         self.instants = blank(ROOM)
-        self.supply = blank_reals(ROOM)
-        self.demand = blank_reals(ROOM)
+        self.supply = blank(ROOM, "d")
+        self.demand = blank(ROOM, "d")
         self.from_taker = blank(ROOM)
         self.from_giver = blank(ROOM)
         self.queue = blank(ROOM)
-        self.flow = blank_reals(ROOM * ROOM)
+        self.flow = blank(ROOM * ROOM, "d")
         self.ordered = blank(ROOM * ROOM)  # [taker * use_room + giver]: the giver gives before the taker takes
 
     # ---- flaws ----
@@ -182,12 +182,12 @@ class Envelope:
             self.takes = blank(self.use_room)
             self.gives = blank(self.use_room)
             self.instants = grown(self.instants, self.use_room)
-            self.supply = blank_reals(self.use_room)
-            self.demand = blank_reals(self.use_room)
+            self.supply = blank(self.use_room, "d")
+            self.demand = blank(self.use_room, "d")
             self.from_taker = blank(self.use_room)
             self.from_giver = blank(self.use_room)
             self.queue = blank(self.use_room)
-            self.flow = blank_reals(self.use_room * self.use_room)
+            self.flow = blank(self.use_room * self.use_room, "d")
             self.ordered = blank(self.use_room * self.use_room)
         if self.engine.variables > self.variable_room:
             while self.engine.variables > self.variable_room:

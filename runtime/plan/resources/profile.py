@@ -5,8 +5,8 @@ Only the bounds of times count here; `envelope` also knows the order of uses.
 
 from math import inf
 
+from runtime.constraints.domains.arrays import blank, grown
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, HALF_INF
-from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
 from runtime.plan.tags import TOO_FAST, TOO_HIGH, TOO_LOW, TOO_MUCH, TOO_TIGHT
 
 ROOM = 16
@@ -31,8 +31,8 @@ class Profile:
         self.end_low = blank(ROOM)
         self.end_high = blank(ROOM)
         self.length = blank(ROOM)  # how long a use lasts at least
-        self.least = blank_reals(ROOM)
-        self.most = blank_reals(ROOM)
+        self.least = blank(ROOM, "d")
+        self.most = blank(ROOM, "d")
         self.set_limits(0.0, 0.0, -inf, inf)
         self.set_flows(inf, inf, inf, inf)
         self.wrong = 0
@@ -88,8 +88,8 @@ class Profile:
         self.end_low = grown(self.end_low, self.room)
         self.end_high = grown(self.end_high, self.room)
         self.length = grown(self.length, self.room)
-        self.least = grown_reals(self.least, self.room)
-        self.most = grown_reals(self.most, self.room)
+        self.least = grown(self.least, self.room)
+        self.most = grown(self.most, self.room)
 
     # ---- the level at an instant ----
 

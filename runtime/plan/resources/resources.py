@@ -7,9 +7,9 @@ are compared with those of the last check, so that going back in time needs no n
 from math import inf
 from typing import Protocol
 
+from runtime.constraints.domains.arrays import blank, grown
 from runtime.constraints.domains.tags import SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
-from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
 from runtime.plan.resources.profile import Profile
 from runtime.plan.resources.violation import Violation
 from runtime.plan.tags import (
@@ -64,8 +64,8 @@ class Resources:
         self.start_high = blank(ROOM)
         self.end_low = blank(ROOM)
         self.end_high = blank(ROOM)
-        self.least = blank_reals(ROOM)
-        self.most = blank_reals(ROOM)
+        self.least = blank(ROOM, "d")
+        self.most = blank(ROOM, "d")
         # Resources: the variables of their limits, and whether one of their uses has changed.
         self.object_room = ROOM
         self.is_resource = blank(ROOM)
@@ -157,8 +157,8 @@ class Resources:
         self.start_high = grown(self.start_high, self.room)
         self.end_low = grown(self.end_low, self.room)
         self.end_high = grown(self.end_high, self.room)
-        self.least = grown_reals(self.least, self.room)
-        self.most = grown_reals(self.most, self.room)
+        self.least = grown(self.least, self.room)
+        self.most = grown(self.most, self.room)
 
     def set_capacity(self, o: int, start: int, lower: float, upper: float) -> None:
         """Change the capacity from a time on."""

@@ -4,7 +4,7 @@ Lists are doubly linked through the rows of tokens; a token that leaves a list k
 undoing in reverse order puts it back where it was (Knuth's dancing links).
 """
 
-from runtime.plan.arrays import grown
+from runtime.constraints.domains.arrays import grown
 from runtime.plan.store.rows import Rows
 from runtime.plan.tags import (
     FREED,

@@ -1,6 +1,6 @@
 """Marks: states of plan and engine to go back to; they nest, and are named by their depth."""
 
-from runtime.plan.arrays import grown
+from runtime.constraints.domains.arrays import grown
 from runtime.plan.store.links import undo
 from runtime.plan.store.plan import Plan
 

@@ -3,8 +3,8 @@
 from array import array
 from typing import Protocol
 
+from runtime.constraints.domains.arrays import blank, grown
 from runtime.constraints.engine import Engine
-from runtime.plan.arrays import blank, blank_reals, grown, grown_reals
 from runtime.plan.resources.resources import Resources, UseOrder
 from runtime.plan.store.rows import Rows
 from runtime.plan.tags import NONE
@@ -111,8 +111,8 @@ class Plan:
         self.form_capacity = 256
         self.twins: dict[int, tuple[int, int]] = {}  # of open prototypes: a closed constant, how many values it has
         self.form = blank(256)
-        self.form_lower = blank_reals(256)
-        self.form_upper = blank_reals(256)
+        self.form_lower = blank(256, "d")
+        self.form_upper = blank(256, "d")
         # Global variables, and what every engine variable is.
         self.globals = blank(1)
         self.clock = NONE  # the global that reads "now or later" during execution: a guard does not wait for its value
@@ -242,8 +242,8 @@ class Plan:
             while prototype >= self.form_capacity:
                 self.form_capacity *= 2
             self.form = grown(self.form, self.form_capacity)
-            self.form_lower = grown_reals(self.form_lower, self.form_capacity)
-            self.form_upper = grown_reals(self.form_upper, self.form_capacity)
+            self.form_lower = grown(self.form_lower, self.form_capacity)
+            self.form_upper = grown(self.form_upper, self.form_capacity)
         self.form[prototype] = 1
         self.form_lower[prototype] = lower
         self.form_upper[prototype] = upper

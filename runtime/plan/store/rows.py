@@ -7,7 +7,7 @@ While a mark is open every change is logged; without marks rows go to free lists
 
 from array import array
 
-from runtime.plan.arrays import blank, grown
+from runtime.constraints.domains.arrays import blank, grown
 from runtime.plan.tags import (
     FREED,
     INACTIVE,

@@ -19,7 +19,6 @@ from runtime.solver.flaws.sequence import TimelineSequence
 from runtime.solver.flaws.supports import Supports
 from runtime.solver.flaws.uses import Uses
 from runtime.solver.tags import DROPPED_TOKEN, DROPPED_VARIABLE, NO_KEY, NONE, UNBOUND_VARIABLE
-from runtime.solver.widening import widened
 
 
 class Agenda:
@@ -107,47 +106,47 @@ class Agenda:
         """Make the tables as long as those of the plan and the engine."""
         if self.token_room < self.rows.token_capacity:
             room = self.rows.token_capacity
-            self.token_row = widened(self.token_row, room * self.managers, NONE)
-            self.token_key = widened(self.token_key, room * self.managers, NO_KEY)
-            self.token_deferred = widened(self.token_deferred, room, 0)
-            self.token_waiting = widened(self.token_waiting, room, NONE)
-            self.token_level = widened(self.token_level, room, 0)
-            self.active_level = widened(self.active_level, room, 0)
-            self.order_level = widened(self.order_level, room, 0)
+            self.token_row = grown(self.token_row, room * self.managers, NONE)
+            self.token_key = grown(self.token_key, room * self.managers, NO_KEY)
+            self.token_deferred = grown(self.token_deferred, room)
+            self.token_waiting = grown(self.token_waiting, room, NONE)
+            self.token_level = grown(self.token_level, room)
+            self.active_level = grown(self.active_level, room)
+            self.order_level = grown(self.order_level, room)
             self.token_room = room
         if self.variable_room < len(self.engine.kind):
             room = len(self.engine.kind)
-            self.variable_row = widened(self.variable_row, room * self.managers, NONE)
-            self.variable_key = widened(self.variable_key, room * self.managers, NO_KEY)
-            self.variable_deferred = widened(self.variable_deferred, room, 0)
+            self.variable_row = grown(self.variable_row, room * self.managers, NONE)
+            self.variable_key = grown(self.variable_key, room * self.managers, NO_KEY)
+            self.variable_deferred = grown(self.variable_deferred, room)
             self.watched = grown(self.watched, room)
-            self.variable_level = widened(self.variable_level, room, 0)
-            self.waits_for = widened(self.waits_for, room, NONE)
-            self.waiting_next = widened(self.waiting_next, room, NONE)
-            self.waiting_before = widened(self.waiting_before, room, NONE)
+            self.variable_level = grown(self.variable_level, room)
+            self.waits_for = grown(self.waits_for, room, NONE)
+            self.waiting_next = grown(self.waiting_next, room, NONE)
+            self.waiting_before = grown(self.waiting_before, room, NONE)
             self.variable_room = room
         if self.edge_room < len(self.engine.edge_weight):
             self.edge_room = len(self.engine.edge_weight)
-            self.edge_level = widened(self.edge_level, self.edge_room, 0)
+            self.edge_level = grown(self.edge_level, self.edge_room)
         if self.constraint_room < len(self.engine.op):
             self.constraint_room = len(self.engine.op)
-            self.constraint_level = widened(self.constraint_level, self.constraint_room, 0)
+            self.constraint_level = grown(self.constraint_level, self.constraint_room)
         if self.restriction_room < len(self.engine.restriction_span):
             self.restriction_room = len(self.engine.restriction_span)
-            self.restriction_level = widened(self.restriction_level, self.restriction_room, 0)
+            self.restriction_level = grown(self.restriction_level, self.restriction_room)
         return 0
 
     def note_fired(self, level: int) -> int:
         """Note for a level above 0 the guards that have fired since the last time."""
         if level >= len(self.fired_end):
-            self.fired_end = widened(self.fired_end, 2 * level, 0)
-            self.waiting_guards = widened(self.waiting_guards, 2 * level, 0)
+            self.fired_end = grown(self.fired_end, 2 * level)
+            self.waiting_guards = grown(self.waiting_guards, 2 * level)
         count = self.fired_end[level - 1]
         waiting = self.waiting_guards[level - 1]
         for at in range(self.rows_seen, self.rows.trail_length):
             if self.rows.trail_code[at] == UNDO_BRANCH:
                 if count == len(self.fired_scope):
-                    self.fired_scope = widened(self.fired_scope, 2 * count, NONE)
+                    self.fired_scope = grown(self.fired_scope, 2 * count, NONE)
                 self.fired_scope[count] = self.rows.trail_index[at]
                 count += 1
                 waiting -= 1
@@ -263,8 +262,8 @@ class Agenda:
     def _add_dynamic(self, slot: int, is_variable: int) -> int:
         """Add a dynamic slot, which is looked at in every step."""
         if self.dynamic_count == len(self.dynamic_slot):
-            self.dynamic_slot = widened(self.dynamic_slot, 2 * self.dynamic_count, 0)
-            self.dynamic_is_variable = widened(self.dynamic_is_variable, 2 * self.dynamic_count, 0)
+            self.dynamic_slot = grown(self.dynamic_slot, 2 * self.dynamic_count)
+            self.dynamic_is_variable = grown(self.dynamic_is_variable, 2 * self.dynamic_count)
         self.dynamic_slot[self.dynamic_count] = slot
         self.dynamic_is_variable[self.dynamic_count] = is_variable
         self.dynamic_count += 1
@@ -279,8 +278,8 @@ class Agenda:
         elif kind == DROPPED_TOKEN:
             self.token_key[slot] = NO_KEY
         if self.dropped_count == len(self.dropped_slot):
-            self.dropped_slot = widened(self.dropped_slot, 2 * self.dropped_count, 0)
-            self.dropped_kind = widened(self.dropped_kind, 2 * self.dropped_count, 0)
+            self.dropped_slot = grown(self.dropped_slot, 2 * self.dropped_count)
+            self.dropped_kind = grown(self.dropped_kind, 2 * self.dropped_count)
         self.dropped_slot[self.dropped_count] = slot
         self.dropped_kind[self.dropped_count] = kind
         self.dropped_count += 1

@@ -3,9 +3,9 @@
 from array import array
 from collections.abc import Sequence
 
+from runtime.constraints.domains.arrays import grown
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.tags import EVERYTHING, NONE
-from runtime.solver.widening import widened
 
 
 class Decisions:
@@ -91,24 +91,24 @@ class Decisions:
     def _grow(self) -> int:
         """Double the rows."""
         room = 2 * self.room
-        self.kind = widened(self.kind, room, 0)
-        self.manager = widened(self.manager, room, 0)
-        self.item = widened(self.item, room, 0)
-        self.handler = widened(self.handler, room, 0)
-        self.instant = widened(self.instant, room, 0)
-        self.is_low = widened(self.is_low, room, 0)
-        self.tries = widened(self.tries, room, 0)
-        self.phase = widened(self.phase, room, 0)
-        self.cursor = widened(self.cursor, room, 0)
-        self.mark = widened(self.mark, room, 0)
-        self.rows_seen = widened(self.rows_seen, room, 0)
-        self.engine_seen = widened(self.engine_seen, room, 0)
-        self.dropped = widened(self.dropped, room, 0)
-        self.dynamic = widened(self.dynamic, room, 0)
-        self.pool_first = widened(self.pool_first, room, 0)
-        self.pool_count = widened(self.pool_count, room, 0)
-        self.reasons = widened(self.reasons, room, NONE)
-        self.is_local = widened(self.is_local, room, 0)
+        self.kind = grown(self.kind, room)
+        self.manager = grown(self.manager, room)
+        self.item = grown(self.item, room)
+        self.handler = grown(self.handler, room)
+        self.instant = grown(self.instant, room)
+        self.is_low = grown(self.is_low, room)
+        self.tries = grown(self.tries, room)
+        self.phase = grown(self.phase, room)
+        self.cursor = grown(self.cursor, room)
+        self.mark = grown(self.mark, room)
+        self.rows_seen = grown(self.rows_seen, room)
+        self.engine_seen = grown(self.engine_seen, room)
+        self.dropped = grown(self.dropped, room)
+        self.dynamic = grown(self.dynamic, room)
+        self.pool_first = grown(self.pool_first, room)
+        self.pool_count = grown(self.pool_count, room)
+        self.reasons = grown(self.reasons, room, NONE)
+        self.is_local = grown(self.is_local, room)
         self.room = room
         return 0
 
@@ -142,9 +142,9 @@ class Decisions:
         """Add an insertion on object `o` between two tokens, or a precedence between two timepoints."""
         at = self.pool_used
         if at == len(self.pool_object):
-            self.pool_object = widened(self.pool_object, 2 * at, 0)
-            self.pool_before = widened(self.pool_before, 2 * at, 0)
-            self.pool_after = widened(self.pool_after, 2 * at, 0)
+            self.pool_object = grown(self.pool_object, 2 * at)
+            self.pool_before = grown(self.pool_before, 2 * at)
+            self.pool_after = grown(self.pool_after, 2 * at)
         self.pool_object[at] = o
         self.pool_before[at] = before
         self.pool_after[at] = after
@@ -161,8 +161,8 @@ class Decisions:
             self.reason_free = self.reason_next[reason]
         else:
             if self.reason_used == len(self.reason_level):
-                self.reason_level = widened(self.reason_level, 2 * self.reason_used, 0)
-                self.reason_next = widened(self.reason_next, 2 * self.reason_used, NONE)
+                self.reason_level = grown(self.reason_level, 2 * self.reason_used)
+                self.reason_next = grown(self.reason_next, 2 * self.reason_used, NONE)
             reason = self.reason_used
             self.reason_used += 1
         self.reason_level[reason] = level

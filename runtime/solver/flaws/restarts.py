@@ -6,10 +6,10 @@ uses weights, since they may mislead. Runs grow geometrically, so that either or
 
 from array import array
 
+from runtime.constraints.domains.arrays import grown
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import SUPPORT_CONSTRAINT, SUPPORT_EDGE
 from runtime.solver.tags import FEW_FAILURES, LARGEST_SIZE, WEIGHT_SCALE
-from runtime.solver.widening import widened
 
 
 class Restarts:
@@ -36,7 +36,7 @@ class Restarts:
     def _add(self, v: int) -> int:
         """Increase the weight of a variable."""
         if v >= len(self.weight):
-            self.weight = widened(self.weight, 2 * v, 1)
+            self.weight = grown(self.weight, 2 * v, 1)
         self.weight[v] += 1
         return 0
 

@@ -2,11 +2,11 @@
 
 from array import array
 
+from runtime.constraints.domains.arrays import grown
 from runtime.constraints.stn.reach import Reach
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import END, LIST_ORDER, LISTS, START
 from runtime.solver.tags import NONE
-from runtime.solver.widening import widened
 
 
 class TimelineSequence:
@@ -30,7 +30,7 @@ class TimelineSequence:
         t = self.rows.head_first[self.plan.object_head[o]]
         while t >= 0:
             if count == len(self.tokens):
-                self.tokens = widened(self.tokens, 2 * count, 0)
+                self.tokens = grown(self.tokens, 2 * count)
             self.tokens[count] = t
             count += 1
             t = self.rows.link_after[LISTS * t + LIST_ORDER]
@@ -49,7 +49,7 @@ class TimelineSequence:
     def note_range(self, o: int, count: int, first: int, end: int) -> int:
         """Of the `count` tokens of timeline `o` only those from `first` to before `end` may coincide."""
         if len(self.index_of) < self.rows.token_capacity:
-            self.index_of = widened(self.index_of, self.rows.token_capacity, 0)
+            self.index_of = grown(self.index_of, self.rows.token_capacity)
         self.range_object = o
         self.range_first = first
         self.range_end = end

@@ -7,6 +7,7 @@ a giver (or the other way round, where the level is too high): precedences are p
 from array import array
 from math import inf
 
+from runtime.constraints.domains.arrays import grown
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
@@ -15,7 +16,6 @@ from runtime.plan.resources.envelope import Envelope
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import INITIAL, LIMITS, MAXIMUM, MINIMUM
 from runtime.solver.tags import NONE
-from runtime.solver.widening import widened
 
 
 class Uses:
@@ -54,8 +54,8 @@ class Uses:
         """Collect one timepoint."""
         at = self.count
         if at == len(self.point):
-            self.point = widened(self.point, 2 * at, 0)
-            self.takes = widened(self.takes, 2 * at, 0)
+            self.point = grown(self.point, 2 * at)
+            self.takes = grown(self.takes, 2 * at)
             self.amount_least = _longer_reals(self.amount_least)
             self.amount_most = _longer_reals(self.amount_most)
         self.point[at] = point

@@ -12,7 +12,6 @@ from runtime.constraints.domains.arrays import blank, grow_rows
 from runtime.constraints.domains.tags import (
     CONFLICT_DOMAIN,
     FLOAT_TOLERANCE,
-    OP_EXTERNAL,
     SIDE_HOLES,
     SIDE_LOWER,
     SIDE_UPPER,
@@ -20,6 +19,7 @@ from runtime.constraints.domains.tags import (
     SUPPORT_EDGE,
 )
 from runtime.constraints.explanation.support_walk import SupportWalk
+from runtime.constraints.propagators.opcodes import OP_EXTERNAL
 from runtime.plan.resources.violation import Violation
 from runtime.plan.rules.guards import deciders
 from runtime.plan.tags import (

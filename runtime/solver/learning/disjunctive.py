@@ -6,6 +6,7 @@ filter, now or later. Windows run from an earliest start to a latest end.
 
 from array import array
 
+from runtime.constraints.domains.arrays import grown
 from runtime.constraints.domains.tags import HALF_INF, KIND_FLOAT, SIDE_LOWER
 from runtime.plan.resources.violation import Violation
 from runtime.plan.tags import (
@@ -23,7 +24,6 @@ from runtime.plan.tags import (
 )
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.tags import FILTER_HORIZON, NONE, POLICY_PARTIAL, THREAT
-from runtime.solver.widening import widened
 
 _PRIME = 1_000_000_007
 _MOST_STARTS = 64  # with more tokens only windows from the earliest start are looked at
@@ -56,8 +56,8 @@ class Disjunctive:
         if agenda.filters.has_scope:
             return True  # tokens may enter and leave a scope
         if len(self.known) < agenda.plan.object_count:
-            self.known = widened(self.known, 2 * agenda.plan.object_count, 0)
-            self.stamped = widened(self.stamped, 2 * agenda.plan.object_count, 0)
+            self.known = grown(self.known, 2 * agenda.plan.object_count)
+            self.stamped = grown(self.stamped, 2 * agenda.plan.object_count)
         self.stamp += 1
         t = self.rows.head_first[HEAD_THREAT]
         while t >= 0:
@@ -119,10 +119,10 @@ class Disjunctive:
         """Insert a token by latest end."""
         if self.count == self.room:
             self.room *= 2
-            self.token = widened(self.token, self.room, 0)
-            self.start = widened(self.start, self.room, 0)
-            self.end = widened(self.end, self.room, 0)
-            self.length = widened(self.length, self.room, 0)
+            self.token = grown(self.token, self.room)
+            self.start = grown(self.start, self.room)
+            self.end = grown(self.end, self.room)
+            self.length = grown(self.length, self.room)
         engine = self.engine
         first = self.rows.var0[t]
         start = engine.lb[first + START]
