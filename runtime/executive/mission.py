@@ -11,6 +11,7 @@ from runtime.executive.messages import Arguments, Request, token_text
 from runtime.executive.outcome import Draw, Outcome
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
+from runtime.executive.record import MissionRecord
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
@@ -75,6 +76,17 @@ def run_mission(
     overrides: Mapping[str, float] | None = None,
     every_tick: bool = False,
 ) -> Outcome:
+    """Carry out one mission, see `record_mission`, and forget its record."""
+    return record_mission(configuration, programs, seed, overrides, every_tick)[0]
+
+
+def record_mission(
+    configuration: AgentConfiguration,
+    programs: MissionPrograms,
+    seed: int,
+    overrides: Mapping[str, float] | None = None,
+    every_tick: bool = False,
+) -> tuple[Outcome, MissionRecord]:
     """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
 
     With `every_tick` reactors are woken at each tick, whether or not anything can happen; events are the same.
@@ -107,7 +119,8 @@ def run_mission(
         kinds = goal_kinds(configuration, programs, goal)
         goals.append((goal.at, request_of(goal, -1 - number, trace, kinds)))
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
-    return agent.run()
+    outcome = agent.run()
+    return outcome, MissionRecord(tuple(reactor.bench.recorder.close(outcome.last_tick) for reactor in reactors))
 
 
 def goal_kinds(

@@ -12,6 +12,7 @@ from runtime.constraints.domains.tags import (
     SUPPORT_RESTRICTION,
 )
 from runtime.executive.messages import Arguments
+from runtime.executive.recorder import Recorder
 from runtime.executive.timelines import TimelineState
 from runtime.plan.database import PlanDatabase
 from runtime.plan.tags import (
@@ -59,6 +60,7 @@ class PlanView:
         self.requested: dict[int, int] = {}  # token -> key
         self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
         self.external_objects: set[int] = set()
+        self.recorder = Recorder(database, name)
 
     # ---- names ----
 

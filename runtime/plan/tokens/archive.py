@@ -5,6 +5,8 @@ into it, its children go or have begun, and none of its guards waits. What it to
 kept by restrictions that bear the span of the edge or constraint which said so, so explanations name the same lines.
 """
 
+from collections.abc import Callable
+
 from runtime.constraints.domains.tags import KIND_FLOAT, SUPPORT_CONSTRAINT, SUPPORT_EDGE, SUPPORT_RESTRICTION
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import (
@@ -24,11 +26,13 @@ from runtime.plan.tags import (
 from runtime.plan.tokens.retraction import remove_tokens, scopes_of
 
 
-def archive(plan: Plan, tokens: list[int], tick: int) -> int:
-    """Take out those of `tokens`, which are over at `tick`, that may go; how many went."""
+def archive(plan: Plan, tokens: list[int], tick: int, record: Callable[[list[int], int], None] | None = None) -> int:
+    """Take out those of `tokens`, which are over at `tick`, that may go, `record` them before; how many went."""
     doomed = removable(plan, tokens, tick)
     if not doomed:
         return 0
+    if record is not None:
+        record(list(doomed), tick)
     freeze(plan, doomed)
     for t in doomed:
         orphan(plan, t, doomed)
