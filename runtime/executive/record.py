@@ -79,7 +79,7 @@ class ReactorRecord(NamedTuple):
     """What one reactor's plan held over the mission; `script_tokens` are the keys of the script's tokens by slot."""
 
     reactor: str
-    last_tick: int
+    last_tick: int  # at which its plan last agreed with the present
     globals: tuple[Value, ...]
     objects: tuple[ObjectRecord, ...]
     script_tokens: tuple[int, ...]

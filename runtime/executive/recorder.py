@@ -127,6 +127,7 @@ class Recorder:
         self.forms = forms_of(database.program)
         self.tokens: dict[int, TokenRecord] = {}
         self.requests: dict[int, int] = {}  # token -> key; shared with the workbench
+        self.settled = NOBODY  # the last tick at which the plan agreed with the present
         self.gone: dict[tuple[int, int], int] = {}  # (key of a parent, row of a child that left before it) -> its key
         self.script_tokens = self._script_tokens()
 
@@ -155,9 +156,9 @@ class Recorder:
             if rows.status[t] in (ACTIVE, MERGED) and engine.upper(rows.var0[t] + START) < tick:
                 self.tokens[rows.key[t]] = self._token(t, "cut", tick)
 
-    def close(self, tick: int) -> ReactorRecord:
+    def close(self) -> ReactorRecord:
         """Record what the plan holds when the mission has ended."""
-        rows = self.rows
+        rows, tick = self.rows, self.settled
         for t in range(rows.token_count):
             if rows.status[t] != FREED:
                 self.tokens[rows.key[t]] = self._token(t, "end", tick)
