@@ -57,6 +57,7 @@ class Bench:
         self.tokens = {one.key: Tok(one) for one in record.tokens}
         for tok in self.tokens.values():
             self._complete(tok)
+        self.uses: list[tuple[Value, Value, Value, Value, Tok | None, Span]] = []  # resource, quantity, start, end
         self.found: list[Disagreement] = []
         self.judged = 0
         self.open = 0

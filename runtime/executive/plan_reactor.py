@@ -256,7 +256,7 @@ class PlanReactor:
             if goal.request.number == number and not goal.is_closed and self.bench.is_alive(goal.token, goal.token_key):
                 if not self.bench.is_started(goal.token, self.tick):
                     goal.is_closed = True
-                    self.bench.recorder.cut(self.tick)
+                    self.bench.recorder.cut()
                     seen = hold_present(self.bench, self.timelines)
                     self.bench.remove([goal.token])
                     stand(self.bench, self.timelines, seen, False)

@@ -149,12 +149,12 @@ class Recorder:
         if parent >= 0:
             self.gone[self.rows.key[parent], t] = self.rows.key[t]
 
-    def cut(self, tick: int) -> None:
+    def cut(self) -> None:
         """Record what has begun before a repair or a recall takes things away; what stays is recorded again later."""
         rows, engine = self.rows, self.engine
         for t in range(rows.token_count):
-            if rows.status[t] in (ACTIVE, MERGED) and engine.upper(rows.var0[t] + START) < tick:
-                self.tokens[rows.key[t]] = self._token(t, "cut", tick)
+            if rows.status[t] in (ACTIVE, MERGED) and engine.upper(rows.var0[t] + START) <= self.settled:
+                self.tokens[rows.key[t]] = self._token(t, "cut", self.settled)
 
     def close(self) -> ReactorRecord:
         """Record what the plan holds when the mission has ended."""

@@ -11,7 +11,7 @@ def relax(bench: Workbench, timelines: list[TimelineState], goals: list[Goal], t
     With `forget`, what is over is dropped too, and the present values of the reactor's own timelines; what others
     published stays. Goals that are too late are removed. False if even that is inconsistent.
     """
-    bench.recorder.cut(tick)
+    bench.recorder.cut()
     seen = hold_present(bench, timelines)
     if forget:
         present = set(seen.values())

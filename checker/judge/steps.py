@@ -1,0 +1,447 @@
+"""Compile the bodies of rules, predicates and the script into steps that judge one run against the record."""
+
+from collections.abc import Callable
+from typing import assert_never
+
+from checker.judge.bench import Bench, Tok
+from checker.judge.meanings import MEANINGS, SILENT, Meaning, equal, is_true, solver
+from checker.judge.operands import Frame, Names, Read, domain_value, is_range, reader
+from checker.judge.relations import OE, OS, TE, demands
+from checker.judge.values import UNKNOWN, difference, hull, is_open, lies_within, may_be_equal
+from compiler.program import (
+    END,
+    OBJECT,
+    START,
+    Assign,
+    Call,
+    Child,
+    DomainConstant,
+    Foreach,
+    Guard,
+    Instruction,
+    LocalVariable,
+    NewGlobal,
+    NewObject,
+    NewToken,
+    NewVariable,
+    Post,
+    Relate,
+    Sample,
+    TypeCode,
+)
+from nddl_lang.text.source import Span
+from runtime.executive.record import NOBODY, Choice, Interval, Value
+
+Step = Callable[[Frame], None]
+Domain = Callable[[Bench, Value], bool | None]
+Written = dict[str, Meaning]  # constraints of the project, by name
+
+
+def compile_body(
+    body: tuple[Instruction, ...], names: Names, written: Written, undefined: set[int] | None = None
+) -> list[Step]:
+    """The steps of a body; `undefined` are slots of expressions that nothing has defined yet."""
+    undefined = set() if undefined is None else undefined
+    steps: list[Step] = []
+    for instruction in body:
+        match instruction:
+            case NewVariable():
+                steps += _variable(instruction, names, undefined)
+            case Post():
+                steps += _post(instruction, names, written, undefined)
+            case Sample():
+                steps.append(_sample(instruction, names, undefined))
+            case Child():
+                names.tokens[instruction.slot] = (instruction.label or "", instruction.predicate)
+                steps.append(_child(instruction, names))
+            case Relate():
+                steps.append(_relate(instruction))
+            case Guard():
+                steps.append(_guard(instruction, names, written, undefined))
+            case Foreach():
+                steps.append(_loop(instruction, names, written, undefined))
+            case Assign():
+                steps.append(_assign(instruction, names))
+            case NewObject(slot=slot):
+                if slot is not None:
+                    steps.append(_blank(slot))
+            case NewGlobal() | NewToken() | Call():
+                pass  # of the script, which `script` reads
+            case _:
+                assert_never(instruction)
+    return steps
+
+
+def _blank(slot: int) -> Step:
+    def step(frame: Frame) -> None:
+        frame.slots[slot] = UNKNOWN
+
+    return step
+
+
+# ---- variables ----
+
+
+def domain_test(type_: TypeCode, domain: DomainConstant | None, names: Names) -> Domain | None:
+    """Whether a value is one that a declaration allows; None if it allows all."""
+    limits = [domain_value(each) for each in (type_.domain, domain) if each is not None]
+    if type_.kind == "object":
+        return lambda bench, value: _is_of_class(bench, value, type_.type_name, names)
+    if type_.kind == "enum" and not limits:
+        values = next((frozenset(given) for name, given in names.program.enums if name == type_.type_name), None)
+        if values is not None:
+            limits = [Choice(tuple(sorted(values)))]
+    if not limits:
+        return None
+
+    def test(bench: Bench, value: Value) -> bool | None:
+        for limit in limits:
+            if not within(value, limit):
+                return False
+        return None if is_open(value) else True
+
+    return test
+
+
+def within(value: Value, limit: Value) -> bool:
+    """Whether a value may lie in a set of values."""
+    if isinstance(limit, Interval):
+        return lies_within(value, limit.lower, limit.upper)
+    return may_be_equal(value, limit)
+
+
+def _is_of_class(bench: Bench, value: Value, class_name: str, names: Names) -> bool | None:
+    if isinstance(value, tuple):
+        return None
+    known = bench.members.get(str(value))
+    return None if known is None else names.is_kind_of(known[0], class_name)
+
+
+def _variable(new: NewVariable, names: Names, undefined: set[int]) -> list[Step]:
+    slot, name = new.slot, new.name
+    if name is None:
+        undefined.add(slot)
+        return []
+    names.locals[slot] = name
+    test = domain_test(new.type, new.domain, names)
+    copied = None if new.copy_of is None else reader(new.copy_of, names)
+
+    def step(frame: Frame) -> None:
+        value = next(frame.locals, None)
+        bench = frame.bench
+        if value is None:
+            bench.skip("a local variable is not on record")
+            frame.slots[slot] = UNKNOWN
+            return
+        frame.slots[slot] = value
+        if test is not None and not bench.weigh(test(bench, value)):
+            _note(frame, "domain", name, ((name, value),), "its value", "outside of its declaration", new.span)
+        # The base domain of what is copied may be larger than the value that it came to have.
+        if copied is not None and may_be_equal(value, copied(frame)):
+            bench.judged += 1
+
+    return [step]
+
+
+def _note(
+    frame: Frame, kind: str, name: str, values: tuple[tuple[str, Value], ...], held: str, found: str, span: Span
+) -> None:
+    tokens = () if frame.tok is None else (frame.tok,)
+    frame.bench.report(kind, name, tokens, values, held, found, span)  # type: ignore[arg-type]
+
+
+def _assign(given: Assign, names: Names) -> Step:
+    target = reader(given.target, names)
+    name = names.of(given.target)
+    limit = None if given.domain is None else domain_value(given.domain)
+    source = reader(given.value, names) if given.value is not None and not isinstance(given.value, NewObject) else None
+
+    def step(frame: Frame) -> None:
+        value = target(frame)
+        if limit is not None and not frame.bench.weigh(within(value, limit)):
+            _note(frame, "domain", name, ((name, value),), "assigned", "another value", given.span)
+        if source is not None and may_be_equal(value, source(frame)):
+            frame.bench.judged += 1
+
+    return step
+
+
+def _sample(sample: Sample, names: Names, undefined: set[int]) -> Step:
+    parameter, target = sample.parameter, sample.target
+    slot = target.slot if isinstance(target, LocalVariable) and target.slot in undefined else None
+    if slot is not None:
+        undefined.discard(slot)
+    read = reader(target, names)
+    name = names.of(target)
+
+    def step(frame: Frame) -> None:
+        tick = 0 if frame.tok is None else frame.tok.values[START]
+        drawn = frame.bench.draw(parameter, tick) if isinstance(tick, int) else UNKNOWN
+        if slot is not None:
+            frame.slots[slot] = drawn
+            return
+        value = read(frame)
+        if not frame.bench.weigh(equal(value, drawn)):
+            values = ((name, value), (parameter, drawn))
+            _note(frame, "draw", parameter, values, "the value in use", "the draw of the tick", sample.span)
+
+    return step
+
+
+# ---- constraints ----
+
+
+def _post(post: Post, names: Names, written: Written, undefined: set[int]) -> list[Step]:
+    name = post.name
+    if name in SILENT:
+        return []
+    reads = [reader(each, names) for each in post.operands]
+    if name == "uses":
+        return [_use(post, reads)]
+    unknown = [
+        k for k, each in enumerate(post.operands) if isinstance(each, LocalVariable) and each.slot in undefined
+    ]
+    if unknown:
+        return [_define(post, unknown[0], reads, undefined)]
+    meaning = MEANINGS.get(name) or written.get(name)
+    if meaning is None:
+        return [lambda frame: frame.bench.skip(f"constraint `{name}`")]
+    is_loose = any(is_range(each) for each in post.operands)
+    return [_two(post, meaning, reads, names) if len(reads) == 2 and not is_loose else _many(post, meaning, reads, is_loose, names)]
+
+
+def _use(post: Post, reads: list[Read]) -> Step:
+    holder, quantity, start, end = reads
+
+    def step(frame: Frame) -> None:
+        use = (holder(frame), quantity(frame), start(frame), end(frame), frame.tok, post.span)
+        frame.bench.uses.append(use)
+
+    return step
+
+
+def _define(post: Post, place: int, reads: list[Read], undefined: set[int]) -> Step:
+    """Compute a part of an expression from the constraint that defines it."""
+    target = post.operands[place]
+    assert isinstance(target, LocalVariable)
+    slot = target.slot
+    undefined.discard(slot)
+    solve = solver(post.name, place, len(reads))
+    others = [read for k, read in enumerate(reads) if k != place]
+    if solve is None:
+        return _blank(slot)
+
+    def step(frame: Frame) -> None:
+        frame.slots[slot] = solve(*[read(frame) for read in others])
+
+    return step
+
+
+def _two(post: Post, meaning: Meaning, reads: list[Read], names: Names) -> Step:
+    first, second = reads
+
+    def step(frame: Frame) -> None:
+        a, b = first(frame), second(frame)
+        bench = frame.bench
+        answer = meaning(a, b)
+        if answer:
+            bench.judged += 1
+        elif answer is None:
+            bench.open += 1
+        else:
+            _refuse(frame, post, [a, b], names)
+
+    return step
+
+
+def _many(post: Post, meaning: Meaning, reads: list[Read], is_loose: bool, names: Names) -> Step:
+    def step(frame: Frame) -> None:
+        values = [read(frame) for read in reads]
+        bench = frame.bench
+        answer = meaning(*values)
+        if answer is None and is_loose:
+            answer = None if any(is_open(v) for v, o in zip(values, post.operands, strict=True) if not is_range(o)) else True
+        if answer:
+            bench.judged += 1
+        elif answer is None:
+            bench.open += 1
+        else:
+            _refuse(frame, post, values, names)
+
+    return step
+
+
+def _refuse(frame: Frame, post: Post, values: list[Value], names: Names) -> None:
+    named = tuple((names.of(operand), value) for operand, value in zip(post.operands, values, strict=True))
+    frame.bench.judged += 1
+    _note(frame, "constraint", post.name, named, "it holds", "it does not", post.span)
+
+
+# ---- tokens ----
+
+
+def _child(child: Child, names: Names) -> Step:
+    slot, origin = child.slot, child.origin
+    pairs = demands(child.relation, child.bounds)
+    given = None if isinstance(child.object, str) else reader(child.object, names)
+    suffix = child.predicate.rpartition(".")[2]
+    label = child.label or suffix
+
+    def step(frame: Frame) -> None:
+        bench, parent = frame.bench, frame.tok
+        assert parent is not None
+        key = next(frame.children, NOBODY)
+        tok = bench.tokens.get(key)
+        frame.tokens[slot] = tok
+        if key == NOBODY:
+            bench.skip("a child is not on record")
+            return
+        if tok is None:
+            bench.report("child", label, (parent,), (), "asked for", "gone without a record", child.span)
+            return
+        predicate = tok.record.predicate
+        if predicate != child.predicate and not (
+            child.object == "own"
+            and predicate.rpartition(".")[2] == suffix
+            and names.is_kind_of(predicate.rpartition(".")[0], child.predicate.rpartition(".")[0])
+        ):
+            bench.report("child", label, (parent, tok), (), predicate, child.predicate, child.span)
+            return
+        holder = parent.values[OBJECT] if child.object == "own" else None if given is None else given(frame)
+        if holder is not None and not bench.weigh(equal(tok.values[OBJECT], holder)):
+            values: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))
+            bench.report("child", label, (parent, tok), values, "on its object", "on another", child.span)
+        first = frame.tokens[origin]
+        if first is None:
+            return
+        if tok.is_cut or first.is_cut:
+            bench.skip("a token that was cut off by a repair")
+            return
+        if not tok.is_planned and is_due(bench, first, tok, pairs):
+            bench.report("child", label, (parent, tok), (), tok.record.state, "was due and never came", child.span)
+            return
+        relate(frame, child.relation, pairs, first, tok, child.span)
+
+    return step
+
+
+def is_due(bench: Bench, origin: Tok, tok: Tok, pairs: tuple[tuple[int, int, float, float], ...]) -> bool:
+    """Whether a relation to a token in the plan leaves no time after the last tick for `tok` to begin or end."""
+    if not origin.is_planned:
+        return False
+    for first, second, lower, upper in pairs:
+        if first < 2 <= second:
+            ends = hull(origin.values[START + first])
+            latest = None if ends is None else ends[1] + upper
+            point = second
+        elif second < 2 <= first:
+            ends = hull(origin.values[START + second])
+            latest = None if ends is None else ends[1] - lower
+            point = first
+        else:
+            continue
+        if latest is not None and latest < bench.last_tick + (1 if point == TE else 0):
+            return True
+    return False
+
+
+def relate(
+    frame: Frame, name: str, pairs: tuple[tuple[int, int, float, float], ...], origin: Tok, target: Tok, span: Span
+) -> None:
+    """Judge a relation between two tokens."""
+    bench = frame.bench
+    times = (origin.values[START], origin.values[END], target.values[START], target.values[END])
+    for first, second, lower, upper in pairs:
+        a, b = times[first], times[second]
+        if isinstance(a, int) and isinstance(b, int):
+            bench.judged += 1
+            if lower <= b - a <= upper:
+                continue
+        else:
+            gap = hull(difference(b, a))
+            bench.open += 1
+            if gap is None or (gap[0] <= upper and lower <= gap[1]):
+                continue
+        points = ("start", "end", "start", "end")
+        values = (
+            (f"{(origin if first in (OS, OE) else target).name}.{points[first]}", a),
+            (f"{(origin if second in (OS, OE) else target).name}.{points[second]}", b),
+        )
+        bench.report("relation", name, (origin, target), values, "it holds", "it does not", span)
+        return
+
+
+def _relate(given: Relate) -> Step:
+    pairs = demands(given.relation, given.bounds)
+
+    def step(frame: Frame) -> None:
+        origin, target = frame.tokens[given.origin], frame.tokens[given.target]
+        if origin is None or target is None:
+            frame.bench.skip("a child is not on record")
+        elif origin.is_cut or target.is_cut:
+            frame.bench.skip("a token that was cut off by a repair")
+        else:
+            relate(frame, given.relation, pairs, origin, target, given.span)
+
+    return step
+
+
+# ---- branches ----
+
+
+def _guard(guard: Guard, names: Names, written: Written, undefined: set[int]) -> Step:
+    condition = reader(guard.condition, names)
+    then = compile_body(guard.then, names, written, set(undefined))
+    otherwise = compile_body(guard.otherwise, names, written, set(undefined))
+    text = guard.span.text.partition("{")[0].strip()
+
+    def step(frame: Frame) -> None:
+        bench = frame.bench
+        reached = next(frame.guards, None)
+        if reached is None:
+            bench.skip("a guard is not on record")
+            return
+        value = condition(frame)
+        truth = True if isinstance(value, str) else is_true(value)
+        if reached.branch == "waiting":
+            if truth is None or not reached.is_decided:
+                bench.open += 1
+            else:
+                found = "then" if truth else "else"
+                _note(frame, "guard", text, (("condition", value),), "no branch", found, guard.span)
+            return
+        if not bench.weigh(None if truth is None else truth == (reached.branch == "then")):
+            found = "then" if truth else "else"
+            _note(frame, "guard", text, (("condition", value),), reached.branch, found, guard.span)
+        if reached.run is not None:
+            inner = Frame(bench, frame.tok, list(frame.slots), list(frame.tokens))
+            inner.follow(reached.run)
+            for each in then if reached.branch == "then" else otherwise:
+                each(inner)
+
+    return step
+
+
+def _loop(loop: Foreach, names: Names, written: Written, undefined: set[int]) -> Step:
+    collection = reader(loop.collection, names)
+    body = compile_body(loop.body, names, written, set(undefined))
+
+    def step(frame: Frame) -> None:
+        things = collection(frame)
+        if isinstance(things, Interval):
+            frame.bench.skip("a loop over objects that are not on record")
+            return
+        for each in in_order(frame.bench, things):
+            frame.slots[loop.slot] = each
+            for inner in body:
+                inner(frame)
+
+    return step
+
+
+def in_order(bench: Bench, things: Value) -> list[str]:
+    """Objects in the order of their making."""
+    wanted = {str(each) for each in things.values} if isinstance(things, Choice) else {str(things)}
+    return [name for name in bench.members if name in wanted]
+
+
