@@ -43,11 +43,12 @@ class Tok:
 class Bench:
     """Everything that is judged of one reactor."""
 
-    def __init__(self, record: ReactorRecord, final_tick: int, draw: Draw) -> None:
+    def __init__(self, record: ReactorRecord, final_tick: int, draw: Draw, has_failed: bool = False) -> None:
         self.reactor = record.reactor
         self.record = record
         self.last_tick = record.last_tick
         self.final_tick = final_tick
+        self.has_failed = has_failed  # what was undecided when the reactor failed is its failure, not an error
         self.draw = draw
         self.globals = record.globals
         self.members: dict[str, tuple[str, tuple[Value, ...]]] = {}
@@ -121,5 +122,3 @@ def lasting(tok: Tok) -> Value:
 def clock(bench: Bench, tok: Tok) -> Value:
     """What AGENT_CLOCK reads: now or later."""
     return Interval(tok.record.tick, bench.final_tick) if bench.final_tick > tok.record.tick else bench.final_tick
-
-

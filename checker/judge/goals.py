@@ -9,9 +9,7 @@ from runtime.executive.outcome import Outcome
 from runtime.executive.record import Interval, Value
 
 
-def judge_goals(
-    agent: AgentConfiguration, outcome: Outcome, desks: dict[str, tuple[ProgramJudge, Bench]]
-) -> None:
+def judge_goals(agent: AgentConfiguration, outcome: Outcome, desks: dict[str, tuple[ProgramJudge, Bench]]) -> None:
     """Judge the mandatory goals of a mission that came to its end; of those that stayed open nothing is claimed."""
     if outcome.ended_early:
         return

@@ -48,13 +48,14 @@ def judge_mission(
     """Judge everything that the models say of an executed mission; programs are in the order of the reactors."""
     chance = Chance(agent, tuple(programs), outcome.seed, overrides or {})
     by_name = {each.reactor: each for each in record.reactors}
+    failed = {event.reactor for event in outcome.events if event.kind in (EventKind.KILL, EventKind.ABORT)}
     desks: dict[str, tuple[ProgramJudge, Bench]] = {}
     for place, program in zip(agent.reactors, programs, strict=True):
         written = by_name.get(place.name)
         if written is None:
             continue
         judge = judge_of(program, constraints)
-        bench = Bench(written, outcome.final_tick, chance.draw)
+        bench = Bench(written, outcome.final_tick, chance.draw, place.name in failed)
         desks[place.name] = (judge, bench)
         judge_model(judge, bench)
         judge_timelines(judge, bench, published(outcome, place.name), place.internal, place.external)
@@ -89,9 +90,7 @@ def judge_script(judge: ProgramJudge, bench: Bench) -> None:
         if not bench.weigh(test(bench, value)):
             bench.report("domain", name, (), ((name, value),), "its value", "outside of its declaration")
     program = judge.program
-    tokens: list[Tok | None] = [
-        None if key == NOBODY else bench.tokens.get(key) for key in bench.record.script_tokens
-    ]
+    tokens: list[Tok | None] = [None if key == NOBODY else bench.tokens.get(key) for key in bench.record.script_tokens]
     tokens += [None] * (program.script_tokens - len(tokens))
     slots: list[Value] = [UNKNOWN] * program.script_slots
     frame = Frame(bench, None, slots, tokens)

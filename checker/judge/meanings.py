@@ -8,7 +8,6 @@ import math
 from collections.abc import Callable
 from itertools import product
 
-
 from checker.judge.values import hull, is_near, is_open, lies_within, may_be_equal, slack
 from runtime.executive.record import Interval, Value
 
@@ -263,7 +262,9 @@ COMPUTED: dict[str, tuple[int, Callable[..., float], bool]] = {
 }
 
 
-def conforms(result: Value, function: Callable[..., float], inputs: tuple[Value, ...], monotone: bool = True) -> bool | None:
+def conforms(
+    result: Value, function: Callable[..., float], inputs: tuple[Value, ...], monotone: bool = True
+) -> bool | None:
     """Whether `result` is what `function` gives for the inputs; open values are taken at both ends if it is monotone."""
     if not isinstance(result, tuple) and not any([isinstance(each, tuple) for each in inputs]):
         expected = function(*inputs)
@@ -406,7 +407,7 @@ def solver(name: str, place: int, count: int) -> Callable[..., Value] | None:
             return lambda a, b: evaluate(_divide, (a, b), False)
         case "neg", 0:
             return lambda x: evaluate(lambda a: -a, (x,), True)
-        case ("eq" | "concurrent"), _ if count == 2:
+        case (("eq" | "concurrent"), _) if count == 2:
             return lambda x: x
         case "neq", 0:
             return lambda x: _truth(negation(x))
@@ -430,5 +431,3 @@ def _divide(a: float, b: float) -> float:
     if isinstance(a, int) and isinstance(b, int) and a % b == 0:
         return a // b
     return a / b
-
-

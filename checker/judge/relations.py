@@ -53,7 +53,5 @@ def demands(relation: str, bounds: tuple[tuple[int, int], ...]) -> tuple[Demand,
     for k, (first, second, lower, upper) in enumerate(DEMANDS[relation]):
         if k < len(bounds):
             lower, upper = bounds[k]
-        found.append(
-            (first, second, -inf if lower <= -ENDLESS else lower, inf if upper >= ENDLESS else upper)
-        )
+        found.append((first, second, -inf if lower <= -ENDLESS else lower, inf if upper >= ENDLESS else upper))
     return tuple(found)

@@ -198,16 +198,18 @@ def _post(post: Post, names: Names, written: Written, undefined: set[int]) -> li
     reads = [reader(each, names) for each in post.operands]
     if name == "uses":
         return [_use(post, reads)]
-    unknown = [
-        k for k, each in enumerate(post.operands) if isinstance(each, LocalVariable) and each.slot in undefined
-    ]
+    unknown = [k for k, each in enumerate(post.operands) if isinstance(each, LocalVariable) and each.slot in undefined]
     if unknown:
         return [_define(post, unknown[0], reads, undefined)]
     meaning = MEANINGS.get(name) or written.get(name)
     if meaning is None:
         return [lambda frame: frame.bench.skip(f"constraint `{name}`")]
     is_loose = any(is_range(each) for each in post.operands)
-    return [_two(post, meaning, reads, names) if len(reads) == 2 and not is_loose else _many(post, meaning, reads, is_loose, names)]
+    return [
+        _two(post, meaning, reads, names)
+        if len(reads) == 2 and not is_loose
+        else _many(post, meaning, reads, is_loose, names)
+    ]
 
 
 def _use(post: Post, reads: list[Read]) -> Step:
@@ -260,7 +262,9 @@ def _many(post: Post, meaning: Meaning, reads: list[Read], is_loose: bool, names
         bench = frame.bench
         answer = meaning(*values)
         if answer is None and is_loose:
-            answer = None if any(is_open(v) for v, o in zip(values, post.operands, strict=True) if not is_range(o)) else True
+            answer = (
+                None if any(is_open(v) for v, o in zip(values, post.operands, strict=True) if not is_range(o)) else True
+            )
         if answer:
             bench.judged += 1
         elif answer is None:
@@ -327,7 +331,7 @@ def _child(child: Child, names: Names) -> Step:
 
 def is_due(bench: Bench, origin: Tok, tok: Tok, pairs: tuple[tuple[int, int, float, float], ...]) -> bool:
     """Whether a relation to a token in the plan leaves no time after the last tick for `tok` to begin or end."""
-    if not origin.is_planned:
+    if not origin.is_planned or bench.has_failed:
         return False
     for first, second, lower, upper in pairs:
         if first < 2 <= second:
@@ -443,5 +447,3 @@ def in_order(bench: Bench, things: Value) -> list[str]:
     """Objects in the order of their making."""
     wanted = {str(each) for each in things.values} if isinstance(things, Choice) else {str(things)}
     return [name for name in bench.members if name in wanted]
-
-

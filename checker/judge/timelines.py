@@ -72,7 +72,9 @@ def judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool)
                 if ends[0] > start:
                     bench.report("overlap", timeline, (before, tok), values, "one after the other", "both at once")
                 elif is_shared and ends[1] < start:
-                    bench.report("gap", timeline, (before, tok), values, "something holds at every tick", "nothing does")
+                    bench.report(
+                        "gap", timeline, (before, tok), values, "something holds at every tick", "nothing does"
+                    )
         before = tok
     if before is not None and is_shared and not before.is_cut:
         ends = hull(before.values[END])

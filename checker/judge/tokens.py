@@ -111,7 +111,9 @@ def _judge_token(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
     if isinstance(thing, str):
         class_name = bench.members[thing][0] if thing in bench.members else ""
         if not bench.weigh(judge.names.is_kind_of(class_name, known.code.class_name)):
-            bench.report("domain", "object", (tok,), (("object", thing),), "its object", "of another class", known.code.span)
+            bench.report(
+                "domain", "object", (tok,), (("object", thing),), "its object", "of another class", known.code.span
+            )
     if known.body:
         frame = Frame(bench, tok, [UNKNOWN] * known.code.body_slots, [tok, *[None] * known.code.body_tokens])
         for step in known.body:
@@ -181,5 +183,8 @@ def _judge_merged(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
     for place, value in ours:
         if place < len(other.values) and not may_be_equal(value, other.values[place]):
             name = BUILT_IN.get(place) or judge.predicates[mine.predicate].code.parameters[place - FIRST_PARAMETER].name
-            pair: tuple[tuple[str, Value], ...] = ((f"{tok.name}.{name}", value), (f"{other.name}.{name}", other.values[place]))
+            pair: tuple[tuple[str, Value], ...] = (
+                (f"{tok.name}.{name}", value),
+                (f"{other.name}.{name}", other.values[place]),
+            )
             bench.report("merge", name, (tok, other), pair, "they are one", "they differ")

@@ -40,7 +40,6 @@ from runtime.plan.tags import (
     FREED,
     HOLDS_VARIABLES,
     MERGED,
-    NONE,
     ROLE_LOCAL,
     SCOPE_BRANCH,
     SCOPE_GUARD,
@@ -51,7 +50,14 @@ from runtime.plan.tags import (
 STATES = tuple(name.lower() for name in STATE_NAMES)
 INT, FLOAT, BOOL, SYMBOL, STRING, THING = range(6)
 SHAPES = {"int": INT, "float": FLOAT, "bool": BOOL, "string": STRING, "object": THING}
-OF_KIND = {KIND_BOOL: BOOL, KIND_INT: INT, KIND_FLOAT: FLOAT, KIND_SYMBOL: SYMBOL, KIND_OBJECT: THING, KIND_STRING: STRING}
+OF_KIND = {
+    KIND_BOOL: BOOL,
+    KIND_INT: INT,
+    KIND_FLOAT: FLOAT,
+    KIND_SYMBOL: SYMBOL,
+    KIND_OBJECT: THING,
+    KIND_STRING: STRING,
+}
 LEAST_ENDLESS = 2.0**51  # integers from here on stand for infinity
 
 

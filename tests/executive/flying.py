@@ -4,6 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
+from checker.judge.judge import judge_mission
+from checker.judge.rendering import disagreement_text
 from compiler.lower import compile_model
 from compiler.program import Program
 from nddl_lang.analysis import analyse_text
@@ -16,7 +18,7 @@ from runtime.executive.configuration import (
     ParameterConfiguration,
     ReactorConfiguration,
 )
-from runtime.executive.mission import MissionPrograms, run_mission
+from runtime.executive.mission import MissionPrograms, record_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import event_text, goal_text
 from runtime.solver.configuration.configuration import default_configuration
@@ -70,7 +72,7 @@ def fly(
     overrides: Mapping[str, float] | None = None,
     every_tick: bool = False,
 ) -> Outcome:
-    """Fly one mission."""
+    """Fly one mission, and have the judge look at it."""
     agent = AgentConfiguration(
         "toy",
         ".",
@@ -82,7 +84,10 @@ def fly(
     )
     programs = tuple(program(flyer.configuration.model, flyer.text) for flyer in flyers)
     solvers = tuple(default_configuration() for _ in flyers)
-    return run_mission(agent, MissionPrograms(programs, solvers), seed, overrides, every_tick)
+    outcome, record = record_mission(agent, MissionPrograms(programs, solvers), seed, overrides, every_tick)
+    report = judge_mission(agent, programs, outcome, record, overrides=overrides)
+    assert report.holds, [disagreement_text(one) for one in report.disagreements]
+    return outcome
 
 
 def lines(outcome: Outcome, *kinds: str) -> list[str]:

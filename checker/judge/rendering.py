@@ -1,0 +1,51 @@
+"""Say a disagreement in words: where the model says it, what the executive held, what the judge found."""
+
+from pathlib import PurePath
+
+from checker.judge.report import Disagreement, JudgeReport
+from nddl_lang.text.source import Span
+from runtime.executive.record import Choice, Interval, Value
+
+
+def value_text(value: Value) -> str:
+    """A value as reports print it: `[lo hi]` and `{a, b}` for what was never fixed."""
+    if isinstance(value, Interval):
+        return f"[{_bound(value.lower)} {_bound(value.upper)}]"
+    if isinstance(value, Choice):
+        return "{" + ", ".join(value_text(each) for each in value.values) + "}"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return value if isinstance(value, str) else repr(value)
+
+
+def _bound(number: float) -> str:
+    if number in (float("inf"), float("-inf")):
+        return "+inf" if number > 0 else "-inf"
+    return repr(int(number)) if number == int(number) else repr(number)
+
+
+def place_text(span: Span) -> str:
+    """File and line of a stretch of a model."""
+    return f"{PurePath(span.source.name).name}:{span.line}"
+
+
+def disagreement_text(one: Disagreement) -> str:
+    """One disagreement in one line."""
+    where = f"{place_text(one.span)}: `{first_line(one.span.text)}`, " if one.span is not None else ""
+    who = f" of {', '.join(one.tokens)}" if one.tokens else ""
+    values = ", ".join(f"{name} = {value_text(value)}" if name else value_text(value) for name, value in one.values)
+    detail = f" ({values})" if values else ""
+    return f"{one.reactor}: {where}{one.kind} `{one.name}`{who}{detail}: held {one.held}; found {one.found}"
+
+
+def first_line(text: str) -> str:
+    """The first line of a piece of a model, without its block."""
+    return text.partition("\n")[0].rstrip("{ ").strip()
+
+
+def report_text(report: JudgeReport) -> str:
+    """A judgement in lines: disagreements, then how much was judged."""
+    lines = [disagreement_text(one) for one in report.disagreements]
+    lines.append(f"{report.judged} judged, {report.open} left open, {len(report.disagreements)} disagreements")
+    lines += [f"not judged: {count} x {reason}" for reason, count in report.skipped]
+    return "\n".join(lines)
