@@ -265,12 +265,12 @@ COMPUTED: dict[str, tuple[int, Callable[..., float], bool]] = {
 def conforms(
     result: Value, function: Callable[..., float], inputs: tuple[Value, ...], monotone: bool = True
 ) -> bool | None:
-    """Whether `result` is what `function` gives for the inputs; open values are taken at both ends if it is monotone."""
-    if not isinstance(result, tuple) and not any([isinstance(each, tuple) for each in inputs]):
+    """Whether `result` is what `function` gives for the inputs; open ones are taken at both ends if it is monotone."""
+    if not isinstance(result, tuple) and not has_open(inputs):
         expected = function(*inputs)
         if result == expected:
             return True
-        if not any([isinstance(each, float) for each in (result, expected, *inputs)]):
+        if not any(isinstance(each, float) for each in (result, expected, *inputs)):
             return False
         if is_near(float(result), expected):
             return True
@@ -302,6 +302,11 @@ def reach(function: Callable[..., float], inputs: tuple[Value, ...]) -> tuple[fl
     if not good or (len(good) < len(found) and any(math.isinf(x) for each in known for x in each)):
         return None, None
     return min(good), max(good)
+
+
+def has_open(values: tuple[Value, ...]) -> bool:
+    """Whether a value was never fixed."""
+    return any(isinstance(each, tuple) for each in values)
 
 
 def computed(place: int, function: Callable[..., float], monotone: bool) -> Meaning:
@@ -382,7 +387,7 @@ TESTS: dict[str, Meaning] = {
 
 def evaluate(function: Callable[..., float], inputs: tuple[Value, ...], monotone: bool) -> Value:
     """The value of a function; an interval where an input is open."""
-    if not any([isinstance(each, tuple) for each in inputs]):
+    if not has_open(inputs):
         return function(*inputs)
     if not monotone:
         return Interval(-math.inf, math.inf)

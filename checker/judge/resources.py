@@ -9,7 +9,7 @@ from checker.judge.tokens import ProgramJudge
 from checker.judge.values import TOLERANCE
 from compiler.program import END, FIRST_PARAMETER, START, Call
 from nddl_lang.text.source import Span
-from runtime.executive.record import Value
+from runtime.executive.record import Interval, Value
 
 RESOURCES = frozenset({"Reservoir", "Reusable", "CBReusable", "Unary"})
 
@@ -63,7 +63,7 @@ def limits_of(kind: str, members: dict[str, Value]) -> Limits | None:
     for name, value in members.items():
         if isinstance(value, (int, float)):
             found[name] = float(value)
-        elif isinstance(value, tuple) and not isinstance(value[0], str):
+        elif isinstance(value, Interval):
             return None
     if kind == "Unary":
         return Limits(1.0, 0.0, inf, consumption=found.get("consumptionMax", inf))
@@ -83,9 +83,9 @@ def uses_of(bench: Bench, resource: str) -> Iterator[Use]:
             continue
         quantity: Value = tok.values[FIRST_PARAMETER] if record.arguments else 1.0
         yield from _use(bench, kind, quantity, tok.values[START], tok.values[END], tok, None)
-    for holder, quantity, start, end, tok, span in bench.uses:
+    for holder, quantity, start, end, user, span in bench.uses:
         if holder == resource:
-            yield from _use(bench, "uses", quantity, start, end, tok, span)
+            yield from _use(bench, "uses", quantity, start, end, user, span)
 
 
 def _use(

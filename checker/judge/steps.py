@@ -205,11 +205,9 @@ def _post(post: Post, names: Names, written: Written, undefined: set[int]) -> li
     if meaning is None:
         return [lambda frame: frame.bench.skip(f"constraint `{name}`")]
     is_loose = any(is_range(each) for each in post.operands)
-    return [
-        _two(post, meaning, reads, names)
-        if len(reads) == 2 and not is_loose
-        else _many(post, meaning, reads, is_loose, names)
-    ]
+    if len(reads) == 2 and not is_loose:
+        return [_two(post, meaning, reads, names)]
+    return [_many(post, meaning, reads, is_loose, names)]
 
 
 def _use(post: Post, reads: list[Read]) -> Step:
@@ -257,14 +255,15 @@ def _two(post: Post, meaning: Meaning, reads: list[Read], names: Names) -> Step:
 
 
 def _many(post: Post, meaning: Meaning, reads: list[Read], is_loose: bool, names: Names) -> Step:
+    # An anonymous range in the text stands for any of its values.
+    fixed = [k for k, operand in enumerate(post.operands) if not is_range(operand)]
+
     def step(frame: Frame) -> None:
         values = [read(frame) for read in reads]
         bench = frame.bench
         answer = meaning(*values)
         if answer is None and is_loose:
-            answer = (
-                None if any(is_open(v) for v, o in zip(values, post.operands, strict=True) if not is_range(o)) else True
-            )
+            answer = None if any(is_open(values[k]) for k in fixed) else True
         if answer:
             bench.judged += 1
         elif answer is None:

@@ -11,6 +11,7 @@ from runtime.executive.messages import Arguments
 from runtime.executive.record import Value
 
 UNDEFINED = "undefined"
+GAPLESS = "something holds at every tick"
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,15 +73,13 @@ def judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool)
                 if ends[0] > start:
                     bench.report("overlap", timeline, (before, tok), values, "one after the other", "both at once")
                 elif is_shared and ends[1] < start:
-                    bench.report(
-                        "gap", timeline, (before, tok), values, "something holds at every tick", "nothing does"
-                    )
+                    bench.report("gap", timeline, (before, tok), values, GAPLESS, "nothing does")
         before = tok
     if before is not None and is_shared and not before.is_cut:
         ends = hull(before.values[END])
         if ends is not None and ends[1] <= bench.last_tick:
             values = ((f"{before.name}.end", before.values[END]), ("last tick", bench.last_tick))
-            bench.report("gap", timeline, (before,), values, "something holds at every tick", "nothing does")
+            bench.report("gap", timeline, (before,), values, GAPLESS, "nothing does")
 
 
 def judge_observations(

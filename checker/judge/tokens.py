@@ -6,7 +6,7 @@ from typing import Any
 from checker.judge.bench import Bench, Tok, lasting
 from checker.judge.operands import BUILT_IN, Frame, Names
 from checker.judge.steps import Domain, Step, Written, compile_body, domain_test
-from checker.judge.values import UNKNOWN, lies_within, may_be_equal
+from checker.judge.values import UNKNOWN, ends_of, lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
 from nddl_lang.text.source import Span
 from runtime.executive.record import Run, Value
@@ -88,11 +88,8 @@ def judge_tokens(judge: ProgramJudge, bench: Bench) -> None:
         record = tok.record
         state = record.state
         if state == "active":
-            start = record.start
-            if isinstance(start, int):
-                if start > last:
-                    continue
-            elif not lies_within(start, -LONGEST, last) or start.upper > last:  # type: ignore[union-attr]
+            latest = record.start if isinstance(record.start, int) else ends_of(record.start)[1]
+            if latest > last:
                 continue
             _judge_token(judge, bench, tok)
         elif state == "merged":

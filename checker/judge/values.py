@@ -25,7 +25,7 @@ def is_near(a: float, b: float) -> bool:
     """Whether two numbers are equal; exactly so if both are whole."""
     if a == b:
         return True
-    if not isinstance(a, float) and not isinstance(b, float):
+    if type(a) is not float and type(b) is not float:
         return False
     return abs(a - b) <= slack(a if abs(a) > abs(b) else b)
 
@@ -49,6 +49,11 @@ def hull(value: Value) -> Hull | None:
     if isinstance(value, float) and not isinf(value):
         return (value - slack(value), value + slack(value))
     return (value, value)
+
+
+def ends_of(value: Value) -> Hull:
+    """The numbers that `value` may stand for; any where it is no number."""
+    return hull(value) or (-inf, inf)
 
 
 def names(value: Value) -> frozenset[Scalar] | None:
