@@ -8,12 +8,14 @@ from pathlib import Path
 from typing import overload
 
 from checker.batch.worker import Fly
+from checker.judge.judge import breaches, judge_mission
+from checker.judge.rendering import DisagreementError
 from checker.names import relative_name
 from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.read import read_source
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.mission import MissionPrograms, run_mission
+from runtime.executive.mission import MissionPrograms, record_mission
 from runtime.executive.outcome import Conflict, Deadlock, Event, Outcome, SourcePlace
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.read import read_configuration
@@ -23,14 +25,21 @@ Reactors = tuple[tuple[str, str | None], ...]  # model and solver of each
 
 
 def load(agent: AgentConfiguration) -> Fly:
-    """Compile the models of `agent`; the result flies one mission per call."""
+    """Compile the models of `agent`; the result flies one mission per call, and has it judged.
+
+    It raises `DisagreementError` where the judge holds that the executive broke the model.
+    """
     root = Path(agent.root)
     reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
     programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
 
     def fly(seed: int) -> Outcome:
         with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
-            return _relative(run_mission(agent, programs, seed), root)
+            outcome, record = record_mission(agent, programs, seed)
+            report = judge_mission(agent, programs.programs, outcome, record, programs.constraints)
+        if report.errors:
+            raise DisagreementError(report)
+        return _relative(replace(outcome, breaches=breaches(report)), root)
 
     return fly
 

@@ -19,7 +19,7 @@ from checker.judge.values import UNKNOWN
 from checker.judge.written import meanings_of
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.outcome import EventKind, Outcome, Phase
+from runtime.executive.outcome import EventKind, Outcome, Phase, Reason, ReasonKind
 from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, Value
 from runtime.user.constraint import Constraint
 
@@ -61,6 +61,15 @@ def judge_mission(
         judge_timelines(judge, bench, published(outcome, place.name), place.internal, place.external)
     judge_goals(agent, outcome, desks)
     return summary([bench for _, bench in desks.values()])
+
+
+def breaches(report: JudgeReport) -> tuple[Reason, ...]:
+    """What was executed against the model though nothing failed (F11)."""
+    found = []
+    for one in report.breaches:
+        timeline = next((str(value) for name, value in one.values if name == "timeline"), "")
+        found.append(Reason(ReasonKind.CUT_OFF, predicate=one.name, timeline=timeline))
+    return tuple(found)
 
 
 def judge_plan(program: Program, record: ReactorRecord, constraints: Sequence[Constraint] = ()) -> JudgeReport:

@@ -7,6 +7,16 @@ from nddl_lang.text.source import Span
 from runtime.executive.record import Choice, Interval, Value
 
 
+class DisagreementError(Exception):
+    """The executive holds true what the judge does not: a fault of nddlc, never of the model."""
+
+    def __init__(self, report: JudgeReport) -> None:
+        self.report = report
+        more = len(report.errors) - 1
+        others = f"; and {more} more" if more else ""
+        super().__init__(disagreement_text(report.errors[0]) + others)
+
+
 def value_text(value: Value) -> str:
     """A value as reports print it: `[lo hi]` and `{a, b}` for what was never fixed."""
     if isinstance(value, Interval):
