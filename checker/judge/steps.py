@@ -295,7 +295,7 @@ def _child(child: Child, names: Names) -> Step:
         assert parent is not None
         key = next(frame.children, NOBODY)
         tok = bench.tokens.get(key)
-        frame.tokens[slot] = tok
+        frame.tokens[slot] = None
         if key == NOBODY:
             bench.skip("a child is not on record")
             return
@@ -310,6 +310,7 @@ def _child(child: Child, names: Names) -> Step:
         ):
             bench.report("child", label, (parent, tok), (), predicate, child.predicate, child.span)
             return
+        frame.tokens[slot] = tok
         holder = parent.values[OBJECT] if child.object == "own" else None if given is None else given(frame)
         if holder is not None and not bench.weigh(equal(tok.values[OBJECT], holder)):
             values: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))

@@ -64,7 +64,7 @@ def judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool)
     before: Tok | None = None
     for tok in tokens:
         bench.judged += 1
-        if before is not None and not before.is_cut and not tok.is_cut:
+        if before is not None and not is_cut_short(before):
             ends = hull(before.values[END])
             start = tok.values[START]
             assert isinstance(start, int)
@@ -75,11 +75,17 @@ def judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool)
                 elif is_shared and ends[1] < start:
                     bench.report("gap", timeline, (before, tok), values, GAPLESS, "nothing does")
         before = tok
-    if before is not None and is_shared and not before.is_cut:
+    if before is not None and is_shared and not is_cut_short(before):
         ends = hull(before.values[END])
         if ends is not None and ends[1] <= bench.last_tick:
             values = ((f"{before.name}.end", before.values[END]), ("last tick", bench.last_tick))
             bench.report("gap", timeline, (before,), values, GAPLESS, "nothing does")
+
+
+def is_cut_short(tok: Tok) -> bool:
+    """Whether a repair took a token away before its end, which then is not known."""
+    end = tok.record.end
+    return tok.is_cut and not (isinstance(end, int) and end <= tok.record.tick)
 
 
 def judge_observations(
@@ -93,6 +99,7 @@ def judge_observations(
         if not tok.is_cut or start not in begun:
             begun[start] = tok
     told = {one.tick: one for one in published}
+    seen = told if is_own else observed(bench, timeline)
     for tick, one in told.items():
         bench.judged += 1
         held = begun.get(tick)
@@ -102,9 +109,22 @@ def judge_observations(
         elif not agrees(judge, held, one, is_own):
             values = (("tick", tick), ("published", one.predicate), *_told(one))
             bench.report("observation", timeline, (held,), values, held.record.predicate, one.predicate)
+        elif tick not in seen:
+            values = (("tick", tick), ("published", one.predicate))
+            bench.report("observation", timeline, (held,), values, "it begins", "nobody observed it here")
     for tick, tok in begun.items():
-        if tick not in told and not tok.is_cut:
+        if tick not in told:
             bench.report("observation", timeline, (tok,), (("tick", tick),), "it begins", "nobody published it")
+
+
+def observed(bench: Bench, timeline: str) -> set[int]:
+    """The ticks at which a reactor took note of something on a timeline of another."""
+    return {
+        tok.record.start
+        for tok in bench.tokens.values()
+        if tok.record.origin == "observation" and tok.is_planned and tok.record.object == timeline
+        if isinstance(tok.record.start, int)
+    }
 
 
 def agrees(judge: ProgramJudge, tok: Tok, one: Published, is_own: bool) -> bool:
