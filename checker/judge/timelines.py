@@ -36,8 +36,11 @@ def sequences(judge: ProgramJudge, bench: Bench) -> dict[str, list[Tok]]:
             continue
         if isinstance(thing, str) and bench.members.get(thing, ("",))[0] in judge.timelines:
             found.setdefault(thing, []).append(tok)
-    for tokens in found.values():
-        tokens.sort(key=_place)
+    for timeline, tokens in found.items():
+        # What a repair took away may have been put back as another token.
+        lasting = {tok.record.start for tok in tokens if not tok.is_cut}
+        found[timeline] = [tok for tok in tokens if not tok.is_cut or tok.record.start not in lasting]
+        found[timeline].sort(key=_place)
     return found
 
 
