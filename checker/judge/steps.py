@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import assert_never
 
 from checker.judge.bench import Bench, Tok
+from checker.judge.determined import Determined
 from checker.judge.meanings import MEANINGS, SILENT, Meaning, equal, is_true, solver
 from checker.judge.operands import Frame, Names, Read, domain_value, is_range, reader
 from checker.judge.relations import OE, OS, TE, demands
@@ -35,6 +36,7 @@ from runtime.executive.record import NOBODY, Choice, Interval, Value
 Step = Callable[[Frame], None]
 Domain = Callable[[Bench, Value], bool | None]
 Written = dict[str, Meaning]  # constraints of the project, by name
+LEFT_OPEN = ("left open", "the others determine it")
 
 
 def compile_body(
@@ -239,6 +241,7 @@ def _define(post: Post, place: int, reads: list[Read], undefined: set[int]) -> S
 
 def _two(post: Post, meaning: Meaning, reads: list[Read], names: Names) -> Step:
     first, second = reads
+    determined = Determined(post, names)
 
     def step(frame: Frame) -> None:
         a, b = first(frame), second(frame)
@@ -248,6 +251,8 @@ def _two(post: Post, meaning: Meaning, reads: list[Read], names: Names) -> Step:
             bench.judged += 1
         elif answer is None:
             bench.open += 1
+            if determined.is_left_open(frame, [a, b]):
+                _refuse(frame, post, [a, b], names, LEFT_OPEN)
         else:
             _refuse(frame, post, [a, b], names)
 
@@ -255,6 +260,7 @@ def _two(post: Post, meaning: Meaning, reads: list[Read], names: Names) -> Step:
 
 
 def _many(post: Post, meaning: Meaning, reads: list[Read], is_loose: bool, names: Names) -> Step:
+    determined = Determined(post, names)
     # An anonymous range in the text stands for any of its values.
     fixed = [k for k, operand in enumerate(post.operands) if not is_range(operand)]
 
@@ -268,16 +274,20 @@ def _many(post: Post, meaning: Meaning, reads: list[Read], is_loose: bool, names
             bench.judged += 1
         elif answer is None:
             bench.open += 1
+            if not is_loose and determined.is_left_open(frame, values):
+                _refuse(frame, post, values, names, LEFT_OPEN)
         else:
             _refuse(frame, post, values, names)
 
     return step
 
 
-def _refuse(frame: Frame, post: Post, values: list[Value], names: Names) -> None:
+def _refuse(
+    frame: Frame, post: Post, values: list[Value], names: Names, said: tuple[str, str] = ("it holds", "it does not")
+) -> None:
     named = tuple((names.of(operand), value) for operand, value in zip(post.operands, values, strict=True))
     frame.bench.judged += 1
-    _note(frame, "constraint", post.name, named, "it holds", "it does not", post.span)
+    _note(frame, "constraint", post.name, named, *said, post.span)
 
 
 # ---- tokens ----
@@ -355,6 +365,7 @@ def relate(
     """Judge a relation between two tokens."""
     bench = frame.bench
     times = (origin.values[START], origin.values[END], target.values[START], target.values[END])
+    said = ("it holds", "it does not")
     for first, second, lower, upper in pairs:
         a, b = times[first], times[second]
         if isinstance(a, int) and isinstance(b, int):
@@ -364,14 +375,16 @@ def relate(
         else:
             gap = hull(difference(b, a))
             bench.open += 1
-            if gap is None or (gap[0] <= upper and lower <= gap[1]):
+            if lower == upper and target.is_planned and (isinstance(a, int) or isinstance(b, int)):
+                said = LEFT_OPEN
+            elif gap is None or (gap[0] <= upper and lower <= gap[1]):
                 continue
         points = ("start", "end", "start", "end")
         values = (
             (f"{(origin if first in (OS, OE) else target).name}.{points[first]}", a),
             (f"{(origin if second in (OS, OE) else target).name}.{points[second]}", b),
         )
-        bench.report("relation", name, (origin, target), values, "it holds", "it does not", span)
+        bench.report("relation", name, (origin, target), values, *said, span)
         return
 
 

@@ -6,7 +6,7 @@ from typing import Any
 from checker.judge.bench import Bench, Tok, lasting
 from checker.judge.operands import BUILT_IN, Frame, Names
 from checker.judge.steps import Domain, Step, Written, compile_body, domain_test
-from checker.judge.values import UNKNOWN, ends_of, lies_within, may_be_equal
+from checker.judge.values import UNKNOWN, ends_of, is_open, lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
 from nddl_lang.text.source import Span
 from runtime.executive.record import Run, Value
@@ -150,7 +150,8 @@ def _has_fired(bench: Bench, tok: Tok, known: PredicateJudge, runs: tuple[Run, .
 def _judge_times(bench: Bench, tok: Tok, least: int, span: Span | None) -> None:
     record = tok.record
     length = lasting(tok)
-    if not (lies_within(length, least, LONGEST) and may_be_equal(record.duration, length)):
+    is_known = isinstance(record.duration, int) or not isinstance(length, int)
+    if not (is_known and lies_within(length, least, LONGEST) and may_be_equal(record.duration, length)):
         values = (("start", record.start), ("duration", record.duration), ("end", record.end))
         bench.report("duration", "duration", (tok,), values, "start + duration = end", "it is not", span)
     bench.judged += 1
@@ -175,13 +176,19 @@ def _judge_merged(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
     bench.judged += 1
     if mine.start == theirs.start and mine.end == theirs.end and mine.arguments == theirs.arguments:
         return
+    is_strict = mine.tick == theirs.tick and mine.fate == theirs.fate
     ours: tuple[tuple[int, Any], ...] = ((OBJECT, mine.object), (START, mine.start), (END, mine.end))
     ours += tuple((FIRST_PARAMETER + k, value) for k, value in enumerate(mine.arguments))
     for place, value in ours:
-        if place < len(other.values) and not may_be_equal(value, other.values[place]):
+        if place < len(other.values) and not are_one(value, other.values[place], is_strict):
             name = BUILT_IN.get(place) or judge.predicates[mine.predicate].code.parameters[place - FIRST_PARAMETER].name
             pair: tuple[tuple[str, Value], ...] = (
                 (f"{tok.name}.{name}", value),
                 (f"{other.name}.{name}", other.values[place]),
             )
             bench.report("merge", name, (tok, other), pair, "they are one", "they differ")
+
+
+def are_one(mine: Value, theirs: Value, is_strict: bool) -> bool:
+    """Whether a variable of a merged token and that of the other half agree; strictly, if they are of one moment."""
+    return may_be_equal(mine, theirs) and not (is_strict and is_open(mine) != is_open(theirs))

@@ -53,9 +53,7 @@ def put(mission: Flown, reactor: int, place: int, token: TokenRecord | None) -> 
     return mission._replace(record=MissionRecord(tuple(reactors)))
 
 
-def chosen(
-    mission: Flown, dice: Random, accepts: Callable[[TokenRecord], bool]
-) -> tuple[int, int, TokenRecord] | None:
+def chosen(mission: Flown, dice: Random, accepts: Callable[[TokenRecord], bool]) -> tuple[int, int, TokenRecord] | None:
     """A token that was executed, and its place."""
     found = [
         (r, k, record.tokens[k])
