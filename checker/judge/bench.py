@@ -59,6 +59,8 @@ class Bench:
         for tok in self.tokens.values():
             self._complete(tok)
         self.uses: list[tuple[Value, Value, Value, Value, Tok | None, Span]] = []  # resource, quantity, start, end
+        self.infers = False  # whether runs that are not on record are found out
+        self.told: frozenset[str] | None = None  # the classes of whose objects all tokens are known; None: all
         self.found: list[Disagreement] = []
         self.judged = 0
         self.open = 0

@@ -72,10 +72,20 @@ def breaches(report: JudgeReport) -> tuple[Reason, ...]:
     return tuple(found)
 
 
-def judge_plan(program: Program, record: ReactorRecord, constraints: Sequence[Constraint] = ()) -> JudgeReport:
-    """Judge a plan by itself: no owner, no draws, whatever is left open counts as such."""
+def judge_plan(
+    program: Program,
+    record: ReactorRecord,
+    constraints: Sequence[Constraint] = (),
+    told: frozenset[str] | None = None,
+) -> JudgeReport:
+    """Judge a plan by itself: no owner and no draws; runs that are not on record are found out.
+
+    `told` names the classes of whose objects all tokens are known; without it the plan has all tokens.
+    """
     judge = judge_of(program, constraints)
     bench = Bench(record, record.last_tick, _undrawn)
+    bench.infers = True
+    bench.told = told
     judge_model(judge, bench)
     judge_timelines(judge, bench, {}, (), ())
     return summary([bench])

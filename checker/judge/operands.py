@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from math import inf
-from typing import assert_never
+from typing import Any, assert_never
 
 from checker.judge.bench import Bench, Tok, clock, lasting
 from checker.judge.values import UNKNOWN, hull, is_open
@@ -32,13 +32,14 @@ ENDLESS = 2**51
 class Frame:
     """One run of a body: the values in its slots, its tokens, and what the record says of the run."""
 
-    __slots__ = ("bench", "children", "guards", "locals", "slots", "tok", "tokens")
+    __slots__ = ("bench", "children", "choosing", "guards", "locals", "slots", "tok", "tokens")
 
     def __init__(self, bench: Bench, tok: Tok | None, slots: list[Value], tokens: list[Tok | None]) -> None:
         self.bench = bench
         self.tok = tok
         self.slots = slots
         self.tokens = tokens
+        self.choosing: Any = None  # finds children and branches where no run is on record
         self.locals: Iterator[Value] = iter(())
         self.children: Iterator[int] = iter(())
         self.guards: Iterator[GuardRun] = iter(())

@@ -1,7 +1,9 @@
 """Say a disagreement in words: where the model says it, what the executive held, what the judge found."""
 
 from pathlib import PurePath
+from typing import Any
 
+from checker.judge.document import value_data
 from checker.judge.report import Disagreement, JudgeReport
 from nddl_lang.text.source import Span
 from runtime.executive.record import Choice, Interval, Value
@@ -46,6 +48,33 @@ def disagreement_text(one: Disagreement) -> str:
     values = ", ".join(f"{name} = {value_text(value)}" if name else value_text(value) for name, value in one.values)
     detail = f" ({values})" if values else ""
     return f"{one.reactor}: {where}{one.kind} `{one.name}`{who}{detail}: held {one.held}; found {one.found}"
+
+
+def disagreement_data(one: Disagreement) -> dict[str, Any]:
+    """One disagreement as JSON."""
+    data: dict[str, Any] = {
+        "kind": one.kind,
+        "reactor": one.reactor,
+        "name": one.name,
+        "tokens": list(one.tokens),
+        "values": [{"name": name, "value": value_data(value)} for name, value in one.values],
+        "held": one.held,
+        "found": one.found,
+    }
+    if one.span is not None:
+        data["place"] = {"file": PurePath(one.span.source.name).name, "line": one.span.line}
+    return data
+
+
+def report_data(report: JudgeReport) -> dict[str, Any]:
+    """A judgement as JSON."""
+    return {
+        "holds": report.holds,
+        "disagreements": [disagreement_data(one) for one in report.disagreements],
+        "judged": report.judged,
+        "open": report.open,
+        "skipped": [{"reason": reason, "count": count} for reason, count in report.skipped],
+    }
 
 
 def first_line(text: str) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import assert_never
 
 from checker.judge.bench import Bench, Tok
+from checker.judge.choosing import may_be_outside
 from checker.judge.determined import Determined
 from checker.judge.meanings import MEANINGS, SILENT, Meaning, equal, is_true, solver
 from checker.judge.operands import Frame, Names, Read, domain_value, is_range, reader
@@ -131,6 +132,10 @@ def _variable(new: NewVariable, names: Names, undefined: set[int]) -> list[Step]
     def step(frame: Frame) -> None:
         value = next(frame.locals, None)
         bench = frame.bench
+        if value is None and frame.choosing is not None:
+            if slot not in frame.choosing.known:
+                frame.slots[slot] = UNKNOWN
+            value = frame.slots[slot]
         if value is None:
             bench.skip("a local variable is not on record")
             frame.slots[slot] = UNKNOWN
@@ -251,7 +256,9 @@ def _two(post: Post, meaning: Meaning, reads: list[Read], names: Names) -> Step:
             bench.judged += 1
         elif answer is None:
             bench.open += 1
-            if determined.is_left_open(frame, [a, b]):
+            if frame.choosing is not None:
+                determined.infer(frame, [a, b])
+            elif determined.is_left_open(frame, [a, b]):
                 _refuse(frame, post, [a, b], names, LEFT_OPEN)
         else:
             _refuse(frame, post, [a, b], names)
@@ -274,7 +281,9 @@ def _many(post: Post, meaning: Meaning, reads: list[Read], is_loose: bool, names
             bench.judged += 1
         elif answer is None:
             bench.open += 1
-            if not is_loose and determined.is_left_open(frame, values):
+            if frame.choosing is not None:
+                determined.infer(frame, values)
+            elif not is_loose and determined.is_left_open(frame, values):
                 _refuse(frame, post, values, names, LEFT_OPEN)
         else:
             _refuse(frame, post, values, names)
@@ -303,9 +312,19 @@ def _child(child: Child, names: Names) -> Step:
     def step(frame: Frame) -> None:
         bench, parent = frame.bench, frame.tok
         assert parent is not None
-        key = next(frame.children, NOBODY)
-        tok = bench.tokens.get(key)
         frame.tokens[slot] = None
+        if frame.choosing is not None:
+            holder = parent.values[OBJECT] if child.object == "own" else None if given is None else given(frame)
+            key = frame.choosing.pick(frame, child, pairs, holder, names)
+            if key == NOBODY and may_be_outside(bench, child, pairs, frame.tokens[origin]):
+                bench.skip("a child that lies outside of what is told")
+                return
+            if key == NOBODY:
+                bench.report("child", label, (parent,), (), "asked for", "no token of the plan fits", child.span)
+                return
+        else:
+            key = next(frame.children, NOBODY)
+        tok = bench.tokens.get(key)
         if key == NOBODY:
             bench.skip("a child is not on record")
             return
@@ -415,6 +434,17 @@ def _guard(guard: Guard, names: Names, written: Written, undefined: set[int]) ->
     def step(frame: Frame) -> None:
         bench = frame.bench
         reached = next(frame.guards, None)
+        if reached is None and frame.choosing is not None:
+            value = condition(frame)
+            truth = True if isinstance(value, str) else is_true(value)
+            if truth is None:
+                bench.skip("a branch that is not known")
+                return
+            inner = Frame(bench, frame.tok, list(frame.slots), list(frame.tokens))
+            inner.choosing = frame.choosing
+            for each in then if truth else otherwise:
+                each(inner)
+            return
         if reached is None:
             bench.skip("a guard is not on record")
             return

@@ -4,7 +4,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from checker.judge.bench import Bench, Tok, lasting
+from checker.judge.choosing import MOST_TRIES, Choosing
 from checker.judge.operands import BUILT_IN, Frame, Names
+from checker.judge.report import Disagreement
 from checker.judge.steps import Domain, Step, Written, compile_body, domain_test
 from checker.judge.values import UNKNOWN, ends_of, is_open, lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
@@ -121,6 +123,10 @@ def _judge_token(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
         return
     if not known.rules and not record.runs:
         return
+    if bench.infers and not record.runs:
+        for number in known.rules:
+            find_run(bench, tok, judge.rules[number])
+        return
     if not _has_fired(bench, tok, known, record.runs):
         return
     for run in record.runs:
@@ -129,6 +135,35 @@ def _judge_token(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
         frame.follow(run)
         for step in rule.steps:
             step(frame)
+
+
+def find_run(bench: Bench, tok: Tok, rule: RuleJudge) -> None:
+    """Judge a rule whose run nobody recorded: under some choice of its children all of it must hold."""
+    choosing = Choosing()
+    before = len(bench.found)
+    first: list[Disagreement] = []
+    for tries in range(MOST_TRIES):
+        choosing.begin()
+        choosing.known.clear()
+        frame = Frame(bench, tok, [UNKNOWN] * rule.slots, [tok, *[None] * rule.tokens])
+        frame.choosing = choosing
+        uses = len(bench.uses)
+        for _ in range(2):  # the second time with the locals that the first has found
+            del bench.found[before:]
+            del bench.uses[uses:]
+            choosing.begin()
+            for step in rule.steps:
+                step(frame)
+        if len(bench.found) == before:
+            return
+        first = first or bench.found[before:]
+        del bench.found[before:]
+        if not choosing.advance():
+            break
+        if tries == MOST_TRIES - 1:
+            bench.skip("a rule with too many choices")
+            return
+    bench.found += first
 
 
 def _has_fired(bench: Bench, tok: Tok, known: PredicateJudge, runs: tuple[Run, ...]) -> bool:
