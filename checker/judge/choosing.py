@@ -29,7 +29,7 @@ class Choosing:
         self.counts = []
 
     def pick(self, frame: Frame, child: Child, pairs: tuple[Demand, ...], holder: Value | None, names: Names) -> int:
-        """The key of the token that this child is taken to be; NOBODY if none fits, or if it may be none of the plan."""
+        """The key of the token that this child is taken to be; NOBODY for none of the plan."""
         n = len(self.counts)
         found = candidates(frame, child, pairs, holder, names)
         if may_be_outside(frame.bench, child, pairs, frame.tokens[child.origin]):

@@ -18,6 +18,7 @@ from runtime.executive.record import (
 )
 
 STATES = ("active", "merged", "inactive", "rejected")
+ANY = {"between": [None, None]}
 BRANCHES = ("waiting", "then", "else")
 
 
@@ -147,9 +148,8 @@ def _read_token(data: Any, number: int, program: Program) -> TokenRecord:
     code = next((each for each in program.predicates if each.name == predicate), None)
     if code is None:
         raise DocumentError(f"{where}: the model has no predicate `{predicate}`")
-    start, end = (
-        read_value(data.get(name, {"between": [None, None]}), f"{where}: {name}") for name in ("start", "end")
-    )
+    start = read_value(data.get("start", ANY), f"{where}: start")
+    end = read_value(data.get("end", ANY), f"{where}: end")
     length: Value = end - start if isinstance(start, int) and isinstance(end, int) else Interval(0, inf)
     duration = read_value(data["duration"], f"{where}: duration") if "duration" in data else length
     given = data.get("arguments", {})

@@ -43,11 +43,28 @@ def place_text(span: Span) -> str:
 
 def disagreement_text(one: Disagreement) -> str:
     """One disagreement in one line."""
-    where = f"{place_text(one.span)}: `{first_line(one.span.text)}`, " if one.span is not None else ""
-    who = f" of {', '.join(one.tokens)}" if one.tokens else ""
+    where = f"{place_text(one.span)}: " if one.span is not None else ""
+    who = f" ({', '.join(one.tokens)})" if one.tokens else ""
     values = ", ".join(f"{name} = {value_text(value)}" if name else value_text(value) for name, value in one.values)
-    detail = f" ({values})" if values else ""
-    return f"{one.reactor}: {where}{one.kind} `{one.name}`{who}{detail}: held {one.held}; found {one.found}"
+    return f"{one.reactor}: {where}{_claim(one)}{who}{f': {values}' if values else ''}"
+
+
+def _claim(one: Disagreement) -> str:
+    line = f"`{first_line(one.span.text)}`" if one.span is not None else f"`{one.name}`"
+    match one.kind:
+        case "constraint" | "relation":
+            left_open = "fixes a value that was left open"
+            return f"{line} {left_open if one.held == 'left open' else 'does not hold'}"
+        case "guard":
+            return f"{line} asks for `{one.found}`, but `{one.held}` ran"
+        case "domain":
+            return f"`{one.name}` is {one.found}"
+        case "draw":
+            return f"{line}: `{one.name}` is not what is drawn for the tick at which the token begins"
+        case "overlap" | "gap" | "observation" | "level" | "goal":
+            return f"{one.kind} on `{one.name}`: {one.held}, but {one.found}"
+        case _:
+            return f"{one.kind} `{one.name}`: {one.held}, but {one.found}"
 
 
 def disagreement_data(one: Disagreement) -> dict[str, Any]:
