@@ -45,8 +45,11 @@ def sequences(judge: ProgramJudge, bench: Bench) -> dict[str, list[Tok]]:
 
 
 def _place(tok: Tok) -> tuple[int, float, int]:
-    start, end = tok.record.start, hull(tok.record.end)
+    start, last = tok.record.start, tok.record.end
     assert isinstance(start, int)
+    if isinstance(last, int):
+        return start, last, tok.key
+    end = hull(last)
     return start, end[1] if end is not None else start, tok.key
 
 
@@ -68,8 +71,11 @@ def judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool)
     for tok in tokens:
         bench.judged += 1
         if before is not None and not is_cut_short(before):
-            ends = hull(before.values[END])
             start = tok.values[START]
+            if before.values[END] == start:
+                before = tok
+                continue
+            ends = hull(before.values[END])
             assert isinstance(start, int)
             if ends is not None:
                 values = ((f"{before.name}.end", before.values[END]), (f"{tok.name}.start", start))
@@ -135,6 +141,8 @@ def agrees(judge: ProgramJudge, tok: Tok, one: Published, is_own: bool) -> bool:
     held = tok.record.predicate.rpartition(".")[2]
     if held != one.predicate:
         return held == UNDEFINED and not is_own and not fits(judge, tok, one)
+    if not one.arguments:
+        return True
     parameters = judge.predicates[tok.record.predicate].code.parameters
     places = {parameter.name: k for k, parameter in enumerate(parameters)}
     return all(

@@ -184,12 +184,15 @@ def _has_fired(bench: Bench, tok: Tok, known: PredicateJudge, runs: tuple[Run, .
 
 def _judge_times(bench: Bench, tok: Tok, least: int, span: Span | None) -> None:
     record = tok.record
+    bench.judged += 1
+    if isinstance(record.end, int) and isinstance(record.start, int):
+        if record.duration == record.end - record.start and record.duration >= least:
+            return
     length = lasting(tok)
     is_known = isinstance(record.duration, int) or not isinstance(length, int)
     if not (is_known and lies_within(length, least, LONGEST) and may_be_equal(record.duration, length)):
         values = (("start", record.start), ("duration", record.duration), ("end", record.end))
         bench.report("duration", "duration", (tok,), values, "start + duration = end", "it is not", span)
-    bench.judged += 1
 
 
 def _judge_merged(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:

@@ -1,5 +1,6 @@
 """Engines and executives that are broken on purpose: functions of the uncompiled engine, replaced for one mission."""
 
+import signal
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -32,9 +33,17 @@ class Fault:
     wrap: Wrap
 
 
+class EndlessError(Exception):
+    """A broken engine that does not come to an end."""
+
+
+def _give_up(*_: object) -> None:
+    raise EndlessError
+
+
 @contextmanager
-def broken(fault: Fault) -> Iterator[None]:
-    """Put a fault in place, wherever the function was imported to."""
+def broken(fault: Fault, seconds: float = 3.0) -> Iterator[None]:
+    """Put a fault in place, wherever the function was imported to, for some seconds of computing."""
     old = getattr(fault.owner, fault.function)
     new = fault.wrap(old)
     places = [(fault.owner, fault.function)]
@@ -44,9 +53,13 @@ def broken(fault: Fault) -> Iterator[None]:
                 places += [(module, name) for name, value in list(vars(module).items()) if value is old]
     for owner, name in places:
         setattr(owner, name, new)
+    before = signal.signal(signal.SIGVTALRM, _give_up)
+    signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
     try:
         yield
     finally:
+        signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+        signal.signal(signal.SIGVTALRM, before)
         for owner, name in places:
             setattr(owner, name, old)
 

@@ -11,7 +11,7 @@ from runtime.executive.configuration import GoalConfiguration, ParameterConfigur
 from runtime.executive.mission import record_mission
 from tests.executive.flying import Flown, flown, planner, simulator
 
-GPS = Path("models/gps/mission.toml")
+GPS = Path(__file__).resolve().parents[3] / "models/gps/mission.toml"
 
 # Two models share the oven and its meter.
 HEATER = """
