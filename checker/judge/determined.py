@@ -1,7 +1,8 @@
 """Tell what a constraint determines: a value that it leaves no choice for must have been fixed in an executed plan."""
 
-from checker.judge.meanings import COMPUTED, solver
+from checker.judge.functions import COMPUTED
 from checker.judge.operands import Frame, Names
+from checker.judge.solving import solver
 from checker.judge.values import UNKNOWN, is_open
 from compiler.program import Constant, GlobalVariable, LocalVariable, Operand, Post, TokenVariable
 from runtime.executive.record import Value

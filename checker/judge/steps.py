@@ -3,16 +3,14 @@
 from collections.abc import Callable
 from typing import assert_never
 
-from checker.judge.bench import Bench, Tok
-from checker.judge.choosing import may_be_outside
+from checker.judge.bench import Bench
 from checker.judge.determined import Determined
-from checker.judge.meanings import MEANINGS, SILENT, Meaning, equal, is_true, solver
+from checker.judge.meanings import MEANINGS, SILENT, Meaning, equal, is_true
 from checker.judge.operands import Frame, Names, Read, domain_value, is_range, reader
-from checker.judge.relations import OE, OS, TE, demands
-from checker.judge.values import UNKNOWN, difference, hull, is_open, lies_within, may_be_equal
+from checker.judge.relating import LEFT_OPEN, Step, child_step, relate_step
+from checker.judge.solving import solver
+from checker.judge.values import UNKNOWN, is_open, lies_within, may_be_equal
 from compiler.program import (
-    END,
-    OBJECT,
     START,
     Assign,
     Call,
@@ -32,12 +30,10 @@ from compiler.program import (
     TypeCode,
 )
 from nddl_lang.text.source import Span
-from runtime.executive.record import NOBODY, Choice, Interval, Value
+from runtime.executive.record import Choice, Interval, Value
 
-Step = Callable[[Frame], None]
 Domain = Callable[[Bench, Value], bool | None]
 Written = dict[str, Meaning]  # constraints of the project, by name
-LEFT_OPEN = ("left open", "the others determine it")
 
 
 def compile_body(
@@ -56,9 +52,9 @@ def compile_body(
                 steps.append(_sample(instruction, names, undefined))
             case Child():
                 names.tokens[instruction.slot] = (instruction.label or "", instruction.predicate)
-                steps.append(_child(instruction, names))
+                steps.append(child_step(instruction, names))
             case Relate():
-                steps.append(_relate(instruction))
+                steps.append(relate_step(instruction))
             case Guard():
                 steps.append(_guard(instruction, names, written, undefined))
             case Foreach():
@@ -297,129 +293,6 @@ def _refuse(
     named = tuple((names.of(operand), value) for operand, value in zip(post.operands, values, strict=True))
     frame.bench.judged += 1
     _note(frame, "constraint", post.name, named, *said, post.span)
-
-
-# ---- tokens ----
-
-
-def _child(child: Child, names: Names) -> Step:
-    slot, origin = child.slot, child.origin
-    pairs = demands(child.relation, child.bounds)
-    given = None if isinstance(child.object, str) else reader(child.object, names)
-    suffix = child.predicate.rpartition(".")[2]
-    label = child.label or suffix
-
-    def step(frame: Frame) -> None:
-        bench, parent = frame.bench, frame.tok
-        assert parent is not None
-        frame.tokens[slot] = None
-        if frame.choosing is not None:
-            holder = parent.values[OBJECT] if child.object == "own" else None if given is None else given(frame)
-            key = frame.choosing.pick(frame, child, pairs, holder, names)
-            if key == NOBODY and may_be_outside(bench, child, pairs, frame.tokens[origin]):
-                bench.skip("a child that lies outside of what is told")
-                return
-            if key == NOBODY:
-                bench.report("child", label, (parent,), (), "asked for", "no token of the plan fits", child.span)
-                return
-        else:
-            key = next(frame.children, NOBODY)
-        tok = bench.tokens.get(key)
-        if key == NOBODY:
-            bench.skip("a child is not on record")
-            return
-        if tok is None:
-            bench.report("child", label, (parent,), (), "asked for", "gone without a record", child.span)
-            return
-        predicate = tok.record.predicate
-        if predicate != child.predicate and not (
-            child.object == "own"
-            and predicate.rpartition(".")[2] == suffix
-            and names.is_kind_of(predicate.rpartition(".")[0], child.predicate.rpartition(".")[0])
-        ):
-            bench.report("child", label, (parent, tok), (), predicate, child.predicate, child.span)
-            return
-        frame.tokens[slot] = tok
-        holder = parent.values[OBJECT] if child.object == "own" else None if given is None else given(frame)
-        if holder is not None and not bench.weigh(equal(tok.values[OBJECT], holder)):
-            values: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))
-            bench.report("child", label, (parent, tok), values, "on its object", "on another", child.span)
-        first = frame.tokens[origin]
-        if first is None:
-            return
-        if tok.is_cut or first.is_cut:
-            bench.skip("a token that was cut off by a repair")
-            return
-        if not tok.is_planned and is_due(bench, first, tok, pairs):
-            bench.report("child", label, (parent, tok), (), tok.record.state, "was due and never came", child.span)
-            return
-        relate(frame, child.relation, pairs, first, tok, child.span)
-
-    return step
-
-
-def is_due(bench: Bench, origin: Tok, tok: Tok, pairs: tuple[tuple[int, int, float, float], ...]) -> bool:
-    """Whether a relation to a token in the plan leaves no time after the last tick for `tok` to begin or end."""
-    if not origin.is_planned or bench.has_failed:
-        return False
-    for first, second, lower, upper in pairs:
-        if first < 2 <= second:
-            ends = hull(origin.values[START + first])
-            latest = None if ends is None else ends[1] + upper
-            point = second
-        elif second < 2 <= first:
-            ends = hull(origin.values[START + second])
-            latest = None if ends is None else ends[1] - lower
-            point = first
-        else:
-            continue
-        if latest is not None and latest < bench.last_tick + (1 if point == TE else 0):
-            return True
-    return False
-
-
-def relate(
-    frame: Frame, name: str, pairs: tuple[tuple[int, int, float, float], ...], origin: Tok, target: Tok, span: Span
-) -> None:
-    """Judge a relation between two tokens."""
-    bench = frame.bench
-    times = (origin.values[START], origin.values[END], target.values[START], target.values[END])
-    said = ("it holds", "it does not")
-    for first, second, lower, upper in pairs:
-        a, b = times[first], times[second]
-        if isinstance(a, int) and isinstance(b, int):
-            bench.judged += 1
-            if lower <= b - a <= upper:
-                continue
-        else:
-            gap = hull(difference(b, a))
-            bench.open += 1
-            if lower == upper and target.is_planned and (isinstance(a, int) or isinstance(b, int)):
-                said = LEFT_OPEN
-            elif gap is None or (gap[0] <= upper and lower <= gap[1]):
-                continue
-        points = ("start", "end", "start", "end")
-        values = (
-            (f"{(origin if first in (OS, OE) else target).name}.{points[first]}", a),
-            (f"{(origin if second in (OS, OE) else target).name}.{points[second]}", b),
-        )
-        bench.report("relation", name, (origin, target), values, *said, span)
-        return
-
-
-def _relate(given: Relate) -> Step:
-    pairs = demands(given.relation, given.bounds)
-
-    def step(frame: Frame) -> None:
-        origin, target = frame.tokens[given.origin], frame.tokens[given.target]
-        if origin is None or target is None:
-            frame.bench.skip("a child is not on record")
-        elif origin.is_cut or target.is_cut:
-            frame.bench.skip("a token that was cut off by a repair")
-        else:
-            relate(frame, given.relation, pairs, origin, target, given.span)
-
-    return step
 
 
 # ---- branches ----

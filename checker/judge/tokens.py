@@ -6,8 +6,9 @@ from typing import Any
 from checker.judge.bench import Bench, Tok, lasting
 from checker.judge.choosing import MOST_TRIES, Choosing
 from checker.judge.operands import BUILT_IN, Frame, Names
+from checker.judge.relating import Step
 from checker.judge.report import Disagreement
-from checker.judge.steps import Domain, Step, Written, compile_body, domain_test
+from checker.judge.steps import Domain, Written, compile_body, domain_test
 from checker.judge.values import UNKNOWN, ends_of, is_open, lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
 from nddl_lang.text.source import Span

@@ -1,16 +1,19 @@
 """What the judge makes of constraints, relations and draws, by itself."""
 
 from math import inf
+from typing import get_args
 
 import pytest
 
 from checker.judge.draws import drawn
-from checker.judge.meanings import COMPUTED, MEANINGS, SILENT, solver
+from checker.judge.functions import COMPUTED
+from checker.judge.meanings import MEANINGS, SILENT
 from checker.judge.relations import DEMANDS, demands
+from checker.judge.solving import solver
 from nddl_lang.semantics.constraints import CONSTRAINTS
 from nddl_lang.semantics.relations import REFUSED_RELATIONS, RELATIONS
 from runtime.executive.chance import sample
-from runtime.executive.configuration import ParameterConfiguration
+from runtime.executive.configuration import DistributionName, ParameterConfiguration
 from runtime.executive.record import Choice, Interval, Value
 
 # What the judge says that it does not judge: domains rather than values, positions, dates.
@@ -95,8 +98,8 @@ def test_bounds_take_the_place_of_those_of_the_relation() -> None:
     assert demands("before", ((2, 5),)) == ((1, 2, 2, 5),)
 
 
-@pytest.mark.parametrize("kind", ["uniform", "normal", "truncated_normal", "discrete", "fixed"])
-def test_draws_are_those_of_the_mission(kind: str) -> None:
+@pytest.mark.parametrize("kind", get_args(DistributionName))
+def test_draws_are_those_of_the_mission(kind: DistributionName) -> None:
     values = (2.0, 3.5, 9.0)
     for is_whole in (False, True):
         place = ParameterConfiguration(
@@ -109,7 +112,7 @@ def test_draws_are_those_of_the_mission(kind: str) -> None:
             (2.5, 8.5),
             is_whole,
             values,
-            (1.0, 2.0, 1.0),  # type: ignore[arg-type]
+            (1.0, 2.0, 1.0),
         )
         for seed in (0, 7, 2**53 - 1):
             for tick in range(0, 70, 3):
