@@ -52,11 +52,11 @@ def load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...], 
         model: compile_model(analyse_file(root / model, callables=library.callables))
         for model in dict.fromkeys(model for model, _ in reactors)
     }
-    solvers = tuple(load_solver(root, solver) for _, solver in reactors)
+    solvers = tuple(_load_solver(root, solver) for _, solver in reactors)
     return MissionPrograms(tuple(models[model] for model, _ in reactors), solvers, library.constraints)
 
 
-def load_solver(root: Path, path: str | None) -> Configuration:
+def _load_solver(root: Path, path: str | None) -> Configuration:
     """The flaw handling in a file; the default where none is named."""
     if path is None:
         return default_configuration()

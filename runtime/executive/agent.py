@@ -16,10 +16,10 @@ from runtime.executive.outcome import (
     Outcome,
     Phase,
     Reason,
-    Term,
-    VariableName,
 )
 from runtime.executive.trace import Trace
+from runtime.plan.readout.names import VariableName
+from runtime.plan.readout.statements import Term
 
 
 @dataclass(frozen=True, slots=True)

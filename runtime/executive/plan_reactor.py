@@ -4,17 +4,7 @@ from runtime.executive.agent import Failure, Watched
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Observation, Request
-from runtime.executive.outcome import (
-    Conflict,
-    ElementKind,
-    EventKind,
-    OpenGoal,
-    Phase,
-    Reason,
-    ReasonKind,
-    RepairStage,
-    VariableName,
-)
+from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.planning import Planner
 from runtime.executive.repair import hold_present, relax, stand
 from runtime.executive.story import conflict_of, latest
@@ -23,6 +13,7 @@ from runtime.executive.timelines import NOTHING, Goal, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.view import SPAN_REQUEST
 from runtime.executive.workbench import Workbench
+from runtime.plan.readout.names import VariableName
 
 
 class PlanReactor:

@@ -7,14 +7,14 @@ from runtime.executive.story import conflict_of
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.configuration.configuration import Configuration, FlawFilter
-from runtime.solver.flaws.filters import Scope
+from runtime.solver.flaws.filters import PlanningScope
 from runtime.solver.search import Solver
 from runtime.solver.tags import EXHAUSTED, PLAN, TIMEOUT
 
 PRESENT_STEPS = 200
 
 
-class Window(Scope):
+class Window(PlanningScope):
     """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7); for the present, those that hold now."""
 
     def __init__(self, bench: Workbench) -> None:
@@ -69,7 +69,7 @@ class Planner:
             self.keep()
             return "done"
         if outcome in (EXHAUSTED, TIMEOUT) or self.solver.depth > self.max_depth:
-            self.solver.take_back()
+            self.solver.undo_all()
             self.is_fresh = True
             return "exhausted" if outcome == EXHAUSTED else "deep"
         return "decided"
@@ -86,7 +86,7 @@ class Planner:
         self.is_fresh = True
         if self.solver.solve(PRESENT_STEPS, PRESENT_STEPS) == PLAN:
             return True
-        self.solver.take_back()
+        self.solver.undo_all()
         return False
 
     def reason(self) -> tuple[Reason, Conflict | None]:
