@@ -5,17 +5,29 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.messages import Observation, Request, token_text
-from runtime.executive.outcome import Abort, Conflict, Outcome, Term
+from runtime.executive.messages import Observation, Request
+from runtime.executive.outcome import (
+    Abort,
+    Conflict,
+    Deadlock,
+    ElementKind,
+    EventKind,
+    OpenGoal,
+    Outcome,
+    Phase,
+    Reason,
+    Term,
+    VariableName,
+)
 from runtime.executive.trace import Trace
 
 
 @dataclass(frozen=True, slots=True)
 class Watched:
-    """Cause `number` of a conflict says how long `variable`, the end of an observed token, has been put off."""
+    """Element `number` of a conflict says how long `variable`, the end of an observed token, has been put off."""
 
     number: int
-    variable: str
+    variable: VariableName
     source: Observation
 
 
@@ -24,13 +36,14 @@ class Failure:
     """Why a reactor cannot go on; `conflict` is what broke first, `repairs` what stopped each repair."""
 
     code: str
-    summary: str
+    reason: Reason
     timelines: tuple[str, ...]
     conflict: Conflict | None
     relaxes: int
     repairs: tuple[Conflict, ...] = ()
     causes: tuple[int, ...] = ()
     watched: tuple[Watched, ...] = ()
+    deadlock: Deadlock | None = None
 
 
 class Reactor(Protocol):
@@ -79,10 +92,10 @@ class Reactor(Protocol):
     def recall(self, number: int) -> None:
         """Drop a request that has not started."""
 
-    def unmet_goals(self) -> list[str]:
+    def open_goals(self) -> list[OpenGoal]:
         """Mandatory goals that were not achieved."""
 
-    def why_it_lasts(self, token: int, key: int) -> tuple[str, Conflict] | None:
+    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """The name of the end of one of its tokens, and what sets that end."""
 
 
@@ -157,11 +170,11 @@ class Agent:
                 break
             self._dispatch()
             self._advance()
-        unmet = [goal for reactor in [*self.killed, *self.reactors] for goal in reactor.unmet_goals()]
-        unmet += [token_text(r.predicate, r.arguments) for r in self.unsent if r.is_mandatory]
-        self.trace.phase = "end"
+        left = [goal for reactor in [*self.killed, *self.reactors] for goal in reactor.open_goals()]
+        left += [OpenGoal(r.timeline, r.predicate, r.arguments, event=r.event) for r in self.unsent if r.is_mandatory]
+        self.trace.phase = Phase.END
         if abort is None:
-            self.trace.record("end", "", "", f"mission over at tick {self.tick}")
+            self.trace.record(EventKind.END, "")
         return Outcome(
             self.seed,
             self.tick,
@@ -169,12 +182,12 @@ class Agent:
             abort,
             tuple(self.trace.draws),
             tuple(self.trace.events),
-            tuple(unmet),
+            tuple(left),
         )
 
     def _send_goals(self) -> None:
         """Hand the goals of the mission file that are due to the owners of their timelines, if there are any left."""
-        self.trace.phase = "start"
+        self.trace.phase = Phase.START
         for at, request in self.goals:
             if at == self.tick and request.timeline in self.owners:
                 self.owners[request.timeline].accept(request)
@@ -197,22 +210,22 @@ class Agent:
             if reactor.due > self.tick and not is_last and not self.every_tick:
                 continue
             self.awake.append(reactor)
-            self.trace.phase = "start"
+            self.trace.phase = Phase.START
             reactor.start_tick(self.tick)
-            self.trace.phase = "synchronise"
+            self.trace.phase = Phase.SYNCHRONISE
             failure = reactor.synchronise(self.tick)
             if failure is not None:
                 if self.configuration.on_failure == "abort_agent":
                     return self._abort(reactor, failure)
                 self._kill(reactor, failure)
                 continue
-            self.trace.phase = "observe"
+            self.trace.phase = Phase.OBSERVE
             self._publish(reactor.observations(self.tick))
         return None
 
     def _deliberate(self) -> Abort | None:
         """Let reactors plan, round robin, one decision at a time, until nobody has anything to decide."""
-        self.trace.phase = "deliberate"
+        self.trace.phase = Phase.DELIBERATE
         busy = list(self.awake)
         while busy:
             busy = [reactor for reactor in busy if reactor.step(self.tick)]
@@ -226,7 +239,7 @@ class Agent:
 
     def _dispatch(self) -> None:
         """Deliver recalls and requests; owners consider them at the next tick (T-REX 1.3)."""
-        self.trace.phase = "dispatch"
+        self.trace.phase = Phase.DISPATCH
         asked: list[Request] = []
         for reactor in self.awake:
             for number in reactor.recalls():
@@ -248,31 +261,28 @@ class Agent:
     def _abort(self, reactor: Reactor, failure: Failure) -> Abort:
         """Record that the agent ends early, with its reason."""
         conflict = self._traced(failure)
-        drawn = (
-            {cause.because.partition(" = ")[2].partition(" ")[0] for cause in conflict.causes} if conflict else set()
-        )
-        samples = tuple(
-            index
-            for index, event in enumerate(self.trace.events)
-            if event.kind == "sample" and event.text.partition(" ")[0] in drawn
-        )
+        drawn = conflict.parameters if conflict is not None else ()
         event = self.trace.record(
-            "abort",
+            EventKind.ABORT,
             reactor.name,
             ", ".join(failure.timelines),
-            f"{failure.code}: {failure.summary}",
-            failure.causes + samples,
+            causes=failure.causes + self.trace.draw_events(drawn),
+            code=failure.code,
+            reason=failure.reason,
+            conflict=conflict,
+            deadlock=failure.deadlock,
         )
         return Abort(
             failure.code,
             self.tick,
             reactor.name,
             failure.timelines,
-            failure.summary,
+            failure.reason,
             conflict,
             failure.relaxes,
             event,
             failure.repairs,
+            failure.deadlock,
         )
 
     def _traced(self, failure: Failure) -> Conflict | None:
@@ -280,25 +290,34 @@ class Agent:
         conflict = failure.conflict
         if conflict is None:
             return None
-        causes, variables = [[cause] for cause in conflict.causes], list(conflict.variables)
+        elements = [[element] for element in conflict.elements]
         for watched in failure.watched:
             owner = next((r for r in self.reactors if r.name == watched.source.owner), None)
             told = owner.why_it_lasts(watched.source.token, watched.source.token_key) if owner else None
             if told is None:
                 continue
             name, reasons = told
-            cause = conflict.causes[watched.number]
-            because = f"{watched.source.predicate} on `{watched.source.timeline}` is observed as long as it lasts"
-            observed = replace(cause, because=because, terms=(Term("eq", (watched.variable, name)),))
-            causes[watched.number] = [*reasons.causes, observed]
-            variables += reasons.variables
-        told_causes = tuple(cause for together in causes for cause in together)
-        return Conflict(told_causes, tuple(dict.fromkeys(variables)))
+            observed = replace(
+                conflict.elements[watched.number],
+                kind=ElementKind.SHARED_END,
+                says=None,
+                terms=(Term("eq", (watched.variable, name)),),
+                observed=(watched.source.predicate, watched.source.timeline),
+            )
+            elements[watched.number] = [*reasons.elements, observed]
+        return Conflict(tuple(element for together in elements for element in together))
 
     def _kill(self, reactor: Reactor, failure: Failure) -> None:
         """Take a failed reactor out and tell the users of its timelines (T-REX 1.6, second generation)."""
         event = self.trace.record(
-            "kill", reactor.name, ", ".join(failure.timelines), f"{failure.code}: {failure.summary}", failure.causes
+            EventKind.KILL,
+            reactor.name,
+            ", ".join(failure.timelines),
+            causes=failure.causes,
+            code=failure.code,
+            reason=failure.reason,
+            conflict=self._traced(failure),
+            deadlock=failure.deadlock,
         )
         self.reactors.remove(reactor)
         self.awake.remove(reactor)
@@ -308,5 +327,5 @@ class Agent:
                 owner.recall(number)
         for timeline in reactor.internal:
             del self.owners[timeline]
-            text = self.trace.record("observation", reactor.name, timeline, "Failed", (event,))
-            self._publish([Observation(self.tick, timeline, "Failed", (), text)])
+            seen = self.trace.record(EventKind.OBSERVATION, reactor.name, timeline, "Failed", causes=(event,))
+            self._publish([Observation(self.tick, timeline, "Failed", (), seen)])

@@ -1,6 +1,7 @@
 """Decide which planned tokens are asked of the owners of their timelines, and when requests are taken back."""
 
-from runtime.executive.messages import Request, token_text
+from runtime.executive.messages import Request
+from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
@@ -62,13 +63,26 @@ class Dispatch:
         predicate = bench.short_name(token)
         arguments = bench.arguments(token)
         causes = tuple(other.event for other in self.timelines if not other.is_internal and other.event != NOTHING)
-        event = self.trace.record("request", self.name, line.name, token_text(predicate, arguments), causes[:1])
         # To the world a request is a command: when to begin is the sender's business, how long it takes is not.
         is_command = self.owner_windows.get(line.name, (0, 1))[1] <= 1
         end = INFINITY if is_command else _whole(bench.upper(bench.end(token)))
         earliest = max(tick + 1, _whole(bench.lower(bench.start(token))))
         start = (earliest, _whole(bench.upper(bench.start(token))))
-        return Request(event, line.name, predicate, arguments, start, (-INFINITY, end), (1, INFINITY), self.name, event)
+        bounds = TimeBounds(start, (-INFINITY, end), (1, INFINITY))
+        event = self.trace.record(
+            EventKind.REQUEST,
+            self.name,
+            line.name,
+            predicate,
+            arguments,
+            causes[:1],
+            token=bench.name_of(token),
+            request=len(self.trace.events),
+            bounds=bounds,
+        )
+        return Request(
+            event, line.name, predicate, arguments, bounds.start, bounds.end, bounds.duration, self.name, event
+        )
 
     def open_requests(self) -> list[int]:
         """Numbers of the requests that have been made and have not started."""
@@ -80,8 +94,14 @@ class Dispatch:
         for key, request in list(self.sent.items()):
             token = self.sent_tokens[key]
             if not self.bench.is_alive(token, key) or not self.bench.is_active(token):
-                text = token_text(request.predicate, request.arguments)
-                self.trace.record("recall", self.name, request.timeline, text)
+                self.trace.record(
+                    EventKind.RECALL,
+                    self.name,
+                    request.timeline,
+                    request.predicate,
+                    request.arguments,
+                    request=request.number,
+                )
                 numbers.append(request.number)
             elif not self.bench.is_started(token, tick):
                 continue

@@ -7,8 +7,8 @@ from compiler.program import DomainConstant, Program
 from runtime.executive.agent import Agent
 from runtime.executive.chance import sample
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ParameterConfiguration, Value
-from runtime.executive.messages import Arguments, Request, token_text
-from runtime.executive.outcome import Draw, Outcome
+from runtime.executive.messages import Arguments, Request
+from runtime.executive.outcome import Draw, EventKind, Outcome, TimeBounds
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
 from runtime.executive.trace import Trace
@@ -130,15 +130,16 @@ def request_of(goal: GoalConfiguration, number: int, trace: Trace, kinds: Mappin
     arguments: Arguments = tuple(
         (name, _domain(value, *kinds.get(name, ("float", "float")))) for name, value in goal.parameters
     )
-    event = trace.record("request", "", goal.timeline, token_text(goal.predicate, arguments))
+    bounds = TimeBounds(_bounds(goal.start), _bounds(goal.end), _bounds(goal.duration))
+    event = trace.record(EventKind.REQUEST, "", goal.timeline, goal.predicate, arguments, request=number, bounds=bounds)
     return Request(
         number,
         goal.timeline,
         goal.predicate,
         arguments,
-        _bounds(goal.start),
-        _bounds(goal.end),
-        _bounds(goal.duration),
+        bounds.start,
+        bounds.end,
+        bounds.duration,
         "",
         event,
         goal.mandatory,

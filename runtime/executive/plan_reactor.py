@@ -3,8 +3,18 @@
 from runtime.executive.agent import Failure, Watched
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.dispatch import Dispatch
-from runtime.executive.messages import Observation, Request, token_text
-from runtime.executive.outcome import Conflict
+from runtime.executive.messages import Observation, Request
+from runtime.executive.outcome import (
+    Conflict,
+    ElementKind,
+    EventKind,
+    OpenGoal,
+    Phase,
+    Reason,
+    ReasonKind,
+    RepairStage,
+    VariableName,
+)
 from runtime.executive.planning import Planner
 from runtime.executive.repair import hold_present, relax, stand
 from runtime.executive.story import conflict_of, latest
@@ -43,7 +53,7 @@ class PlanReactor:
         self.steps_left = self.max_steps
         self.broken: Failure | None = None
         self.dispatch = Dispatch(self.name, bench, self.timelines, trace)
-        self.unmet: list[str] = []
+        self.given_up: list[OpenGoal] = []
         self.is_stirred = False  # something came from outside after the present was settled
 
     @property
@@ -111,12 +121,18 @@ class PlanReactor:
         watched: tuple[Watched, ...] = ()
         for attempt in range(3):
             if attempt:
-                self.trace.phase = "repair"
-                stage = "keeping the past" if attempt == 1 else "forgetting the past"
-                self.trace.record("relax", self.name, "", f"{stage}: {failures[-1].summary}", causes)
+                self.trace.phase = Phase.REPAIR
+                self.trace.record(
+                    EventKind.RELAX,
+                    self.name,
+                    causes=causes,
+                    stage=RepairStage.KEEP_PAST if attempt == 1 else RepairStage.FORGET_PAST,
+                    reason=failures[-1].reason,
+                    conflict=failures[-1].conflict,
+                )
                 self.relaxes += 1
                 if not relax(self.bench, self.timelines, self._live_goals(), tick, forget=attempt == 2):
-                    what = "the plan cannot be relaxed"
+                    what = Reason(ReasonKind.CANNOT_RELAX)
                     failures.append(Unsettled(failures[0].code, (), what, conflict_of(self.bench)))
                     break
             mark = self.bench.mark()
@@ -134,26 +150,28 @@ class PlanReactor:
         repairs = _distinct(first.conflict, failures[1:])
         lines = first.timelines or tuple(line.name for line in self.timelines if line.is_internal)
         causes = causes or events[:1]
-        return Failure(first.code, first.summary, lines, first.conflict, self.relaxes, repairs, causes, watched)
+        return Failure(first.code, first.reason, lines, first.conflict, self.relaxes, repairs, causes, watched)
 
     def _watched(self, conflict: Conflict | None) -> tuple[Watched, ...]:
-        """The causes of a conflict that say how long what another reactor published has lasted."""
+        """The elements of a conflict that say how long what another reactor published has lasted."""
         if conflict is None:
             return ()
         ends = {
-            self.bench.token_name(line.current): line.source
+            self.bench.name_of(line.current): line.source
             for line in self.timelines
             if not line.is_internal and line.current != NOTHING and line.source is not None
         }
         found = []
-        for number, cause in enumerate(conflict.causes):
-            source = ends.get(cause.token)
-            name = f"{self.name}:{cause.token}.end"
-            if cause.kind == "observation" and source is not None and cause.terms[0].arguments[0] == name:
-                found.append(Watched(number, name, source))
+        for number, element in enumerate(conflict.elements):
+            source = ends.get(element.token) if element.token is not None else None
+            if element.kind is not ElementKind.OBSERVATION or source is None:
+                continue
+            variable = element.terms[0].arguments[0]
+            if isinstance(variable, VariableName) and variable.name == "end" and variable.token == element.token:
+                found.append(Watched(number, variable, source))
         return tuple(found)
 
-    def why_it_lasts(self, token: int, key: int) -> tuple[str, Conflict] | None:
+    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """The end of one of its tokens, and what sets it: the token lasts as long as the model allows (T-REX 1.5)."""
         if not self.bench.is_alive(token, key):
             return None
@@ -171,12 +189,12 @@ class PlanReactor:
                 arguments = self.bench.arguments(line.current)
                 predicate = self.bench.short_name(line.current)
                 causes = self._causes_of(line)
+                token = self.bench.name_of(line.current)
                 line.event = self.trace.record(
-                    "observation", self.name, line.name, token_text(predicate, arguments), causes
+                    EventKind.OBSERVATION, self.name, line.name, predicate, arguments, causes, token=token
                 )
-                key = self.bench.key(line.current)
                 published.append(
-                    Observation(tick, line.name, predicate, arguments, line.event, self.name, line.current, key)
+                    Observation(tick, line.name, predicate, arguments, line.event, self.name, line.current, token.key)
                 )
         return published
 
@@ -198,7 +216,7 @@ class PlanReactor:
                 self._report_rejected()
                 return False
             case "deep":
-                what = f"more than {self.planner.max_depth} decisions are needed at once"
+                what = Reason(ReasonKind.DEPTH, limit=self.planner.max_depth)
                 self.broken = Failure("F5", what, self.internal, None, self.relaxes)
                 return False
             case _:
@@ -210,7 +228,7 @@ class PlanReactor:
         if self.steps_left > 0 and self.relaxed_at != tick:
             self.relaxed_at = tick
             self.relaxes += 1
-            self.trace.record("relax", self.name, "", f"no plan: {what}")
+            self.trace.record(EventKind.RELAX, self.name, stage=RepairStage.REPLAN, reason=what, conflict=conflict)
             if relax(self.bench, self.timelines, self._live_goals(), tick + 1, forget=False):
                 return True
         self.broken = Failure("F4", what, self.internal, conflict, self.relaxes)
@@ -225,8 +243,7 @@ class PlanReactor:
     def accept(self, request: Request) -> None:
         """Queue a request for one of its timelines; who does not look ahead takes none (T-REX 1.8)."""
         if self.lookahead == 0:
-            text = token_text(request.predicate, request.arguments)
-            self._refuse(request, f"{text}: `{self.name}` does not look ahead and takes no goals")
+            self._refuse(request, Reason(ReasonKind.NO_LOOKAHEAD))
             return
         self.waiting.append(request)
         self.due = min(self.due, max(self.tick + 1, request.start[0] - self.latency - max(self.lookahead, 1)))
@@ -248,12 +265,12 @@ class PlanReactor:
         """Make a rejectable token of a request, or refuse it."""
         line = self.by_name[request.timeline]
         predicate = line.predicates.get(request.predicate, NOTHING)
-        text = token_text(request.predicate, request.arguments)
         if predicate == NOTHING:
-            self._refuse(request, f"{text}: `{request.timeline}` has no predicate `{request.predicate}`")
+            what = Reason(ReasonKind.UNKNOWN_PREDICATE, predicate=request.predicate, timeline=request.timeline)
+            self._refuse(request, what)
             return
         if request.start[1] < tick:
-            self._refuse(request, f"{text}: too late")
+            self._refuse(request, Reason(ReasonKind.TOO_LATE))
             return
         mark = self.bench.mark()
         token = self.bench.new_goal(predicate, line.object_id)
@@ -268,16 +285,25 @@ class PlanReactor:
         if not holds:
             bench.rewind_to(mark)
             bench.commit()
-            self._refuse(request, f"{text}: its arguments do not fit")
+            self._refuse(request, Reason(ReasonKind.MISFIT))
             return
         bench.commit()
         bench.remember_request(token)
         self.goals.append(Goal(request, token, bench.key(token)))
 
-    def _refuse(self, request: Request, what: str) -> None:
-        self.trace.record("reject", self.name, request.timeline, what, (request.event,))
+    def _refuse(self, request: Request, why: Reason) -> None:
+        event = self.trace.record(
+            EventKind.REJECT,
+            self.name,
+            request.timeline,
+            request.predicate,
+            request.arguments,
+            (request.event,),
+            request=request.number,
+            reason=why,
+        )
         if request.is_mandatory:
-            self.unmet.append(what)
+            self.given_up.append(OpenGoal(request.timeline, request.predicate, request.arguments, why, event))
 
     def _live_goals(self) -> list[Goal]:
         return [goal for goal in self.goals if not goal.is_closed]
@@ -287,8 +313,7 @@ class PlanReactor:
         for goal in self._live_goals():
             if not self.bench.is_alive(goal.token, goal.token_key):
                 goal.is_closed = True
-                text = token_text(goal.request.predicate, goal.request.arguments)
-                self._refuse(goal.request, f"{text}: dropped in the repair")
+                self._refuse(goal.request, Reason(ReasonKind.DROPPED))
             elif self.bench.is_over(goal.token, tick):
                 goal.is_closed = True
         if len(self.goals) > 64:
@@ -298,18 +323,14 @@ class PlanReactor:
         for goal in self._live_goals():
             if self.bench.is_rejected(goal.token):
                 goal.is_closed = True
-                text = token_text(goal.request.predicate, goal.request.arguments)
-                self._refuse(goal.request, f"{text}: the planner found no place for it")
+                self._refuse(goal.request, Reason(ReasonKind.REJECTED))
 
-    def unmet_goals(self) -> list[str]:
+    def open_goals(self) -> list[OpenGoal]:
         """Mandatory goals that were refused, or that have not run to their end by now."""
-        left = [
-            token_text(goal.request.predicate, goal.request.arguments)
-            for goal in self._live_goals()
-            if goal.request.is_mandatory
+        left = [goal.request for goal in self._live_goals()] + self.waiting
+        return self.given_up + [
+            OpenGoal(r.timeline, r.predicate, r.arguments, event=r.event) for r in left if r.is_mandatory
         ]
-        waiting = [token_text(r.predicate, r.arguments) for r in self.waiting if r.is_mandatory]
-        return self.unmet + left + waiting
 
     # ---- dispatch ----
 

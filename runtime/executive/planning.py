@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from runtime.executive.outcome import Conflict
+from runtime.executive.outcome import Conflict, Reason, ReasonKind
 from runtime.executive.story import conflict_of
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, ROLE_LOCAL, ROLE_TOKEN
@@ -89,7 +89,7 @@ class Planner:
         self.solver.take_back()
         return False
 
-    def reason(self) -> tuple[str, Conflict | None]:
+    def reason(self) -> tuple[Reason, Conflict | None]:
         """Why the search cannot go on: the first token that must hold and cannot, and what stands against it."""
         bench, rows = self.bench, self.bench.rows
         for t in bench.all_tokens():
@@ -99,5 +99,5 @@ class Planner:
             conflict = None if bench.activate(t) else conflict_of(bench)
             bench.rewind_to(mark)
             bench.release(mark)
-            return f"no place for {bench.token_name(t)}", conflict
-        return "no plan inside the window", None
+            return Reason(ReasonKind.NO_PLACE, bench.name_of(t)), conflict
+        return Reason(ReasonKind.NO_PLAN), None

@@ -7,7 +7,7 @@ chronologically. The whole is bounded by `LIMIT` tries, so that a present that c
 from dataclasses import dataclass
 
 from runtime.executive.messages import Observation
-from runtime.executive.outcome import Conflict
+from runtime.executive.outcome import Conflict, Reason, ReasonKind
 from runtime.executive.planning import Planner
 from runtime.executive.story import conflict_of
 from runtime.executive.timelines import NOTHING, TimelineState
@@ -30,11 +30,11 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Unsettled:
-    """The present cannot be explained: the failure code, in words where, and the conflict."""
+    """The present cannot be explained: the failure code, where, why, and the conflict."""
 
     code: str
     timelines: tuple[str, ...]
-    summary: str
+    reason: Reason
     conflict: Conflict | None
 
 
@@ -47,7 +47,7 @@ def settle(
     as long as it may. A requested token always starts as soon as it may. On failure the caller rewinds.
     """
     if not bench.set_clock(tick):
-        return Unsettled("F3", (), f"the plan does not allow it to be tick {tick}", conflict_of(bench))
+        return Unsettled("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
     failed = persist(bench, timelines, tick)
     if failed is not None:
         return failed
@@ -66,10 +66,10 @@ def persist(bench: Workbench, timelines: list[TimelineState], tick: int) -> Unse
             continue
         if line.news is None:
             if not bench.at_least(bench.end(line.current), tick + 1, SPAN_OBSERVATION, line.current):
-                what = f"{bench.token_name(line.current)} goes on at tick {tick}, later than the plan allows"
+                what = Reason(ReasonKind.GOES_ON, bench.name_of(line.current), tick=tick)
                 return Unsettled("F1", (line.name,), what, conflict_of(bench))
         elif not bench.fix(bench.end(line.current), tick, SPAN_OBSERVATION, line.current):
-            what = f"{bench.token_name(line.current)} ended at tick {tick}, when the plan does not allow it"
+            what = Reason(ReasonKind.ENDED, bench.name_of(line.current), tick=tick)
             return Unsettled("F2", (line.name,), what, conflict_of(bench))
     return None
 
@@ -121,7 +121,7 @@ class _Search:
                 tries += 1
                 if tries > LIMIT + len(self.lines):
                     first = self.first
-                    what = f"no consistent present was found in {tries - 1} tries"
+                    what = Reason(ReasonKind.STEPS, limit=tries - 1)
                     return Unsettled("F5", first.timelines if first else (), what, first.conflict if first else None)
                 depth = len(open_choices) - 1
                 if not open_choices[depth]:
@@ -142,7 +142,7 @@ class _Search:
     def _back(self, marks: list[int]) -> bool:
         """Undo the latest decision that stands; False if there is none."""
         if not marks:
-            self._fail("F3", (), "what is asked of the present cannot be met")
+            self._fail("F3", (), Reason(ReasonKind.UNMET))
             return False
         self.bench.rewind_to(marks[-1])
         return True
@@ -244,11 +244,11 @@ class _Search:
         bench, tick = self.bench, self.tick
         for token in self.waiting():
             if not bench.at_least(bench.start(token), tick + 1, SPAN_CLOCK, token):
-                self._fail("F1", (), f"{bench.token_name(token)} was to start by tick {tick} and did not")
+                self._fail("F1", (), Reason(ReasonKind.DID_NOT_START, bench.name_of(token), tick=tick))
                 return False
         if not self.planner.settle_present(tick):
             if self.first is None:
-                what, conflict = self.planner.reason() if self.explains else ("", None)
+                what, conflict = self.planner.reason() if self.explains else (Reason(ReasonKind.NO_PLAN), None)
                 self.first = Unsettled("F3", (), what, conflict)
             return False
         return True
@@ -270,14 +270,15 @@ class _Search:
         code = "F3" if line.is_internal else "F8" if line.news and line.news.predicate == "Failed" else "F2"
         match choice.kind:
             case "extend":
-                what = f"{self.bench.token_name(choice.token)} cannot go on at tick {self.tick}"
+                what = Reason(ReasonKind.CANNOT_GO_ON, self.bench.name_of(choice.token), tick=self.tick)
             case "next" | "meet":
-                what = f"{self.bench.token_name(choice.token)} cannot start at tick {self.tick}"
+                what = Reason(ReasonKind.CANNOT_START, self.bench.name_of(choice.token), tick=self.tick)
             case _:
-                what = f"no {self.bench.predicate_name(choice.predicate)} can start at tick {self.tick}"
+                predicate = self.bench.predicate_name(choice.predicate)
+                what = Reason(ReasonKind.NONE_CAN_START, predicate=predicate, tick=self.tick)
         self._fail(code, (line.name,), what, self.lines.index(line))
 
-    def _fail(self, code: str, timelines: tuple[str, ...], what: str, depth: int = NOTHING) -> None:
+    def _fail(self, code: str, timelines: tuple[str, ...], what: Reason, depth: int = NOTHING) -> None:
         """Remember what went wrong, unless something did before."""
         if self.first is None:
             self.first = Unsettled(code, timelines, what, conflict_of(self.bench) if self.explains else None)

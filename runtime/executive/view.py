@@ -12,6 +12,7 @@ from runtime.constraints.domains.tags import (
     SUPPORT_RESTRICTION,
 )
 from runtime.executive.messages import Arguments
+from runtime.executive.outcome import TokenName
 from runtime.executive.timelines import TimelineState
 from runtime.plan.database import PlanDatabase
 from runtime.plan.tags import (
@@ -102,9 +103,9 @@ class PlanView:
         mode = self._member(o, "mode")
         return str(mode.values[0]) if mode is not None and mode.values is not None and len(mode.values) == 1 else ""
 
-    def token_name(self, t: int) -> str:
-        """A name for reports: the predicate and a number that is never used again."""
-        return f"{self.predicate_name(self.rows.predicate[t])}#{self.rows.key[t]}"
+    def name_of(self, t: int) -> TokenName:
+        """The name of a token for reports; it outlives the token."""
+        return TokenName(self.predicate_name(self.rows.predicate[t]), self.key(t))
 
     def predicate_name(self, predicate: int) -> str:
         """`Class.predicate`."""
@@ -318,8 +319,3 @@ class PlanView:
     def undecided(self) -> list[int]:
         """Tokens that are still to be decided."""
         return self._listed(HEAD_OPEN, LIST_OPEN)
-
-    def sampled_name(self, span: int) -> str:
-        """The sampled parameter that the text at `span` names."""
-        text = self.database.code.spans[span].text if 0 <= span < len(self.database.code.spans) else ""
-        return text.partition("(")[2].partition(")")[0].strip() or "sampledParameter"
