@@ -189,6 +189,14 @@ class PlanView:
         """Whether the token is in the plan by itself."""
         return bool(self.rows.status[t] == ACTIVE)
 
+    def is_goal(self, t: int) -> bool:
+        """Whether the token is one that may be given up."""
+        return bool(self.rows.flags[t] & FLAG_GOAL)
+
+    def is_merged(self, t: int) -> bool:
+        """Whether the token stands for another one."""
+        return bool(self.rows.status[t] == MERGED)
+
     def is_rejected(self, t: int) -> bool:
         """Whether the planner has given the token up."""
         return bool(self.rows.status[t] == REJECTED)
@@ -278,8 +286,8 @@ class PlanView:
     def is_blocked(self, t: int, current: int, tick: int) -> bool:
         """Whether the earliest start of `t` hangs on a token that has not begun, or on an end still to be observed.
 
-        The bound is followed along edges. What is observed on the timeline of `t` itself does not block if it was not
-        planned (it ends when `t` begins), nor does what this reactor may end itself.
+        The bound is followed along edges. `current`, the token that holds on the timeline of `t` now, does not block
+        (NOTHING: it does): it ends when `t` begins. Nor does what this reactor may end itself.
         """
         engine, plan = self.engine, self.database.plan
         v = self.start(t)
@@ -302,7 +310,7 @@ class PlanView:
         if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != END or self.engine.upper(v) <= tick:
             return False
         other = self.stands_for(plan.variable_owner[v])
-        if other == self.stands_for(t) or (other == current and self.is_fact(other)):
+        if other == self.stands_for(t) or other == current:
             return False
         return self.object_of(other) in self.external_objects
 
@@ -310,6 +318,26 @@ class PlanView:
         """The object that a token is on; NONE while that is open."""
         v = self.rows.var0[t] + OBJECT
         return int(self.engine.lower(v)) if self.engine.is_singleton(v) else NONE
+
+    def merged_early(self, t: int, tick: int) -> list[int]:
+        """The tokens merged into `t` whose masters have not begun, and that nobody asked for."""
+        rows = self.rows
+        found = []
+        other = rows.merged[t]
+        while other >= 0:
+            master = rows.master[other]
+            if master >= 0 and not self.is_started(master, tick - 1) and not self.is_due_to_request(master):
+                found.append(int(other))
+            other = rows.merged_next[other]
+        return found
+
+    def is_due_to_request(self, t: int) -> bool:
+        """Whether the token, or one that it follows from, is one that somebody asked for."""
+        while t >= 0:
+            if self.is_requested(t):
+                return True
+            t = self.rows.master[t]
+        return False
 
     def reads_clock(self) -> bool:
         """Whether anything in the plan depends on the tick that is now."""

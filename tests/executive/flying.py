@@ -42,11 +42,11 @@ def planner(
     external: str = "",
     latency: int = 0,
     lookahead: int = 100,
-    max_steps: int = 400,
+    max_steps: int | None = None,
 ) -> Flyer:
     """A reactor that plans ahead."""
     place = ReactorConfiguration(
-        name, f"{name}.nddl", latency, lookahead, tuple(internal.split()), tuple(external.split()), None, max_steps
+        name, f"{name}.nddl", latency, lookahead, tuple(internal.split()), tuple(external.split()), None, max_steps=max_steps
     )
     return Flyer(place, text)
 
