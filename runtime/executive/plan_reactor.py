@@ -26,6 +26,10 @@ from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 
 
+class HistoryError(RuntimeError):
+    """Forgetting what is over changed the plan: a mistake of the engine, no verdict about the model."""
+
+
 class PlanReactor:
     """Keeps the plan of its own timelines, and what it expects of others', in step with the world."""
 
@@ -77,6 +81,8 @@ class PlanReactor:
         """Set "now", and forget what is over."""
         self.bench.archive(self.timelines, self.tick)
         self.bench.tidy()
+        if not self.bench.is_consistent():
+            raise HistoryError(f"what is over at tick {tick} contradicts the plan of `{self.name}`")
         self.tick = tick
         self.work_since = tick
         self.steps_made = 0
