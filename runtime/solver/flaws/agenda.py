@@ -11,7 +11,18 @@ from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
 from runtime.constraints.stn.reach import Reach
 from runtime.plan.store.plan import Plan
-from runtime.plan.tags import END, FLAG_GOAL, FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
+from runtime.plan.tags import (
+    END,
+    FLAG_GOAL,
+    FREED,
+    LIST_ORDER,
+    LISTS,
+    OBJECT,
+    ROLE_TOKEN,
+    START,
+    UNDO_BRANCH,
+    UNDO_INPUTS,
+)
 from runtime.solver.configuration.handler_table import Treatments
 from runtime.solver.flaws.custom import CustomManager
 from runtime.solver.flaws.filters import Filters
