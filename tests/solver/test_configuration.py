@@ -75,7 +75,7 @@ def test_xml_says_managers_filters_and_handlers_in_order() -> None:
     assert (threats.handlers[0].priority, threats.handlers[0].order) == (3.0, ("late",))
     assert variables.filters == (FlawFilter("FlawFilter", Match(class_name="T", variable="x")),)
     (listed,) = variables.handlers
-    assert (listed.values, listed.guards, listed.master_guards) == (("red", "blue"), (("x", "3"),), (("y", "true"),))
+    assert (listed.values, listed.guards, listed.parent_guards) == (("red", "blue"), (("x", "3"),), (("y", "true"),))
     assert (listed.priority, listed.max_choices, listed.specificity) == (7.0, 2, 4)
 
 

@@ -1,4 +1,4 @@
-"""Hold what a solver is told: which flaws it mends, in which order, and how; as frozen data."""
+"""Solver configuration as frozen data: which flaws are mended, in which order, and how."""
 
 from dataclasses import dataclass, replace
 
@@ -12,9 +12,9 @@ class Match:
     class_name: str | None = None
     predicate: str | None = None
     variable: str | None = None
-    master_class: str | None = None
-    master_predicate: str | None = None
-    master_relation: str | None = None
+    parent_class: str | None = None
+    parent_predicate: str | None = None
+    parent_relation: str | None = None
     token_name: str | None = None
 
     @property
@@ -24,9 +24,9 @@ class Match:
             self.class_name,
             self.predicate,
             self.variable,
-            self.master_class,
-            self.master_predicate,
-            self.master_relation,
+            self.parent_class,
+            self.parent_predicate,
+            self.parent_relation,
             self.token_name,
         )
         return sum(attribute is not None for attribute in given)
@@ -45,7 +45,7 @@ class FlawFilter:
 class FlawHandler:
     """How a flaw is mended: the component, when it applies, and what it is told.
 
-    `guards` and `master_guards` are pairs of a variable of the token (of its parent) and the value it must have.
+    `guards` and `parent_guards` are pairs of a variable of the token (of its parent) and the value it must have.
     `order` sorts choices; `choice` says which an HSTS handler offers; `values` are those of ValEnum.
     `keep`, `constraint` and `iterate` are for resource threats.
     """
@@ -53,7 +53,7 @@ class FlawHandler:
     component: str
     match: Match = Match()
     guards: tuple[tuple[str, str], ...] = ()
-    master_guards: tuple[tuple[str, str], ...] = ()
+    parent_guards: tuple[tuple[str, str], ...] = ()
     priority: float = WORST_PRIORITY
     max_choices: int = 0
     order: tuple[str, ...] = ()
@@ -66,7 +66,7 @@ class FlawHandler:
     @property
     def specificity(self) -> int:
         """How many conditions it has: of all handlers that apply, the most specific one is taken."""
-        return self.match.weight + len(self.guards) + len(self.master_guards)
+        return self.match.weight + len(self.guards) + len(self.parent_guards)
 
 
 @dataclass(frozen=True, slots=True)

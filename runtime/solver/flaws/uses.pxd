@@ -20,7 +20,7 @@ cdef class Uses:
     cdef public Distances distances
     cdef public long long[::1] grounded, point, takes
     cdef public Flaws flaws
-    cdef public Heap agenda
+    cdef public Heap events
     cdef public long long found_at, found_low, count
     cdef public double found_excess
     cdef public double[::1] amount_least, amount_most
@@ -39,7 +39,7 @@ cdef class Uses:
     cpdef bint worst_flaw(self, long long o) except -1
 
     @cython.locals(
-        agenda=Heap, capacity_high="double", capacity_low="double", engine=Engine, excess="double", high="double",
+        events=Heap, capacity_high="double", capacity_low="double", engine=Engine, excess="double", high="double",
         k="long long", low="double", lower="double", maximum="double", minimum="double", time="long long",
         upper="double"
     )
