@@ -38,7 +38,7 @@ class HandlerTable:
         self.manager_kind = array("q", matching.manager_kinds)
         self.by_predicate = not (matching.reads_parents or matching.reads_names)
         self._number_handlers()
-        self.table = 0
+        self.row_count = 0
         self.filter_first = array("q")
         self.filter_count = array("q")
         self.filter_code = array("q")
@@ -114,8 +114,8 @@ class HandlerTable:
             while self.heap_priority[heap] != self.handler_priority[usable[0]]:
                 heap += 1
         self.heap_of = _longer(self.heap_of, heap)
-        row = self.table
-        self.table = row + 1
+        row = self.row_count
+        self.row_count = row + 1
         self.rows[(manager, found)] = row
         return row
 
@@ -187,7 +187,7 @@ class HandlerTable:
         key = (manager, owner, NONE, NONE)
         row = self.variable_rows.get(key)
         if row is None:
-            row = self._row(manager, self.matching.instant(manager, self.vocabulary.class_text(owner)))
+            row = self._row(manager, self.matching.resource(manager, self.vocabulary.class_text(owner)))
             self.variable_rows[key] = row
         return row
 
