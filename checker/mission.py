@@ -142,6 +142,7 @@ def _read_reactors(tables: list[Table], root: Path) -> tuple[ReactorConfiguratio
             external=table.strings("external"),
             solver=table.string("solver", "") or None,
             early=table.strings("early"),
+            late=table.strings("late"),
             max_steps=table.whole("max_steps", 0, 0) or None,
             max_depth=table.whole("max_depth", 0, 0) or None,
         )
