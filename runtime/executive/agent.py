@@ -15,11 +15,11 @@ from runtime.executive.outcome import (
     Phase,
     Reason,
     ReasonKind,
-    Term,
     TimeBounds,
 )
 from runtime.executive.reactor import Failure, Reactor, Refusal
 from runtime.executive.trace import Trace
+from runtime.plan.readout.statements import Term
 
 
 class OwnershipError(ValueError):

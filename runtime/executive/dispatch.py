@@ -1,10 +1,11 @@
 """Decide which planned tokens are asked of the owners of their timelines, and when requests are taken back."""
 
 from runtime.executive.messages import Request
-from runtime.executive.outcome import EventKind, TimeBounds, TokenName
+from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
+from runtime.plan.readout.names import TokenName
 
 INFINITY = 4503599627370495
 

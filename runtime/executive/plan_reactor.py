@@ -5,17 +5,7 @@ from runtime.executive.dispatch import Dispatch
 from runtime.executive.draws import Draws
 from runtime.executive.goals import Goals
 from runtime.executive.messages import Observation, Request
-from runtime.executive.outcome import (
-    Conflict,
-    ElementKind,
-    EventKind,
-    OpenGoal,
-    Phase,
-    Reason,
-    ReasonKind,
-    RepairStage,
-    VariableName,
-)
+from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.planning import Planner
 from runtime.executive.reactor import Failure, Refusal, Watched
 from runtime.executive.repair import relax
@@ -24,6 +14,7 @@ from runtime.executive.synchronise import Unsettled, settle
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
+from runtime.plan.readout.names import VariableName
 
 
 class HistoryError(RuntimeError):

@@ -12,9 +12,9 @@ from runtime.constraints.domains.tags import (
     SUPPORT_RESTRICTION,
 )
 from runtime.executive.messages import Arguments
-from runtime.executive.outcome import TokenName
 from runtime.executive.timelines import TimelineState
 from runtime.plan.database import PlanDatabase
+from runtime.plan.readout.names import TokenName
 from runtime.plan.tags import (
     ACTIVE,
     FLAG_FACT,

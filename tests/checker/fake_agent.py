@@ -22,10 +22,9 @@ from runtime.executive.outcome import (
     ReasonKind,
     RepairStage,
     SourcePlace,
-    Term,
-    TokenName,
-    VariableName,
 )
+from runtime.plan.readout.names import TokenName, VariableName
+from runtime.plan.readout.statements import Term
 
 SURFACE_MAX = 63  # less 25 ticks of ascent: fails when 10 * rate > 38
 ASCENT = 25
