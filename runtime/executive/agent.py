@@ -109,9 +109,11 @@ class Agent:
             self._advance(last)
         left = [goal for reactor in [*self.killed, *self.reactors] for goal in reactor.open_goals()]
         left += [OpenGoal(r.timeline, r.predicate, r.arguments) for _, r in self.unsent if r.is_mandatory]
+        if last < final_tick:
+            left = [goal for goal in left if goal.reason is not None]  # the others may still be achieved
         self.trace.phase = Phase.END
         if abort is None:
-            self.trace.record(EventKind.END, "")
+            self.trace.record(EventKind.END, "", code="F10" if left and not self.killed else "")
         return Outcome(
             self.seed,
             self.tick,

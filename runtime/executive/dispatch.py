@@ -49,7 +49,8 @@ class Dispatch:
     def requests(self, tick: int, final_tick: int) -> list[Request]:
         """Planned tokens on others' timelines that are due to be asked for (T-REX 1.8).
 
-        They are asked for one after the other: what the plan puts behind a token whose end is still to be observed waits. What cannot begin before the mission ends is not asked.
+        They are asked for one after the other: what the plan puts behind a token whose end is still to be observed
+        waits. What cannot begin before the mission ends is not asked.
         """
         asked = []
         for line in self.timelines:
