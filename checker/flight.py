@@ -1,9 +1,10 @@
 """Fly real missions: load the models of an agent once, then run the executive from a seed."""
 
 import sys
+from collections.abc import Mapping
 from contextlib import redirect_stdout
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import overload
 
@@ -31,17 +32,23 @@ def load(agent: AgentConfiguration) -> Fly:
     """
     root = Path(agent.root)
     reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
+    load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
+    return partial(fly_once, agent)
+
+
+def fly_once(
+    agent: AgentConfiguration, seed: int, values: Mapping[str, float] | None = None, until: int | None = None
+) -> Outcome:
+    """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick."""
+    root = Path(agent.root)
+    reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
     programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
-
-    def fly(seed: int) -> Outcome:
-        with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
-            outcome, record = record_mission(agent, programs, seed)
-            report = judge_mission(agent, programs.programs, outcome, record, programs.constraints)
-        if report.errors:
-            raise DisagreementError(report)
-        return _relative(replace(outcome, breaches=breaches(report)), root)
-
-    return fly
+    with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
+        outcome, record = record_mission(agent, programs, seed, values, until=until)
+        report = judge_mission(agent, programs.programs, outcome, record, programs.constraints, values)
+    if report.errors:
+        raise DisagreementError(report)
+    return _relative(replace(outcome, breaches=breaches(report)), root)
 
 
 @lru_cache(maxsize=4)

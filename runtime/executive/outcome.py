@@ -139,6 +139,7 @@ class ReasonKind(StrEnum):
     TOO_LATE = "too late"
     DROPPED = "dropped"
     REJECTED = "rejected"
+    RECALLED = "recalled"
     # of the present
     CLOCK = "clock"
     GOES_ON = "goes on"

@@ -16,7 +16,7 @@ from runtime.solver.flaws.selection cimport select
 from runtime.solver.learning.dead_end cimport explain_dead_end
 from runtime.solver.flaws.agenda_updates cimport update, rebuild, note_levels
 
-cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
+cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, _NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
 cdef long long TIMEOUT, UNBOUND_VARIABLE
 
 
@@ -50,26 +50,26 @@ cdef class Solver:
     cpdef long long fail(self, long long d) except? -1
 
     @cython.locals(level="long long", stack=Decisions)
-    cpdef bint is_nogood(self, long long d) except -1
+    cpdef bint _is_nogood(self, long long d) except -1
 
     @cython.locals(stack=Decisions)
-    cpdef long long retry(self, long long d) except? -1
+    cpdef long long _retry(self, long long d) except? -1
 
     @cython.locals(heap="long long", agenda=Agenda)
-    cpdef bint is_reordered(self, long long d) except -1
+    cpdef bint _is_reordered(self, long long d) except -1
 
     cpdef long long restart(self) except? -1
 
     @cython.locals(o="long long")
     cpdef int check_overload(self) except -1
 
-    cpdef long long enter(self) except? -1
+    cpdef long long _enter(self) except? -1
 
     @cython.locals(stack=Decisions)
-    cpdef long long undo(self, long long d) except? -1
+    cpdef long long _undo(self, long long d) except? -1
 
     @cython.locals(stack=Decisions, target="long long")
-    cpdef long long backjump(self, long long d, bint is_explained) except? -1
+    cpdef long long _backjump(self, long long d, bint is_explained) except? -1
 
 
 cpdef bint _is_rejection(Agenda agenda, Decisions stack, long long d) except -1

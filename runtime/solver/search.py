@@ -37,11 +37,11 @@ from runtime.solver.tags import (
     UNBOUND_VARIABLE,
 )
 
-NO_LIMIT = 2**62
+_NO_LIMIT = 2**62
 
 
 class Solver:
-    """The search. With `europa` it makes EUROPA's steps one for one; else it goes back as far as a conflict allows."""
+    """The search. With `europa` it makes EUROPA's steps one for one; else it backjumps."""
 
     def __init__(
         self, database: PlanDatabase, configuration: Configuration, lower: int, upper: int, europa: bool
@@ -69,8 +69,8 @@ class Solver:
         self.failures = 0
         self.steps_floor = 0
         self.depth_floor = 0
-        self.max_steps = NO_LIMIT
-        self.max_depth = NO_LIMIT
+        self.max_steps = _NO_LIMIT
+        self.max_depth = _NO_LIMIT
         self.has_active = False
         self.is_exhausted = False
         self.is_started = False
@@ -90,7 +90,7 @@ class Solver:
             self.filters.scope = scope
 
     def refresh(self) -> None:
-        """Look at the whole plan anew, because it was changed from outside; no decision may be on the stack."""
+        """Start from the plan as it is, after a change from outside; no decision may be on the stack."""
         assert self.stack.depth == 0
         self.is_started = True
         self.has_active = False
@@ -110,15 +110,15 @@ class Solver:
         """Commit all decisions: the stack is empty, and nothing of it can be undone."""
         self.stack.clear()
         self.has_active = False
-        self.is_started = False  # the plan is looked at anew before the next step, if there is one
+        self.is_started = False  # the next step, if there is one, refreshes
         commit(self.plan)
 
     def undo_all(self) -> None:
         """Undo all decisions."""
         if self.has_active:
-            self.undo(self.stack.depth)
+            self._undo(self.stack.depth)
         while self.stack.depth > 0:
-            self.undo(self.stack.depth - 1)
+            self._undo(self.stack.depth - 1)
         self.is_exhausted = False
 
     def solve(self, max_steps: int, max_depth: int, is_late: Callable[[], bool] | None = None) -> int:
@@ -151,7 +151,7 @@ class Solver:
                     agenda.dropped_count = 0  # nothing is undone behind the first decision
                 if not select(agenda):
                     return PLAN
-                self.enter()
+                self._enter()
             agenda.probing = (
                 self.steps - self.steps_floor >= self.max_steps or stack.depth - self.depth_floor > self.max_depth
             )
@@ -160,7 +160,7 @@ class Solver:
             if most == 0 or stack.tries[d] < most:
                 outcome = mend(agenda, stack, d)
             if outcome == NO_CHOICE:
-                self.backjump(d, False)
+                self._backjump(d, False)
                 continue
             if agenda.probing:
                 return TIMEOUT
@@ -171,13 +171,13 @@ class Solver:
                 update(agenda, d + 1)
                 stack.depth = d + 1
                 self.has_active = False
-                if self.nogoods.is_recording and self.is_nogood(d):
+                if self.nogoods.is_recording and self._is_nogood(d):
                     return FAILED
                 if self.checks_overload and not self.disjunctive.fit():
                     self.fail(d)
-                    self.retry(d)
+                    self._retry(d)
                     if self.is_dead_end:
-                        self.backjump(d, True)
+                        self._backjump(d, True)
                     return FAILED
                 return MOVED
             if not self.europa:
@@ -186,7 +186,7 @@ class Solver:
             rewind(self.plan, stack.mark[d])
             self.check_overload()
             if self.is_dead_end:
-                self.backjump(d, True)
+                self._backjump(d, True)
             return FAILED
         return EXHAUSTED
 
@@ -198,11 +198,11 @@ class Solver:
             self.failure_log.note_failure(d)
         if not self.europa:
             self.is_dead_end = self.analysis.learn(d)
-            if self.may_restart and self.is_reordered(d):
+            if self.may_restart and self._is_reordered(d):
                 self.agenda.restarts.note_failure()
         return 0
 
-    def is_nogood(self, d: int) -> bool:
+    def _is_nogood(self, d: int) -> bool:
         """Whether the resolver just chosen at `d` completes a nogood; then it is undone."""
         levels = self.nogoods.refuted(d)
         if levels is None:
@@ -214,10 +214,10 @@ class Solver:
                 self.analysis.meet(level)
             self.analysis.keep(d)
         self.failures += 1
-        self.retry(d)
+        self._retry(d)
         return True
 
-    def is_reordered(self, d: int) -> bool:
+    def _is_reordered(self, d: int) -> bool:
         """Whether decision `d` may come at another time in another run, so that its failures count for a restart.
 
         A failure log is of one run.
@@ -243,13 +243,13 @@ class Solver:
                 self.plan.resources.set_energetic(o, is_resource_managed(self.agenda, o))
         return 0
 
-    def enter(self) -> int:
+    def _enter(self) -> int:
         """Open a decision about the flaw that was found."""
         self.stack.open(self.agenda, mark(self.plan))
         self.has_active = True
         return 0
 
-    def undo(self, d: int) -> int:
+    def _undo(self, d: int) -> int:
         """Undo decision `d` and drop it."""
         stack = self.stack
         release(self.plan, stack.mark[d])
@@ -259,7 +259,7 @@ class Solver:
         self.has_active = False
         return 0
 
-    def backjump(self, d: int, is_explained: bool) -> int:
+    def _backjump(self, d: int, is_explained: bool) -> int:
         """Drop a decision without resolvers, and go back to the latest one in its conflict set."""
         target = d - 1
         self.check_overload()
@@ -272,16 +272,16 @@ class Solver:
                 self.nogoods.record(d)
         if self.failure_log is not None:
             self.failure_log.note_dead_end(d, target)
-        self.undo(d)
+        self._undo(d)
         while self.stack.depth > target + 1:
-            self.undo(self.stack.depth - 1)
+            self._undo(self.stack.depth - 1)
         if target < 0:
             self.is_exhausted = True
             return 0
-        self.retry(target)
+        self._retry(target)
         return 0
 
-    def retry(self, d: int) -> int:
+    def _retry(self, d: int) -> int:
         """Undo what decision `d` has chosen, for its next resolver."""
         stack = self.stack
         rewind(self.plan, stack.mark[d])

@@ -20,7 +20,7 @@ MANAGER_NAMES = ("ThreatManager", "OpenConditionManager", "UnboundVariableManage
     FILTER_PARENT_NOT_ASSIGNED,
     FILTER_NOT_ASSIGNED,
 ) = range(11)
-POLICY_PARTIAL, POLICY_POSSIBLE, POLICY_TOTAL = range(3)
+POLICY_PARTIAL, POLICY_POSSIBLE, _POLICY_TOTAL = range(3)
 
 # ---- handlers ----
 (
@@ -37,7 +37,7 @@ POLICY_PARTIAL, POLICY_POSSIBLE, POLICY_TOTAL = range(3)
 ) = range(10)
 
 # ---- what an HSTS handler offers, and how it sorts ----
-MERGE_FIRST, ACTIVATE_FIRST, MERGE_ONLY, ACTIVATE_ONLY = range(4)
+_MERGE_FIRST, ACTIVATE_FIRST, MERGE_ONLY, ACTIVATE_ONLY = range(4)
 ORDER_EARLY, ORDER_LATE, ORDER_NEAR, ORDER_FAR, ORDER_KEY = range(5)
 
 # ---- which flaw of a resource comes first ----
@@ -45,7 +45,7 @@ PREFER_LOWER, PREFER_UPPER, PREFER_MOST, PREFER_LEAST, PREFER_EARLIEST, PREFER_L
 
 # ---- which constraint is posted on a pair of uses, and whether pairs or constraints vary first ----
 PRECEDES_ONLY, PRECEDES_FIRST, CONCURRENT_ONLY, CONCURRENT_FIRST = range(4)
-PAIR_FIRST, CONSTRAINT_FIRST = range(2)
+_PAIR_FIRST, CONSTRAINT_FIRST = range(2)
 
 # ---- the solver's state after a step ----
 MOVED, FAILED, PLAN, EXHAUSTED, TIMEOUT = range(5)

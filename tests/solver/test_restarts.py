@@ -1,4 +1,4 @@
-"""A search that begins anew says the same as one that does not, and finds what is hidden sooner."""
+"""A search with restarts has the same verdict as one without, and finds hidden contradictions sooner."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -22,7 +22,7 @@ CLASSES = """
 
 
 def restless(folder: Path, text: str, how: Configuration | None = None) -> Solver:
-    """A solver that begins anew after two failures, then after three, and so on."""
+    """A solver that restarts after two failures, then after three, and so on."""
     solver = solver_for(folder, text, how=how)
     solver.refresh()
     solver.agenda.restarts.limit = 2
@@ -100,7 +100,7 @@ def test_variables_keep_their_order_where_it_may_matter(tmp_path: Path, text: st
     assert not solver_for(tmp_path, whole, europa=True).may_restart
 
 
-def test_who_asks_for_an_account_is_told_of_one_run(tmp_path: Path) -> None:
+def test_a_failure_log_is_of_one_run(tmp_path: Path) -> None:
     solver = restless(tmp_path, model("knot", 2, False))
     solver.failure_log = FailureLog(solver.database, solver.agenda, solver.stack)
     assert solved(solver) == "exhausted"

@@ -7,7 +7,7 @@ from runtime.solver.tags import WORST_PRIORITY
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """Which tokens, variables or instants a filter or handler means; all that is given must hold."""
+    """Which tokens, variables or resources a filter or handler matches; all that is given must hold."""
 
     class_name: str | None = None
     predicate: str | None = None
@@ -34,7 +34,7 @@ class Match:
 
 @dataclass(frozen=True, slots=True)
 class FlawFilter:
-    """What is not to be mended. `component` FlawFilter excludes all that matches; the others test more."""
+    """Flaws to exclude. `component` FlawFilter excludes all that match; the others test more."""
 
     component: str = "FlawFilter"
     match: Match = Match()
@@ -43,7 +43,7 @@ class FlawFilter:
 
 @dataclass(frozen=True, slots=True)
 class FlawHandler:
-    """How a flaw is mended: the component, when it applies, and what it is told.
+    """How a flaw is mended: the component, when it applies, and its settings.
 
     `guards` and `parent_guards` are pairs of a variable of the token (of its parent) and the value it must have.
     `order` sorts choices; `choice` says which an HSTS handler offers; `values` are those of ValEnum.
@@ -71,7 +71,7 @@ class FlawHandler:
 
 @dataclass(frozen=True, slots=True)
 class FlawManager:
-    """One kind of flaw, what is left out of it, and how it is mended; `order` sorts flaws of resources.
+    """One kind of flaw, its filters and handlers; `order` sorts flaws of resources.
 
     A manager of resources leaves nothing out, unless it stands `for_tokens`: see `with_resources`.
     """
@@ -85,7 +85,7 @@ class FlawManager:
 
 @dataclass(frozen=True, slots=True)
 class Configuration:
-    """All that a solver is told; `filters` apply to tokens and variables of every manager."""
+    """The settings of a solver; `filters` apply to tokens and variables of every manager."""
 
     name: str
     filters: tuple[FlawFilter, ...]

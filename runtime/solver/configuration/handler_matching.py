@@ -136,12 +136,12 @@ class HandlerMatching:
         """The row of a manager for a global variable."""
         return self._match(manager, None, None, variable, _VARIABLE_FILTERS)
 
-    def instant(self, manager: int, resource: str) -> HandlerRow | None:
+    def resource(self, manager: int, owner: str) -> HandlerRow | None:
         """The row of a manager for a resource of a class; filters count only in a manager that stands `for_tokens`."""
         if self.managers[manager].for_tokens:
-            is_counted = _COUNTED in self._ancestry(resource)
-            return None if is_counted else self._match(manager, None, resource, None, _TOKEN_FILTERS)
-        fitting = [h for h in self.handlers_of[manager] if self._fits(self.handlers[h].match, None, resource, None)]
+            is_counted = _COUNTED in self._ancestry(owner)
+            return None if is_counted else self._match(manager, None, owner, None, _TOKEN_FILTERS)
+        fitting = [h for h in self.handlers_of[manager] if self._fits(self.handlers[h].match, None, owner, None)]
         return HandlerRow((), self._sorted(fitting))
 
     def _match(

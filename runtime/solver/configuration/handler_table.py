@@ -187,7 +187,7 @@ class HandlerTable:
         key = (manager, owner, NONE, NONE)
         row = self.variable_rows.get(key)
         if row is None:
-            row = self._row(manager, self.matching.instant(manager, self.vocabulary.class_text(owner)))
+            row = self._row(manager, self.matching.resource(manager, self.vocabulary.class_text(owner)))
             self.variable_rows[key] = row
         return row
 

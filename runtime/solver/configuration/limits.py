@@ -21,7 +21,7 @@ class Limits:
 
 
 def model_limits(database: PlanDatabase) -> Limits | None:
-    """What the first object of class PlannerConfig says, where all that it says is known; None if there is none."""
+    """The limits of the first object of class PlannerConfig whose horizon is known; None if there is none."""
     plan = database.plan
     classes = {each.name: each for each in database.program.classes}
     for o in range(len(database.objects.names)):

@@ -209,6 +209,6 @@ class _Reading:
 
 
 def _match(element: Element) -> Match:
-    """What the match attributes of a filter or handler say."""
+    """The match attributes of a filter or handler."""
     found = {field: element.find(*names) for field, names in _MATCHES.items()}
     return Match(**{field: attribute.value for field, attribute in found.items() if attribute is not None})

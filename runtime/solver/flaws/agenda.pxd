@@ -7,14 +7,14 @@ from runtime.plan.store.rows cimport Rows
 from runtime.constraints.stn.distances cimport Distances
 from runtime.solver.flaws.filters cimport Filters
 from runtime.constraints.stn.heap cimport Heap
-from runtime.constraints.stn.reach cimport Reach
+from runtime.solver.flaws.sequence cimport TimelineSequence
 from runtime.solver.flaws.supports cimport Supports
 from runtime.solver.configuration.handler_table cimport HandlerTable
 from runtime.solver.flaws.uses cimport Uses
 from runtime.solver.flaws.restarts cimport Restarts
 
-cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FREED, LISTS, LIST_ORDER, NONE, NO_KEY, OBJECT, ROLE_TOKEN
-cdef long long START, UNBOUND_VARIABLE, UNDO_BRANCH, UNDO_INPUTS
+cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FLAG_GOAL, FREED, LATEST, NONE, NO_KEY, OBJECT, ROLE_TOKEN
+cdef long long START, UNBOUND_VARIABLE, UNDO_BRANCH, UNDO_INPUTS, YOUNGEST
 
 
 cdef class Agenda:
@@ -24,24 +24,24 @@ cdef class Agenda:
     cdef public HandlerTable table
     cdef public Filters filters
     cdef public Supports supports
-    cdef public bint exact, probing
+    cdef public bint earliest, exact, probing
     cdef public Distances distances
-    cdef public Reach from_start, to_start, from_end, to_end
+    cdef public TimelineSequence sequence
     cdef public Uses uses
     cdef public Restarts restarts
     cdef public long long found_at, found_low, managers, level, found_manager, found_kind, found_item, found_handler
     cdef public long long token_room, variable_room, edge_room, constraint_room, restriction_room, dynamic_count
-    cdef public long long dropped_count, rows_seen, engine_seen, range_object, range_first, range_end
+    cdef public long long dropped_count, rows_seen, engine_seen
     cdef public list heaps, effects
-    cdef public long long[::1] sorted_by_size, sequence, token_row, token_key, token_deferred, token_waiting
-    cdef public long long[::1] token_level, active_level, order_level, index_of, variable_row, variable_key, variable_deferred
+    cdef public long long[::1] sorted_by_size, token_row, token_key, token_deferred, token_waiting
+    cdef public long long[::1] token_level, active_level, order_level, variable_row, variable_key, variable_deferred
     cdef public long long[::1] variable_level, waits_for, waiting_next, waiting_before, edge_level, constraint_level
-    cdef public long long[::1] restriction_level, dynamic_slot, dynamic_is_variable, dropped_slot, dropped_what
+    cdef public long long[::1] restriction_level, dynamic_slot, dynamic_is_variable, dropped_slot, dropped_kind
     cdef public long long[::1] fired_scope, fired_end, waiting_guards
     cdef public signed char[::1] watched
     cdef public double found_priority
 
-    cpdef int make_tables(self) except -1
+    cpdef int _make_tables(self) except -1
 
     @cython.locals(room="long long")
     cpdef long long reserve(self) except? -1
@@ -55,22 +55,16 @@ cdef class Agenda:
     @cython.locals(at="long long", last="long long")
     cpdef long long handler_now(self, long long row, long long t) except? -1
 
-    @cython.locals(count="long long", t="long long")
-    cpdef long long take_sequence(self, long long o) except? -1
-
-    @cython.locals(index="long long")
-    cpdef int note_range(self, long long o, long long count, long long first, long long end) except -1
-
     cpdef int note_flaw(self, long long manager, long long item, long long handler, double priority) except -1
-
-    @cython.locals(v="long long")
-    cpdef int look_around(self, long long t) except -1
 
     @cython.locals(heap=Heap)
     cpdef int clear(self) except -1
 
     @cython.locals(heap="long long", key="long long", target=Heap)
     cpdef long long offer_token(self, long long slot) except? -1
+
+    @cython.locals(start="long long")
+    cpdef long long earliness(self, long long t) except? -1
 
     @cython.locals(target=Heap, t="long long")
     cpdef long long offer_effect(self, long long slot) except? -1
@@ -83,16 +77,16 @@ cdef class Agenda:
     @cython.locals(heap="long long", slot="long long")
     cpdef long long resize(self, long long v) except? -1
 
-    cpdef long long add_dynamic(self, long long slot, long long is_variable) except? -1
+    cpdef long long _add_dynamic(self, long long slot, long long is_variable) except? -1
 
-    cpdef long long drop(self, long long slot, long long what) except? -1
+    cpdef long long drop(self, long long slot, long long kind) except? -1
 
     cpdef long long defer_token(self, long long slot) except? -1
 
     @cython.locals(first="long long", v="long long")
     cpdef long long defer_variable(self, long long slot, long long t) except? -1
 
-    cpdef int watch_times(self, long long t) except -1
+    cpdef int _watch_times(self, long long t) except -1
 
     @cython.locals(after="long long", before="long long", t="long long")
     cpdef long long forget_waiting(self, long long v) except? -1
@@ -103,7 +97,7 @@ cdef class Agenda:
     @cython.locals(slot="long long")
     cpdef long long resume_variable(self, long long v) except? -1
 
-    @cython.locals(at="long long", slot="long long", what="long long")
+    @cython.locals(at="long long", slot="long long", kind="long long")
     cpdef long long backtrack(
-        self, long long dropped, long long loose, long long rows_seen, long long engine_seen
+        self, long long dropped, long long dynamic, long long rows_seen, long long engine_seen
     ) except? -1

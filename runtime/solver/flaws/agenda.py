@@ -9,17 +9,20 @@ from array import array
 from runtime.constraints.domains.arrays import grown
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
-from runtime.constraints.stn.reach import Reach
 from runtime.plan.store.plan import Plan
-from runtime.plan.tags import END, FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
+from runtime.plan.tags import END, FLAG_GOAL, FREED, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
 from runtime.solver.configuration.handler_table import HandlerTable
 from runtime.solver.flaws.filters import Filters
 from runtime.solver.flaws.guarding import guards_hold
 from runtime.solver.flaws.restarts import Restarts
+from runtime.solver.flaws.sequence import TimelineSequence
 from runtime.solver.flaws.supports import Supports
 from runtime.solver.flaws.uses import Uses
 from runtime.solver.tags import DROPPED_TOKEN, DROPPED_VARIABLE, NO_KEY, NONE, UNBOUND_VARIABLE
 from runtime.solver.widening import widened
+
+LATEST = 2**38  # starts beyond count as equal
+YOUNGEST = 2**22  # and so do tokens
 
 
 class Agenda:
@@ -43,14 +46,11 @@ class Agenda:
         self.supports = supports
         self.exact = exact  # makes EUROPA's steps
         self.distances = Distances(plan.engine, exact)
-        self.from_start = Reach(plan.engine, exact)
-        self.to_start = Reach(plan.engine, exact)
-        self.from_end = Reach(plan.engine, exact)
-        self.to_end = Reach(plan.engine, exact)
         self.uses = Uses(plan, self.distances, grounded)
         self.restarts = Restarts(plan.engine)
         self.found_at = 0
         self.found_low = 0
+        self.earliest = False  # goals come before what else is open, in the order of their starts
         self.probing = False  # a resolver is looked for, but not carried out
         self.managers = max(table.managers, 1)
         self.heaps = [Heap() for _ in range(table.heaps)]
@@ -61,18 +61,16 @@ class Agenda:
                 first = table.manager_heap[manager]
                 for heap in range(first, first + table.manager_heaps[manager]):
                     self.sorted_by_size[heap] = 1 if not in_order or table.heap_priority[heap] != 0.0 else 0
-        self.sequence = array("q", [0]) * 64
-        self.range_object = NONE  # whose sequence is known to coincide with the token that is looked around from
-        self.range_first = self.range_end = 0  # between these indices only
+        self.sequence = TimelineSequence(plan, exact)
         self.level = 0
         self.found_manager = NONE
         self.found_kind = NONE
         self.found_item = NONE
         self.found_handler = NONE
         self.found_priority = 0.0
-        self.make_tables()
+        self._make_tables()
 
-    def make_tables(self) -> None:
+    def _make_tables(self) -> None:
         """Make the tables, empty."""
         self.token_room = 64
         self.variable_room = 256
@@ -86,7 +84,6 @@ class Agenda:
         self.token_level = array("q", [0]) * 64
         self.active_level = array("q", [0]) * 64
         self.order_level = array("q", [0]) * 64
-        self.index_of = array("q", [0]) * 64
         self.variable_row = array("q", [NONE]) * (256 * self.managers)
         self.variable_key = array("q", [NO_KEY]) * (256 * self.managers)
         self.variable_deferred = array("q", [0]) * 256
@@ -103,7 +100,7 @@ class Agenda:
         self.dynamic_is_variable = array("q", [0]) * 64
         self.dropped_count = 0
         self.dropped_slot = array("q", [0]) * 256
-        self.dropped_what = array("q", [0]) * 256
+        self.dropped_kind = array("q", [0]) * 256
         self.rows_seen = 0
         self.engine_seen = 0
         self.fired_scope = array("q", [NONE]) * 64  # guards that fired, by level: those of a level end at `fired_end`
@@ -121,7 +118,6 @@ class Agenda:
             self.token_level = widened(self.token_level, room, 0)
             self.active_level = widened(self.active_level, room, 0)
             self.order_level = widened(self.order_level, room, 0)
-            self.index_of = widened(self.index_of, room, 0)
             self.token_room = room
         if self.variable_room < len(self.engine.kind):
             room = len(self.engine.kind)
@@ -195,27 +191,6 @@ class Agenda:
             at += 1
         return self.table.handler_of[at]
 
-    def take_sequence(self, o: int) -> int:
-        """Copy the tokens of a timeline into `sequence`; how many there are."""
-        count = 0
-        t = self.rows.head_first[self.plan.object_head[o]]
-        while t >= 0:
-            if count == len(self.sequence):
-                self.sequence = widened(self.sequence, 2 * count, 0)
-            self.sequence[count] = t
-            count += 1
-            t = self.rows.link_after[LISTS * t + LIST_ORDER]
-        return count
-
-    def note_range(self, o: int, count: int, first: int, end: int) -> int:
-        """Only tokens `first` to `end` of the sequence of object `o` may coincide with the one looked around from."""
-        self.range_object = o
-        self.range_first = first
-        self.range_end = end
-        for index in range(count):
-            self.index_of[self.sequence[index]] = index
-        return 0
-
     def note_flaw(self, manager: int, item: int, handler: int, priority: float) -> int:
         """Note the best flaw so far."""
         self.found_manager = manager
@@ -225,23 +200,13 @@ class Agenda:
         self.found_priority = priority
         return 0
 
-    def look_around(self, t: int) -> int:
-        """Have `from_start`, `to_start` and so on answer for the times of token `t`, until the plan changes."""
-        v = self.rows.var0[t]
-        self.from_start.begin(v + START, True)
-        self.to_start.begin(v + START, False)
-        self.from_end.begin(v + END, True)
-        self.to_end.begin(v + END, False)
-        self.range_object = NONE
-        return 0
-
     def clear(self) -> None:
         """Forget all candidates."""
         for heap in self.heaps:
             heap.clear()
         for heap in self.effects:
             heap.clear()
-        self.make_tables()
+        self._make_tables()
         self.reserve()
 
     # ---- adding candidates ----
@@ -253,14 +218,21 @@ class Agenda:
         heap = self.table.heap_of[self.token_row[slot]]
         if heap < 0:
             self.token_key[slot] = 0
-            return self.add_dynamic(slot, 0)
+            return self._add_dynamic(slot, 0)
         key = self.rows.key[slot // self.managers]
         if self.table.heap_priority[heap] != 0.0:
             key = -key
+        if self.earliest and self.rows.flags[slot // self.managers] & FLAG_GOAL:
+            key = self.earliness(slot // self.managers)
         self.token_key[slot] = key
         target = self.heaps[heap]
         target.push(key, 0, slot)
         return 0
+
+    def earliness(self, t: int) -> int:
+        """What puts goals before other tokens: the earliest start first, of equal ones the oldest."""
+        start = min(max(self.engine.lb[self.rows.var0[t] + START], 0), LATEST)
+        return start * YOUNGEST + min(self.rows.key[t], YOUNGEST - 1) - LATEST * YOUNGEST - YOUNGEST
 
     def offer_effect(self, slot: int) -> int:
         """Add an effect of an action, which is selected before anything else."""
@@ -277,7 +249,7 @@ class Agenda:
         if heap < 0:
             if self.variable_key[slot] == NO_KEY:
                 self.variable_key[slot] = 0
-                self.add_dynamic(slot, 1)
+                self._add_dynamic(slot, 1)
             return 0
         key = self.rank(v) if self.sorted_by_size[heap] else 0
         if self.variable_key[slot] == NO_KEY or key < self.variable_key[slot]:
@@ -299,7 +271,7 @@ class Agenda:
                     self.offer_variable(slot)
         return 0
 
-    def add_dynamic(self, slot: int, is_variable: int) -> int:
+    def _add_dynamic(self, slot: int, is_variable: int) -> int:
         """Add a dynamic slot, which is looked at in every step."""
         if self.dynamic_count == len(self.dynamic_slot):
             self.dynamic_slot = widened(self.dynamic_slot, 2 * self.dynamic_count, 0)
@@ -311,17 +283,17 @@ class Agenda:
 
     # ---- removing candidates, and undoing that ----
 
-    def drop(self, slot: int, what: int) -> int:
+    def drop(self, slot: int, kind: int) -> int:
         """Log that a slot left its heap, so that backtracking adds it again."""
-        if what == DROPPED_VARIABLE:
+        if kind == DROPPED_VARIABLE:
             self.variable_key[slot] = NO_KEY
-        elif what == DROPPED_TOKEN:
+        elif kind == DROPPED_TOKEN:
             self.token_key[slot] = NO_KEY
         if self.dropped_count == len(self.dropped_slot):
             self.dropped_slot = widened(self.dropped_slot, 2 * self.dropped_count, 0)
-            self.dropped_what = widened(self.dropped_what, 2 * self.dropped_count, 0)
+            self.dropped_kind = widened(self.dropped_kind, 2 * self.dropped_count, 0)
         self.dropped_slot[self.dropped_count] = slot
-        self.dropped_what[self.dropped_count] = what
+        self.dropped_kind[self.dropped_count] = kind
         self.dropped_count += 1
         return 0
 
@@ -329,7 +301,7 @@ class Agenda:
         """Defer a token until its times change."""
         self.drop(slot, DROPPED_TOKEN)
         self.token_deferred[slot // self.managers] = 1
-        self.watch_times(slot // self.managers)
+        self._watch_times(slot // self.managers)
         return 0
 
     def defer_variable(self, slot: int, t: int) -> int:
@@ -340,7 +312,7 @@ class Agenda:
         if t >= 0 and self.waits_for[v] != t:
             self.forget_waiting(v)
             self.waits_for[v] = t
-            self.watch_times(t)
+            self._watch_times(t)
             first = self.token_waiting[t]
             self.waiting_next[v] = first
             self.waiting_before[v] = NONE
@@ -349,7 +321,7 @@ class Agenda:
             self.token_waiting[t] = v
         return 0
 
-    def watch_times(self, t: int) -> int:
+    def _watch_times(self, t: int) -> int:
         """Watch the times of a token."""
         self.watched[self.rows.var0[t] + START] = 1
         self.watched[self.rows.var0[t] + END] = 1
@@ -386,24 +358,24 @@ class Agenda:
                 self.offer_variable(slot)
         return 0
 
-    def backtrack(self, dropped: int, loose: int, rows_seen: int, engine_seen: int) -> int:
+    def backtrack(self, dropped: int, dynamic: int, rows_seen: int, engine_seen: int) -> int:
         """Undo what changed since then; the plan and the engine are undone already."""
-        for at in range(loose, self.dynamic_count):
+        for at in range(dynamic, self.dynamic_count):
             if self.dynamic_is_variable[at]:
                 self.variable_key[self.dynamic_slot[at]] = NO_KEY
             else:
                 self.token_key[self.dynamic_slot[at]] = NO_KEY
-        self.dynamic_count = loose
+        self.dynamic_count = dynamic
         at = self.dropped_count
         while at > dropped:
             at -= 1
             slot = self.dropped_slot[at]
-            what = self.dropped_what[at]
-            if what == DROPPED_VARIABLE:
+            kind = self.dropped_kind[at]
+            if kind == DROPPED_VARIABLE:
                 if self.variable_row[slot] >= 0 and self.engine.kind[slot // self.managers] >= 0:
                     self.offer_variable(slot)
             elif self.rows.status[slot // self.managers] != FREED:
-                if what == DROPPED_TOKEN:
+                if kind == DROPPED_TOKEN:
                     self.offer_token(slot)
                 else:
                     self.offer_effect(slot)

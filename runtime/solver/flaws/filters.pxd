@@ -40,9 +40,9 @@ cdef class Filters:
     cpdef bint waits_for_times(self, long long row) except -1
 
     @cython.locals(end="long long", engine=Engine, start="long long")
-    cpdef bint is_outside(self, long long t, long long policy) except -1
+    cpdef bint _is_outside(self, long long t, long long policy) except -1
 
-    cpdef bint is_assigned(self, long long t) except -1
+    cpdef bint _is_assigned(self, long long t) except -1
 
     @cython.locals(role="long long")
     cpdef long long token_of(self, long long v) except? -1

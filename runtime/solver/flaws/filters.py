@@ -52,11 +52,11 @@ class Filters:
         for f in range(first, first + self.table.filter_count[row]):
             code = self.table.filter_code[f]
             if code == FILTER_HORIZON:
-                if self.is_outside(t, self.table.filter_policy[f]):
+                if self._is_outside(t, self.table.filter_policy[f]):
                     return True
             elif code == FILTER_PARENT_NOT_ASSIGNED:
                 parent = self.rows.master[t]
-                if parent >= 0 and not self.is_assigned(parent):
+                if parent >= 0 and not self._is_assigned(parent):
                     return True
         return False
 
@@ -71,7 +71,7 @@ class Filters:
         for f in range(first, first + self.table.filter_count[row]):
             code = self.table.filter_code[f]
             if code == FILTER_HORIZON or code == FILTER_HORIZON_VARIABLE:
-                if t >= 0 and self.is_outside(t, self.table.filter_policy[f]):
+                if t >= 0 and self._is_outside(t, self.table.filter_policy[f]):
                     return True
             elif code == FILTER_NOT_SINGLETON:
                 if not self.is_single(v):
@@ -82,7 +82,7 @@ class Filters:
             elif code == FILTER_NOT_GUARD:
                 if self.plan.variable_guards[v] == 0:
                     return True
-            elif code == FILTER_NOT_ASSIGNED and t >= 0 and not self.is_assigned(t):
+            elif code == FILTER_NOT_ASSIGNED and t >= 0 and not self._is_assigned(t):
                 return True
         return False
 
@@ -97,7 +97,7 @@ class Filters:
                 return True
         return False
 
-    def is_outside(self, t: int, policy: int) -> bool:
+    def _is_outside(self, t: int, policy: int) -> bool:
         """Whether the times of `t` do not lie in the horizon, in the sense of `policy`."""
         start = self.rows.var0[t] + START
         end = self.rows.var0[t] + END
@@ -118,7 +118,7 @@ class Filters:
             or engine.ub[end] > self.upper
         )
 
-    def is_assigned(self, t: int) -> bool:
+    def _is_assigned(self, t: int) -> bool:
         """Whether `t` is active, its object is known, and it is ordered there if that is a timeline."""
         if self.rows.status[t] != ACTIVE or not self.is_single(self.rows.var0[t] + OBJECT):
             return False
@@ -150,7 +150,7 @@ class Filters:
         return True
 
     def size(self, v: int) -> int:
-        """How many values a variable has; INF if nobody can say."""
+        """Number of values of a variable; INF if it is not finite."""
         if not self.is_finite(v):
             return INF
         if self.engine.kind[v] == KIND_FLOAT:

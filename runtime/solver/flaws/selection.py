@@ -37,7 +37,7 @@ def select(agenda: Agenda) -> bool:
 
 
 def _select_effect(agenda: Agenda, manager: int) -> bool:
-    """Find the first effect of an action that is not settled; no filter that changes concerns it."""
+    """Select the first effect of an action that is open; no filter tested in each step concerns it."""
     heap = agenda.effects[manager]
     while heap.length:
         slot = heap.top_item()
@@ -73,7 +73,7 @@ def _select_from_heaps(agenda: Agenda, manager: int) -> int:
 
 
 def _first_token(agenda: Agenda, number: int, kind: int) -> int:
-    """The slot on top of a heap of tokens that is a flaw in scope; those above it are dropped or parked."""
+    """The slot on top of a heap of tokens that is a flaw in scope; those above it are dropped or deferred."""
     heap = agenda.heaps[number]
     while heap.length:
         slot = heap.top_item()
@@ -93,7 +93,7 @@ def _first_token(agenda: Agenda, number: int, kind: int) -> int:
 
 
 def _first_variable(agenda: Agenda, number: int) -> int:
-    """The slot on top of a heap of variables that is a flaw in scope; those above it are dropped or parked."""
+    """The slot on top of a heap of variables that is a flaw in scope; those above it are dropped or deferred."""
     heap = agenda.heaps[number]
     while heap.length:
         slot = heap.top_item()
@@ -118,7 +118,7 @@ def _first_variable(agenda: Agenda, number: int) -> int:
 
 
 def _is_token_flaw(agenda: Agenda, t: int, kind: int) -> bool:
-    """Whether a token still is what the manager mends."""
+    """Whether a token still is a flaw of a kind."""
     if kind == THREAT:
         return agenda.rows.status[t] == ACTIVE and agenda.rows.link_head[LISTS * t + LIST_ORDER] < 0
     return agenda.rows.status[t] == INACTIVE
@@ -133,7 +133,7 @@ def _is_variable_flaw(agenda: Agenda, v: int) -> bool:
 
 
 def _select_dynamic(agenda: Agenda, manager: int) -> int:
-    """Compare all loose flaws of a manager with the best so far: their handlers and filters may have changed."""
+    """Compare all dynamic flaws of a manager with the best so far: their handlers and filters may have changed."""
     kind = agenda.table.manager_kind[manager]
     best_tie = 0
     is_mine = agenda.found_manager == manager and agenda.found_item >= 0
@@ -164,7 +164,7 @@ def _select_dynamic(agenda: Agenda, manager: int) -> int:
 
 
 def _tie(agenda: Agenda, item: int, kind: int, priority: float) -> int:
-    """What orders flaws of one manager that have the same priority: smaller first."""
+    """Sort key of flaws of one manager and priority."""
     if kind == UNBOUND_VARIABLE:
         return item if priority == BEST_PRIORITY else agenda.filters.size(item) * (1 << 24) + item
     return agenda.rows.key[item] if priority == BEST_PRIORITY else -agenda.rows.key[item]

@@ -43,12 +43,12 @@ cdef class Uses:
         k="long long", low="double", lower="double", maximum="double", minimum="double", time="long long",
         upper="double"
     )
-    cpdef bint sweep(self, long long o, long long whole) except -1
+    cpdef bint _sweep(self, long long o, long long whole) except -1
 
     @cython.locals(engine=Engine)
     cpdef bint may_order(self, long long o, long long first, long long second) except -1
 
     @cython.locals(v="long long")
-    cpdef bint is_seen(self, long long first, long long second) except -1
+    cpdef bint _is_seen(self, long long first, long long second) except -1
 
     cpdef bint order(self, long long first, long long second, long long together) except -1

@@ -77,7 +77,7 @@ class Uses:
     def first_flaw(self, o: int) -> bool:
         """The first instant at which resource `o` might be exceeded."""
         if self.grounded[o]:
-            return self.sweep(o, 0)
+            return self._sweep(o, 0)
         if not self.flaws.find(o):
             return False
         self.found_at = self.flaws.at
@@ -87,9 +87,9 @@ class Uses:
 
     def worst_flaw(self, o: int) -> bool:
         """The instant at which resource `o` might be exceeded most, the first of equals."""
-        return self.sweep(o, 1) if self.grounded[o] else self.first_flaw(o)
+        return self._sweep(o, 1) if self.grounded[o] else self.first_flaw(o)
 
-    def sweep(self, o: int, whole: int) -> bool:
+    def _sweep(self, o: int, whole: int) -> bool:
         """Sweep over the grounded profile for the first instant out of bounds, or for the worst one."""
         engine = self.engine
         events = self.events
@@ -141,9 +141,9 @@ class Uses:
             return False
         if not self.distances.admits(second, first, 0):
             return False
-        return self.distances.admits(first, second, -1) or not (self.grounded[o] or self.is_seen(first, second))
+        return self.distances.admits(first, second, -1) or not (self.grounded[o] or self._is_seen(first, second))
 
-    def is_seen(self, first: int, second: int) -> bool:
+    def _is_seen(self, first: int, second: int) -> bool:
         """Whether the envelope sees a precedence of the network: it follows no edges with a positive weight."""
         v = first
         while v != second and self.engine.edge_weight[self.distances.via[v]] <= 0:

@@ -82,7 +82,7 @@ def _explain_variable(analysis: ConflictAnalysis, d: int, v: int) -> bool:
 def _explain_scope(analysis: ConflictAnalysis, row: int, t: int) -> bool:
     """Why no filter excludes the flaw of token `t` (NONE: of no token); False if one may later.
 
-    Most filters let go of what becomes more definite, and keep it no more after that: the bounds are the reason.
+    Most filters stop excluding a flaw once bounds are tight enough, for good: these bounds are the reason.
     """
     agenda = analysis.agenda
     table = agenda.table

@@ -24,7 +24,7 @@ cdef class Disjunctive:
 
     @cython.locals(
         f="long long", first="long long", is_plain=bint, manager="long long", agenda=Agenda, row="long long",
-        treatments=HandlerTable
+        table=HandlerTable
     )
     cpdef bint _must_be_ordered(self, long long t) except -1
 

@@ -80,15 +80,15 @@ class Disjunctive:
     def _must_be_ordered(self, t: int) -> bool:
         """Whether a manager orders token `t`, and no filter excludes it, now or later."""
         agenda = self.agenda
-        treatments = agenda.table
+        table = agenda.table
         for manager in range(agenda.managers):
             row = agenda.token_row[t * agenda.managers + manager]
-            if treatments.manager_kind[manager] != THREAT or row < 0 or treatments.heap_of[row] < 0:
+            if table.manager_kind[manager] != THREAT or row < 0 or table.heap_of[row] < 0:
                 continue
             is_plain = not agenda.filters.keeps_token(row, t)
-            first = treatments.filter_first[row]
-            for f in range(first, first + treatments.filter_count[row]):
-                if treatments.filter_code[f] != FILTER_HORIZON or treatments.filter_policy[f] != POLICY_PARTIAL:
+            first = table.filter_first[row]
+            for f in range(first, first + table.filter_count[row]):
+                if table.filter_code[f] != FILTER_HORIZON or table.filter_policy[f] != POLICY_PARTIAL:
                     is_plain = False
             if is_plain:
                 return True

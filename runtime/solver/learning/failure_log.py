@@ -182,8 +182,8 @@ class FailureLog:
             o = int(value)
             if not self.plan.object_timeline[o]:
                 continue
-            count = self.agenda.take_sequence(o)
-            sequence = list(self.agenda.sequence[:count])
+            count = self.agenda.sequence.take(o)
+            sequence = list(self.agenda.sequence.tokens[:count])
             insertions = [(t, other) for other in sequence] + [(sequence[-1], t)] if sequence else [(t, t)]
             for before, after in insertions:
                 trials += 1

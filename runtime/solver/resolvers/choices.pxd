@@ -37,7 +37,7 @@ cpdef long long _random_value(Agenda agenda, Decisions stack, long long d) excep
 cpdef bint _are_coprime(long long a, long long b) except -1
 
 
-@cython.locals(v="long long", x="double")
+@cython.locals(v="long long")
 cpdef long long _mend_by_list(Agenda agenda, Decisions stack, long long d) except? -1
 
 

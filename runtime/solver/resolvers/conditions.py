@@ -77,7 +77,7 @@ def _mend_by_merging(agenda: Agenda, stack: Decisions, d: int, t: int) -> int:
         return NO_CHOICE
     if agenda.table.token_order[stack.handler[d]] != ORDER_KEY:
         return _mend_by_sorted_merging(agenda, stack, d, t)
-    agenda.look_around(t)
+    agenda.sequence.look_around(t)
     rows = agenda.rows
     candidate = stack.cursor[d]
     if candidate < 0:
@@ -97,7 +97,7 @@ def _mend_by_merging(agenda: Agenda, stack: Decisions, d: int, t: int) -> int:
 def _mend_by_sorted_merging(agenda: Agenda, stack: Decisions, d: int, t: int) -> int:
     """Merge with the next compatible active token in the order of the handler; `cursor` is the last one tried."""
     if stack.cursor[d] < 0:
-        agenda.look_around(t)
+        agenda.sequence.look_around(t)
         found = []
         candidate = first_active(agenda.plan, agenda.rows.predicate[t])
         while candidate >= 0:
@@ -116,7 +116,7 @@ def _mend_by_sorted_merging(agenda: Agenda, stack: Decisions, d: int, t: int) ->
 
 
 def _is_compatible(agenda: Agenda, t: int, candidate: int) -> bool:
-    """Whether all variables of two tokens intersect, and their times can coincide, after `agenda.look_around(t)`."""
+    """Whether all variables of two tokens intersect, and their times may coincide; `look_around(t)` came before."""
     mine = agenda.rows.var0[t]
     theirs = agenda.rows.var0[candidate]
     engine = agenda.engine

@@ -12,7 +12,7 @@ def list_insertions(agenda: Agenda, stack: Decisions, d: int, t: int) -> int:
     """List all insertions of token `t` in the pool of decision `d`, by object, then from left to right."""
     engine = agenda.engine
     stack.begin_pool(d)
-    agenda.look_around(t)
+    agenda.sequence.look_around(t)
     v = agenda.rows.var0[t] + OBJECT
     o = engine.lb[v]
     while o <= engine.ub[v]:
@@ -31,21 +31,22 @@ def _list_insertions_on(agenda: Agenda, stack: Decisions, d: int, t: int, o: int
 
     `first` is the first token that `t` can precede, `behind` how many can precede `t`: along a sequence each answer
     changes only once. EUROPA makes the same tests one by one, from left to right.
-    `agenda.look_around(t)` came before.
+    `agenda.sequence.look_around(t)` came before.
     """
-    count = agenda.take_sequence(o)
+    sequence = agenda.sequence
+    count = sequence.take(o)
     if count == 0:
         stack.add_to_pool(d, o, t, t)
         return 0
-    first = _first_apart(agenda, agenda.from_end, START, count, False)
-    behind = _count_apart(agenda, agenda.to_start, END, count)
+    first = _first_apart(agenda, sequence.from_end, START, count, False)
+    behind = _count_apart(agenda, sequence.to_start, END, count)
     if first == 0:
-        stack.add_to_pool(d, o, t, agenda.sequence[0])
+        stack.add_to_pool(d, o, t, sequence.tokens[0])
         first = 1
     for gap in range(first, min(behind, count - 1) + 1):
-        stack.add_to_pool(d, o, t, agenda.sequence[gap])
+        stack.add_to_pool(d, o, t, sequence.tokens[gap])
     if behind == count:
-        stack.add_to_pool(d, o, agenda.sequence[count - 1], t)
+        stack.add_to_pool(d, o, sequence.tokens[count - 1], t)
     return 0
 
 
@@ -55,11 +56,12 @@ def _first_apart(agenda: Agenda, reach: Reach, time: int, count: int, is_reverse
     All behind it are apart, too; bounds say so of all from some index on. From there to the left in growing steps, then
     by halving: a question costs more, the farther away it is. `is_reversed`: the sequence is read from its end.
     """
+    tokens = agenda.sequence.tokens
     low = 0
     high = count
     while low < high:
         middle = (low + high) >> 1
-        t = agenda.sequence[count - 1 - middle if is_reversed else middle]
+        t = tokens[count - 1 - middle if is_reversed else middle]
         if reach.is_plain(agenda.rows.var0[t] + time):
             high = middle
         else:
@@ -68,7 +70,7 @@ def _first_apart(agenda: Agenda, reach: Reach, time: int, count: int, is_reverse
     step = 1
     while low < high:
         middle = max(high - step, low)
-        t = agenda.sequence[count - 1 - middle if is_reversed else middle]
+        t = tokens[count - 1 - middle if is_reversed else middle]
         if reach.is_apart(agenda.rows.var0[t] + time):
             high = middle
             step *= 2
@@ -88,31 +90,33 @@ def may_coincide(agenda: Agenda, candidate: int) -> bool:
 
     Of those in a sequence a first part is too early and a last part too late; found once, for all of them.
     """
+    sequence = agenda.sequence
     theirs = agenda.rows.var0[candidate]
     if agenda.rows.link_head[LISTS * candidate + LIST_ORDER] < 0:
         return (
-            agenda.to_start.is_apart(theirs + START)
-            and agenda.from_start.is_apart(theirs + START)
-            and agenda.to_end.is_apart(theirs + END)
-            and agenda.from_end.is_apart(theirs + END)
+            sequence.to_start.is_apart(theirs + START)
+            and sequence.from_start.is_apart(theirs + START)
+            and sequence.to_end.is_apart(theirs + END)
+            and sequence.from_end.is_apart(theirs + END)
         )
     o = agenda.engine.lb[theirs + OBJECT]
-    if agenda.range_object != o:
-        count = agenda.take_sequence(o)
-        first = _first_apart(agenda, agenda.from_start, START, count, False)
-        first = max(first, _first_apart(agenda, agenda.from_end, END, count, False))
-        end = _count_apart(agenda, agenda.to_start, START, count)
-        agenda.note_range(o, count, first, min(end, _count_apart(agenda, agenda.to_end, END, count)))
+    if sequence.range_object != o:
+        count = sequence.take(o)
+        first = _first_apart(agenda, sequence.from_start, START, count, False)
+        first = max(first, _first_apart(agenda, sequence.from_end, END, count, False))
+        end = _count_apart(agenda, sequence.to_start, START, count)
+        sequence.note_range(o, count, first, min(end, _count_apart(agenda, sequence.to_end, END, count)))
     return not is_out_of_range(agenda, candidate)
 
 
 def is_out_of_range(agenda: Agenda, candidate: int) -> bool:
     """Whether `may_coincide` says no, as far as that is known without asking the network."""
-    if agenda.range_object < 0 or agenda.engine.lb[agenda.rows.var0[candidate] + OBJECT] != agenda.range_object:
+    sequence = agenda.sequence
+    if sequence.range_object < 0 or agenda.engine.lb[agenda.rows.var0[candidate] + OBJECT] != sequence.range_object:
         return False
     if agenda.rows.link_head[LISTS * candidate + LIST_ORDER] < 0:
         return False
-    return bool(not agenda.range_first <= agenda.index_of[candidate] < agenda.range_end)
+    return bool(not sequence.range_first <= sequence.index_of[candidate] < sequence.range_end)
 
 
 def is_open_insertion(agenda: Agenda, t: int, before: int, after: int) -> bool:

@@ -1,4 +1,4 @@
-"""Tokens that cannot lie one after the other on their timeline are refused together, and only where they must."""
+"""Disjunctive overload check: tokens that need more time than a window has are refused together, and only those."""
 
 from pathlib import Path
 
@@ -29,7 +29,7 @@ def runs(lengths: tuple[int, ...], end: int) -> str:
 
 
 @pytest.mark.parametrize(("end", "wanted"), [(12, PLAN), (11, EXHAUSTED)])
-def test_a_crowd_is_one_conflict(tmp_path: Path, end: int, wanted: int) -> None:
+def test_an_overload_is_one_conflict(tmp_path: Path, end: int, wanted: int) -> None:
     solver = solver_for(tmp_path, runs((4, 4, 3), end))
     log = FailureLog(solver.database, solver.agenda, solver.stack)
     solver.failure_log = log
@@ -39,7 +39,7 @@ def test_a_crowd_is_one_conflict(tmp_path: Path, end: int, wanted: int) -> None:
         assert solver.steps < 12
 
 
-def test_the_longest_tokens_are_to_blame(tmp_path: Path) -> None:
+def test_the_longest_tokens_are_the_causes(tmp_path: Path) -> None:
     short = "".join(f"rejectable(lane.run r{i}); eq(r{i}.duration, 1); leq(1, r{i}.start);" for i in range(3))
     text = runs((6, 6), 12).replace(LANE, LANE + short)
     solver = solver_for(tmp_path, text)
@@ -49,7 +49,7 @@ def test_the_longest_tokens_are_to_blame(tmp_path: Path) -> None:
     assert "lane needs 12 of 11 ticks available in [1, 12]: " in told(log)
 
 
-def test_what_the_horizon_keeps_back_takes_no_time(tmp_path: Path) -> None:
+def test_tokens_outside_the_horizon_take_no_time(tmp_path: Path) -> None:
     text = runs((4, 4, 3), 11)
     for horizon, wanted in (((0, 100), EXHAUSTED), ((20, 100), PLAN)):
         solver = solver_for(tmp_path, text, horizon=horizon)
@@ -59,7 +59,7 @@ def test_what_the_horizon_keeps_back_takes_no_time(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("seed", range(60))
-def test_looking_at_crowds_changes_no_verdict(tmp_path: Path, seed: int) -> None:
+def test_overload_checks_change_no_verdict(tmp_path: Path, seed: int) -> None:
     puzzle = timelines_puzzle(seed)
     solver = solver_for(tmp_path, puzzle.text)
     solver.refresh()

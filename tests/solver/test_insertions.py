@@ -1,4 +1,4 @@
-"""Where a token may stand in a sequence, found by halving, against a question for each of the sequence."""
+"""Where a token may stand in a sequence: found by halving, against one search per token of the sequence."""
 
 from pathlib import Path
 
@@ -34,7 +34,7 @@ def test_tokens_of_a_sequence_coincide_where_single_searches_say_so(tmp_path: Pa
             placed = [c for c in tokens if rows.status[c] == ACTIVE and rows.link_head[LISTS * c + LIST_ORDER] >= 0]
             for t in tokens:
                 if rows.status[t] in (ACTIVE, INACTIVE):
-                    agenda.look_around(t)
+                    agenda.sequence.look_around(t)
                     for c in placed:
                         wanted = coincides(distances, rows.var0[t], rows.var0[c])
                         assert may_coincide(agenda, c) == wanted, text
