@@ -35,8 +35,8 @@ def share(seed: int, name: str, index: int) -> float:
     return (_stir((start + (index + 1) * STEP) % WORD) >> 11) / 2**53
 
 
-def drawn(parameter: ParameterConfiguration, seed: int, tick: int) -> float:
-    """The value of a parameter for a token that begins at `tick`."""
+def drawn(parameter: ParameterConfiguration, seed: int, tick: int) -> Value:
+    """The value of a parameter for a token that begins at `tick`; unknown for a distribution that the judge lacks."""
     index = 0 if parameter.mode == "inter" else max(tick, 0) // parameter.update
     part = share(seed, parameter.name, index)
     lower, width = parameter.lower, parameter.upper - parameter.lower
@@ -54,8 +54,10 @@ def drawn(parameter: ParameterConfiguration, seed: int, tick: int) -> float:
             value = min(max(value, lower), parameter.upper)
         case "discrete":
             value = _picked(parameter, part)
-        case _:
+        case "fixed":
             value = parameter.values[0]
+        case _:
+            return UNKNOWN
     if parameter.is_whole:
         value = float(floor(value + 0.5))
     if parameter.clip is not None:
