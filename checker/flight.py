@@ -1,19 +1,22 @@
 """Fly real missions: load the models of an agent once, then run the executive from a seed."""
 
 import sys
+from collections.abc import Mapping
 from contextlib import redirect_stdout
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import overload
 
 from checker.batch.worker import Fly
+from checker.judge.judge import breaches, judge_mission
+from checker.judge.rendering import DisagreementError
 from checker.names import relative_name
 from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.read import read_source
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.mission import MissionPrograms, run_mission
+from runtime.executive.mission import MissionPrograms, record_mission
 from runtime.executive.outcome import Conflict, Deadlock, Event, Outcome, SourcePlace
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.read import read_configuration
@@ -23,20 +26,33 @@ Reactors = tuple[tuple[str, str | None], ...]  # model and solver of each
 
 
 def load(agent: AgentConfiguration) -> Fly:
-    """Compile the models of `agent`; the result flies one mission per call."""
+    """Compile the models of `agent`; the result flies one mission per call, and has it judged.
+
+    It raises `DisagreementError` where the judge holds that the executive broke the model.
+    """
     root = Path(agent.root)
     reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    programs = _load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
+    load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
+    return partial(fly_once, agent)
 
-    def fly(seed: int) -> Outcome:
-        with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
-            return _relative(run_mission(agent, programs, seed), root)
 
-    return fly
+def fly_once(
+    agent: AgentConfiguration, seed: int, values: Mapping[str, float] | None = None, until: int | None = None
+) -> Outcome:
+    """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick."""
+    root = Path(agent.root)
+    reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
+    programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
+    with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
+        outcome, record = record_mission(agent, programs, seed, values, until=until)
+        report = judge_mission(agent, programs.programs, outcome, record, programs.constraints, values)
+    if report.errors:
+        raise DisagreementError(report)
+    return _relative(replace(outcome, breaches=breaches(report)), root)
 
 
 @lru_cache(maxsize=4)
-def _load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...], seconds: float) -> MissionPrograms:
+def load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...], seconds: float) -> MissionPrograms:
     """The compiled models and the flaw handling of some reactors; kept, for flights that differ in parameters only."""
     library = load_library(root, constraints, seconds=seconds)
     models = {

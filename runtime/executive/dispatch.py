@@ -5,58 +5,86 @@ from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
+from runtime.plan.readout.names import TokenName
 
 INFINITY = 4503599627370495
 
 
 class Dispatch:
-    """What one reactor has asked of others; `owner_windows` gives latency and look-ahead of each timeline's owner."""
+    """What one reactor has asked of others."""
 
     def __init__(self, name: str, bench: Workbench, timelines: list[TimelineState], trace: Trace) -> None:
         self.name = name
         self.bench = bench
         self.timelines = timelines
         self.trace = trace
-        self.owner_windows: dict[str, tuple[int, int]] = {}
-        self.sent: dict[int, Request] = {}  # by the key of the token that was sent
+        self.owner_windows: dict[str, tuple[int, int]] = {}  # execution latency and look-ahead, by timeline
+        self.sent: dict[int, Request] = {}  # by the key of the token that was sent, until it is over
         self.sent_tokens: dict[int, int] = {}
+        self.refused: dict[int, int] = {}  # by number: the event in which an owner gave a request up
 
     def is_asked(self, token: int) -> bool:
-        """Whether the owner has been asked for a token, and has not started it."""
+        """Whether the owner has been asked for a token that is not over."""
         return self.bench.key(token) in self.sent
 
+    def is_refused(self, token: int) -> bool:
+        """Whether the owner will not do what it was asked for."""
+        request = self.sent.get(self.bench.key(token))
+        return request is not None and request.number in self.refused
+
+    def refusal_of(self, token: TokenName | None) -> tuple[int, ...]:
+        """The event in which an owner gave up a token of the plan."""
+        request = self.sent.get(token.key) if token is not None else None
+        return (self.refused[request.number],) if request is not None and request.number in self.refused else ()
+
     def notice(self, line: TimelineState) -> int:
-        """How many ticks ahead the owner of a timeline is asked; a reactive one is asked when it is to begin."""
+        """How many ticks ahead the owner of a timeline is asked: its window begins that much later (T-REX 1.1)."""
         latency, lookahead = self.owner_windows.get(line.name, (0, 1))
-        return 0 if lookahead <= 1 else latency + lookahead
+        return latency + lookahead
 
     def takes_requests(self, line: TimelineState) -> bool:
         """Whether the owner of a timeline may be asked: the model must allow it, and who looks ahead by 0 never is."""
         return self.bench.accepts_requests(line.object_id) and self.owner_windows.get(line.name, (0, 1))[1] > 0
 
-    def requests(self, tick: int) -> list[Request]:
+    def requests(self, tick: int, final_tick: int) -> list[Request]:
         """Planned tokens on others' timelines that are due to be asked for (T-REX 1.8).
 
-        A reactive owner (look-ahead 1 or less) is asked when the token could start now; a planning owner as soon as
-        the token's earliest start lies inside its window.
+        They are asked for one after the other: what the plan puts behind a token whose end is still to be observed
+        waits. What cannot begin before the mission ends is not asked.
         """
         asked = []
         for line in self.timelines:
             if line.is_internal or not self.takes_requests(line):
                 continue
-            reach = tick + self.notice(line)
-            for token in self.bench.planned_after(line.object_id, line.current):
-                start = self.bench.start(token)
-                # What has not started may do so from the next tick on, so "now" reads as one later.
-                if self.bench.lower(start) > reach + 1:
-                    break
-                key = self.bench.key(token)
-                if key in self.sent or self.bench.is_blocked(token, line.current, tick):
-                    continue
+            token = self.next_request(line)
+            if token == NOTHING or self.bench.lower(self.bench.start(token)) >= final_tick:
+                continue
+            if self.due_time(line, token, tick) > tick:
+                continue
+            if not self.bench.is_blocked(token, line.current, tick):
                 asked.append(self._ask(line, token, tick))
-                self.sent[key] = asked[-1]
-                self.sent_tokens[key] = token
+                self.sent[self.bench.key(token)] = asked[-1]
+                self.sent_tokens[self.bench.key(token)] = token
         return asked
+
+    def due_time(self, line: TimelineState, token: int, tick: int) -> float:
+        """The tick at which the owner is to be asked for a token (T-REX 1.8).
+
+        That is as soon as its earliest start is in the owner's window; its latest, where it follows from a token of
+        this reactor that has not begun and that begins as late as it may.
+        """
+        start = self.bench.start(token)
+        is_late = self.bench.waits_for_own(token, tick)
+        time = self.bench.upper(start) if is_late else self.bench.lower(start)
+        # What has not started may do so from the next tick on.
+        return time - max(self.notice(line), 1)
+
+    def next_request(self, line: TimelineState) -> int:
+        """The planned token that is to be asked for next; NOTHING while another is open, or where none is planned."""
+        if line.current != NOTHING and self.is_asked(line.current):
+            return NOTHING
+        token = self.bench.next_of(line.object_id, line.current)
+        return NOTHING if token == NOTHING or self.is_asked(token) else token
 
     def _ask(self, line: TimelineState, token: int, tick: int) -> Request:
         bench = self.bench
@@ -85,15 +113,16 @@ class Dispatch:
         )
 
     def open_requests(self) -> list[int]:
-        """Numbers of the requests that have been made and have not started."""
+        """Numbers of the requests that have been made and are not over."""
         return [request.number for request in self.sent.values()]
 
     def recalls(self, tick: int) -> list[int]:
-        """Numbers of the requests whose token has lost its place in the plan; what has started is forgotten."""
+        """Numbers of the requests whose token has lost its place, begun or not; what is over is forgotten."""
         numbers = []
         for key, request in list(self.sent.items()):
             token = self.sent_tokens[key]
-            if not self.bench.is_alive(token, key) or not self.bench.is_active(token):
+            is_placed = self.bench.is_alive(token, key) and self.bench.is_active(token)
+            if not is_placed:
                 self.trace.record(
                     EventKind.RECALL,
                     self.name,
@@ -103,8 +132,9 @@ class Dispatch:
                     request=request.number,
                 )
                 numbers.append(request.number)
-            elif not self.bench.is_started(token, tick):
+            elif not self.bench.is_over(token, tick):
                 continue
+            self.refused.pop(request.number, None)
             del self.sent[key]
             del self.sent_tokens[key]
         return numbers

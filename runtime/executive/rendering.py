@@ -33,6 +33,7 @@ _REASONS = {
     ReasonKind.TOO_LATE: "too late",
     ReasonKind.DROPPED: "dropped in the repair",
     ReasonKind.REJECTED: "the planner found no place for it",
+    ReasonKind.RECALLED: "taken back",
     ReasonKind.CLOCK: "the plan does not allow it to be tick {tick}",
     ReasonKind.GOES_ON: "{token} goes on at tick {tick}, later than the plan allows",
     ReasonKind.ENDED: "{token} ended at tick {tick}, when the plan does not allow it",
@@ -44,11 +45,12 @@ _REASONS = {
     ReasonKind.CANNOT_RELAX: "the plan cannot be relaxed",
     ReasonKind.NO_PLACE: "no place for {token}",
     ReasonKind.NO_PLAN: "no plan inside the window",
-    ReasonKind.STEPS: "no consistent present was found in {limit} tries",
+    ReasonKind.STEPS: "more than {limit} decisions are needed about what holds at tick {tick}",
     ReasonKind.DEPTH: "more than {limit} decisions are needed at once",
     ReasonKind.RAISED: "its code failed: {message}",
     ReasonKind.GOALS_OPEN: "mandatory goals stayed open",
     ReasonKind.NO_RECORD: "ended at tick {tick} of {limit} without an abort record",
+    ReasonKind.CUT_OFF: "{predicate} on `{timeline}` counts as achieved, but was cut off by a repair",
 }
 
 

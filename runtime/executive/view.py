@@ -12,6 +12,7 @@ from runtime.constraints.domains.tags import (
     SUPPORT_RESTRICTION,
 )
 from runtime.executive.messages import Arguments
+from runtime.executive.recorder import Recorder
 from runtime.executive.timelines import TimelineState
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.names import TokenName
@@ -60,6 +61,9 @@ class PlanView:
         self.requested: dict[int, int] = {}  # token -> key
         self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
         self.external_objects: set[int] = set()
+        self.recorder = Recorder(database, name)
+        self.internal_objects: set[int] = set()
+        self.late_objects: set[int] = set()  # timelines on which what nobody asked for begins as late as it may
 
     # ---- names ----
 
@@ -75,8 +79,7 @@ class PlanView:
         for number, predicate in enumerate(self.database.program.predicates):
             if predicate.class_name == code.name:
                 predicates[predicate.name.rpartition(".")[2]] = number
-        if not is_internal:
-            self.external_objects.add(o)
+        (self.internal_objects if is_internal else self.external_objects).add(o)
         default = predicates.get(self._default_name(o), NONE)
         return TimelineState(name, o, is_internal, default, predicates)
 
@@ -189,6 +192,14 @@ class PlanView:
         """Whether the token is in the plan by itself."""
         return bool(self.rows.status[t] == ACTIVE)
 
+    def is_goal(self, t: int) -> bool:
+        """Whether the token is one that may be given up."""
+        return bool(self.rows.flags[t] & FLAG_GOAL)
+
+    def is_merged(self, t: int) -> bool:
+        """Whether the token stands for another one."""
+        return bool(self.rows.status[t] == MERGED)
+
     def is_rejected(self, t: int) -> bool:
         """Whether the planner has given the token up."""
         return bool(self.rows.status[t] == REJECTED)
@@ -276,11 +287,32 @@ class PlanView:
         return found
 
     def is_blocked(self, t: int, current: int, tick: int) -> bool:
-        """Whether the earliest start of `t` hangs on a token that has not begun, or on an end still to be observed.
+        """Whether `t` cannot begin before an end that is still to be observed, or its earliest start is only "not yet".
 
-        The bound is followed along edges. What is observed on the timeline of `t` itself does not block if it was not
-        planned (it ends when `t` begins), nor does what this reactor may end itself.
+        `current`, the token that holds on the timeline of `t` now, does not block (NOTHING: it does): it ends when `t`
+        begins. Nor does what this reactor may end itself.
         """
+        return self._follows_awaited(t, current, tick) or self._is_held_back(t, tick)
+
+    def _follows_awaited(self, t: int, current: int, tick: int) -> bool:
+        """Whether edges demand that `t` begins when, or after, a token of another reactor has ended."""
+        engine = self.engine
+        seen = {self.start(t)}
+        stack = list(seen)
+        while stack:
+            e = engine.out_head[stack.pop()]
+            while e >= 0:
+                v = engine.edge_target[e]
+                if engine.edge_weight[e] <= 0 and v not in seen and engine.upper(v) > tick:
+                    if self._is_awaited(v, t, current, tick):
+                        return True
+                    seen.add(v)
+                    stack.append(v)
+                e = engine.out_next[e]
+        return False
+
+    def _is_held_back(self, t: int, tick: int) -> bool:
+        """Whether the earliest start of `t` rests on another token that has not begun, and may do so only later."""
         engine, plan = self.engine, self.database.plan
         v = self.start(t)
         for _ in range(engine.edges_used):
@@ -288,8 +320,6 @@ class PlanView:
             if support < 0 or support & 3 != SUPPORT_EDGE:
                 break
             v = engine.edge_target[support >> 2]
-            if self._is_awaited(v, t, current, tick):
-                return True
         support = engine.lower_support[v]
         if support < 0 or support & 3 != SUPPORT_RESTRICTION or plan.variable_role[v] != ROLE_TOKEN:
             return False
@@ -302,7 +332,7 @@ class PlanView:
         if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != END or self.engine.upper(v) <= tick:
             return False
         other = self.stands_for(plan.variable_owner[v])
-        if other == self.stands_for(t) or (other == current and self.is_fact(other)):
+        if other == self.stands_for(t) or other == current:
             return False
         return self.object_of(other) in self.external_objects
 
@@ -310,6 +340,39 @@ class PlanView:
         """The object that a token is on; NONE while that is open."""
         v = self.rows.var0[t] + OBJECT
         return int(self.engine.lower(v)) if self.engine.is_singleton(v) else NONE
+
+    def is_due_to_request(self, t: int) -> bool:
+        """Whether the token, or one that it follows from, is one that somebody asked for."""
+        while t >= 0:
+            if self.is_requested(t):
+                return True
+            t = self.rows.parent[t]
+        return False
+
+    def is_internal(self, t: int) -> bool:
+        """Whether the token is on a timeline of this reactor."""
+        return self.object_of(t) in self.internal_objects
+
+    def must_begin(self, o: int, tick: int) -> list[int]:
+        """Undecided tokens on a timeline, not goals, that can begin at `tick` only."""
+        return [
+            t
+            for t in self.undecided()
+            if not self.is_goal(t)
+            and self.object_of(t) == o
+            and self.engine.lower(self.start(t)) <= tick == self.engine.upper(self.start(t))
+        ]
+
+    def waits_for_own(self, t: int, tick: int) -> bool:
+        """Whether the token is to follow one of this reactor that has not begun, and that nobody asked for."""
+        t = int(self.rows.parent[t])
+        while t >= 0:
+            if self.is_requested(t) or self.is_started(t, tick):
+                return False
+            if self.object_of(t) in self.late_objects:
+                return True
+            t = int(self.rows.parent[t])
+        return False
 
     def reads_clock(self) -> bool:
         """Whether anything in the plan depends on the tick that is now."""

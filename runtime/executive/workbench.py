@@ -2,7 +2,8 @@
 
 from math import inf
 
-from compiler.program import FIRST_PARAMETER, DomainConstant
+from compiler.program import FIRST_PARAMETER, OBJECT, DomainConstant
+from runtime.constraints.domains.tags import FLAG_DECISION, KIND_FLOAT
 from runtime.executive.messages import Arguments
 from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST, PlanView
@@ -87,6 +88,14 @@ class Workbench(PlanView):
             return self.engine.restrict_base_values(v, [float(o) for o in known], span, t)
         return restrict_constant(self.database.prototypes, v, domain, span, t)
 
+    def make_values(self, t: int) -> None:
+        """Give each number of a token that begins its value, where only the rounding of sums has left two."""
+        engine = self.engine
+        for k in range(FIRST_PARAMETER, int(self.rows.width[t])):
+            v = int(self.rows.var0[t]) + k
+            if engine.kind[v] == KIND_FLOAT and engine.flo[v] != engine.fhi[v] and engine.is_singleton(v):
+                self.fix(v, engine.flo[v], SPAN_EXECUTIVE, t)
+
     def start_clock(self, final_tick: int) -> bool:
         """Let guards on the model's clock fire as soon as what they say has come true; the mission ends in time."""
         number = self.globals.get("AGENT_CLOCK")
@@ -135,7 +144,30 @@ class Workbench(PlanView):
 
     def cancel(self, t: int) -> bool:
         """Take a token out of the plan, with all that followed from it; it stays to be decided again."""
-        return bool(self.database.cancel(t))
+        return bool(self.database.cancel(t)) and self._undecide(t)
+
+    def _undecide(self, t: int) -> bool:
+        """Undo what the planner decided about the variables of a token."""
+        engine = self.engine
+        first = int(self.rows.var0[t])
+        made = [
+            r
+            for v in range(first + OBJECT, first + int(self.rows.width[t]))
+            if engine.is_decided(v)
+            for r in engine.restrictions_of(v)
+            if engine.restriction_flags[r] & FLAG_DECISION and engine.restriction_span[r] == NONE
+        ]
+        return not made or bool(engine.retract((), (), made, ()) and self.database.fire())
+
+    def renew(self, t: int) -> bool:
+        """Let the rules of a planned token fire anew, in its place on its timeline."""
+        o, before = self.object_of(t), NONE
+        if self.rows.link_head[LISTS * t + LIST_ORDER] >= 0:
+            before = int(self.rows.link_before[LISTS * t + LIST_ORDER])
+        else:
+            o = NONE
+        holds = self.cancel(t) and self.activate(t)
+        return holds and (o < 0 or self.place_after(o, t, before))
 
     def archive(self, timelines: list[TimelineState], tick: int) -> int:
         """Take out of the plan what is over; of each timeline the token before the current one is kept.
@@ -149,7 +181,7 @@ class Workbench(PlanView):
                 kept.add(int(self.rows.link_before[LISTS * line.current + LIST_ORDER]))
         count = self.rows.token_count
         over = [t for t in range(count) if t not in kept and not self.is_freed(t) and self.is_over(t, tick)]
-        return archive(self.database.plan, over, tick) if over and self.database.fire() else 0
+        return archive(self.database.plan, over, tick, self.recorder.leave) if over and self.database.fire() else 0
 
     def tidy(self) -> None:
         """Forget limits of times that a later one of the same kind has made needless: they grow with every tick."""
@@ -169,6 +201,7 @@ class Workbench(PlanView):
 
     def detach(self, t: int) -> None:
         """Let a token stay when the one that asked for it goes."""
+        self.recorder.detach(t)
         detach(self.database.plan, t)
 
     def remove(self, tokens: list[int]) -> bool:

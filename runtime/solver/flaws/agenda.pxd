@@ -13,8 +13,8 @@ from runtime.solver.configuration.handler_table cimport HandlerTable
 from runtime.solver.flaws.uses cimport Uses
 from runtime.solver.flaws.restarts cimport Restarts
 
-cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FREED, NONE, NO_KEY, OBJECT, ROLE_TOKEN
-cdef long long START, UNBOUND_VARIABLE, UNDO_BRANCH, UNDO_INPUTS
+cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FLAG_GOAL, FREED, LATEST, NONE, NO_KEY, OBJECT, ROLE_TOKEN
+cdef long long START, UNBOUND_VARIABLE, UNDO_BRANCH, UNDO_INPUTS, YOUNGEST
 
 
 cdef class Agenda:
@@ -24,7 +24,7 @@ cdef class Agenda:
     cdef public HandlerTable table
     cdef public Filters filters
     cdef public Supports supports
-    cdef public bint exact, probing
+    cdef public bint earliest, exact, probing
     cdef public Distances distances
     cdef public TimelineSequence sequence
     cdef public Uses uses
@@ -62,6 +62,9 @@ cdef class Agenda:
 
     @cython.locals(heap="long long", key="long long", target=Heap)
     cpdef long long offer_token(self, long long slot) except? -1
+
+    @cython.locals(start="long long")
+    cpdef long long earliness(self, long long t) except? -1
 
     @cython.locals(target=Heap, t="long long")
     cpdef long long offer_effect(self, long long slot) except? -1

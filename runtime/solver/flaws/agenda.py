@@ -10,7 +10,7 @@ from runtime.constraints.domains.arrays import grown
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
 from runtime.plan.store.plan import Plan
-from runtime.plan.tags import END, FREED, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
+from runtime.plan.tags import END, FLAG_GOAL, FREED, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
 from runtime.solver.configuration.handler_table import HandlerTable
 from runtime.solver.flaws.filters import Filters
 from runtime.solver.flaws.guarding import guards_hold
@@ -19,6 +19,9 @@ from runtime.solver.flaws.sequence import TimelineSequence
 from runtime.solver.flaws.supports import Supports
 from runtime.solver.flaws.uses import Uses
 from runtime.solver.tags import DROPPED_TOKEN, DROPPED_VARIABLE, NO_KEY, NONE, UNBOUND_VARIABLE
+
+LATEST = 2**38  # starts beyond count as equal
+YOUNGEST = 2**22  # and so do tokens
 
 
 class Agenda:
@@ -46,6 +49,7 @@ class Agenda:
         self.restarts = Restarts(plan.engine)
         self.found_at = 0
         self.found_low = 0
+        self.earliest = False  # goals come before what else is open, in the order of their starts
         self.probing = False  # a resolver is looked for, but not carried out
         self.managers = max(table.managers, 1)
         self.heaps = [Heap() for _ in range(table.heaps)]
@@ -217,10 +221,17 @@ class Agenda:
         key = self.rows.key[slot // self.managers]
         if self.table.heap_priority[heap] != 0.0:
             key = -key
+        if self.earliest and self.rows.flags[slot // self.managers] & FLAG_GOAL:
+            key = self.earliness(slot // self.managers)
         self.token_key[slot] = key
         target = self.heaps[heap]
         target.push(key, 0, slot)
         return 0
+
+    def earliness(self, t: int) -> int:
+        """What puts goals before other tokens: the earliest start first, of equal ones the oldest."""
+        start = min(max(self.engine.lb[self.rows.var0[t] + START], 0), LATEST)
+        return start * YOUNGEST + min(self.rows.key[t], YOUNGEST - 1) - LATEST * YOUNGEST - YOUNGEST
 
     def offer_effect(self, slot: int) -> int:
         """Add an effect of an action, which is selected before anything else."""
