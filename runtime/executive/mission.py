@@ -2,9 +2,11 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from compiler.program import DomainConstant, Program
 from runtime.executive.agent import Agent
+from runtime.executive.coded_reactor import CodedReactor
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, Value
 from runtime.executive.draws import Draws, World
 from runtime.executive.messages import Arguments, Request
@@ -16,6 +18,7 @@ from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
 from runtime.solver.configuration.configuration import Configuration
 from runtime.user.constraint import Constraint
+from runtime.user.reactor import Reactor
 
 INFINITY = 4503599627370495
 
@@ -31,6 +34,7 @@ class MissionPrograms:
     programs: tuple[Program, ...]
     solvers: tuple[Configuration, ...]
     constraints: tuple[Constraint, ...] = ()  # those of the project that the models call
+    code: tuple[type[Reactor], ...] = ()  # the classes of the reactors written in Python
 
 
 def run_mission(
@@ -51,7 +55,7 @@ def run_mission(
     """
     trace = Trace()
     world = World(configuration, seed, overrides or {}, trace)
-    reactors: list[PlanReactor] = []
+    reactors: list[PlanReactor | CodedReactor] = []
     for each, program, solver in zip(configuration.reactors, programs.programs, programs.solvers, strict=True):
         world.learn(program)
         draws = Draws(each.name, world)
@@ -70,6 +74,10 @@ def run_mission(
         bench.commit()
         planner = Planner(bench, solver, configuration.final_tick, each.max_steps, each.max_depth)
         reactors.append(PlanReactor(each, bench, planner, configuration.final_tick, trace, draws))
+    kinds_of = partial(parameter_kinds, configuration, programs)
+    for coded, cls in zip(configuration.coded, programs.code, strict=True):
+        make = partial(cls, {**dict(coded.settings), "seed": seed})
+        reactors.append(CodedReactor(coded, make, kinds_of, trace))
     goals = []
     for number, goal in enumerate(configuration.goals):
         kinds = goal_kinds(configuration, programs, goal)
@@ -80,17 +88,25 @@ def run_mission(
 
 def goal_kinds(
     configuration: AgentConfiguration, programs: MissionPrograms, goal: GoalConfiguration
-) -> dict[str, tuple[str, str]]:
+) -> Mapping[str, tuple[str, str]]:
     """Kind and type name of each parameter of a goal's predicate, in the model of the timeline's owner."""
-    for reactor, program in zip(configuration.reactors, programs.programs, strict=True):
-        if goal.timeline not in reactor.internal:
-            continue
+    return parameter_kinds(configuration, programs, goal.timeline, goal.predicate) or {}
+
+
+def parameter_kinds(
+    configuration: AgentConfiguration, programs: MissionPrograms, timeline: str, predicate: str
+) -> Mapping[str, tuple[str, str]] | None:
+    """Kind and type name of each parameter of a predicate, as the owner of its timeline, or else a user, has them."""
+    pairs = list(zip(configuration.reactors, programs.programs, strict=True))
+    owners = [program for reactor, program in pairs if timeline in reactor.internal]
+    users = [program for reactor, program in pairs if timeline in reactor.external]
+    for program in owners + users:
         classes = {name: code.type_name for name, code in program.globals}
-        wanted = f"{classes.get(goal.timeline, '')}.{goal.predicate}"
-        for predicate in program.predicates:
-            if predicate.name == wanted:
-                return {p.name: (p.type.kind, p.type.type_name) for p in predicate.parameters}
-    return {}
+        wanted = f"{classes.get(timeline, '')}.{predicate}"
+        for each in program.predicates:
+            if each.name == wanted:
+                return {p.name: (p.type.kind, p.type.type_name) for p in each.parameters}
+    return None
 
 
 def request_of(goal: GoalConfiguration, number: int, kinds: Mapping[str, tuple[str, str]]) -> Request:
