@@ -147,8 +147,9 @@ def _read_reactors(tables: list[Table], root: Path) -> tuple[ReactorConfiguratio
             internal=table.strings("internal"),
             external=table.strings("external"),
             solver=table.string("solver", "") or None,
-            max_steps=table.whole("max_steps", default.max_steps, 1),
-            max_depth=table.whole("max_depth", default.max_depth, 1),
+            early=table.strings("early"),
+            max_steps=table.whole("max_steps", 0, 0) or None,
+            max_depth=table.whole("max_depth", 0, 0) or None,
         )
         table.close()
         reactors.append(reactor)

@@ -1,89 +1,25 @@
 """Run one mission: the clock, and each tick every reactor in turn; a configuration goes in, an outcome comes out."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Protocol
+from dataclasses import replace
 
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.messages import Observation, Request, token_text
-from runtime.executive.outcome import Abort, Conflict, Outcome, Term
+from runtime.executive.messages import Observation, Request
+from runtime.executive.outcome import (
+    Abort,
+    Conflict,
+    ElementKind,
+    EventKind,
+    OpenGoal,
+    Outcome,
+    Phase,
+    Reason,
+    ReasonKind,
+    Term,
+    TimeBounds,
+)
+from runtime.executive.reactor import Failure, Reactor, Refusal
 from runtime.executive.trace import Trace
-
-
-@dataclass(frozen=True, slots=True)
-class Watched:
-    """Cause `number` of a conflict says how long `variable`, the end of an observed token, has been put off."""
-
-    number: int
-    variable: str
-    source: Observation
-
-
-@dataclass(frozen=True, slots=True)
-class Failure:
-    """Why a reactor cannot go on; `conflict` is what broke first, `repairs` what stopped each repair."""
-
-    code: str
-    summary: str
-    timelines: tuple[str, ...]
-    conflict: Conflict | None
-    relaxes: int
-    repairs: tuple[Conflict, ...] = ()
-    causes: tuple[int, ...] = ()
-    watched: tuple[Watched, ...] = ()
-
-
-class Reactor(Protocol):
-    """A controller that owns timelines and uses those of others (T-REX 1.1)."""
-
-    name: str
-    internal: tuple[str, ...]
-    external: tuple[str, ...]
-    latency: int
-    lookahead: int
-    due: int  # the next tick at which it has something to do; earlier ones cost nothing
-
-    def start_tick(self, tick: int) -> None:
-        """Set "now"."""
-
-    def next_tick(self, tick: int) -> int:
-        """The next tick at which something can happen without news from outside."""
-
-    def notify(self, observation: Observation) -> None:
-        """Take note of what an owner published this tick; it is due then."""
-
-    def synchronise(self, tick: int) -> Failure | None:
-        """Make the plan agree with the world at `tick`, or say why that is impossible."""
-
-    def observations(self, tick: int) -> list[Observation]:
-        """What its own timelines have begun to hold at `tick`."""
-
-    def step(self, tick: int) -> bool:
-        """Make one planning decision; False if there is nothing to decide."""
-
-    def failure(self) -> Failure | None:
-        """Why planning has failed for good, if it has."""
-
-    def requests(self, tick: int) -> list[Request]:
-        """What is to be asked of owners now."""
-
-    def recalls(self) -> list[int]:
-        """Numbers of the requests that are taken back."""
-
-    def open_requests(self) -> list[int]:
-        """Numbers of the requests that it has made and that have not started."""
-
-    def accept(self, request: Request) -> None:
-        """Queue a request for one of its timelines."""
-
-    def recall(self, number: int) -> None:
-        """Drop a request that has not started."""
-
-    def unmet_goals(self) -> list[str]:
-        """Mandatory goals that were not achieved."""
-
-    def why_it_lasts(self, token: int, key: int) -> tuple[str, Conflict] | None:
-        """The name of the end of one of its tokens, and what sets that end."""
 
 
 class OwnershipError(ValueError):
@@ -118,6 +54,18 @@ def in_order(reactors: Sequence[Reactor]) -> list[Reactor]:
     return done
 
 
+def tell_owners(reactors: Sequence[Reactor]) -> None:
+    """Give each reactor its execution latency, and those of the owners it uses; `reactors` has owners first.
+
+    The execution latency is a reactor's own and the largest of those it depends on (T-REX 1.1).
+    """
+    windows: dict[str, tuple[int, int]] = {}
+    for reactor in reactors:
+        latency = reactor.latency + max((windows[timeline][0] for timeline in reactor.external), default=0)
+        reactor.set_owners({timeline: windows[timeline] for timeline in reactor.external}, latency)
+        windows |= dict.fromkeys(reactor.internal, (latency, reactor.lookahead))
+
+
 class Agent:
     """Reactors under one step clock; `run` carries out the mission once."""
 
@@ -132,62 +80,60 @@ class Agent:
     ) -> None:
         self.configuration = configuration
         self.every_tick = every_tick
-        self.goals = goals
-        self.unsent = [request for _, request in goals]
+        self.unsent = list(goals)
         self.reactors = in_order(reactors)
+        tell_owners(self.reactors)
         self.awake: list[Reactor] = []
         self.killed: list[Reactor] = []
         self.owners = {timeline: reactor for reactor in self.reactors for timeline in reactor.internal}
+        self.senders: dict[int, Reactor] = {}  # who made a request, by its number
+        self.takers: dict[int, Reactor] = {}  # who was asked
+        self.stirred: list[Reactor] = []  # who has got something to do from a reactor that was killed
         self.seed = seed
         self.trace = trace
         self.tick = 0
 
-    def run(self) -> Outcome:
-        """Carry out the mission from tick 0 to the final tick, or to the abort."""
-        abort: Abort | None = None
+    def run(self, until: int | None = None) -> Outcome:
+        """Carry out the mission from tick 0 to the final tick, to `until`, or to the abort."""
         final_tick = self.configuration.final_tick
+        last = final_tick if until is None else min(until, final_tick)
+        abort: Abort | None = None
         while True:
             self.trace.tick = self.tick
-            self._send_goals()
             abort = self._synchronise()
             # At the final tick there is no future to plan for.
             if abort is None and self.tick < final_tick:
                 abort = self._deliberate()
-            if abort is not None or self.tick >= final_tick or not self.reactors:
+            if abort is not None or self.tick >= last or not self.reactors:
                 break
-            self._dispatch()
-            self._advance()
-        unmet = [goal for reactor in [*self.killed, *self.reactors] for goal in reactor.unmet_goals()]
-        unmet += [token_text(r.predicate, r.arguments) for r in self.unsent if r.is_mandatory]
-        self.trace.phase = "end"
+            self._advance(last)
+        left = [goal for reactor in [*self.killed, *self.reactors] for goal in reactor.open_goals()]
+        left += [OpenGoal(r.timeline, r.predicate, r.arguments) for _, r in self.unsent if r.is_mandatory]
+        self.trace.phase = Phase.END
         if abort is None:
-            self.trace.record("end", "", "", f"mission over at tick {self.tick}")
+            self.trace.record(EventKind.END, "")
         return Outcome(
             self.seed,
             self.tick,
-            final_tick,
+            last,
             abort,
             tuple(self.trace.draws),
             tuple(self.trace.events),
-            tuple(unmet),
+            tuple(left),
         )
 
-    def _send_goals(self) -> None:
-        """Hand the goals of the mission file that are due to the owners of their timelines, if there are any left."""
-        self.trace.phase = "start"
-        for at, request in self.goals:
-            if at == self.tick and request.timeline in self.owners:
-                self.owners[request.timeline].accept(request)
-                self.unsent.remove(request)
-
-    def _advance(self) -> None:
+    def _advance(self, last: int) -> None:
         """Go on to the next tick at which a reactor has something to do or a goal is due."""
         if self.every_tick:
             self.tick += 1
             return
+        for reactor in self.awake:
+            reactor.due = reactor.next_tick(self.tick)
         times = [reactor.due for reactor in self.reactors]
-        times += [at for at, _ in self.goals if at > self.tick]
-        self.tick = min(max(self.tick + 1, min(times, default=self.tick + 1)), self.configuration.final_tick)
+        times += [at for at, _ in self.unsent]
+        self.tick = min(max(self.tick + 1, min(times, default=self.tick + 1)), last)
+
+    # ---- the present ----
 
     def _synchronise(self) -> Abort | None:
         """Let reactors settle the present, owners first, each seeing the values of this very tick."""
@@ -196,48 +142,23 @@ class Agent:
         for reactor in list(self.reactors):
             if reactor.due > self.tick and not is_last and not self.every_tick:
                 continue
-            self.awake.append(reactor)
-            self.trace.phase = "start"
-            reactor.start_tick(self.tick)
-            self.trace.phase = "synchronise"
-            failure = reactor.synchronise(self.tick)
-            if failure is not None:
-                if self.configuration.on_failure == "abort_agent":
-                    return self._abort(reactor, failure)
-                self._kill(reactor, failure)
-                continue
-            self.trace.phase = "observe"
-            self._publish(reactor.observations(self.tick))
+            abort = self._settle(reactor)
+            if abort is not None:
+                return abort
         return None
 
-    def _deliberate(self) -> Abort | None:
-        """Let reactors plan, round robin, one decision at a time, until nobody has anything to decide."""
-        self.trace.phase = "deliberate"
-        busy = list(self.awake)
-        while busy:
-            busy = [reactor for reactor in busy if reactor.step(self.tick)]
-        for reactor in list(self.awake):
-            failure = reactor.failure()
-            if failure is not None:
-                if self.configuration.on_failure == "abort_agent":
-                    return self._abort(reactor, failure)
-                self._kill(reactor, failure)
+    def _settle(self, reactor: Reactor) -> Abort | None:
+        """Let one reactor settle the present, and tell what its timelines begin to hold."""
+        self.awake.append(reactor)
+        self.trace.phase = Phase.START
+        reactor.start_tick(self.tick)
+        self.trace.phase = Phase.SYNCHRONISE
+        failure = reactor.synchronise(self.tick)
+        if failure is not None:
+            return self._give_up(reactor, failure)
+        self.trace.phase = Phase.OBSERVE
+        self._publish(reactor.observations(self.tick))
         return None
-
-    def _dispatch(self) -> None:
-        """Deliver recalls and requests; owners consider them at the next tick (T-REX 1.3)."""
-        self.trace.phase = "dispatch"
-        asked: list[Request] = []
-        for reactor in self.awake:
-            for number in reactor.recalls():
-                for owner in self.reactors:
-                    owner.recall(number)
-            asked += reactor.requests(self.tick)
-        for reactor in self.awake:
-            reactor.due = reactor.next_tick(self.tick)
-        for request in asked:
-            if request.timeline in self.owners:
-                self.owners[request.timeline].accept(request)
 
     def _publish(self, observations: list[Observation]) -> None:
         for observation in observations:
@@ -245,34 +166,154 @@ class Agent:
                 if observation.timeline in reactor.external:
                     reactor.notify(observation)
 
+    # ---- the future ----
+
+    def _deliberate(self) -> Abort | None:
+        """Hand out goals, and let reactors plan, the most urgent first, until nobody has anything left to do.
+
+        Who has finished tells owners what it needs of them, and they plan for it in the same tick.
+        """
+        busy = list(self.awake)
+        abort = self._send_goals(busy)
+        while (busy or self.stirred) and abort is None:
+            while self.stirred and abort is None:
+                abort = self._wake(self.stirred.pop(), busy)
+            if abort is not None or not busy:
+                continue
+            reactor = busy[0]
+            if len(busy) > 1:
+                reactor = max(busy, key=lambda one: one.urgency(self.tick))  # of equal ones the first
+            self.trace.phase = Phase.DELIBERATE
+            if reactor.step(self.tick):
+                continue
+            busy.remove(reactor)
+            failure = reactor.failure()
+            abort = self._give_up(reactor, failure) if failure is not None else self._dispatch(reactor, busy)
+        return abort
+
+    def _send_goals(self, busy: list[Reactor]) -> Abort | None:
+        """Hand the goals of the mission file that are due to the owners of their timelines."""
+        self.trace.phase = Phase.START
+        due = [goal for goal in self.unsent if goal[0] <= self.tick]
+        for goal in due:
+            request = goal[1]
+            if request.timeline in self.owners:
+                self.unsent.remove(goal)
+                bounds = TimeBounds(request.start, request.end, request.duration)
+                event = self.trace.record(
+                    EventKind.REQUEST,
+                    "",
+                    request.timeline,
+                    request.predicate,
+                    request.arguments,
+                    request=request.number,
+                    bounds=bounds,
+                )
+                abort = self._ask(replace(request, event=event), busy)
+                if abort is not None:
+                    return abort
+        return None
+
+    def _dispatch(self, reactor: Reactor, busy: list[Reactor]) -> Abort | None:
+        """Deliver what a reactor takes back, asks for and refuses, now that it has finished planning."""
+        self.trace.phase = Phase.DISPATCH
+        self._tell_refusals(reactor.refusals())
+        for number in reactor.recalls():
+            abort = self._recall(number, busy)
+            if abort is not None:
+                return abort
+        for request in reactor.requests(self.tick):
+            self.senders[request.number] = reactor
+            abort = self._ask(request, busy)
+            if abort is not None:
+                return abort
+        return None
+
+    def _ask(self, request: Request, busy: list[Reactor]) -> Abort | None:
+        """Hand a request to the owner of its timeline, who has work now."""
+        owner = self.owners.get(request.timeline)
+        if owner is None:
+            event = self.trace.record(
+                EventKind.REFUSE,
+                "",
+                request.timeline,
+                request.predicate,
+                request.arguments,
+                (request.event,),
+                request=request.number,
+                reason=Reason(ReasonKind.NO_OWNER, timeline=request.timeline),
+            )
+            self._tell_refusals([Refusal(request, event)])
+            return None
+        abort = self._wake(owner, busy)
+        if abort is None and owner in self.reactors:
+            self.takers[request.number] = owner
+            owner.accept(request)
+        return abort
+
+    def _recall(self, number: int, busy: list[Reactor]) -> Abort | None:
+        """Tell the owner that a request is taken back."""
+        self.senders.pop(number, None)
+        owner = self.takers.pop(number, None)
+        if owner is None or owner not in self.reactors:
+            return None
+        abort = self._wake(owner, busy)
+        if abort is None and owner in self.reactors:
+            owner.recall(number)
+        return abort
+
+    def _tell_refusals(self, refusals: list[Refusal]) -> None:
+        for refusal in refusals:
+            sender = self.senders.get(refusal.request.number)
+            if sender is not None and sender in self.reactors:
+                sender.refused(refusal)
+
+    def _wake(self, reactor: Reactor, busy: list[Reactor]) -> Abort | None:
+        """Give a reactor work in this tick; one that sleeps is brought up to now first."""
+        if reactor not in self.reactors:
+            return None
+        if reactor not in self.awake:
+            abort = self._settle(reactor)
+            if abort is not None or reactor not in self.reactors:
+                return abort
+        if reactor not in busy:
+            busy.append(reactor)
+        return None
+
+    # ---- failures ----
+
+    def _give_up(self, reactor: Reactor, failure: Failure) -> Abort | None:
+        """End the mission, or go on without the reactor, as the configuration has it."""
+        if self.configuration.on_failure == "abort_agent":
+            return self._abort(reactor, failure)
+        self._kill(reactor, failure)
+        return None
+
     def _abort(self, reactor: Reactor, failure: Failure) -> Abort:
         """Record that the agent ends early, with its reason."""
         conflict = self._traced(failure)
-        drawn = (
-            {cause.because.partition(" = ")[2].partition(" ")[0] for cause in conflict.causes} if conflict else set()
-        )
-        samples = tuple(
-            index
-            for index, event in enumerate(self.trace.events)
-            if event.kind == "sample" and event.text.partition(" ")[0] in drawn
-        )
+        drawn = conflict.parameters if conflict is not None else ()
         event = self.trace.record(
-            "abort",
+            EventKind.ABORT,
             reactor.name,
             ", ".join(failure.timelines),
-            f"{failure.code}: {failure.summary}",
-            failure.causes + samples,
+            causes=failure.causes + self.trace.draw_events(drawn),
+            code=failure.code,
+            reason=failure.reason,
+            conflict=conflict,
+            deadlock=failure.deadlock,
         )
         return Abort(
             failure.code,
             self.tick,
             reactor.name,
             failure.timelines,
-            failure.summary,
+            failure.reason,
             conflict,
             failure.relaxes,
             event,
             failure.repairs,
+            failure.deadlock,
         )
 
     def _traced(self, failure: Failure) -> Conflict | None:
@@ -280,33 +321,44 @@ class Agent:
         conflict = failure.conflict
         if conflict is None:
             return None
-        causes, variables = [[cause] for cause in conflict.causes], list(conflict.variables)
+        elements = [[element] for element in conflict.elements]
         for watched in failure.watched:
             owner = next((r for r in self.reactors if r.name == watched.source.owner), None)
             told = owner.why_it_lasts(watched.source.token, watched.source.token_key) if owner else None
             if told is None:
                 continue
             name, reasons = told
-            cause = conflict.causes[watched.number]
-            because = f"{watched.source.predicate} on `{watched.source.timeline}` is observed as long as it lasts"
-            observed = replace(cause, because=because, terms=(Term("eq", (watched.variable, name)),))
-            causes[watched.number] = [*reasons.causes, observed]
-            variables += reasons.variables
-        told_causes = tuple(cause for together in causes for cause in together)
-        return Conflict(told_causes, tuple(dict.fromkeys(variables)))
+            observed = replace(
+                conflict.elements[watched.number],
+                kind=ElementKind.SHARED_END,
+                says=None,
+                terms=(Term("eq", (watched.variable, name)),),
+                observed=(watched.source.predicate, watched.source.timeline),
+            )
+            elements[watched.number] = [*reasons.elements, observed]
+        return Conflict(tuple(element for together in elements for element in together))
 
     def _kill(self, reactor: Reactor, failure: Failure) -> None:
         """Take a failed reactor out and tell the users of its timelines (T-REX 1.6, second generation)."""
         event = self.trace.record(
-            "kill", reactor.name, ", ".join(failure.timelines), f"{failure.code}: {failure.summary}", failure.causes
+            EventKind.KILL,
+            reactor.name,
+            ", ".join(failure.timelines),
+            causes=failure.causes,
+            code=failure.code,
+            reason=failure.reason,
+            conflict=self._traced(failure),
+            deadlock=failure.deadlock,
         )
         self.reactors.remove(reactor)
         self.awake.remove(reactor)
         self.killed.append(reactor)
         for number in reactor.open_requests():
-            for owner in self.reactors:
+            owner = self.takers.pop(number, None)
+            if owner is not None and owner in self.reactors:
                 owner.recall(number)
+                self.stirred.append(owner)
         for timeline in reactor.internal:
             del self.owners[timeline]
-            text = self.trace.record("observation", reactor.name, timeline, "Failed", (event,))
-            self._publish([Observation(self.tick, timeline, "Failed", (), text)])
+            seen = self.trace.record(EventKind.OBSERVATION, reactor.name, timeline, "Failed", causes=(event,))
+            self._publish([Observation(self.tick, timeline, "Failed", (), seen)])

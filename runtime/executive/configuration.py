@@ -26,8 +26,9 @@ class ReactorConfiguration:
     internal: tuple[str, ...] = ()  # timelines it owns, by the name of the global variable
     external: tuple[str, ...] = ()  # timelines it uses
     solver: str | None = None  # path of its flaw handling, relative to the agent's root
-    max_steps: int = 400
-    max_depth: int = 400
+    early: tuple[str, ...] = ()  # timelines on which what is planned starts as soon as it may, asked for or not
+    max_steps: int | None = None  # planner decisions in one tick
+    max_depth: int | None = None  # planner decisions in force at once
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,7 @@
 """Decide which planned tokens are asked of the owners of their timelines, and when requests are taken back."""
 
-from runtime.executive.messages import Request, token_text
+from runtime.executive.messages import Request
+from runtime.executive.outcome import EventKind, TimeBounds, TokenName
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
@@ -9,49 +10,66 @@ INFINITY = 4503599627370495
 
 
 class Dispatch:
-    """What one reactor has asked of others; `owner_windows` gives latency and look-ahead of each timeline's owner."""
+    """What one reactor has asked of others."""
 
     def __init__(self, name: str, bench: Workbench, timelines: list[TimelineState], trace: Trace) -> None:
         self.name = name
         self.bench = bench
         self.timelines = timelines
         self.trace = trace
-        self.owner_windows: dict[str, tuple[int, int]] = {}
-        self.sent: dict[int, Request] = {}  # by the key of the token that was sent
+        self.owner_windows: dict[str, tuple[int, int]] = {}  # execution latency and look-ahead, by timeline
+        self.sent: dict[int, Request] = {}  # by the key of the token that was sent, until it is over
         self.sent_tokens: dict[int, int] = {}
+        self.refused: dict[int, int] = {}  # by number: the event in which an owner gave a request up
 
     def is_asked(self, token: int) -> bool:
-        """Whether the owner has been asked for a token, and has not started it."""
+        """Whether the owner has been asked for a token that is not over."""
         return self.bench.key(token) in self.sent
 
+    def is_refused(self, token: int) -> bool:
+        """Whether the owner will not do what it was asked for."""
+        request = self.sent.get(self.bench.key(token))
+        return request is not None and request.number in self.refused
+
+    def refusal_of(self, token: TokenName | None) -> tuple[int, ...]:
+        """The event in which an owner gave up a token of the plan."""
+        request = self.sent.get(token.key) if token is not None else None
+        return (self.refused[request.number],) if request is not None and request.number in self.refused else ()
+
     def notice(self, line: TimelineState) -> int:
-        """How many ticks ahead the owner of a timeline is asked; a reactive one is asked when it is to begin."""
+        """How many ticks ahead the owner of a timeline is asked: its window begins that much later (T-REX 1.1)."""
         latency, lookahead = self.owner_windows.get(line.name, (0, 1))
-        return 0 if lookahead <= 1 else latency + lookahead
+        return latency + lookahead
+
+    def own_end(self, line: TimelineState) -> int:
+        """The current token of a timeline if its end is nobody's business but of the next one's; else NOTHING."""
+        return NOTHING if line.current == NOTHING or self.is_asked(line.current) else line.current
 
     def takes_requests(self, line: TimelineState) -> bool:
         """Whether the owner of a timeline may be asked: the model must allow it, and who looks ahead by 0 never is."""
         return self.bench.accepts_requests(line.object_id) and self.owner_windows.get(line.name, (0, 1))[1] > 0
 
-    def requests(self, tick: int) -> list[Request]:
+    def requests(self, tick: int, final_tick: int) -> list[Request]:
         """Planned tokens on others' timelines that are due to be asked for (T-REX 1.8).
 
-        A reactive owner (look-ahead 1 or less) is asked when the token could start now; a planning owner as soon as
-        the token's earliest start lies inside its window.
+        That is as soon as the earliest start lies inside the owner's window. What cannot begin before the mission ends
+        is not asked for.
         """
         asked = []
         for line in self.timelines:
             if line.is_internal or not self.takes_requests(line):
                 continue
-            reach = tick + self.notice(line)
+            reach = max(tick + self.notice(line), tick + 1)
             for token in self.bench.planned_after(line.object_id, line.current):
                 start = self.bench.start(token)
-                # What has not started may do so from the next tick on, so "now" reads as one later.
-                if self.bench.lower(start) > reach + 1:
+                # What has not started may do so from the next tick on.
+                if self.bench.lower(start) > reach or self.bench.lower(start) >= final_tick:
                     break
                 key = self.bench.key(token)
-                if key in self.sent or self.bench.is_blocked(token, line.current, tick):
+                if key in self.sent:
                     continue
+                if self.bench.is_blocked(token, self.own_end(line), tick):
+                    break
                 asked.append(self._ask(line, token, tick))
                 self.sent[key] = asked[-1]
                 self.sent_tokens[key] = token
@@ -62,29 +80,50 @@ class Dispatch:
         predicate = bench.short_name(token)
         arguments = bench.arguments(token)
         causes = tuple(other.event for other in self.timelines if not other.is_internal and other.event != NOTHING)
-        event = self.trace.record("request", self.name, line.name, token_text(predicate, arguments), causes[:1])
         # To the world a request is a command: when to begin is the sender's business, how long it takes is not.
         is_command = self.owner_windows.get(line.name, (0, 1))[1] <= 1
         end = INFINITY if is_command else _whole(bench.upper(bench.end(token)))
         earliest = max(tick + 1, _whole(bench.lower(bench.start(token))))
         start = (earliest, _whole(bench.upper(bench.start(token))))
-        return Request(event, line.name, predicate, arguments, start, (-INFINITY, end), (1, INFINITY), self.name, event)
+        bounds = TimeBounds(start, (-INFINITY, end), (1, INFINITY))
+        event = self.trace.record(
+            EventKind.REQUEST,
+            self.name,
+            line.name,
+            predicate,
+            arguments,
+            causes[:1],
+            token=bench.name_of(token),
+            request=len(self.trace.events),
+            bounds=bounds,
+        )
+        return Request(
+            event, line.name, predicate, arguments, bounds.start, bounds.end, bounds.duration, self.name, event
+        )
 
     def open_requests(self) -> list[int]:
-        """Numbers of the requests that have been made and have not started."""
+        """Numbers of the requests that have been made and are not over."""
         return [request.number for request in self.sent.values()]
 
     def recalls(self, tick: int) -> list[int]:
-        """Numbers of the requests whose token has lost its place in the plan; what has started is forgotten."""
+        """Numbers of the requests whose token has lost its place, begun or not; what is over is forgotten."""
         numbers = []
         for key, request in list(self.sent.items()):
             token = self.sent_tokens[key]
-            if not self.bench.is_alive(token, key) or not self.bench.is_active(token):
-                text = token_text(request.predicate, request.arguments)
-                self.trace.record("recall", self.name, request.timeline, text)
+            is_placed = self.bench.is_alive(token, key) and self.bench.is_active(token)
+            if not is_placed:
+                self.trace.record(
+                    EventKind.RECALL,
+                    self.name,
+                    request.timeline,
+                    request.predicate,
+                    request.arguments,
+                    request=request.number,
+                )
                 numbers.append(request.number)
-            elif not self.bench.is_started(token, tick):
+            elif not self.bench.is_over(token, tick):
                 continue
+            self.refused.pop(request.number, None)
             del self.sent[key]
             del self.sent_tokens[key]
         return numbers

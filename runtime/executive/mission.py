@@ -1,14 +1,14 @@
 """Run one mission of a configuration: programs and a seed go in, an outcome comes out."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from compiler.program import DomainConstant, Program
 from runtime.executive.agent import Agent
-from runtime.executive.chance import sample
-from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ParameterConfiguration, Value
-from runtime.executive.messages import Arguments, Request, token_text
-from runtime.executive.outcome import Draw, Outcome
+from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, Value
+from runtime.executive.draws import Draws, World
+from runtime.executive.messages import Arguments, Request
+from runtime.executive.outcome import Outcome
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
 from runtime.executive.trace import Trace
@@ -33,51 +33,17 @@ class MissionPrograms:
     constraints: tuple[Constraint, ...] = ()  # those of the project that the models call
 
 
-class World:
-    """What a mission draws from chance; a pure function of seed, parameter and tick, recorded when first used."""
-
-    def __init__(
-        self, configuration: AgentConfiguration, seed: int, overrides: Mapping[str, float], trace: Trace
-    ) -> None:
-        self.parameters = {parameter.name: parameter for parameter in configuration.parameters}
-        self.seed = seed
-        self.overrides = overrides
-        self.trace = trace
-
-    def of(self, reactor: str, program: Program) -> Callable[[str], float | None]:
-        """What the plan database of one reactor asks: the value of a parameter that is in force now, by name."""
-        for site in program.sampled:
-            if site.name not in self.parameters and site.default is not None and site.default.interval is not None:
-                lower, upper = site.default.interval
-                self.parameters[site.name] = ParameterConfiguration(
-                    site.name, float(lower), float(upper), is_whole=site.kind == "int"
-                )
-
-        def draw(name: str) -> float | None:
-            parameter = self.parameters.get(name)
-            if parameter is None:
-                return None
-            if name in self.overrides:
-                value = self.overrides[name]
-                drawn = Draw(name, 0, value, value)
-            else:
-                drawn = sample(parameter, self.seed, self.trace.tick)
-            self.trace.record_draw(reactor, drawn)
-            return drawn.value
-
-        return draw
-
-
 def run_mission(
     configuration: AgentConfiguration,
     programs: MissionPrograms,
     seed: int,
     overrides: Mapping[str, float] | None = None,
     every_tick: bool = False,
+    until: int | None = None,
 ) -> Outcome:
     """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
 
-    With `every_tick` reactors are woken at each tick, whether or not anything can happen; events are the same.
+    It ends at the final tick, or at `until`. With `every_tick` reactors are woken at each tick, whether or not anything can happen; events are the same.
     Raises `UnusableModelError` for a model that does not load, and `ValueError` (of `workbench` and `agent`) for
     timelines that do not exist or have no single owner.
     """
@@ -85,11 +51,14 @@ def run_mission(
     world = World(configuration, seed, overrides or {}, trace)
     reactors: list[PlanReactor] = []
     for each, program, solver in zip(configuration.reactors, programs.programs, programs.solvers, strict=True):
-        database = PlanDatabase(program, world.of(each.name, program), programs.constraints)
+        world.learn(program)
+        draws = Draws(each.name, world)
+        database = PlanDatabase(program, draws.draw, programs.constraints)
         fault = database.run_script()
         if fault is not None:
             raise UnusableModelError(f"{fault.span.source.name}:{fault.span.line}: {fault.message}")
         bench = Workbench(database, each.name)
+        draws.view = bench
         holds = bench.set_global("TICK_DURATION", configuration.tick)
         holds = holds and bench.set_global("MISSION_START", 0)
         holds = holds and bench.set_global("MISSION_END", configuration.final_tick)
@@ -97,17 +66,14 @@ def run_mission(
         if not holds or not bench.is_consistent():
             raise UnusableModelError(f"the model of `{each.name}` contradicts itself before the mission begins")
         bench.commit()
-        planner = Planner(bench, solver, each.max_depth)
-        reactors.append(PlanReactor(each, bench, planner, configuration.final_tick, trace))
-    owners = {line: (r.latency, r.lookahead) for r in reactors for line in r.internal}
-    for reactor in reactors:
-        reactor.dispatch.owner_windows = owners
+        planner = Planner(bench, solver, configuration.final_tick, each.max_steps, each.max_depth)
+        reactors.append(PlanReactor(each, bench, planner, configuration.final_tick, trace, draws))
     goals = []
     for number, goal in enumerate(configuration.goals):
         kinds = goal_kinds(configuration, programs, goal)
-        goals.append((goal.at, request_of(goal, -1 - number, trace, kinds)))
+        goals.append((goal.at, request_of(goal, -1 - number, kinds)))
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
-    return agent.run()
+    return agent.run(until)
 
 
 def goal_kinds(
@@ -125,12 +91,11 @@ def goal_kinds(
     return {}
 
 
-def request_of(goal: GoalConfiguration, number: int, trace: Trace, kinds: Mapping[str, tuple[str, str]]) -> Request:
+def request_of(goal: GoalConfiguration, number: int, kinds: Mapping[str, tuple[str, str]]) -> Request:
     """A goal of the mission file as a request; `kinds` gives kind and type name of each parameter."""
     arguments: Arguments = tuple(
         (name, _domain(value, *kinds.get(name, ("float", "float")))) for name, value in goal.parameters
     )
-    event = trace.record("request", "", goal.timeline, token_text(goal.predicate, arguments))
     return Request(
         number,
         goal.timeline,
@@ -140,7 +105,7 @@ def request_of(goal: GoalConfiguration, number: int, trace: Trace, kinds: Mappin
         _bounds(goal.end),
         _bounds(goal.duration),
         "",
-        event,
+        -1,
         goal.mandatory,
     )
 

@@ -1,14 +1,20 @@
-"""What a mission leaves behind: its events, the values it drew, and why it ended, as plain data.
+"""What a mission leaves behind: its events, the values it drew, and why it ended, as typed data.
 
-Everything here is picklable and free of engine ids, so that workers can send it and a store can keep it.
-Two runs of one mission give equal outcomes, in either form of the engine and on any machine.
+Everything here is picklable and free of engine ids, so that workers can send it and a store can keep it. Two runs of
+one mission give equal outcomes, in either form of the engine and on any machine. Sentences are made of it by
+`runtime.executive.rendering` alone; nothing reads them back.
 """
 
 from dataclasses import dataclass
+from enum import StrEnum
+
+from runtime.executive.messages import Arguments
+
+# ---- names ----
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class SourcePlace:
     """Where in the model something stands: file as the model was named, line and column from 1, and the text."""
 
     file: str
@@ -18,22 +24,228 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True)
-class Event:
-    """One thing that happened.
+class TokenName:
+    """A token of one reactor: `Class.predicate`, and a number that the reactor never uses again."""
 
-    `phase` is start, observe, synchronise, repair, deliberate, dispatch or end; `kind` is observation, request,
-    recall, reject, relax, sample, kill, abort or end. `text` is canonical: `Predicate(name=value, ...)` for tokens.
-    `causes` are indices of earlier events of the same trace. Within a tick events are in the order they happened,
-    which is deterministic.
+    predicate: str
+    key: int
+
+
+@dataclass(frozen=True, slots=True)
+class VariableName:
+    """A variable of one reactor, with its kind (int, float, bool, symbol, object, string).
+
+    `token` owns it; without one it is a global variable. `is_local`: a rule of the token declares it (or needs it for
+    a part of an expression), else it is a parameter or a time of the token.
     """
 
-    tick: int
-    phase: str
+    name: str
     kind: str
-    reactor: str
-    timeline: str
-    text: str
-    causes: tuple[int, ...] = ()
+    token: TokenName | None = None
+    is_local: bool = False
+    reactor: str = ""
+
+
+# ---- conflicts ----
+
+Operand = VariableName | int | float | str  # a variable, a number, or the name of a symbol, an object, a parameter
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """One constraint of a conflict, for a judge that knows nothing of the engine.
+
+    `name` is a row of the constraint registry (`eq`, `mulEq`, `leq`, ...), or
+
+    * `precedence` (source, target, bound): target - source <= bound,
+    * `bounds` (variable, lower, upper): a base domain, infinite bounds as ±inf,
+    * `member` (variable, value, ...): a base domain that lists its values,
+    * `sampledParameter` (variable, parameter, value): a draw.
+    """
+
+    name: str
+    arguments: tuple[Operand, ...]
+
+
+class ElementKind(StrEnum):
+    """What an element of a conflict is."""
+
+    RELATION = "relation"  # between tokens, of a rule
+    CONSTRAINT = "constraint"
+    DURATION = "duration"  # start + duration = end
+    SAMPLE = "sample"
+    ASSIGNMENT = "assignment"  # a value given by the text of the model
+    DECLARATION = "declaration"  # a base domain, of the model or of the mission file
+    OBSERVATION = "observation"
+    REQUEST = "request"
+    CLOCK = "clock"  # what has not happened can only happen later
+    ORDER = "order"  # the executive's or the planner's decision about the order of tokens
+    LONGEST = "longest"  # a token lasts as long as the model allows
+    SHARED_END = "shared end"  # an observed token lasts as long as its owner's
+
+
+@dataclass(frozen=True, slots=True)
+class ConflictElement:
+    """One element of a conflict: what was posted, by which rule for which token, and where that is written.
+
+    `rule` is the predicate of the rule, `token` the token for which it posted; without them the script did. `says` is
+    what it comes to, in one term (None: `kind` says it all); `terms` the same for a judge, taken apart if need be.
+    For a shared end, `observed` names the value and its timeline.
+    """
+
+    kind: ElementKind
+    place: SourcePlace | None
+    rule: str
+    token: TokenName | None
+    says: Term | None
+    terms: tuple[Term, ...]
+    observed: tuple[str, str] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Conflict:
+    """A minimal set of elements that cannot hold together, in the order in which the story is told."""
+
+    elements: tuple[ConflictElement, ...]
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """The sampled parameters that it depends on."""
+        terms = [term for element in self.elements for term in element.terms if term.name == "sampledParameter"]
+        return tuple(dict.fromkeys(str(term.arguments[1]) for term in terms))
+
+
+# ---- what was tried ----
+
+
+class ChoiceKind(StrEnum):
+    """A way to mend a flaw of the plan, or to settle a timeline now."""
+
+    ACTIVATE = "activate"
+    MERGE = "merge"  # into `other`
+    REJECT = "reject"
+    ORDER = "order"  # before `other`
+    SPECIFY = "specify"  # `variable` gets `value`
+    EXTEND = "extend"  # the present token goes on
+    NEXT = "next"  # the planned token starts
+    NEW = "new"  # a token of `predicate` starts
+    OBSERVE = "observe"  # what was observed stands by itself
+    MEET = "meet"  # what was observed is the planned token `other`
+
+
+@dataclass(frozen=True, slots=True)
+class FailedChoice:
+    """A choice that was tried and failed: by `conflict`, or because nothing mends the flaw that it leads to."""
+
+    kind: ChoiceKind
+    token: TokenName | None
+    other: TokenName | None = None
+    predicate: str = ""
+    variable: VariableName | None = None
+    value: Operand | None = None
+    conflict: Conflict | None = None
+    leads_to: "Deadlock | None" = None
+
+
+@dataclass(frozen=True, slots=True)
+class Deadlock:
+    """A flaw that no choice mends: the token, timeline or variable to decide, and each choice that was tried."""
+
+    token: TokenName | None
+    timeline: str = ""
+    variable: VariableName | None = None
+    tried: tuple[FailedChoice, ...] = ()
+
+
+# ---- why ----
+
+
+class ReasonKind(StrEnum):
+    """Why a request was refused, a goal given up, a plan repaired or a reactor lost."""
+
+    # of requests and goals
+    NO_LOOKAHEAD = "no lookahead"
+    NO_OWNER = "no owner"
+    UNKNOWN_PREDICATE = "unknown predicate"
+    MISFIT = "misfit"
+    TOO_LATE = "too late"
+    DROPPED = "dropped"
+    REJECTED = "rejected"
+    RECALLED = "recalled"
+    # of the present
+    CLOCK = "clock"
+    GOES_ON = "goes on"
+    ENDED = "ended"
+    CANNOT_GO_ON = "cannot go on"
+    CANNOT_START = "cannot start"
+    NONE_CAN_START = "none can start"
+    DID_NOT_START = "did not start"
+    UNMET = "unmet"
+    CANNOT_RELAX = "cannot relax"
+    # of the plan
+    NO_PLACE = "no place"
+    NO_PLAN = "no plan"
+    # of limits and code
+    STEPS = "steps"
+    DEPTH = "depth"
+    RAISED = "raised"
+    # of the mission
+    GOALS_OPEN = "goals open"
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """Why something happened, with what it is about; `limit` is a number of tries, steps or decisions.
+
+    `message` is text of others, such as that of an exception in a user's reactor.
+    """
+
+    kind: ReasonKind
+    token: TokenName | None = None
+    predicate: str = ""
+    timeline: str = ""
+    tick: int | None = None
+    limit: int | None = None
+    message: str = ""
+
+
+class RepairStage(StrEnum):
+    """What a repair takes back (T-REX 1.9)."""
+
+    KEEP_PAST = "keeping the past"
+    FORGET_PAST = "forgetting the past"
+    REPLAN = "no plan"
+
+
+# ---- events ----
+
+
+class Phase(StrEnum):
+    """The part of a tick."""
+
+    START = "start"
+    OBSERVE = "observe"
+    SYNCHRONISE = "synchronise"
+    REPAIR = "repair"
+    DELIBERATE = "deliberate"
+    DISPATCH = "dispatch"
+    END = "end"
+
+
+class EventKind(StrEnum):
+    """What happened."""
+
+    OBSERVATION = "observation"
+    REQUEST = "request"
+    RECALL = "recall"
+    REFUSE = "refuse"  # the owner does not take a request
+    REJECT = "reject"  # the owner gives up a request that it had taken
+    ACHIEVED = "achieved"  # a request has run to its end
+    RELAX = "relax"
+    SAMPLE = "sample"
+    KILL = "kill"
+    ABORT = "abort"
+    END = "end"
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,68 +259,76 @@ class Draw:
 
 
 @dataclass(frozen=True, slots=True)
-class Term:
-    """One constraint of a conflict, for a judge that knows nothing of the engine.
+class TimeBounds:
+    """When something is asked for: both ends included, infinite ones as ±(2**52 - 1)."""
 
-    `name` is a row of the constraint table (`eq`, `mulEq`, `leq`, ...), `precedence` (arguments source, target,
-    bound: target - source <= bound), or `bounds` (arguments variable, lower, upper: a base domain).
-    Arguments are variable names or numbers. A `sampledParameter` term has the variable, the parameter name and
-    the value drawn.
+    start: tuple[int, int]
+    end: tuple[int, int]
+    duration: tuple[int, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """One thing that happened; `causes` are indices of earlier events of the same trace.
+
+    Within a tick events are in the order they happened, which is deterministic. `timeline`, `predicate` and
+    `arguments` say what is observed, asked for, refused or given up; `token` is its token in the plan of the owner (in
+    a request: of the sender), `request` the number of the request that it is about (NDDL goals: None). A request has
+    its `bounds`, a sample its `draw`, a relax its `stage`; refuse, reject, relax, kill and abort their `reason`, and
+    what the search knows of it: the `conflict`, and what was tried. `code` is that of kill, abort and end.
     """
 
-    name: str
-    arguments: tuple[str | float | int, ...]
+    tick: int
+    phase: Phase
+    kind: EventKind
+    reactor: str = ""
+    timeline: str = ""
+    predicate: str = ""
+    arguments: Arguments = ()
+    causes: tuple[int, ...] = ()
+    token: TokenName | None = None
+    request: int | None = None
+    bounds: TimeBounds | None = None
+    draw: Draw | None = None
+    stage: RepairStage | None = None
+    code: str = ""
+    reason: Reason | None = None
+    conflict: Conflict | None = None
+    deadlock: Deadlock | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Cause:
-    """One element of a conflict: what was posted, by which rule for which token, and where that is written.
-
-    `kind` is relation, constraint, sample, duration, order, merge, assignment, declaration, observation, clock,
-    horizon or model. `token` names the token whose rule posted it (`Gps.Active#7`), empty for the script.
-    `because` says in words what the element did (`duration <= 31`).
-    """
-
-    kind: str
-    place: Place | None
-    rule: str
-    token: str
-    because: str
-    terms: tuple[Term, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class VariableInfo:
-    """A variable that the terms of a conflict name: its kind (int, float, bool, symbol, object) and owner token."""
-
-    name: str
-    kind: str
-
-
-@dataclass(frozen=True, slots=True)
-class Conflict:
-    """A minimal set of causes that cannot hold together, in the order in which the story is told."""
-
-    causes: tuple[Cause, ...]
-    variables: tuple[VariableInfo, ...]
+# ---- the end ----
 
 
 @dataclass(frozen=True, slots=True)
 class Abort:
     """Why an agent stopped early. `code` is F1 to F11 of the failure taxonomy (reference of T-REX, 1.11).
 
-    `conflict` is what broke first; `repairs` are the conflicts that stopped each repair stage after it.
+    `conflict` is what broke first, `deadlock` what was tried in vain; `repairs` are the conflicts that stopped each
+    repair stage after it.
     """
 
     code: str
     tick: int
     reactor: str
     timelines: tuple[str, ...]
-    summary: str
+    reason: Reason
     conflict: Conflict | None
     relaxes: int
     event: int  # index of the abort event in the trace
     repairs: tuple[Conflict, ...] = ()
+    deadlock: Deadlock | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class OpenGoal:
+    """A mandatory goal that was not achieved; `event` is the index of what became of it last (-1: nothing)."""
+
+    timeline: str
+    predicate: str
+    arguments: Arguments = ()
+    reason: Reason | None = None  # None: it was still waiting, planned or running
+    event: int = -1
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +341,7 @@ class Outcome:
     abort: Abort | None
     draws: tuple[Draw, ...]
     events: tuple[Event, ...]
-    unmet_goals: tuple[str, ...]
+    open_goals: tuple[OpenGoal, ...]
 
     @property
     def ended_early(self) -> bool:

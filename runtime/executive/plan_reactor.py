@@ -1,73 +1,92 @@
 """A reactor that plans with a plan database: it synchronises, deliberates, asks owners for what it needs, repairs."""
 
-from runtime.executive.agent import Failure, Watched
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.dispatch import Dispatch
-from runtime.executive.messages import Observation, Request, token_text
-from runtime.executive.outcome import Conflict
+from runtime.executive.draws import Draws
+from runtime.executive.goals import Goals
+from runtime.executive.messages import Observation, Request
+from runtime.executive.outcome import (
+    Conflict,
+    ElementKind,
+    EventKind,
+    OpenGoal,
+    Phase,
+    Reason,
+    ReasonKind,
+    RepairStage,
+    VariableName,
+)
 from runtime.executive.planning import Planner
-from runtime.executive.repair import hold_present, relax, stand
+from runtime.executive.reactor import Failure, Refusal, Watched
+from runtime.executive.repair import relax
 from runtime.executive.story import conflict_of, latest
 from runtime.executive.synchronise import Unsettled, settle
-from runtime.executive.timelines import NOTHING, Goal, TimelineState
+from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
-from runtime.executive.view import SPAN_REQUEST
 from runtime.executive.workbench import Workbench
+
+
+class HistoryError(RuntimeError):
+    """Forgetting what is over changed the plan: a mistake of the engine, no verdict about the model."""
 
 
 class PlanReactor:
     """Keeps the plan of its own timelines, and what it expects of others', in step with the world."""
 
     def __init__(
-        self, configuration: ReactorConfiguration, bench: Workbench, planner: Planner, final_tick: int, trace: Trace
+        self,
+        configuration: ReactorConfiguration,
+        bench: Workbench,
+        planner: Planner,
+        final_tick: int,
+        trace: Trace,
+        draws: Draws,
     ) -> None:
         self.name = configuration.name
         self.internal = configuration.internal
         self.external = configuration.external
         self.latency = configuration.latency
         self.lookahead = configuration.lookahead
+        self.reach = self.latency + max(self.lookahead, 1)  # how far ahead it plans
         self.bench = bench
         self.planner = planner
         self.final_tick = final_tick
         self.trace = trace
+        self.draws = draws
         self.max_steps = configuration.max_steps
         self.timelines = [bench.timeline(name, True) for name in self.internal]
         self.timelines += [bench.timeline(name, False) for name in self.external]
+        for line in self.timelines:
+            line.is_early = line.name in configuration.early
         self.by_name = {line.name: line for line in self.timelines}
-        self.waiting: list[Request] = []
-        self.goals: list[Goal] = []
+        self.goals = Goals(self.name, bench, self.timelines, trace)
         self.tick = 0
         self.due = 0
         self.relaxes = 0
         self.relaxed_at = NOTHING
-        self.steps_left = self.max_steps
+        self.steps_made = 0
+        self.work_since = 0
         self.broken: Failure | None = None
         self.dispatch = Dispatch(self.name, bench, self.timelines, trace)
-        self.unmet: list[str] = []
         self.is_stirred = False  # something came from outside after the present was settled
 
-    @property
-    def is_early(self) -> bool:
-        """Whether planned tokens start as soon as they may: a simulator keeps what holds, a planner gets on."""
-        return self.lookahead > 1
+    def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
+        """Take note of when owners want to be asked; its own window counts what they need (T-REX 1.1)."""
+        self.dispatch.owner_windows = windows
+        self.reach = execution_latency + max(self.lookahead, 1)
 
     # ---- the tick ----
 
     def start_tick(self, tick: int) -> None:
-        """Set "now", and turn the requests whose time has come into goals."""
+        """Set "now", and forget what is over."""
         self.bench.archive(self.timelines, self.tick)
         self.bench.tidy()
+        if not self.bench.is_consistent():
+            raise HistoryError(f"what is over at tick {tick} contradicts the plan of `{self.name}`")
         self.tick = tick
-        self.steps_left = self.max_steps
+        self.work_since = tick
+        self.steps_made = 0
         self.is_stirred = False
-        reach = tick + self.latency + max(self.lookahead, 1)
-        later = []
-        for request in self.waiting:
-            if request.start[0] <= reach:
-                self._post(request, tick)
-            else:
-                later.append(request)
-        self.waiting = later
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published this tick; the last word counts."""
@@ -82,10 +101,9 @@ class PlanReactor:
         such ticks, earliest starts and the moments at which tokens come into the planning window nothing changes.
         """
         bench = self.bench
-        if self.is_stirred or self.steps_left <= 0 or bench.reads_clock():
+        if self.is_stirred or self.is_out_of_steps() or bench.reads_clock():
             return tick + 1
-        reach = self.latency + max(self.lookahead, 1)
-        times = [float(request.start[0] - reach) for request in self.waiting]
+        times = [float(request.start[0] - self.reach) for request in self.goals.waiting]
         for line in self.timelines:
             if line.current != NOTHING:
                 times.append(bench.upper(bench.end(line.current)))
@@ -93,14 +111,17 @@ class PlanReactor:
                 start = bench.start(token)
                 times.append(bench.upper(start))
                 if line.is_internal:
-                    if not bench.is_blocked(token, line.current, tick):
+                    if not bench.is_blocked(token, self.dispatch.own_end(line), tick):
                         times.append(bench.lower(start))
-                elif not self.dispatch.is_asked(token) and not bench.is_blocked(token, line.current, tick):
-                    times.append(bench.lower(start) - 1 - self.dispatch.notice(line))
+                elif not self.dispatch.is_asked(token) and not bench.is_blocked(
+                    token, self.dispatch.own_end(line), tick
+                ):
+                    times.append(bench.lower(start) - self.dispatch.notice(line))
         for token in bench.undecided():
             times.append(bench.upper(bench.start(token)))
-            if bench.lower(bench.start(token)) > tick + reach:
-                times.append(bench.lower(bench.start(token)) - reach)
+            if bench.lower(bench.start(token)) > tick + self.reach:
+                times.append(bench.lower(bench.start(token)) - self.reach)
+        times.append(self.draws.next_change(bench, tick))
         return int(max(tick + 1, min([self.final_tick, *times])))
 
     def synchronise(self, tick: int) -> Failure | None:
@@ -111,49 +132,88 @@ class PlanReactor:
         watched: tuple[Watched, ...] = ()
         for attempt in range(3):
             if attempt:
-                self.trace.phase = "repair"
-                stage = "keeping the past" if attempt == 1 else "forgetting the past"
-                self.trace.record("relax", self.name, "", f"{stage}: {failures[-1].summary}", causes)
+                self.trace.phase = Phase.REPAIR
+                self.trace.record(
+                    EventKind.RELAX,
+                    self.name,
+                    causes=causes,
+                    stage=RepairStage.KEEP_PAST if attempt == 1 else RepairStage.FORGET_PAST,
+                    reason=failures[-1].reason,
+                    conflict=failures[-1].conflict,
+                )
                 self.relaxes += 1
-                if not relax(self.bench, self.timelines, self._live_goals(), tick, forget=attempt == 2):
-                    what = "the plan cannot be relaxed"
+                if not relax(self.bench, self.timelines, self.goals.live(), tick, forget=attempt == 2):
+                    what = Reason(ReasonKind.CANNOT_RELAX)
                     failures.append(Unsettled(failures[0].code, (), what, conflict_of(self.bench)))
-                    break
-            mark = self.bench.mark()
-            failure = settle(self.bench, self.planner, self.timelines, tick, self.is_early)
+                    continue
+            failure = self._prepare(tick) or self._settle(tick)
             if failure is None:
-                self.planner.keep()
-                self._close_goals(tick)
+                self.goals.report_rejected()
+                if self.goals.close(tick):
+                    self.goals.reopen()
                 return None
             failures.append(failure)
             if attempt == 0:
                 watched = self._watched(failure.conflict)
-            self.bench.rewind_to(mark)
-            self.bench.commit()
         first = failures[0]
         repairs = _distinct(first.conflict, failures[1:])
         lines = first.timelines or tuple(line.name for line in self.timelines if line.is_internal)
-        causes = causes or events[:1]
-        return Failure(first.code, first.summary, lines, first.conflict, self.relaxes, repairs, causes, watched)
+        causes = self.dispatch.refusal_of(first.reason.token) or causes or events[:1]
+        return Failure(first.code, first.reason, lines, first.conflict, self.relaxes, repairs, causes, watched)
+
+    def _prepare(self, tick: int) -> Unsettled | None:
+        """Draw anew what was drawn for a tick at which its token does not begin, and make way for commands."""
+        for token in self.draws.outdated(self.bench, tick):
+            if not self.bench.renew(token):
+                return Unsettled("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
+        if any(goal.request.start[0] <= tick for goal in self.goals.live()):
+            self._make_way(tick)
+        return None
+
+    def _make_way(self, tick: int) -> None:
+        """Undo what binds the present to tokens that the model alone plans, where what was asked for could begin."""
+        waiting = [
+            goal.token
+            for goal in self.goals.live()
+            if self.bench.is_active(goal.token) and not self.bench.is_started(goal.token, tick - 1)
+        ]
+        if waiting and self.lookahead <= 1:
+            for line in self.timelines:
+                if line.is_internal and line.current != NOTHING:
+                    for token in self.bench.merged_early(line.current, tick):
+                        self.bench.cancel(token)
+
+    def _settle(self, tick: int) -> Unsettled | None:
+        """Settle the present, or leave the plan as it was."""
+        mark = self.bench.mark()
+        failure = settle(self.bench, self.planner, self.timelines, tick, self.final_tick, self.dispatch.is_refused)
+        if failure is None:
+            self.planner.keep()
+            return None
+        self.bench.rewind_to(mark)
+        self.bench.commit()
+        return failure
 
     def _watched(self, conflict: Conflict | None) -> tuple[Watched, ...]:
-        """The causes of a conflict that say how long what another reactor published has lasted."""
+        """The elements of a conflict that say how long what another reactor published has lasted."""
         if conflict is None:
             return ()
         ends = {
-            self.bench.token_name(line.current): line.source
+            self.bench.name_of(line.current): line.source
             for line in self.timelines
             if not line.is_internal and line.current != NOTHING and line.source is not None
         }
         found = []
-        for number, cause in enumerate(conflict.causes):
-            source = ends.get(cause.token)
-            name = f"{self.name}:{cause.token}.end"
-            if cause.kind == "observation" and source is not None and cause.terms[0].arguments[0] == name:
-                found.append(Watched(number, name, source))
+        for number, element in enumerate(conflict.elements):
+            source = ends.get(element.token) if element.token is not None else None
+            if element.kind is not ElementKind.OBSERVATION or source is None:
+                continue
+            variable = element.terms[0].arguments[0]
+            if isinstance(variable, VariableName) and variable.name == "end" and variable.token == element.token:
+                found.append(Watched(number, variable, source))
         return tuple(found)
 
-    def why_it_lasts(self, token: int, key: int) -> tuple[str, Conflict] | None:
+    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """The end of one of its tokens, and what sets it: the token lasts as long as the model allows (T-REX 1.5)."""
         if not self.bench.is_alive(token, key):
             return None
@@ -171,34 +231,44 @@ class PlanReactor:
                 arguments = self.bench.arguments(line.current)
                 predicate = self.bench.short_name(line.current)
                 causes = self._causes_of(line)
+                token = self.bench.name_of(line.current)
                 line.event = self.trace.record(
-                    "observation", self.name, line.name, token_text(predicate, arguments), causes
+                    EventKind.OBSERVATION, self.name, line.name, predicate, arguments, causes, token=token
                 )
-                key = self.bench.key(line.current)
                 published.append(
-                    Observation(tick, line.name, predicate, arguments, line.event, self.name, line.current, key)
+                    Observation(tick, line.name, predicate, arguments, line.event, self.name, line.current, token.key)
                 )
         return published
 
     # ---- planning ----
 
+    def urgency(self, tick: int) -> float:
+        """How soon it should be given a step (T-REX 1.3)."""
+        deadline = self.work_since + 1 + self.latency
+        return 1.0 / ((max(deadline - tick, 0) + 1) * (self.steps_made + 1))
+
+    def is_out_of_steps(self) -> bool:
+        """Whether it has made as many decisions in this tick as it may."""
+        return self.max_steps is not None and self.steps_made >= self.max_steps
+
     def step(self, tick: int) -> bool:
-        """Make one decision inside the planning window; when nothing is left, keep the plan."""
-        if self.broken is not None or self.steps_left <= 0:
+        """Take in requests, or make one decision inside the planning window; when nothing is left, keep the plan."""
+        if self.broken is not None:
             return False
-        self.steps_left -= 1
-        if self.steps_left == 0:
+        if self.planner.is_fresh:
+            self.goals.take_in(tick, tick + self.reach)
+        if self.is_out_of_steps():
             self.planner.keep()
             return False
-        end = min(tick + self.latency + max(self.lookahead, 1), self.final_tick)
-        match self.planner.deliberate(tick, end):
+        self.steps_made += 1
+        match self.planner.deliberate(tick, min(tick + self.reach, self.final_tick)):
             case "decided":
                 return True
             case "done":
-                self._report_rejected()
+                self.goals.report_rejected()
                 return False
             case "deep":
-                what = f"more than {self.planner.max_depth} decisions are needed at once"
+                what = Reason(ReasonKind.DEPTH, limit=self.planner.max_depth)
                 self.broken = Failure("F5", what, self.internal, None, self.relaxes)
                 return False
             case _:
@@ -207,11 +277,11 @@ class PlanReactor:
     def _replan(self, tick: int) -> bool:
         """No plan inside the window: relax once and plan again; failing that, give up (T-REX 1.11, F4)."""
         what, conflict = self.planner.reason()
-        if self.steps_left > 0 and self.relaxed_at != tick:
+        if self.relaxed_at != tick:
             self.relaxed_at = tick
             self.relaxes += 1
-            self.trace.record("relax", self.name, "", f"no plan: {what}")
-            if relax(self.bench, self.timelines, self._live_goals(), tick + 1, forget=False):
+            self.trace.record(EventKind.RELAX, self.name, stage=RepairStage.REPLAN, reason=what, conflict=conflict)
+            if relax(self.bench, self.timelines, self.goals.live(), tick + 1, forget=False):
                 return True
         self.broken = Failure("F4", what, self.internal, conflict, self.relaxes)
         return False
@@ -225,111 +295,46 @@ class PlanReactor:
     def accept(self, request: Request) -> None:
         """Queue a request for one of its timelines; who does not look ahead takes none (T-REX 1.8)."""
         if self.lookahead == 0:
-            text = token_text(request.predicate, request.arguments)
-            self._refuse(request, f"{text}: `{self.name}` does not look ahead and takes no goals")
+            self.goals.refuse(request, Reason(ReasonKind.NO_LOOKAHEAD))
             return
-        self.waiting.append(request)
-        self.due = min(self.due, max(self.tick + 1, request.start[0] - self.latency - max(self.lookahead, 1)))
+        self.goals.waiting.append(request)
 
     def recall(self, number: int) -> None:
-        """Drop a request that has not started."""
-        self.waiting = [request for request in self.waiting if request.number != number]
-        for goal in self.goals:
-            if goal.request.number == number and not goal.is_closed and self.bench.is_alive(goal.token, goal.token_key):
-                if not self.bench.is_started(goal.token, self.tick):
-                    goal.is_closed = True
-                    seen = hold_present(self.bench, self.timelines)
-                    self.bench.remove([goal.token])
-                    stand(self.bench, self.timelines, seen, False)
-                    self.is_stirred = True
-                    self.due = self.tick + 1
+        """Queue that a request is taken back."""
+        self.goals.to_recall.append(number)
 
-    def _post(self, request: Request, tick: int) -> None:
-        """Make a rejectable token of a request, or refuse it."""
-        line = self.by_name[request.timeline]
-        predicate = line.predicates.get(request.predicate, NOTHING)
-        text = token_text(request.predicate, request.arguments)
-        if predicate == NOTHING:
-            self._refuse(request, f"{text}: `{request.timeline}` has no predicate `{request.predicate}`")
-            return
-        if request.start[1] < tick:
-            self._refuse(request, f"{text}: too late")
-            return
-        mark = self.bench.mark()
-        token = self.bench.new_goal(predicate, line.object_id)
-        bench = self.bench
-        holds = (
-            bench.at_least(bench.start(token), max(request.start[0], tick), SPAN_REQUEST, token)
-            and bench.at_most(bench.start(token), request.start[1], SPAN_REQUEST, token)
-            and bench.within(bench.end(token), request.end, SPAN_REQUEST, token)
-            and bench.within(bench.duration(token), request.duration, SPAN_REQUEST, token)
-            and bench.restrict_parameters(token, request.arguments, SPAN_REQUEST)
-        )
-        if not holds:
-            bench.rewind_to(mark)
-            bench.commit()
-            self._refuse(request, f"{text}: its arguments do not fit")
-            return
-        bench.commit()
-        bench.remember_request(token)
-        self.goals.append(Goal(request, token, bench.key(token)))
+    def refusals(self) -> list[Refusal]:
+        """Which of the requests made to it will not be met."""
+        found, self.goals.refusals = self.goals.refusals, []
+        return found
 
-    def _refuse(self, request: Request, what: str) -> None:
-        self.trace.record("reject", self.name, request.timeline, what, (request.event,))
-        if request.is_mandatory:
-            self.unmet.append(what)
-
-    def _live_goals(self) -> list[Goal]:
-        return [goal for goal in self.goals if not goal.is_closed]
-
-    def _close_goals(self, tick: int) -> None:
-        """Goals that have run are done; goals that are too late are given up."""
-        for goal in self._live_goals():
-            if not self.bench.is_alive(goal.token, goal.token_key):
-                goal.is_closed = True
-                text = token_text(goal.request.predicate, goal.request.arguments)
-                self._refuse(goal.request, f"{text}: dropped in the repair")
-            elif self.bench.is_over(goal.token, tick):
-                goal.is_closed = True
-        if len(self.goals) > 64:
-            self.goals = self._live_goals()
-
-    def _report_rejected(self) -> None:
-        for goal in self._live_goals():
-            if self.bench.is_rejected(goal.token):
-                goal.is_closed = True
-                text = token_text(goal.request.predicate, goal.request.arguments)
-                self._refuse(goal.request, f"{text}: the planner found no place for it")
-
-    def unmet_goals(self) -> list[str]:
+    def open_goals(self) -> list[OpenGoal]:
         """Mandatory goals that were refused, or that have not run to their end by now."""
-        left = [
-            token_text(goal.request.predicate, goal.request.arguments)
-            for goal in self._live_goals()
-            if goal.request.is_mandatory
-        ]
-        waiting = [token_text(r.predicate, r.arguments) for r in self.waiting if r.is_mandatory]
-        return self.unmet + left + waiting
+        return self.goals.open_goals()
 
     # ---- dispatch ----
 
     def requests(self, tick: int) -> list[Request]:
         """What is to be asked of owners now."""
-        return self.dispatch.requests(tick)
+        return [] if self.is_out_of_steps() else self.dispatch.requests(tick, self.final_tick)
 
     def open_requests(self) -> list[int]:
-        """Numbers of the requests that it has made and that have not started."""
+        """Numbers of the requests that it has made and that are not over."""
         return self.dispatch.open_requests()
 
     def recalls(self) -> list[int]:
         """Numbers of the requests whose token has lost its place in the plan."""
         return self.dispatch.recalls(self.tick)
 
+    def refused(self, refusal: Refusal) -> None:
+        """Take note that an owner will not do what it was asked for: its token will be missed (F6)."""
+        self.dispatch.refused[refusal.request.number] = refusal.event
+
     def _causes_of(self, line: TimelineState) -> tuple[int, ...]:
         """The request that the current token answers, and what else was published before."""
-        for goal in self.goals:
-            if self.bench.is_alive(goal.token, goal.token_key) and self.bench.stands_for(goal.token) == line.current:
-                return (goal.request.event,)
+        goal = self.goals.for_token(line.current)
+        if goal is not None:
+            return (goal.request.event,)
         return (line.event,) if line.event != NOTHING else ()
 
 

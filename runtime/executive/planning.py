@@ -2,16 +2,21 @@
 
 from dataclasses import replace
 
-from runtime.executive.outcome import Conflict
+from runtime.executive.outcome import Conflict, Reason, ReasonKind
 from runtime.executive.story import conflict_of
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.configuration.configuration import Configuration, FlawFilter
 from runtime.solver.flaws.filters import Scope
 from runtime.solver.search import Solver
-from runtime.solver.tags import EXHAUSTED, PLAN, TIMEOUT
+from runtime.solver.tags import EXHAUSTED, PLAN
 
-PRESENT_STEPS = 200
+NO_LIMIT = 2**62
+MOST_STEPS = 1_000_000  # decisions about one present that the engine makes, if nobody sets a limit
+
+
+class LimitError(RuntimeError):
+    """A limit of the engine itself was reached: no verdict about the model."""
 
 
 class Window(Scope):
@@ -21,14 +26,19 @@ class Window(Scope):
         self.bench = bench
         self.tick = 0
         self.end = 0
+        self.final = 0
         self.is_present = False
 
     def admits_token(self, t: int) -> bool:
         """Whether flaws of `t` are to be mended now."""
         bench = self.bench
+        start = bench.start(t)
         if self.is_present:
-            return bench.upper(bench.start(t)) <= self.tick < bench.upper(bench.end(t))
-        return bench.lower(bench.start(t)) <= self.end and bench.upper(bench.end(t)) >= self.tick
+            if self.tick == self.final and bench.lower(start) == self.tick and bench.is_goal(t):
+                return False  # what can begin at the end at the earliest is not begun
+            return bench.upper(start) <= self.tick < bench.upper(bench.end(t))
+        earliest = bench.lower(start)
+        return earliest <= self.end and earliest < self.final and bench.upper(bench.end(t)) >= self.tick
 
     def admits_variable(self, v: int) -> bool:
         """Whether `v` is to be decided now: globals always, others with their token."""
@@ -39,11 +49,22 @@ class Window(Scope):
 
 
 class Planner:
-    """The solver of one reactor; its decisions are made final at the end of each episode."""
+    """The solver of one reactor; its decisions are made final at the end of each episode.
 
-    def __init__(self, bench: Workbench, configuration: Configuration, max_depth: int) -> None:
+    Without `max_steps` and `max_depth` there is no limit that the model could be blamed for.
+    """
+
+    def __init__(
+        self,
+        bench: Workbench,
+        configuration: Configuration,
+        final_tick: int,
+        max_steps: int | None = None,
+        max_depth: int | None = None,
+    ) -> None:
         self.bench = bench
         self.window = Window(bench)
+        self.window.final = final_tick
         # The window replaces the horizon that a configuration may filter by.
         filters = tuple(f for f in configuration.filters if f.component != "HorizonFilter")
         managers = tuple(
@@ -55,6 +76,8 @@ class Planner:
             bench.database, replace(configuration, filters=filters + clock, managers=managers), 0, 1, False
         )
         self.solver.set_scope(self.window)
+        self.solver.queues.earliest = True
+        self.max_steps = max_steps
         self.max_depth = max_depth
         self.is_fresh = True
 
@@ -68,7 +91,8 @@ class Planner:
         if outcome == PLAN:
             self.keep()
             return "done"
-        if outcome in (EXHAUSTED, TIMEOUT) or self.solver.depth > self.max_depth:
+        is_deep = self.max_depth is not None and self.solver.depth > self.max_depth
+        if outcome == EXHAUSTED or is_deep:
             self.solver.take_back()
             self.is_fresh = True
             return "exhausted" if outcome == EXHAUSTED else "deep"
@@ -79,17 +103,30 @@ class Planner:
         self.solver.keep()
         self.is_fresh = True
 
-    def settle_present(self, tick: int) -> bool:
-        """Mend all flaws of what holds at `tick`, or none; the decisions wait for `keep`."""
-        self.window.tick, self.window.end, self.window.is_present = tick, tick, True
-        self.solver.refresh()
-        self.is_fresh = True
-        if self.solver.solve(PRESENT_STEPS, PRESENT_STEPS) == PLAN:
-            return True
-        self.solver.take_back()
-        return False
+    def settle_present(self, tick: int) -> str:
+        """Mend all flaws of what holds at `tick`, or none; the decisions wait for `keep`.
 
-    def reason(self) -> tuple[str, Conflict | None]:
+        Gives "done", "exhausted", or what ran out: "steps" or "deep".
+        """
+        self.window.tick, self.window.end, self.window.is_present = tick, tick, True
+        solver = self.solver
+        solver.refresh()
+        self.is_fresh = True
+        steps = MOST_STEPS if self.max_steps is None else self.max_steps
+        depth = MOST_STEPS if self.max_depth is None else self.max_depth
+        outcome = solver.solve(steps, depth)
+        solver.max_steps = solver.max_depth = NO_LIMIT
+        if outcome == PLAN:
+            return "done"
+        is_deep = solver.depth > depth
+        solver.take_back()
+        if outcome == EXHAUSTED:
+            return "exhausted"
+        if (self.max_depth if is_deep else self.max_steps) is None:
+            raise LimitError(f"more than {MOST_STEPS} decisions about what holds at tick {tick}")
+        return "deep" if is_deep else "steps"
+
+    def reason(self) -> tuple[Reason, Conflict | None]:
         """Why the search cannot go on: the first token that must hold and cannot, and what stands against it."""
         bench, rows = self.bench, self.bench.rows
         for t in bench.all_tokens():
@@ -99,5 +136,5 @@ class Planner:
             conflict = None if bench.activate(t) else conflict_of(bench)
             bench.rewind_to(mark)
             bench.release(mark)
-            return f"no place for {bench.token_name(t)}", conflict
-        return "no plan inside the window", None
+            return Reason(ReasonKind.NO_PLACE, bench.name_of(t)), conflict
+        return Reason(ReasonKind.NO_PLAN), None

@@ -8,27 +8,28 @@ from runtime.executive.workbench import Workbench
 def relax(bench: Workbench, timelines: list[TimelineState], goals: list[Goal], tick: int, *, forget: bool) -> bool:
     """Take back all decisions about tokens that have not begun before `tick`; goals become open again (T-REX 1.9).
 
-    With `forget`, what is over is dropped too, and the present values of the reactor's own timelines; what others
-    published stays. Goals that are too late are removed. False if even that is inconsistent.
+    What holds now is fact, observed or not, and stays. With `forget`, what is over is dropped, with what follows from
+    it alone. Goals that are too late are removed. False if even that is inconsistent.
     """
     seen = hold_present(bench, timelines)
     if forget:
-        present = set(seen.values())
+        present = {token for line in timelines for token in (line.current, seen.get(line.name, NOTHING))}
         bench.remove([token for token in bench.all_tokens() if bench.is_over(token, tick) and token not in present])
     for token in bench.all_tokens():
         if not bench.is_freed(token) and bench.is_waiting(token, tick):
             bench.cancel(token)
-    if forget:
-        for line in timelines:
-            if line.is_internal and line.current != NOTHING:
-                bench.remove([line.current])
-                line.current = NOTHING
-    stand(bench, timelines, seen, forget)
+    stand(bench, timelines, seen, is_every=forget)
+    late = []
     for goal in goals:
         if bench.is_alive(goal.token, goal.token_key) and bench.is_waiting(goal.token, tick):
-            if not bench.at_least(bench.start(goal.token), tick, SPAN_CLOCK, goal.token):
+            if bench.upper(bench.start(goal.token)) < tick:
+                late.append(goal.token)
+            elif not bench.at_least(bench.start(goal.token), tick, SPAN_CLOCK, goal.token):
+                late.append(goal.token)
                 bench.remove([goal.token])
-    stand(bench, timelines, seen, False)
+    if late:
+        bench.remove([token for token in late if not bench.is_freed(token)])
+        stand(bench, timelines, seen)
     return bench.is_consistent()
 
 
@@ -43,7 +44,7 @@ def hold_present(bench: Workbench, timelines: list[TimelineState]) -> dict[str, 
     return {line.name: bench.fact_of(line.current) for line in timelines if not line.is_internal}
 
 
-def stand(bench: Workbench, timelines: list[TimelineState], seen: dict[str, int], is_every: bool) -> None:
+def stand(bench: Workbench, timelines: list[TimelineState], seen: dict[str, int], *, is_every: bool = False) -> None:
     """Let observations stand by themselves where what was planned for them is gone (`is_every`: all of them)."""
     for line in timelines:
         if line.is_internal or line.current == NOTHING or line.current == seen[line.name]:

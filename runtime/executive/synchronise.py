@@ -1,20 +1,22 @@
 """Make a reactor's plan agree with the present: fold in what was observed, complete what it owns (T-REX 1.4).
 
 Each timeline is a decision with a few choices; decisions are taken in the order of the timelines and taken back
-chronologically. The whole is bounded by `LIMIT` tries, so that a present that cannot be explained is found out soon.
+chronologically. Where that takes long, a timeline on which nothing fits is decided first from then on.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from runtime.executive.messages import Observation
-from runtime.executive.outcome import Conflict
-from runtime.executive.planning import Planner
+from runtime.executive.outcome import Conflict, Reason, ReasonKind
+from runtime.executive.planning import LimitError, Planner
 from runtime.executive.story import conflict_of
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
 
-LIMIT = 200
+PATIENCE = 100  # tries beyond those that a present without conflicts takes
+MOST_TRIES = 100_000
 EXTEND, NEXT, NEW, FACT, MEET = "extend", "next", "new", "fact", "meet"
 UNDEFINED = "undefined"
 
@@ -30,33 +32,41 @@ class Choice:
 
 @dataclass(frozen=True, slots=True)
 class Unsettled:
-    """The present cannot be explained: the failure code, in words where, and the conflict."""
+    """The present cannot be explained: the failure code, where, why, and the conflict."""
 
     code: str
     timelines: tuple[str, ...]
-    summary: str
+    reason: Reason
     conflict: Conflict | None
 
 
+OUT_OF_PATIENCE = Unsettled("", (), Reason(ReasonKind.UNMET), None)
+
+
 def settle(
-    bench: Workbench, planner: Planner, timelines: list[TimelineState], tick: int, is_early: bool
+    bench: Workbench,
+    planner: Planner,
+    timelines: list[TimelineState],
+    tick: int,
+    final_tick: int,
+    is_refused: Callable[[int], bool],
 ) -> Unsettled | None:
     """Settle all `timelines` at `tick`; on success each has its current token and the plan is consistent.
 
-    `is_early`: a planned token starts as soon as it may (T-REX 1.5, first generation); else the present one is kept
-    as long as it may. A requested token always starts as soon as it may. On failure the caller rewinds.
+    The present token is kept as long as it may; but a token that somebody asked for starts as soon as it may, and so
+    does any on a timeline that is early. `is_refused` tells what an owner will not do. On failure the caller rewinds.
     """
     if not bench.set_clock(tick):
-        return Unsettled("F3", (), f"the plan does not allow it to be tick {tick}", conflict_of(bench))
+        return Unsettled("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
     failed = persist(bench, timelines, tick)
     if failed is not None:
         return failed
     mark = bench.mark()
-    if _Search(bench, planner, timelines, tick, is_early, False).run() is None:
+    if _Search(bench, planner, timelines, tick, final_tick, is_refused, False).run() is None:
         return None
     # Choices fail all the time; only when all have failed is it worth while to find out why.
     bench.rewind_to(mark)
-    return _Search(bench, planner, timelines, tick, is_early, True).run()
+    return _Search(bench, planner, timelines, tick, final_tick, is_refused, True).run()
 
 
 def persist(bench: Workbench, timelines: list[TimelineState], tick: int) -> Unsettled | None:
@@ -66,10 +76,10 @@ def persist(bench: Workbench, timelines: list[TimelineState], tick: int) -> Unse
             continue
         if line.news is None:
             if not bench.at_least(bench.end(line.current), tick + 1, SPAN_OBSERVATION, line.current):
-                what = f"{bench.token_name(line.current)} goes on at tick {tick}, later than the plan allows"
+                what = Reason(ReasonKind.GOES_ON, bench.name_of(line.current), tick=tick)
                 return Unsettled("F1", (line.name,), what, conflict_of(bench))
         elif not bench.fix(bench.end(line.current), tick, SPAN_OBSERVATION, line.current):
-            what = f"{bench.token_name(line.current)} ended at tick {tick}, when the plan does not allow it"
+            what = Reason(ReasonKind.ENDED, bench.name_of(line.current), tick=tick)
             return Unsettled("F2", (line.name,), what, conflict_of(bench))
     return None
 
@@ -83,27 +93,50 @@ class _Search:
         planner: Planner,
         timelines: list[TimelineState],
         tick: int,
-        is_early: bool,
+        final_tick: int,
+        is_refused: Callable[[int], bool],
         explains: bool,
     ) -> None:
         self.explains = explains
         self.bench = bench
         self.planner = planner
         self.tick = tick
-        self.is_early = is_early
+        self.is_last = tick == final_tick
+        self.is_refused = is_refused
         self.timelines = timelines
         self.lines = [line for line in timelines if not line.is_internal and line.news is not None]
         self.lines += [line for line in timelines if line.is_internal]
         self.made: list[int] = []
         self.first: Unsettled | None = None
         self.first_depth = NOTHING
+        self.is_out_of_budget = False
 
     def run(self) -> Unsettled | None:
         """Try choices until all timelines and the flaws of the present are settled."""
+        mark = self.bench.mark()
+        stuck: dict[str, None] = {}
+        patience = PATIENCE
+        tries = 0
+        while True:
+            outcome = self._walk(patience + len(self.lines), stuck)
+            if outcome is not OUT_OF_PATIENCE:
+                return outcome
+            tries += patience
+            if tries > MOST_TRIES:
+                raise LimitError(f"no present was found at tick {self.tick} in {tries} tries")
+            patience *= 2
+            # What nothing fits comes first from now on: either it is settled, or there is no present at all.
+            self.bench.rewind_to(mark)
+            order = {name: place for place, name in enumerate(reversed(stuck))}
+            self.lines.sort(key=lambda line: order.get(line.name, len(order)))
+
+    def _walk(self, patience: int, stuck: dict[str, None]) -> Unsettled | None:
+        """Decide the timelines in their order, up to a number of tries; note those on which nothing fitted."""
         bench = self.bench
         open_choices: list[list[Choice]] = []
         marks: list[int] = []
         self.made = []
+        self.first = None
         tries = 0
         while True:
             depth = len(open_choices)
@@ -111,6 +144,8 @@ class _Search:
                 if self._finish():
                     self._note()
                     return None
+                if self.is_out_of_budget:
+                    return self.first
                 if not self._back(marks):
                     return self.first
             else:
@@ -119,12 +154,12 @@ class _Search:
                 self.made.append(NOTHING)
             while True:
                 tries += 1
-                if tries > LIMIT + len(self.lines):
-                    first = self.first
-                    what = f"no consistent present was found in {tries - 1} tries"
-                    return Unsettled("F5", first.timelines if first else (), what, first.conflict if first else None)
+                if tries > patience:
+                    return OUT_OF_PATIENCE
                 depth = len(open_choices) - 1
                 if not open_choices[depth]:
+                    stuck.pop(self.lines[depth].name, None)
+                    stuck[self.lines[depth].name] = None
                     open_choices.pop()
                     marks.pop()
                     self.made.pop()
@@ -142,7 +177,7 @@ class _Search:
     def _back(self, marks: list[int]) -> bool:
         """Undo the latest decision that stands; False if there is none."""
         if not marks:
-            self._fail("F3", (), "what is asked of the present cannot be met")
+            self._fail("F3", (), Reason(ReasonKind.UNMET))
             return False
         self.bench.rewind_to(marks[-1])
         return True
@@ -173,7 +208,10 @@ class _Search:
             for token in bench.planned_after(line.object_id, current)[:1]
             if bench.lower(bench.start(token)) <= tick <= bench.upper(bench.start(token))
         ]
-        is_due = bool(starts) and (self.is_early or bench.is_requested(starts[0].token))
+        is_asked = bool(starts) and bench.is_requested(starts[0].token)
+        if is_asked and self.is_last:
+            starts = []  # what can begin at the end at the earliest is not begun
+        is_due = bool(starts) and (line.is_early or is_asked)
         new = [Choice(NEW, NOTHING, p) for p in ([line.default, *line.others] if line.default >= 0 else line.others)]
         return [*starts, *extend, *new] if is_due else [*extend, *starts, *new]
 
@@ -243,12 +281,23 @@ class _Search:
         """Let what has not started start later, and settle the flaws of the present."""
         bench, tick = self.bench, self.tick
         for token in self.waiting():
+            if self.is_last:
+                break  # there is no later
             if not bench.at_least(bench.start(token), tick + 1, SPAN_CLOCK, token):
-                self._fail("F1", (), f"{bench.token_name(token)} was to start by tick {tick} and did not")
+                code = "F6" if self.is_refused(token) else "F1"
+                self._fail(code, (), Reason(ReasonKind.DID_NOT_START, bench.name_of(token), tick=tick))
                 return False
-        if not self.planner.settle_present(tick):
+        outcome = self.planner.settle_present(tick)
+        if outcome in ("steps", "deep"):
+            self.is_out_of_budget = True
+            is_deep = outcome == "deep"
+            limit = self.planner.max_depth if is_deep else self.planner.max_steps
+            what = Reason(ReasonKind.DEPTH if is_deep else ReasonKind.STEPS, tick=tick, limit=limit)
+            self.first = Unsettled("F5", (), what, None)
+            return False
+        if outcome != "done":
             if self.first is None:
-                what, conflict = self.planner.reason() if self.explains else ("", None)
+                what, conflict = self.planner.reason() if self.explains else (Reason(ReasonKind.NO_PLAN), None)
                 self.first = Unsettled("F3", (), what, conflict)
             return False
         return True
@@ -270,14 +319,15 @@ class _Search:
         code = "F3" if line.is_internal else "F8" if line.news and line.news.predicate == "Failed" else "F2"
         match choice.kind:
             case "extend":
-                what = f"{self.bench.token_name(choice.token)} cannot go on at tick {self.tick}"
+                what = Reason(ReasonKind.CANNOT_GO_ON, self.bench.name_of(choice.token), tick=self.tick)
             case "next" | "meet":
-                what = f"{self.bench.token_name(choice.token)} cannot start at tick {self.tick}"
+                what = Reason(ReasonKind.CANNOT_START, self.bench.name_of(choice.token), tick=self.tick)
             case _:
-                what = f"no {self.bench.predicate_name(choice.predicate)} can start at tick {self.tick}"
+                predicate = self.bench.predicate_name(choice.predicate)
+                what = Reason(ReasonKind.NONE_CAN_START, predicate=predicate, tick=self.tick)
         self._fail(code, (line.name,), what, self.lines.index(line))
 
-    def _fail(self, code: str, timelines: tuple[str, ...], what: str, depth: int = NOTHING) -> None:
+    def _fail(self, code: str, timelines: tuple[str, ...], what: Reason, depth: int = NOTHING) -> None:
         """Remember what went wrong, unless something did before."""
         if self.first is None:
             self.first = Unsettled(code, timelines, what, conflict_of(self.bench) if self.explains else None)

@@ -12,6 +12,7 @@ class TimelineState:
         "current",
         "default",
         "event",
+        "is_early",
         "is_internal",
         "name",
         "news",
@@ -29,6 +30,7 @@ class TimelineState:
         self.predicates = predicates
         # What an internal timeline may hold when nothing else explains now (T-REX 1.4, choice OTHER).
         self.others = [p for name, p in predicates.items() if p != default and name not in ("undefined", "Failed")]
+        self.is_early = False  # whether what is planned starts as soon as it may, though nobody asked for it
         self.current = NOTHING
         self.event = NOTHING
         self.news: Observation | None = None
@@ -38,10 +40,11 @@ class TimelineState:
 class Goal:
     """A request that its owner has turned into a token."""
 
-    __slots__ = ("is_closed", "request", "token", "token_key")
+    __slots__ = ("is_closed", "is_rejected", "request", "token", "token_key")
 
     def __init__(self, request: Request, token: int, token_key: int) -> None:
         self.request = request
         self.token = token
         self.token_key = token_key
         self.is_closed = False
+        self.is_rejected = False  # the planner has found no place for it, so far

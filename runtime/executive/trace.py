@@ -1,6 +1,18 @@
 """Record what happens in a mission, each event with the earlier events that caused it."""
 
-from runtime.executive.outcome import Draw, Event
+from runtime.executive.messages import Arguments
+from runtime.executive.outcome import (
+    Conflict,
+    Deadlock,
+    Draw,
+    Event,
+    EventKind,
+    Phase,
+    Reason,
+    RepairStage,
+    TimeBounds,
+    TokenName,
+)
 
 
 class Trace:
@@ -10,12 +22,50 @@ class Trace:
         self.events: list[Event] = []
         self.draws: list[Draw] = []
         self.tick = 0
-        self.phase = "start"
+        self.phase = Phase.START
         self._drawn: dict[tuple[str, int], int] = {}
 
-    def record(self, kind: str, reactor: str, timeline: str, text: str, causes: tuple[int, ...] = ()) -> int:
+    def record(
+        self,
+        kind: EventKind,
+        reactor: str,
+        timeline: str = "",
+        predicate: str = "",
+        arguments: Arguments = (),
+        causes: tuple[int, ...] = (),
+        *,
+        token: TokenName | None = None,
+        request: int | None = None,
+        bounds: TimeBounds | None = None,
+        draw: Draw | None = None,
+        stage: RepairStage | None = None,
+        code: str = "",
+        reason: Reason | None = None,
+        conflict: Conflict | None = None,
+        deadlock: Deadlock | None = None,
+    ) -> int:
         """Add an event at the present tick and phase; its index is what later events name as their cause."""
-        self.events.append(Event(self.tick, self.phase, kind, reactor, timeline, text, causes))
+        self.events.append(
+            Event(
+                self.tick,
+                self.phase,
+                kind,
+                reactor,
+                timeline,
+                predicate,
+                arguments,
+                causes,
+                token,
+                request,
+                bounds,
+                draw,
+                stage,
+                code,
+                reason,
+                conflict,
+                deadlock,
+            )
+        )
         return len(self.events) - 1
 
     def record_draw(self, reactor: str, draw: Draw) -> int:
@@ -23,6 +73,9 @@ class Trace:
         key = (draw.parameter, draw.tick)
         if key not in self._drawn:
             self.draws.append(draw)
-            clipped = "" if draw.raw == draw.value else f" (drawn {draw.raw!r})"
-            self._drawn[key] = self.record("sample", reactor, "", f"{draw.parameter} = {draw.value!r}{clipped}")
+            self._drawn[key] = self.record(EventKind.SAMPLE, reactor, draw=draw)
         return self._drawn[key]
+
+    def draw_events(self, parameters: tuple[str, ...]) -> tuple[int, ...]:
+        """The indices of the events in which one of `parameters` was drawn, in order."""
+        return tuple(sorted(index for (name, _), index in self._drawn.items() if name in parameters))

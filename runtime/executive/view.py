@@ -12,6 +12,7 @@ from runtime.constraints.domains.tags import (
     SUPPORT_RESTRICTION,
 )
 from runtime.executive.messages import Arguments
+from runtime.executive.outcome import TokenName
 from runtime.executive.timelines import TimelineState
 from runtime.plan.database import PlanDatabase
 from runtime.plan.tags import (
@@ -102,9 +103,9 @@ class PlanView:
         mode = self._member(o, "mode")
         return str(mode.values[0]) if mode is not None and mode.values is not None and len(mode.values) == 1 else ""
 
-    def token_name(self, t: int) -> str:
-        """A name for reports: the predicate and a number that is never used again."""
-        return f"{self.predicate_name(self.rows.predicate[t])}#{self.rows.key[t]}"
+    def name_of(self, t: int) -> TokenName:
+        """The name of a token for reports; it outlives the token."""
+        return TokenName(self.predicate_name(self.rows.predicate[t]), self.key(t))
 
     def predicate_name(self, predicate: int) -> str:
         """`Class.predicate`."""
@@ -187,6 +188,14 @@ class PlanView:
     def is_active(self, t: int) -> bool:
         """Whether the token is in the plan by itself."""
         return bool(self.rows.status[t] == ACTIVE)
+
+    def is_goal(self, t: int) -> bool:
+        """Whether the token is one that may be given up."""
+        return bool(self.rows.flags[t] & FLAG_GOAL)
+
+    def is_merged(self, t: int) -> bool:
+        """Whether the token stands for another one."""
+        return bool(self.rows.status[t] == MERGED)
 
     def is_rejected(self, t: int) -> bool:
         """Whether the planner has given the token up."""
@@ -277,8 +286,8 @@ class PlanView:
     def is_blocked(self, t: int, current: int, tick: int) -> bool:
         """Whether the earliest start of `t` hangs on a token that has not begun, or on an end still to be observed.
 
-        The bound is followed along edges. What is observed on the timeline of `t` itself does not block if it was not
-        planned (it ends when `t` begins), nor does what this reactor may end itself.
+        The bound is followed along edges. `current`, the token that holds on the timeline of `t` now, does not block
+        (NOTHING: it does): it ends when `t` begins. Nor does what this reactor may end itself.
         """
         engine, plan = self.engine, self.database.plan
         v = self.start(t)
@@ -301,7 +310,7 @@ class PlanView:
         if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != END or self.engine.upper(v) <= tick:
             return False
         other = self.stands_for(plan.variable_owner[v])
-        if other == self.stands_for(t) or (other == current and self.is_fact(other)):
+        if other == self.stands_for(t) or other == current:
             return False
         return self.object_of(other) in self.external_objects
 
@@ -309,6 +318,26 @@ class PlanView:
         """The object that a token is on; NONE while that is open."""
         v = self.rows.var0[t] + OBJECT
         return int(self.engine.lower(v)) if self.engine.is_singleton(v) else NONE
+
+    def merged_early(self, t: int, tick: int) -> list[int]:
+        """The tokens merged into `t` whose masters have not begun, and that nobody asked for."""
+        rows = self.rows
+        found = []
+        other = rows.merged[t]
+        while other >= 0:
+            master = rows.master[other]
+            if master >= 0 and not self.is_started(master, tick - 1) and not self.is_due_to_request(master):
+                found.append(int(other))
+            other = rows.merged_next[other]
+        return found
+
+    def is_due_to_request(self, t: int) -> bool:
+        """Whether the token, or one that it follows from, is one that somebody asked for."""
+        while t >= 0:
+            if self.is_requested(t):
+                return True
+            t = self.rows.master[t]
+        return False
 
     def reads_clock(self) -> bool:
         """Whether anything in the plan depends on the tick that is now."""
@@ -318,8 +347,3 @@ class PlanView:
     def undecided(self) -> list[int]:
         """Tokens that are still to be decided."""
         return self._listed(HEAD_OPEN, LIST_OPEN)
-
-    def sampled_name(self, span: int) -> str:
-        """The sampled parameter that the text at `span` names."""
-        text = self.database.code.spans[span].text if 0 <= span < len(self.database.code.spans) else ""
-        return text.partition("(")[2].partition(")")[0].strip() or "sampledParameter"

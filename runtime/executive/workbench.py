@@ -137,6 +137,16 @@ class Workbench(PlanView):
         """Take a token out of the plan, with all that followed from it; it stays to be decided again."""
         return bool(self.database.cancel(t))
 
+    def renew(self, t: int) -> bool:
+        """Let the rules of a planned token fire anew, in its place on its timeline."""
+        o, before = self.object_of(t), NONE
+        if self.rows.link_head[LISTS * t + LIST_ORDER] >= 0:
+            before = int(self.rows.link_before[LISTS * t + LIST_ORDER])
+        else:
+            o = NONE
+        holds = self.cancel(t) and self.activate(t)
+        return holds and (o < 0 or self.place_after(o, t, before))
+
     def archive(self, timelines: list[TimelineState], tick: int) -> int:
         """Take out of the plan what is over; of each timeline the token before the current one is kept.
 

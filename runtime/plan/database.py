@@ -18,13 +18,14 @@ from runtime.plan.store import marks
 from runtime.plan.store.names import Names
 from runtime.plan.store.plan import Plan
 from runtime.plan.store.prototypes import Prototypes
-from runtime.plan.tags import NONE
+from runtime.plan.tags import NONE, ROLE_INTERNAL, ROLE_LOCAL, ROLE_TOKEN
 from runtime.plan.tokens import retraction, timelines
 from runtime.plan.tokens.tokens import make_token
 from runtime.user.constraint import Constraint
 
 GROUNDED = "GroundedProfile"
-Environment = Callable[[str], float | None]
+OF_TOKENS = (ROLE_TOKEN, ROLE_LOCAL, ROLE_INTERNAL)
+Environment = Callable[[str, int], float | None]  # a parameter's name, and the token (NONE: the script) that asks
 
 
 class PlanDatabase:
@@ -73,7 +74,8 @@ class PlanDatabase:
 
     def draw(self, parameter: int, v: int) -> int:
         """A constant with the value that the environment draws for a parameter, of the kind of `v`; or NONE."""
-        value = None if self.environment is None else self.environment(self.names.text(parameter))
+        token = int(self.plan.variable_owner[v]) if self.plan.variable_role[v] in OF_TOKENS else NONE
+        value = None if self.environment is None else self.environment(self.names.text(parameter), token)
         return NONE if value is None else self.engine.new_constant(self.engine.kind[v], value, value)
 
     def note_homeless(self, t: int) -> None:

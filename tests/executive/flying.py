@@ -18,6 +18,7 @@ from runtime.executive.configuration import (
 )
 from runtime.executive.mission import MissionPrograms, run_mission
 from runtime.executive.outcome import Outcome
+from runtime.executive.rendering import event_text, goal_text
 from runtime.solver.configuration.configuration import default_configuration
 
 
@@ -41,11 +42,11 @@ def planner(
     external: str = "",
     latency: int = 0,
     lookahead: int = 100,
-    max_steps: int = 400,
+    max_steps: int | None = None,
 ) -> Flyer:
     """A reactor that plans ahead."""
     place = ReactorConfiguration(
-        name, f"{name}.nddl", latency, lookahead, tuple(internal.split()), tuple(external.split()), None, max_steps
+        name, f"{name}.nddl", latency, lookahead, tuple(internal.split()), tuple(external.split()), None, max_steps=max_steps
     )
     return Flyer(place, text)
 
@@ -87,7 +88,7 @@ def fly(
 def lines(outcome: Outcome, *kinds: str) -> list[str]:
     """The events of a mission as texts: tick, kind, reactor, timeline, what; `kinds` are those that are told."""
     return [
-        " ".join(filter(None, (str(e.tick), e.kind, e.reactor, e.timeline, e.text)))
+        " ".join(filter(None, (str(e.tick), e.kind, e.reactor, e.timeline, event_text(e))))
         for e in outcome.events
         if not kinds or e.kind in kinds
     ]
@@ -95,4 +96,4 @@ def lines(outcome: Outcome, *kinds: str) -> list[str]:
 
 def history(outcome: Outcome, timeline: str) -> list[str]:
     """What was published on a timeline: tick and value."""
-    return [f"{e.tick} {e.text}" for e in outcome.events if e.kind == "observation" and e.timeline == timeline]
+    return [f"{e.tick} {event_text(e)}" for e in outcome.events if e.kind == "observation" and e.timeline == timeline]

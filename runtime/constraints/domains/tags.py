@@ -34,6 +34,7 @@ SUPPORT_RESTRICTION = 2
 # Flags of restrictions.
 FLAG_DECISION = 1  # it does not belong to the base domain
 FLAG_VALUES = 2  # it lists values
+FLAG_FROZEN = 4  # it stands for what has been forgotten
 
 # What may change about a domain; a watch is woken by the events in its mask.
 EVENT_LOWER = 1

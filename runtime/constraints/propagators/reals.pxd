@@ -34,6 +34,8 @@ cpdef bint add(Store s, long long a, long long b, long long r, long long support
 @cython.locals(hi=double, least=double, lo=double, most=double, p=double, q=double, x=double, y=double)
 cpdef bint multiply(Store s, long long a, long long b, long long r, long long support) except -1
 
+cpdef bint is_known(Store s, long long v) except -1
+
 @cython.locals(least=double, most=double, x=double)
 cpdef bint divide(Store s, long long r, double lo, double hi, long long a, long long support) except -1
 

@@ -1,11 +1,18 @@
 """Take tokens that are over out of the plan, and let what they said of others stand as base bounds (level 0).
 
 A token may go when nothing that still can change hangs on it: its master goes too or is gone, so do the tokens merged
-into it, its children go or have begun, and none of its guards waits. What it told its children and other variables is
-kept by restrictions that bear the span of the edge or constraint which said so, so explanations name the same lines.
+into it, its children go or have begun, and none of its guards waits. A child that is merged into a token which has
+begun goes with its master, however long the other lasts. What went told others is kept by restrictions that bear the
+span of the edge or constraint which said so, so explanations name the same lines.
 """
 
-from runtime.constraints.domains.tags import KIND_FLOAT, SUPPORT_CONSTRAINT, SUPPORT_EDGE, SUPPORT_RESTRICTION
+from runtime.constraints.domains.tags import (
+    FLAG_FROZEN,
+    KIND_FLOAT,
+    SUPPORT_CONSTRAINT,
+    SUPPORT_EDGE,
+    SUPPORT_RESTRICTION,
+)
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import (
     ACTIVE,
@@ -29,18 +36,28 @@ def archive(plan: Plan, tokens: list[int], tick: int) -> int:
     doomed = removable(plan, tokens, tick)
     if not doomed:
         return 0
-    freeze(plan, doomed)
+    frozen = freeze(plan, doomed)
     for t in doomed:
         orphan(plan, t, doomed)
     remove_tokens(plan, list(doomed))
+    needless = [r for v in frozen for r in outdone(plan, v)]
+    if needless:
+        plan.engine.retract((), (), needless, ())
     return len(doomed)
 
 
 def removable(plan: Plan, tokens: list[int], tick: int) -> dict[int, None]:
     """The largest part of `tokens` of which no member is needed by a token outside."""
     rows = plan.rows
+    known = dict.fromkeys(tokens)
+    for t in tokens:
+        child = rows.children[t]
+        while child >= 0:
+            if rows.status[child] == MERGED and has_begun(plan, rows.merged_into[child], tick):
+                known[child] = None
+            child = rows.sibling[child]
     doomed = dict.fromkeys(
-        t for t in tokens if not plan.predicate_resource[rows.predicate[t]] and not has_waiting_guard(plan, t)
+        t for t in known if not plan.predicate_resource[rows.predicate[t]] and not has_waiting_guard(plan, t)
     )
     changed = True
     while changed:
@@ -57,7 +74,8 @@ def is_free(plan: Plan, t: int, doomed: dict[int, None], tick: int) -> bool:
     if rows.master[t] >= 0 and rows.master[t] not in doomed:
         return False
     if rows.status[t] == MERGED and rows.merged_into[t] not in doomed:
-        return False
+        if rows.master[t] < 0 or not has_begun(plan, rows.merged_into[t], tick):
+            return False
     other = rows.merged[t]
     while other >= 0:
         if other not in doomed:
@@ -71,6 +89,11 @@ def is_free(plan: Plan, t: int, doomed: dict[int, None], tick: int) -> bool:
                 return False
         child = rows.sibling[child]
     return True
+
+
+def has_begun(plan: Plan, t: int, tick: int) -> bool:
+    """Whether `t` is in the plan and began at `tick` or before."""
+    return bool(plan.rows.status[t] == ACTIVE and plan.engine.upper(plan.rows.var0[t] + START) <= tick)
 
 
 def has_waiting_guard(plan: Plan, t: int) -> bool:
@@ -116,8 +139,11 @@ def detach(plan: Plan, t: int) -> None:
     rows.sibling[t] = NONE
 
 
-def freeze(plan: Plan, doomed: dict[int, None]) -> None:
-    """Put into base domains what edges and constraints that go with the `doomed` tokens say of other variables."""
+def freeze(plan: Plan, doomed: dict[int, None]) -> list[int]:
+    """Put into base domains what edges and constraints that go with the `doomed` tokens say of other variables.
+
+    Gives the variables that have got new limits.
+    """
     engine = plan.engine
     edges, constraints, restrictions, gone = belongings(plan, doomed)
     near: dict[int, None] = {}
@@ -130,9 +156,22 @@ def freeze(plan: Plan, doomed: dict[int, None]) -> None:
     supports = {e * 4 + SUPPORT_EDGE for e in edges}
     supports.update(c * 4 + SUPPORT_CONSTRAINT for c in constraints)
     supports.update(r * 4 + SUPPORT_RESTRICTION for r in restrictions)
-    for v in near:
-        if v not in gone and not engine.constant[v]:
-            keep_domain(plan, v, supports)
+    frozen = [v for v in near if v not in gone and not engine.constant[v]]
+    return [v for v in frozen if keep_domain(plan, v, supports)]
+
+
+def outdone(plan: Plan, v: int) -> list[int]:
+    """The limits of `v` that stand for what was forgotten and that a later one of them has made needless."""
+    engine = plan.engine
+    found = []
+    lower, upper = -float("inf"), float("inf")
+    for r in engine.restrictions_of(v):  # the newest first
+        if engine.restriction_flags[r] & FLAG_FROZEN:
+            if engine.restriction_lo[r] <= lower and engine.restriction_hi[r] >= upper:
+                found.append(r)
+            lower = max(lower, engine.restriction_lo[r])
+            upper = min(upper, engine.restriction_hi[r])
+    return found
 
 
 def belongings(
@@ -167,8 +206,11 @@ def belongings(
     return edges, constraints, restrictions, gone
 
 
-def keep_domain(plan: Plan, v: int, supports: set[int]) -> None:
-    """Restrict `v` to its present domain where that rests on one of `supports`; the token of `v` answers for it."""
+def keep_domain(plan: Plan, v: int, supports: set[int]) -> bool:
+    """Restrict `v` to its present domain where that rests on one of `supports`; the token of `v` answers for it.
+
+    Tells whether it has got a limit.
+    """
     engine = plan.engine
     owner = plan.variable_owner[v] if plan.variable_role[v] in (ROLE_TOKEN, ROLE_LOCAL) else NONE
     lower, upper = engine.lower_support[v], engine.upper_support[v]
@@ -178,14 +220,17 @@ def keep_domain(plan: Plan, v: int, supports: set[int]) -> None:
         if base is None or len(values) < len(base):
             span = span_of(plan, lower if lower in supports else upper)
             engine.restrict_base_values(v, values, span, owner)
-        return
+        return False
     is_real = engine.kind[v] == KIND_FLOAT
     if lower in supports:
         bound = engine.flo[v] if is_real else engine.lower(v)
         engine.restrict_base(v, bound, float("inf"), span_of(plan, lower), owner)
+        engine.restriction_flags[engine.newest_restriction] = FLAG_FROZEN
     if upper in supports:
         bound = engine.fhi[v] if is_real else engine.upper(v)
         engine.restrict_base(v, -float("inf"), bound, span_of(plan, upper), owner)
+        engine.restriction_flags[engine.newest_restriction] = FLAG_FROZEN
+    return lower in supports or upper in supports
 
 
 def span_of(plan: Plan, support: int) -> int:

@@ -1,6 +1,8 @@
 # The C types of `retracting.py`.
 
 cimport cython
+from runtime.constraints.engine cimport Engine
+from runtime.constraints.relaxation.retract cimport edges_of
 from runtime.plan.store.links cimport link_by_key, unlink
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
@@ -54,3 +56,17 @@ cpdef list decisions_of(Plan plan, long long v)
 
 @cython.locals(done="long long", freed=list, gone=set, r="long long", restrictions=list, rows=Rows)
 cpdef bint finish(Plan plan, sweep) except -1
+
+
+@cython.locals(
+    c="long long", constraints=set, e="long long", edges=set, engine=Engine, owner="long long", owners=dict,
+    r="long long", restrictions=set, s="long long", t="long long", v="long long",
+)
+cpdef int forget_foreign(Plan plan, list gone) except -1
+
+
+@cython.locals(
+    following="long long", h="long long", identity="long long", kind="long long", last="long long", rows=Rows,
+    v="long long", watch="long long",
+)
+cpdef int drop_held(Plan plan, long long s, set edges, set constraints, set restrictions) except -1

@@ -1,6 +1,7 @@
 """Take back at level 0 what scopes made: constraints, edges, variables, children and their children, in one sweep."""
 
 from runtime.constraints.domains.tags import FLAG_DECISION, OP_WATCH
+from runtime.constraints.relaxation.retract import edges_of
 from runtime.plan.store.links import link_by_key, unlink
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import (
@@ -228,6 +229,8 @@ def finish(plan: Plan, sweep: Sweep) -> bool:
     for r in restrictions:
         wake_guards(plan, plan.engine.restriction_variable[r])
     sweep.constraints += plan.resources.take_refusals()
+    if gone:
+        forget_foreign(plan, sweep.variables)
     plan.engine.retract(sweep.constraints, sweep.edges, restrictions, sweep.variables)
     for s in sweep.scopes:
         rows.release_scope(s)
@@ -237,3 +240,67 @@ def finish(plan: Plan, sweep: Sweep) -> bool:
         if rows.status[t] == INACTIVE and rows.link_head[LISTS * t + LIST_OPEN] < 0:
             link_by_key(rows, t, LIST_OPEN, HEAD_OPEN)
     return bool(plan.engine.consistent)
+
+
+def forget_foreign(plan: Plan, gone: list[int]) -> int:
+    """Let scopes of tokens that stay hold nothing that goes with the variables `gone`: its number will be used again.
+
+    A token outlives the one that asked for it, or goes before it, once it stands by itself.
+    """
+    engine = plan.engine
+    status = plan.rows.status
+    edges: set[int] = set()
+    constraints: set[int] = set()
+    restrictions: set[int] = set()
+    owners: dict[int, None] = {}
+    for v in gone:
+        for e in edges_of(engine, v):
+            owner = engine.edge_owner[e]
+            if owner >= 0 and status[owner] != FREED:
+                edges.add(e)
+                owners[owner] = None
+        for c in engine.constraints_of(v):
+            owner = engine.owner[c]
+            if owner >= 0 and status[owner] != FREED:
+                constraints.add(c)
+                owners[owner] = None
+        for r in engine.restrictions_of(v):
+            owner = engine.restriction_owner[r]
+            if owner >= 0 and status[owner] != FREED:
+                restrictions.add(r)
+                owners[owner] = None
+    for t in owners:
+        for s in scopes_of(plan, t):
+            drop_held(plan, s, edges, constraints, restrictions)
+    return 0
+
+
+def drop_held(plan: Plan, s: int, edges: set[int], constraints: set[int], restrictions: set[int]) -> int:
+    """Take off the list of what scope `s` holds some edges, constraints and restrictions."""
+    rows = plan.rows
+    watch = rows.scope_watch[s]
+    if watch >= 0 and watch in constraints:
+        for v in plan.engine.arguments(watch):
+            plan.variable_guards[v] -= 1
+        rows.scope_watch[s] = NONE  # what the guard has chosen stays
+    last = NONE
+    h = rows.scope_holds[s]
+    while h >= 0:
+        following = rows.hold_next[h]
+        kind = rows.hold_kind[h]
+        identity = rows.hold_id[h]
+        if (
+            (kind == HOLDS_EDGE and identity in edges)
+            or (kind == HOLDS_CONSTRAINT and identity in constraints)
+            or (kind == HOLDS_RESTRICTION and identity in restrictions)
+        ):
+            if last < 0:
+                rows.scope_holds[s] = following
+            else:
+                rows.hold_next[last] = following
+            rows.hold_next[h] = rows.free_hold
+            rows.free_hold = h
+        else:
+            last = h
+        h = following
+    return 0

@@ -14,8 +14,8 @@ from runtime.solver.configuration.handler_table cimport Treatments
 from runtime.solver.flaws.uses cimport Uses
 from runtime.solver.flaws.restarts cimport Weights
 
-cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FREED, LISTS, LIST_ORDER, NONE, NO_KEY, OBJECT, ROLE_TOKEN
-cdef long long START, UNBOUND_VARIABLE, UNDO_BRANCH, UNDO_INPUTS
+cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FLAG_GOAL, FREED, LATEST, LISTS, LIST_ORDER, NONE, NO_KEY, OBJECT, ROLE_TOKEN
+cdef long long START, UNBOUND_VARIABLE, UNDO_BRANCH, UNDO_INPUTS, YOUNGEST
 
 
 cdef class Queues:
@@ -25,7 +25,7 @@ cdef class Queues:
     cdef public Treatments treatments
     cdef public Filters filters
     cdef public Supports supports
-    cdef public bint exact, has_custom, probing
+    cdef public bint earliest, exact, has_custom, probing
     cdef public Distances distances
     cdef public Reach from_start, to_start, from_end, to_end
     cdef public Uses uses
@@ -69,6 +69,9 @@ cdef class Queues:
 
     @cython.locals(heap="long long", key="long long", queue=Heap)
     cpdef long long offer_token(self, long long slot) except? -1
+
+    @cython.locals(start="long long")
+    cpdef long long earliness(self, long long t) except? -1
 
     @cython.locals(queue=Heap, t="long long")
     cpdef long long offer_effect(self, long long slot) except? -1

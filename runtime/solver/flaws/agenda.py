@@ -11,7 +11,7 @@ from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
 from runtime.constraints.stn.reach import Reach
 from runtime.plan.store.plan import Plan
-from runtime.plan.tags import END, FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
+from runtime.plan.tags import END, FLAG_GOAL, FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
 from runtime.solver.configuration.handler_table import Treatments
 from runtime.solver.flaws.custom import CustomManager
 from runtime.solver.flaws.filters import Filters
@@ -21,6 +21,9 @@ from runtime.solver.flaws.supports import Supports
 from runtime.solver.flaws.uses import Uses
 from runtime.solver.tags import DROPPED_TOKEN, DROPPED_VARIABLE, NO_KEY, NONE, UNBOUND_VARIABLE
 from runtime.solver.widening import widened
+
+LATEST = 2**38  # starts beyond count as equal
+YOUNGEST = 2**22  # and so do tokens
 
 
 class Queues:
@@ -54,6 +57,7 @@ class Queues:
         self.custom = CustomManager()
         self.found_at = 0
         self.found_low = 0
+        self.earliest = False  # goals come before what else is open, in the order of their starts
         self.probing = False  # a choice is looked for, but not carried out
         self.managers = max(treatments.managers, 1)
         self.heaps = [Heap() for _ in range(treatments.heaps)]
@@ -242,10 +246,17 @@ class Queues:
         key = self.rows.key[slot // self.managers]
         if self.treatments.heap_priority[heap] != 0.0:
             key = -key
+        if self.earliest and self.rows.flags[slot // self.managers] & FLAG_GOAL:
+            key = self.earliness(slot // self.managers)
         self.token_key[slot] = key
         queue = self.heaps[heap]
         queue.push(key, 0, slot)
         return 0
+
+    def earliness(self, t: int) -> int:
+        """What puts goals before other tokens: the earliest start first, of equal ones the oldest."""
+        start = min(max(self.engine.lb[self.rows.var0[t] + START], 0), LATEST)
+        return start * YOUNGEST + min(self.rows.key[t], YOUNGEST - 1) - LATEST * YOUNGEST - YOUNGEST
 
     def offer_effect(self, slot: int) -> int:
         """Put an effect of an action among those that are settled before anything else."""

@@ -1,0 +1,121 @@
+"""Give each token the value that a redrawn parameter has at the tick at which the token begins (T-REX 3.4)."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import inf
+
+from compiler.program import Program
+from runtime.executive.chance import sample, update_index
+from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.outcome import Draw, Phase
+from runtime.executive.trace import Trace
+from runtime.executive.view import PlanView
+
+NOTHING = -1
+
+
+class World:
+    """What a mission draws from chance; a pure function of seed, parameter and tick, recorded when first used."""
+
+    def __init__(
+        self, configuration: AgentConfiguration, seed: int, overrides: Mapping[str, float], trace: Trace
+    ) -> None:
+        self.parameters = {parameter.name: parameter for parameter in configuration.parameters}
+        self.seed = seed
+        self.overrides = overrides
+        self.trace = trace
+
+    def learn(self, program: Program) -> None:
+        """Take note of the parameters of a model; those that the mission does not list are uniform over their domain."""
+        for site in program.sampled:
+            if site.name not in self.parameters and site.default is not None and site.default.interval is not None:
+                lower, upper = site.default.interval
+                self.parameters[site.name] = ParameterConfiguration(
+                    site.name, float(lower), float(upper), is_whole=site.kind == "int"
+                )
+
+    def varies(self, name: str) -> bool:
+        """Whether a parameter is drawn more than once in a mission."""
+        parameter = self.parameters.get(name)
+        return parameter is not None and parameter.mode == "intra" and name not in self.overrides
+
+    def draw(self, reactor: str, name: str, tick: int) -> float | None:
+        """The value of a parameter that is in force at `tick`."""
+        parameter = self.parameters.get(name)
+        if parameter is None:
+            return None
+        if name in self.overrides:
+            value = self.overrides[name]
+            drawn = Draw(name, 0, value, value)
+        else:
+            drawn = sample(parameter, self.seed, tick)
+        self.trace.record_draw(reactor, drawn)
+        return drawn.value
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """Token `token`, which had `key`, holds the value of `parameter` with update index `index`."""
+
+    token: int
+    key: int
+    predicate: int
+    parameter: str
+    index: int
+
+
+class Draws:
+    """What one reactor has drawn of parameters that change, for tokens that have not begun."""
+
+    def __init__(self, reactor: str, world: World) -> None:
+        self.reactor = reactor
+        self.world = world
+        self.view: PlanView | None = None
+        self.open: list[Drawn] = []
+
+    def draw(self, name: str, token: int) -> float | None:
+        """What the plan database asks: the value of a parameter for a token (NOTHING: for the script)."""
+        world = self.world
+        if not world.varies(name):
+            return world.draw(self.reactor, name, 0)
+        tick = self._begin(token) if token >= 0 else 0
+        if token >= 0 and self.view is not None:
+            index = update_index(world.parameters[name], tick)
+            rows = self.view.rows
+            self.open.append(Drawn(token, int(rows.key[token]), int(rows.predicate[token]), name, index))
+        return world.draw(self.reactor, name, tick)
+
+    def _begin(self, token: int) -> int:
+        """When a token begins, as far as is known: what has not begun does so now, or next if now is settled."""
+        assert self.view is not None
+        start = self.view.start(token)
+        now = self.world.trace.tick
+        if self.view.upper(start) <= now:
+            return int(max(self.view.lower(start), 0))
+        is_settled = self.world.trace.phase in (Phase.DELIBERATE, Phase.DISPATCH)
+        return int(max(self.view.lower(start), now + 1 if is_settled else now))
+
+    def outdated(self, view: PlanView, tick: int) -> list[int]:
+        """Tokens that have not begun by `tick` and hold a value that is no longer, or not yet, in force then."""
+        found: dict[int, None] = {}
+        left = []
+        for each in self.open:
+            if not view.is_alive(each.token, each.key) or view.predicate_of(each.token) != each.predicate:
+                continue
+            if not view.is_active(each.token) or view.is_started(each.token, tick - 1):
+                continue
+            begin = max(int(view.lower(view.start(each.token))), tick)
+            if update_index(self.world.parameters[each.parameter], begin) != each.index:
+                found[each.token] = None
+            elif each.token not in found:
+                left.append(each)
+        self.open = left
+        return list(found)
+
+    def next_change(self, view: PlanView, tick: int) -> float:
+        """The first tick at which a planned token that has not begun needs another value."""
+        times = [inf]
+        for each in self.open:
+            if view.is_alive(each.token, each.key) and not view.is_started(each.token, tick):
+                times.append((each.index + 1) * self.world.parameters[each.parameter].update)
+        return min(times)

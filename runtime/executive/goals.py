@@ -1,0 +1,197 @@
+"""What a reactor was asked for: queued until its window meets it, made a goal, given up, taken back, done (T-REX 1.8)."""
+
+from runtime.executive.messages import Request
+from runtime.executive.outcome import EventKind, OpenGoal, Reason, ReasonKind
+from runtime.executive.reactor import Refusal
+from runtime.executive.repair import hold_present, stand
+from runtime.executive.timelines import NOTHING, Goal, TimelineState
+from runtime.executive.trace import Trace
+from runtime.executive.view import SPAN_REQUEST
+from runtime.executive.workbench import Workbench
+
+
+class Goals:
+    """The requests of one reactor, waiting or in its plan."""
+
+    def __init__(self, name: str, bench: Workbench, timelines: list[TimelineState], trace: Trace) -> None:
+        self.name = name
+        self.bench = bench
+        self.timelines = timelines
+        self.trace = trace
+        self.lines = {line.name: line for line in timelines}
+        self.waiting: list[Request] = []
+        self.posted: list[Goal] = []
+        self.to_recall: list[int] = []
+        self.refusals: list[Refusal] = []
+        self.given_up: list[OpenGoal] = []
+        self.is_changed = False  # something was posted or taken out of the plan
+
+    # ---- taking in ----
+
+    def take_in(self, tick: int, reach: int) -> bool:
+        """Carry out recalls, and post what may start by `reach`, earliest first; whether the plan has changed."""
+        self.is_changed = False
+        if self.to_recall:
+            numbers, self.to_recall = self.to_recall, []
+            for number in numbers:
+                self._recall(number, tick)
+        if any(request.start[0] <= reach for request in self.waiting):
+            due = [request for request in self.waiting if request.start[0] <= reach]
+            self.waiting = [request for request in self.waiting if request.start[0] > reach]
+            for request in sorted(due, key=lambda one: one.start[0]):
+                self._post(request, tick)
+        return self.is_changed
+
+    def _post(self, request: Request, tick: int) -> None:
+        """Make a rejectable token of a request, or refuse it; what has begun is settled, so it starts after `tick`."""
+        bench, line = self.bench, self.lines[request.timeline]
+        predicate = line.predicates.get(request.predicate, NOTHING)
+        if predicate == NOTHING:
+            why = Reason(ReasonKind.UNKNOWN_PREDICATE, predicate=request.predicate, timeline=request.timeline)
+            self.refuse(request, why)
+            return
+        if request.start[1] <= tick:
+            self.refuse(request, Reason(ReasonKind.TOO_LATE))
+            return
+        mark = bench.mark()
+        token = bench.new_goal(predicate, line.object_id)
+        holds = (
+            bench.at_least(bench.start(token), max(request.start[0], tick + 1), SPAN_REQUEST, token)
+            and bench.at_most(bench.start(token), request.start[1], SPAN_REQUEST, token)
+            and bench.within(bench.end(token), request.end, SPAN_REQUEST, token)
+            and bench.within(bench.duration(token), request.duration, SPAN_REQUEST, token)
+            and bench.restrict_parameters(token, request.arguments, SPAN_REQUEST)
+        )
+        if not holds:
+            bench.rewind_to(mark)
+            bench.commit()
+            self.refuse(request, Reason(ReasonKind.MISFIT))
+            return
+        bench.commit()
+        bench.remember_request(token)
+        self.posted.append(Goal(request, token, bench.key(token)))
+        self.is_changed = True
+
+    def _recall(self, number: int, tick: int) -> None:
+        """Drop a request; a token that has begun goes on to its own end (T-REX 1.8)."""
+        self.waiting = [request for request in self.waiting if request.number != number]
+        for goal in self.live():
+            if goal.request.number != number:
+                continue
+            goal.is_closed = True
+            if goal.request.is_mandatory:
+                request, why = goal.request, Reason(ReasonKind.RECALLED)
+                self.given_up.append(OpenGoal(request.timeline, request.predicate, request.arguments, why))
+            if self.bench.is_alive(goal.token, goal.token_key) and not self.bench.is_started(goal.token, tick):
+                seen = hold_present(self.bench, self.timelines)
+                self.bench.remove([goal.token])
+                stand(self.bench, self.timelines, seen)
+                self.is_changed = True
+                self.reopen()
+
+    # ---- giving up ----
+
+    def refuse(self, request: Request, why: Reason, kind: EventKind = EventKind.REFUSE) -> None:
+        """Tell that a request will not be met."""
+        event = self.trace.record(
+            kind,
+            self.name,
+            request.timeline,
+            request.predicate,
+            request.arguments,
+            (request.event,),
+            request=request.number,
+            reason=why,
+        )
+        self.refusals.append(Refusal(request, event))
+        if request.is_mandatory:
+            self.given_up.append(OpenGoal(request.timeline, request.predicate, request.arguments, why, event))
+
+    def report_rejected(self) -> None:
+        """Tell once of each goal that the planner found no place for; it may come back when there is room."""
+        for goal in self.live():
+            is_rejected = self.bench.is_alive(goal.token, goal.token_key) and self.bench.is_rejected(goal.token)
+            if is_rejected and not goal.is_rejected:
+                goal.is_rejected = True
+                self.refuse(goal.request, Reason(ReasonKind.REJECTED), EventKind.REJECT)
+            elif goal.is_rejected and not is_rejected:
+                goal.is_rejected = False
+                self._forgive(goal.request)
+
+    def _forgive(self, request: Request) -> None:
+        """A mandatory goal that was given up has a place again."""
+        same = (request.timeline, request.predicate, request.arguments)
+        for number, left in enumerate(self.given_up):
+            if (left.timeline, left.predicate, left.arguments) == same:
+                del self.given_up[number]
+                break
+
+    def reopen(self) -> bool:
+        """Let the planner look again at goals that it rejected: there may be room now."""
+        found = False
+        for goal in self.live():
+            if goal.is_rejected and self.bench.is_alive(goal.token, goal.token_key):
+                if self.bench.is_rejected(goal.token):
+                    self.bench.cancel(goal.token)
+                    found = True
+        self.is_changed = self.is_changed or found
+        return found
+
+    # ---- the tick ----
+
+    def close(self, tick: int) -> bool:
+        """Goals that have run are done; those that are too late, or went in a repair, are given up. Whether any was."""
+        found = False
+        late: list[int] = []
+        for goal in self.live():
+            bench, token = self.bench, goal.token
+            if not bench.is_alive(token, goal.token_key):
+                goal.is_closed = True
+                self._drop(goal, ReasonKind.DROPPED)
+            elif bench.is_over(token, tick):
+                goal.is_closed = True
+                self.achieved(goal.request)
+                found = True
+            elif not bench.is_active(token) and bench.upper(bench.start(token)) <= tick and not bench.is_merged(token):
+                goal.is_closed = True
+                self._drop(goal, ReasonKind.TOO_LATE)
+                late.append(token)
+        if late:
+            self.bench.remove(late)
+        if len(self.posted) > 64:
+            self.posted = self.live()
+        return found
+
+    def _drop(self, goal: Goal, kind: ReasonKind) -> None:
+        if not goal.is_rejected:
+            self.refuse(goal.request, Reason(kind), EventKind.REJECT)
+
+    def achieved(self, request: Request) -> None:
+        """Note that what was asked for has run to its end."""
+        self.trace.record(
+            EventKind.ACHIEVED,
+            self.name,
+            request.timeline,
+            request.predicate,
+            request.arguments,
+            (request.event,),
+            request=request.number,
+        )
+
+    def live(self) -> list[Goal]:
+        """Goals that still may be met."""
+        return [goal for goal in self.posted if not goal.is_closed]
+
+    def for_token(self, token: int) -> Goal | None:
+        """The goal that a token of the plan is, or stands for."""
+        for goal in self.posted:
+            if self.bench.is_alive(goal.token, goal.token_key) and self.bench.stands_for(goal.token) == token:
+                return goal
+        return None
+
+    def open_goals(self) -> list[OpenGoal]:
+        """Mandatory goals that were refused, or that have not run to their end by now."""
+        left = [goal.request for goal in self.live() if not goal.is_rejected] + self.waiting
+        return self.given_up + [
+            OpenGoal(r.timeline, r.predicate, r.arguments, event=r.event) for r in left if r.is_mandatory
+        ]

@@ -1,0 +1,111 @@
+"""What the agent asks of a reactor, whatever it is made of: a plan, compiled rules, Python code, a log."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from runtime.executive.messages import Observation, Request
+from runtime.executive.outcome import Conflict, Deadlock, OpenGoal, Reason, VariableName
+
+
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """Element `number` of a conflict says how long `variable`, the end of an observed token, has been put off."""
+
+    number: int
+    variable: VariableName
+    source: Observation
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """Why a reactor cannot go on; `conflict` is what broke first, `repairs` what stopped each repair."""
+
+    code: str
+    reason: Reason
+    timelines: tuple[str, ...]
+    conflict: Conflict | None
+    relaxes: int
+    repairs: tuple[Conflict, ...] = ()
+    causes: tuple[int, ...] = ()
+    watched: tuple[Watched, ...] = ()
+    deadlock: Deadlock | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """The owner will not do what it was asked for; `event` is where the trace says why."""
+
+    request: Request
+    event: int
+
+
+class Reactor(Protocol):
+    """A controller that owns timelines and uses those of others (T-REX 1.1).
+
+    In a tick the agent calls `start_tick`, `synchronise` and `observations` of each reactor that is due, owners before
+    users; then `step` of whoever has work, the most urgent first, and, as soon as one has none left, its `recalls`,
+    `requests` and `refusals`; at last `next_tick`. What happens in the deliberation of a tick comes true at the next
+    one at the earliest. A reactor that is not due is asleep: nothing may happen there before `due` but by `notify`,
+    `accept` and `recall`. Each call must give the same answer in the same mission.
+    """
+
+    name: str
+    internal: tuple[str, ...]
+    external: tuple[str, ...]
+    latency: int
+    lookahead: int
+    due: int  # the next tick at which it has something to do; earlier ones cost nothing
+
+    def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
+        """Take note of the execution latency and look-ahead of the owner of each timeline, and of its own."""
+
+    def start_tick(self, tick: int) -> None:
+        """Set "now"."""
+
+    def next_tick(self, tick: int) -> int:
+        """The next tick at which something can happen without news from outside."""
+
+    def notify(self, observation: Observation) -> None:
+        """Take note of what an owner published this tick; it is due then."""
+
+    def synchronise(self, tick: int) -> Failure | None:
+        """Make the plan agree with the world at `tick`, or say why that is impossible."""
+
+    def observations(self, tick: int) -> list[Observation]:
+        """What its own timelines have begun to hold at `tick`."""
+
+    def urgency(self, tick: int) -> float:
+        """How soon it should be given a step: the largest comes first (T-REX 1.3)."""
+
+    def step(self, tick: int) -> bool:
+        """Take in what was asked, or make one planning decision; False if there is nothing left to do."""
+
+    def failure(self) -> Failure | None:
+        """Why planning has failed for good, if it has."""
+
+    def requests(self, tick: int) -> list[Request]:
+        """What is to be asked of owners now."""
+
+    def recalls(self) -> list[int]:
+        """Numbers of the requests that are taken back."""
+
+    def open_requests(self) -> list[int]:
+        """Numbers of the requests that it has made and that are not over."""
+
+    def refusals(self) -> list[Refusal]:
+        """Which of the requests made to it have been refused, rejected or given up since this was last asked."""
+
+    def refused(self, refusal: Refusal) -> None:
+        """Take note that an owner will not do what it was asked for."""
+
+    def accept(self, request: Request) -> None:
+        """Queue a request for one of its timelines; it is looked at in the next `step`."""
+
+    def recall(self, number: int) -> None:
+        """Queue that a request is taken back, begun or not."""
+
+    def open_goals(self) -> list[OpenGoal]:
+        """Mandatory goals that were not achieved."""
+
+    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
+        """The name of the end of one of its tokens, and what sets that end."""
