@@ -45,7 +45,6 @@ cdef class Machine:
         code="int[::1]", r="double[::1]", op="int", out="long long", a="long long", b="long long", j="long long",
         x="double", y="double", z="double"
     )
-    @cython.boundscheck(False)
     cpdef bint carry_out(self, long long at) except -1
 
     @cython.locals(
