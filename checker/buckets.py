@@ -3,24 +3,35 @@
 from dataclasses import dataclass
 
 from checker.batch.result import MissionResult
-from checker.causes import Blame, blame
-from checker.oracle import Verdict
+from checker.causes import Culprit, culprit_of
+from checker.oracle import Judgement, Verdict
+from runtime.executive.outcome import OpenGoal
 
-Key = tuple[str, str, int, str]
+# Code, file and line of the culprit; without one the reactor, and what the reason and the open goals are about. Never a
+# number of a token, nor a tick: these differ between missions that fail alike.
+Key = tuple[str, str, int, tuple[str, ...]]
 
 
 @dataclass(frozen=True, slots=True)
 class Bucket:
-    """Missions that failed alike. `share` is that of all ordinary missions; `example` is the first of them."""
+    """Missions that failed alike. `share` is that of all ordinary missions; `example` is the first of them.
 
-    code: str
-    blame: Blame
-    reason: str
+    `judgement` and `open_goals` are those of the example.
+    """
+
+    judgement: Judgement
+    open_goals: tuple[OpenGoal, ...]
+    culprit: Culprit
     reactor: str
     missions: tuple[int, ...]
     share: float
     first_tick: int
     last_tick: int
+
+    @property
+    def code(self) -> str:
+        """The class of failure."""
+        return self.judgement.code
 
     @property
     def example(self) -> int:
@@ -29,13 +40,17 @@ class Bucket:
 
 
 def bucket_key(result: MissionResult) -> Key:
-    """What a failure is grouped by: its code and the culprit's place, or its reason where no line is to blame."""
+    """What a failure is grouped by: its code and the culprit's place, or what it is about where there is none."""
     assert result.outcome is not None
-    abort = result.outcome.abort
-    found = blame(abort.conflict if abort else None).place
-    if found is not None:
-        return (result.judgement.code, found.file, found.line, "")
-    return (result.judgement.code, "", 0, f"{abort.reactor if abort else ''}: {result.judgement.reason}")
+    abort, reason = result.outcome.abort, result.judgement.reason
+    place = culprit_of(abort.conflict if abort else None).place
+    if place is not None:
+        return (result.judgement.code, place.file, place.line, ())
+    about = [abort.reactor if abort else ""]
+    if reason is not None:
+        about += [reason.kind, reason.token.predicate if reason.token else "", reason.predicate, reason.timeline]
+    goals = {f"{goal.timeline}.{goal.predicate}" for goal in result.open_goals}
+    return (result.judgement.code, "", 0, (*about, *sorted(goals)))
 
 
 def group_failures(results: tuple[MissionResult, ...]) -> tuple[Bucket, ...]:
@@ -54,9 +69,9 @@ def _bucket(members: list[MissionResult], counted: int) -> Bucket:
     assert example is not None
     ticks = [member.outcome.last_tick for member in members if member.outcome is not None]
     return Bucket(
-        members[0].judgement.code,
-        blame(example.abort.conflict if example.abort else None),
-        members[0].judgement.reason,
+        members[0].judgement,
+        members[0].open_goals,
+        culprit_of(example.abort.conflict if example.abort else None),
         example.abort.reactor if example.abort else "",
         tuple(member.number for member in members),
         round(len(members) / counted, 9),

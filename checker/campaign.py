@@ -7,7 +7,7 @@ from pathlib import Path
 from checker.batch.identity import engine_digest, model_digest, run_id
 from checker.batch.pool import Flyer, fly_all
 from checker.batch.result import MissionResult
-from checker.batch.store import Run, Store
+from checker.batch.store import Run, RunStore
 from checker.batch.worker import Load, Task
 from checker.findings import Fault, Findings, assess
 from checker.mission import Mission
@@ -42,7 +42,7 @@ class Campaign:
     def fly(
         self,
         workers: int,
-        store: Store | None,
+        store: RunStore | None,
         *,
         resume: bool,
         progress: Callable[[int, int], None],

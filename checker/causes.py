@@ -1,86 +1,98 @@
-"""An abort in, its causal graph out: which draws and events led to it, and which line of the model is to blame.
+"""An abort in, its causal graph out: which draws and events led to it, and which line of the model is the culprit.
 
-Two graphs: events of the trace point at what they caused (across reactors), and the causes of the conflict hang
+Two graphs: events of the trace point at what they caused (across reactors), and the elements of the conflict hang
 together by the variables they share (inside the reactor that gave up). "Future work" of the founding paper, section 6.
 """
 
-import re
 from dataclasses import dataclass
 
 import networkx as nx
 
-from runtime.executive.outcome import Cause, Conflict, Event, Outcome, Place
+from runtime.executive.outcome import (
+    Conflict,
+    ConflictElement,
+    ElementKind,
+    Event,
+    Outcome,
+    SourcePlace,
+    VariableName,
+)
 
-WORLD = ("sample", "observation", "clock", "horizon")  # kinds of causes that no line of the model can help
-LIMITS = ("leq", "lt", "neq", "bounds", "withinBounds", "precedes", "strictlyPrecedes")
+# Kinds of elements that no line of the model can help.
+WORLD = (
+    ElementKind.SAMPLE,
+    ElementKind.OBSERVATION,
+    ElementKind.REQUEST,
+    ElementKind.CLOCK,
+)
+VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
+LIMITS = ("leq", "lt", "neq", "bounds", "member", "withinBounds", "precedes", "strictlyPrecedes")
 MOST_EVENTS = 8  # of the way to the abort, the last ones
 
 
 @dataclass(frozen=True, slots=True)
-class Blame:
-    """The line that the conflict ends at, and the lines that set what it compares with."""
+class Culprit:
+    """The element of a conflict where draw and model collide, and the lines that set what it compares with.
 
-    place: Place | None
-    because: str
-    limits: tuple[Place, ...]
+    `number` is its index in the conflict, -1 where no element is written anywhere.
+    """
+
+    number: int = -1
+    element: ConflictElement | None = None
+    limits: tuple[SourcePlace, ...] = ()
+
+    @property
+    def place(self) -> SourcePlace | None:
+        """The line to blame."""
+        return self.element.place if self.element is not None else None
 
 
-def blame(conflict: Conflict | None) -> Blame:
-    """The written limit that stands farthest from what the world did: where draw and model collide."""
+def culprit_of(conflict: Conflict | None) -> Culprit:
+    """The written limit that stands farthest from what the world did."""
     if conflict is None:
-        return Blame(None, "", ())
-    index = culprit(conflict)
-    if index is None:
-        return Blame(None, "", ())
-    chosen = conflict.causes[index]
-    near = conflict_graph(conflict).adj[index]
-    limits = [
-        cause.place
-        for number, cause in enumerate(conflict.causes)
-        if number in near and cause.kind in ("assignment", "declaration") and cause.place not in (None, chosen.place)
-    ]
-    return Blame(chosen.place, chosen.because, tuple(place for place in dict.fromkeys(limits) if place))
-
-
-def culprit(conflict: Conflict) -> int | None:
-    """The number of the cause to blame; None where no cause is written anywhere."""
+        return Culprit()
+    elements = conflict.elements
     graph = conflict_graph(conflict)
-    roots = [number for number, cause in enumerate(conflict.causes) if cause.kind == "sample"]
-    roots = roots or [number for number, cause in enumerate(conflict.causes) if cause.kind in WORLD]
-    far: dict[int, float] = nx.multi_source_dijkstra_path_length(graph, roots) if roots else {}
+    roots = _roots(conflict, (ElementKind.SAMPLE,)) or _roots(conflict, WORLD)
+    far = _distances(graph, roots)
     candidates = [
-        (_rank(cause), -far.get(number, len(conflict.causes)), -number)
-        for number, cause in enumerate(conflict.causes)
-        if cause.place is not None and cause.kind not in WORLD
+        (_rank(element), -far.get(number, len(elements)), -number)
+        for number, element in enumerate(elements)
+        if element.place is not None and element.kind not in WORLD
     ]
-    return -min(candidates)[2] if candidates else None
+    if not candidates:
+        return Culprit()
+    chosen = -min(candidates)[2]
+    limits = [
+        element.place
+        for number, element in enumerate(elements)
+        if number in graph.adj[chosen] and element.kind in VALUES and element.place != elements[chosen].place
+    ]
+    return Culprit(chosen, elements[chosen], tuple(place for place in dict.fromkeys(limits) if place is not None))
 
 
-def in_telling_order(conflict: Conflict) -> list[int]:
-    """The numbers of the causes, from the draws outwards, the line to blame last; as given where nothing was drawn."""
+def in_telling_order(conflict: Conflict, last: int) -> list[int]:
+    """The numbers of the elements from the draws outwards, `last` at the end; as given where nothing was drawn."""
     graph = conflict_graph(conflict)
-    roots = [number for number, cause in enumerate(conflict.causes) if cause.kind == "sample"]
-    far: dict[int, float] = nx.multi_source_dijkstra_path_length(graph, roots) if roots else {}
-    last = culprit(conflict)
-    return sorted(
-        graph, key=lambda number: (number == last, far.get(number, len(conflict.causes) if roots else 0), number)
-    )
+    roots = _roots(conflict, (ElementKind.SAMPLE,))
+    far = _distances(graph, roots)
+    unknown = len(conflict.elements) if roots else 0
+    return sorted(graph, key=lambda number: (number == last, far.get(number, unknown), number))
 
 
 def conflict_graph(conflict: Conflict) -> "nx.Graph[int]":
-    """The causes by number, joined where they speak of the same variable."""
-    names = {variable.name for variable in conflict.variables}
+    """The elements by number, joined where they speak of the same variable."""
     graph: nx.Graph[int] = nx.Graph()
-    graph.add_nodes_from(range(len(conflict.causes)))
-    speakers: dict[str, list[int]] = {}
-    for number, cause in enumerate(conflict.causes):
-        for term in cause.terms:
-            for argument in term.arguments:
-                if isinstance(argument, str) and argument in names:
-                    for other in speakers.setdefault(argument, []):
+    graph.add_nodes_from(range(len(conflict.elements)))
+    speakers: dict[VariableName, list[int]] = {}
+    for number, element in enumerate(conflict.elements):
+        for term in element.terms:
+            for operand in term.arguments:
+                if isinstance(operand, VariableName):
+                    for other in speakers.setdefault(operand, []):
                         if other != number:
                             graph.add_edge(other, number)
-                    speakers[argument].append(number)
+                    speakers[operand].append(number)
     return graph
 
 
@@ -122,30 +134,36 @@ def draws_behind(outcome: Outcome) -> tuple[str, ...]:
     """The parameters that the abort depends on by the conflict's terms, or, failing those, by the trace."""
     if outcome.abort is None:
         return ()
-    causes = outcome.abort.conflict.causes if outcome.abort.conflict is not None else ()
-    names = [str(t.arguments[1]) for cause in causes for t in cause.terms if t.name == "sampledParameter"]
-    if not names and outcome.events:
-        ancestors: set[int] = nx.ancestors(event_graph(outcome.events), outcome.abort.event)
-        drawn = (_drawn(outcome.events[index]) for index in sorted(ancestors))
-        names = [name for name in drawn if name is not None]
-    return tuple(dict.fromkeys(names))
+    names = outcome.abort.conflict.parameters if outcome.abort.conflict is not None else ()
+    if names or not outcome.events:
+        return names
+    ancestors: set[int] = nx.ancestors(event_graph(outcome.events), outcome.abort.event)
+    drawn = (_drawn(outcome.events[index]) for index in sorted(ancestors))
+    return tuple(dict.fromkeys(name for name in drawn if name is not None))
 
 
 def _drawn(event: Event) -> str | None:
-    """The parameter that a sample event is about; its text is `NAME = value`."""
-    found = re.match(r"(\w+) = ", event.text) if event.kind == "sample" else None
-    return found[1] if found else None
+    """The parameter that a sample event is about."""
+    return event.draw.parameter if event.draw is not None else None
 
 
-def _rank(cause: Cause) -> int:
+def _roots(conflict: Conflict, kinds: tuple[ElementKind, ...]) -> list[int]:
+    return [number for number, element in enumerate(conflict.elements) if element.kind in kinds]
+
+
+def _distances(graph: "nx.Graph[int]", roots: list[int]) -> dict[int, float]:
+    return dict(nx.multi_source_dijkstra_path_length(graph, roots)) if roots else {}
+
+
+def _rank(element: ConflictElement) -> int:
     """How likely a line is the mistaken one: written limits before values before relations before the rest."""
-    is_limit = any(term.name in LIMITS for term in cause.terms)
-    match cause.kind:
-        case "constraint" | "duration" if is_limit:
+    is_limit = any(term.name in LIMITS for term in element.terms)
+    match element.kind:
+        case ElementKind.CONSTRAINT | ElementKind.DURATION if is_limit:
             return 0
-        case "assignment" | "declaration":
+        case ElementKind.ASSIGNMENT | ElementKind.DECLARATION:
             return 1
-        case "relation" | "order":
+        case ElementKind.RELATION | ElementKind.ORDER:
             return 2
         case _:
             return 3

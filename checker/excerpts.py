@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from nddl_lang.text.read import read_text
-from runtime.executive.outcome import Place
+from runtime.executive.outcome import SourcePlace
 
 
 @dataclass(slots=True)
@@ -14,16 +14,16 @@ class Excerpts:
     root: Path
     _lines: dict[str, list[str]] = field(default_factory=dict)
 
-    def path(self, place: Place) -> str:
+    def path(self, place: SourcePlace) -> str:
         """`file:line`, with the file as the user would name it."""
         return f"{self.file(place)}:{place.line}"
 
-    def file(self, place: Place) -> str:
+    def file(self, place: SourcePlace) -> str:
         """The file as the user would name it."""
         path = self.root / place.file
         return path.as_posix() if path.exists() else place.file
 
-    def line(self, place: Place) -> str:
+    def line(self, place: SourcePlace) -> str:
         """The whole line at a place, as it stands there now if that is still the line that was run."""
         if place.file not in self._lines:
             text = read_text(self.root / place.file)

@@ -6,24 +6,26 @@ from checker.batch.result import MissionResult
 from checker.excerpts import Excerpts
 from checker.findings import Fault
 from checker.oracle import CODE_NAMES
+from checker.rendering import confirmation_text, failure_text, step_label, step_text, threshold_text
 from checker.sampling.wording import number
-from checker.story import Step, Story
+from checker.story import Step, StepKind, Story
 from checker.threshold import Threshold
-from runtime.executive.outcome import Place
+from runtime.executive.outcome import SourcePlace
 
 ARROW = "     │\n     ▼"
 
 
 def story_text(story: Story, run_id: str, excerpts: Excerpts) -> str:
     """The story as `nddlc explain` prints it."""
+    code = story.judgement.code
     lines = [
         f"mission {story.number} of run {run_id} failed at tick {story.last_tick} of {story.final_tick} "
-        f"({story.code}: {CODE_NAMES.get(story.code, 'unknown')})",
-        f"  {story.title}",
+        f"({code}: {CODE_NAMES.get(code, 'unknown')})",
+        f"  {failure_text(story.judgement, story.open_goals)}",
         "",
     ]
     for index, step in enumerate(story.steps, 1):
-        lines += _step_lines(index, step, excerpts)
+        lines += _step_lines(index, step, story, excerpts)
         if index < len(story.steps):
             lines.append(ARROW)
     if story.fault is not None:
@@ -31,18 +33,17 @@ def story_text(story: Story, run_id: str, excerpts: Excerpts) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _step_lines(index: int, step: Step, excerpts: Excerpts) -> list[str]:
+def _step_lines(index: int, step: Step, story: Story, excerpts: Excerpts) -> list[str]:
     when = f"tick {step.tick}: " if step.tick is not None else ""
-    here = "   <== the line to blame" if step.kind == "fault" else ""
-    lines = [f"{index:>4}  {when}{step.reason}{here}"]
+    lines = [f"{index:>4}  {when}{step_text(step, story)}{step_label(step)}"]
     if step.place is not None:
-        lines += excerpt_lines(step.place, excerpts, marked=step.kind == "fault")
+        lines += excerpt_lines(step.place, excerpts, marked=step.kind is StepKind.FAULT)
     for limit in step.limits:
         lines += ["      where the limit is set:", *excerpt_lines(limit, excerpts, marked=True)]
     return lines
 
 
-def excerpt_lines(place: Place, excerpts: Excerpts, *, marked: bool = False, indent: str = "      ") -> list[str]:
+def excerpt_lines(place: SourcePlace, excerpts: Excerpts, *, marked: bool = False, indent: str = "      ") -> list[str]:
     """A place with its line of source; `marked` underlines what it is about."""
     text = excerpts.line(place).expandtabs(4)
     bar = " " * len(str(place.line))
@@ -64,36 +65,6 @@ def _fault_lines(fault: Fault, told: int) -> list[str]:
     return lines
 
 
-def confirmation_text(fault: Fault) -> str:
-    """What z3 says, as the end of a sentence that begins with its name."""
-    assert fault.confirmation is not None
-    match fault.confirmation.finding.value:
-        case "confirmed":
-            text = f"confirms the conflict: {len(fault.confirmation.core)} causes that cannot hold together"
-        case "not confirmed":
-            text = "does not confirm the conflict: by their terms alone the causes can hold together"
-        case _:
-            text = "could not decide whether the causes can hold together"
-    missing = fault.confirmation.untranslated
-    return text + (f" (not told to it: {', '.join(missing)})" if missing else "")
-
-
-def threshold_text(threshold: Threshold) -> str:
-    """A threshold and the evidence for it."""
-    evidence: list[str] = []
-    if "z3" in threshold.method:
-        evidence.append("proved by z3 on the conflict's terms")
-    if threshold.flights:
-        evidence.append(f"{threshold.flights} flights of the same mission with this value alone changed")
-    cut = threshold.cut
-    if cut is not None:
-        passing, failing = ("up to", "from") if cut.is_above else ("down to", "from")
-        evidence.append(f"samples pass {passing} {number(cut.passing)}, fail {failing} {number(cut.failing)}")
-        if cut.purity < 1.0 or cut.coverage < 1.0:
-            evidence.append(f"{cut.purity:.0%} of the missions beyond fail so, {cut.coverage:.0%} of these lie there")
-    return f"{threshold.condition} ({'; '.join(evidence)})"
-
-
 def story_data(story: Story, run_id: str, excerpts: Excerpts) -> dict[str, Any]:
     """The story as `nddlc explain --format json` prints it."""
     fault = story.fault
@@ -101,11 +72,11 @@ def story_data(story: Story, run_id: str, excerpts: Excerpts) -> dict[str, Any]:
         "run": run_id,
         "mission": story.number,
         "seed": story.seed,
-        "code": story.code,
-        "reason": story.title,
+        "code": story.judgement.code,
+        "reason": failure_text(story.judgement, story.open_goals),
         "last_tick": story.last_tick,
         "final_tick": story.final_tick,
-        "steps": [_step_data(step, excerpts) for step in story.steps],
+        "steps": [_step_data(step, story, excerpts) for step in story.steps],
         "z3": None if fault is None else confirmation_data(fault),
         "thresholds": [] if fault is None else [threshold_data(threshold) for threshold in fault.thresholds],
         "alike": [] if fault is None else list(fault.bucket.missions),
@@ -116,7 +87,7 @@ def result_text(result: MissionResult, run_id: str) -> str:
     """What there is to say of a mission that did not fail."""
     outcome = result.outcome
     if outcome is None:
-        reason = f"could not be flown: {result.judgement.reason}"
+        reason = f"could not be flown: {failure_text(result.judgement)}"
         return f"mission {result.number} of run {run_id} (seed {result.seed}) {reason}\n{result.detail}\n"
     lines = [f"mission {result.number} of run {run_id} passed: it reached tick {outcome.last_tick}; nothing to explain"]
     lines += [f"  {draw.parameter} = {number(draw.value)} from tick {draw.tick} on" for draw in outcome.draws]
@@ -130,21 +101,21 @@ def result_data(result: MissionResult, run_id: str) -> dict[str, Any]:
         "mission": result.number,
         "seed": result.seed,
         "verdict": result.verdict.value,
-        "reason": result.judgement.reason,
+        "reason": failure_text(result.judgement, result.open_goals),
     }
 
 
-def _step_data(step: Step, excerpts: Excerpts) -> dict[str, Any]:
+def _step_data(step: Step, story: Story, excerpts: Excerpts) -> dict[str, Any]:
     return {
-        "kind": step.kind,
+        "kind": step.kind.value,
         "tick": step.tick,
-        "reason": step.reason,
+        "reason": step_text(step, story),
         "place": place_data(step.place, excerpts),
         "limits": [place_data(limit, excerpts) for limit in step.limits],
     }
 
 
-def place_data(place: Place | None, excerpts: Excerpts) -> dict[str, Any] | None:
+def place_data(place: SourcePlace | None, excerpts: Excerpts) -> dict[str, Any] | None:
     """A place; `file` is relative to the mission file, so that it reads the same in every checkout."""
     if place is None:
         return None

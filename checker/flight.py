@@ -1,11 +1,11 @@
 """Fly real missions: load the models of an agent once, then run the executive from a seed."""
 
-import re
 import sys
 from contextlib import redirect_stdout
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
+from typing import overload
 
 from checker.batch.worker import Fly
 from checker.names import relative_name
@@ -14,12 +14,11 @@ from nddl_lang.analysis import analyse_file
 from nddl_lang.text.read import read_source
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, run_mission
-from runtime.executive.outcome import Cause, Conflict, Outcome
+from runtime.executive.outcome import Conflict, Deadlock, Event, Outcome, SourcePlace
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.read import read_configuration
 from runtime.user.library import load_library
 
-PREFIX = re.compile(r"\b\w+:(?=\w)")  # the reactor's name before a variable's
 Reactors = tuple[tuple[str, str | None], ...]  # model and solver of each
 
 
@@ -59,19 +58,40 @@ def load_solver(root: Path, path: str | None) -> Configuration:
 def _relative(outcome: Outcome, root: Path) -> Outcome:
     """The outcome with files named relative to the mission, so that it is the same in every checkout."""
     abort = outcome.abort
-    if abort is None:
-        return outcome
-    conflict = None if abort.conflict is None else _renamed(abort.conflict, root)
-    repairs = tuple(_renamed(one, root) for one in abort.repairs)
-    return replace(outcome, abort=replace(abort, conflict=conflict, repairs=repairs))
+    if abort is not None:
+        repairs = tuple(_conflict(one, root) for one in abort.repairs)
+        abort = replace(
+            abort, conflict=_conflict(abort.conflict, root), repairs=repairs, deadlock=_deadlock(abort.deadlock, root)
+        )
+    return replace(outcome, abort=abort, events=tuple(_event(event, root) for event in outcome.events))
 
 
-def _renamed(conflict: Conflict, root: Path) -> Conflict:
-    return replace(conflict, causes=tuple(_placed(cause, root) for cause in conflict.causes))
+def _event(event: Event, root: Path) -> Event:
+    if event.conflict is None and event.deadlock is None:
+        return event
+    return replace(event, conflict=_conflict(event.conflict, root), deadlock=_deadlock(event.deadlock, root))
 
 
-def _placed(cause: Cause, root: Path) -> Cause:
-    because = PREFIX.sub("", cause.because)
-    if cause.place is None:
-        return replace(cause, because=because)
-    return replace(cause, because=because, place=replace(cause.place, file=relative_name(cause.place.file, root)))
+@overload
+def _conflict(conflict: Conflict, root: Path) -> Conflict: ...
+@overload
+def _conflict(conflict: None, root: Path) -> None: ...
+def _conflict(conflict: Conflict | None, root: Path) -> Conflict | None:
+    if conflict is None:
+        return None
+    elements = (replace(element, place=_place(element.place, root)) for element in conflict.elements)
+    return Conflict(tuple(elements))
+
+
+def _deadlock(deadlock: Deadlock | None, root: Path) -> Deadlock | None:
+    if deadlock is None:
+        return None
+    tried = (
+        replace(one, conflict=_conflict(one.conflict, root), leads_to=_deadlock(one.leads_to, root))
+        for one in deadlock.tried
+    )
+    return replace(deadlock, tried=tuple(tried))
+
+
+def _place(place: SourcePlace | None, root: Path) -> SourcePlace | None:
+    return None if place is None else replace(place, file=relative_name(place.file, root))

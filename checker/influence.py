@@ -5,6 +5,7 @@ It says how a draw acts inside the simulator when the conflict was found in anot
 """
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 
 from compiler.program import (
     DURATION,
@@ -20,31 +21,41 @@ from compiler.program import (
     TokenVariable,
 )
 from nddl_lang.text.source import Span
-from runtime.executive.outcome import Place
-
-Step = tuple[str, Place]  # the rule, and a line of it
-Influence = Mapping[str, tuple[Step, ...]]  # by parameter
+from runtime.executive.outcome import SourcePlace
 
 
-def lines_of_influence(program: Program, parameter: str) -> tuple[Step, ...]:
+@dataclass(frozen=True, slots=True)
+class InfluenceLine:
+    """A line of a rule that passes a draw on; `rule` is its predicate with the class, `predicate` without."""
+
+    rule: str
+    predicate: str
+    place: SourcePlace
+
+
+Influence = Mapping[str, tuple[InfluenceLine, ...]]  # by parameter
+
+
+def lines_of_influence(program: Program, parameter: str) -> tuple[InfluenceLine, ...]:
     """The lines in the order in which the draw passes through them; the line that samples comes first.
 
     Of the last lines only those are kept that bear on a token's times, if any do.
     """
-    steps: list[Step] = []
+    lines: list[InfluenceLine] = []
     for rule in program.rules:
+        predicate = rule.predicate.rpartition(".")[2]
         body = list(_flat(rule.body))
         for instruction in body:
             if isinstance(instruction, Sample) and instruction.parameter == parameter:
-                steps.append((rule.predicate, place_of(instruction.span)))
-                steps += [(rule.predicate, place_of(span)) for span in _slice(body, instruction)]
-    return tuple(dict.fromkeys(steps))
+                spans = [instruction.span, *_slice(body, instruction)]
+                lines += [InfluenceLine(rule.predicate, predicate, _line_of(span)) for span in spans]
+    return tuple(dict.fromkeys(lines))
 
 
-def place_of(span: Span) -> Place:
+def _line_of(span: Span) -> SourcePlace:
     """The line of a span as the report shows it."""
     source = span.source
-    return Place(source.name, span.line, span.column, source.line(span.line).partition("//")[0].strip())
+    return SourcePlace(source.name, span.line, span.column, source.line(span.line).partition("//")[0].strip())
 
 
 def _slice(body: list[Instruction], sample: Sample) -> list[Span]:

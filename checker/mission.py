@@ -4,7 +4,6 @@ The format is described in docs/mission.md; its parts are those of T-REX's agent
 file (reference of T-REX, 3.1 and 5.5).
 """
 
-import re
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,11 +14,10 @@ from checker.mission_table import MissionText, Table, nearest
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source, Span
-from nddl_lang.text.toml_places import find_places, toml_of
+from nddl_lang.text.toml_places import find_places, split_error, toml_of
 from runtime.executive.configuration import (
     AgentConfiguration,
     Bounds,
-    DistributionName,
     GoalConfiguration,
     Mode,
     OnFailure,
@@ -27,6 +25,7 @@ from runtime.executive.configuration import (
     ReactorConfiguration,
     Value,
 )
+from runtime.executive.distributions import DISTRIBUTIONS
 from runtime.user.limit import USUAL
 
 LARGEST_SEED = (1 << 53) - 1  # what JSON readers agree on
@@ -98,13 +97,8 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
 
 
 def _not_toml(source: Source, problem: str) -> Diagnostic:
-    text = MissionText(source, {})
-    place = re.search(r" \(at (?:line (\d+), column (\d+)|end of document)\)", problem)
-    offset = len(source.text)
-    if place and place[1]:
-        offset = source.line_starts[min(int(place[1]), len(source.line_starts)) - 1] + int(place[2]) - 1
-    reason = problem[: place.start()] if place else problem
-    return NOT_TOML.at(text.span(offset, offset + 1), reason=reason[:1].lower() + reason[1:])
+    reason, offset = split_error(source, problem)
+    return NOT_TOML.at(MissionText(source, {}).span(offset, offset + 1), reason=reason)
 
 
 def _read_check(table: Table) -> CheckConfiguration:
@@ -221,9 +215,9 @@ def _read_parameters(tables: Table) -> tuple[tuple[ParameterConfiguration, ...],
     unranged: list[str] = []
     for name in tables.values:
         table = tables.table(name, f"[parameters.{name}]")
-        kinds = ("uniform", "normal", "truncated_normal", "discrete", "fixed")
         guess = "discrete" if table.has("values") else "fixed" if table.has("value") else "uniform"
-        distribution = cast("DistributionName", table.choice("distribution", kinds, guess))
+        shape = table.choice("distribution", tuple(DISTRIBUTIONS), guess)
+        distribution = DISTRIBUTIONS[shape]
         bounds = table.bounds("range", is_finite=True)
         values = table.numbers("values")
         weights = table.numbers("weights")
@@ -233,40 +227,40 @@ def _read_parameters(tables: Table) -> tuple[tuple[ParameterConfiguration, ...],
         update = table.whole("update", 10, 1)
         clip = table.bounds("clip")
         table.close()
-        for reason in _ill_distribution(table, distribution, values, weights):
+        for reason in _ill_distribution(table, shape, values, weights):
             tables.text.diagnostics.append(ILL_DISTRIBUTION.at(tables.text.key_span(table.path), reason=reason))
-        if distribution == "fixed":
+        if "value" in distribution.keys:
             values = (value,)
-        if bounds is None and values:
+        if bounds is None and values and not distribution.has_range:
             bounds = (min(values), max(values))
         if bounds is None:
             unranged.append(name)
         lower, upper = bounds or (0.0, 0.0)
         parameters.append(
             ParameterConfiguration(
-                name, float(lower), float(upper), distribution, mode, update, clip, is_whole, values, weights
+                name, float(lower), float(upper), shape, mode, update, clip, is_whole, values, weights
             )
         )
     tables.close()
     return tuple(parameters), tuple(unranged)
 
 
-def _ill_distribution(
-    table: Table, distribution: str, values: tuple[float, ...], weights: tuple[float, ...]
-) -> list[str]:
+def _ill_distribution(table: Table, name: str, values: tuple[float, ...], weights: tuple[float, ...]) -> list[str]:
     """What the keys of a distribution lack, or have in vain."""
     reasons: list[str] = []
-    if distribution == "discrete" and not values:
-        reasons.append("a discrete distribution needs `values`, a list of numbers")
-    if distribution == "fixed" and not table.has("value"):
-        reasons.append("a fixed distribution needs `value`")
+    distribution = DISTRIBUTIONS[name]
+    if "values" in distribution.needs and not values:
+        reasons.append(f"a {name} distribution needs `values`, a list of numbers")
+    if "value" in distribution.needs and not table.has("value"):
+        reasons.append(f"a {name} distribution needs `value`")
     if weights and len(weights) != len(values):
         reasons.append(f"there are {len(weights)} weights for {len(values)} values")
     if weights and (min(weights) < 0.0 or sum(weights) <= 0.0):
         reasons.append("weights must not be negative, and one must be above 0")
-    for key, owner in (("values", "discrete"), ("weights", "discrete"), ("value", "fixed")):
-        if table.has(key) and distribution != owner:
-            reasons.append(f"`{key}` belongs to a {owner} distribution, not to a {distribution} one")
+    for key in ("values", "weights", "value"):
+        if table.has(key) and key not in distribution.keys:
+            owners = " or ".join(other for other, row in DISTRIBUTIONS.items() if key in row.keys)
+            reasons.append(f"`{key}` belongs to a {owners} distribution, not to a {name} one")
     return reasons
 
 

@@ -1,6 +1,6 @@
 """The models of a mission, read and checked: programs, what they sample, and all that is wrong with them."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from checker.influence import Influence, lines_of_influence
@@ -13,7 +13,6 @@ from nddl_lang.analysis import Analysis, analyse_file
 from nddl_lang.semantics.callables import Callables
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.outcome import Place
 from runtime.user.library import load_library
 
 
@@ -83,9 +82,9 @@ def _sites(programs: dict[str, Program]) -> dict[str, ParameterSite]:
 def _influence(programs: dict[str, Program], sites: dict[str, ParameterSite], root: Path) -> Influence:
     return {
         name: tuple(
-            (rule, Place(relative_name(place.file, root), place.line, place.column, place.text))
+            replace(line, place=replace(line.place, file=relative_name(line.place.file, root)))
             for program in programs.values()
-            for rule, place in lines_of_influence(program, name)
+            for line in lines_of_influence(program, name)
         )
         for name in sites
     }

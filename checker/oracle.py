@@ -7,7 +7,7 @@ stay open are class F10 of the failure taxonomy (reference of T-REX, 1.10 and 1.
 from dataclasses import dataclass
 from enum import Enum
 
-from runtime.executive.outcome import Outcome
+from runtime.executive.outcome import Outcome, Reason, ReasonKind
 
 GOALS_OPEN = "F10"
 NO_RECORD = "F7"
@@ -38,21 +38,24 @@ class Verdict(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Judgement:
-    """A verdict; `code` names the class of failure and `reason` says it in a sentence, both empty for a PASS."""
+    """A verdict; `code` names the class of failure and `reason` says why it failed, both empty for a PASS.
+
+    `message` is what the code said that failed in an ERROR.
+    """
 
     verdict: Verdict
     code: str = ""
-    reason: str = ""
+    reason: Reason | None = None
+    message: str = ""
 
 
 def judge(outcome: Outcome) -> Judgement:
     """Decide whether a finished mission holds what was promised."""
     if outcome.abort is not None:
-        return Judgement(Verdict.FAIL, outcome.abort.code, outcome.abort.summary)
+        return Judgement(Verdict.FAIL, outcome.abort.code, outcome.abort.reason)
     if outcome.ended_early:
-        reason = f"ended at tick {outcome.last_tick} of {outcome.final_tick} without an abort record"
+        reason = Reason(ReasonKind.NO_RECORD, tick=outcome.last_tick, limit=outcome.final_tick)
         return Judgement(Verdict.FAIL, NO_RECORD, reason)
-    if outcome.unmet_goals:
-        reason = "mandatory goals stayed open: " + ", ".join(outcome.unmet_goals)
-        return Judgement(Verdict.FAIL, GOALS_OPEN, reason)
+    if outcome.open_goals:
+        return Judgement(Verdict.FAIL, GOALS_OPEN, Reason(ReasonKind.GOALS_OPEN))
     return Judgement(Verdict.PASS)

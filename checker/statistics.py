@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from runtime.executive.chance import normal_quantile
+from runtime.executive.normal import normal_quantile
 
 DIGITS = 9  # to which intervals are rounded, so that the last bits of `lgamma` reach no report
 Interval = tuple[float, float]

@@ -1,32 +1,53 @@
 """One failed mission in, its story out: the steps from what was drawn to the line where the agent gave up."""
 
 from dataclasses import dataclass
+from enum import StrEnum
 
 from checker.batch.result import MissionResult
-from checker.causes import blame, culprit, draws_behind, events_to_abort, in_telling_order
+from checker.causes import culprit_of, draws_behind, events_to_abort, in_telling_order
 from checker.findings import Fault
 from checker.influence import Influence
-from checker.oracle import CODE_NAMES
-from checker.sampling.wording import describe, number
+from checker.oracle import Judgement
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
-from runtime.executive.outcome import Cause, Event, Outcome, Place
+from runtime.executive.outcome import (
+    Abort,
+    ConflictElement,
+    Deadlock,
+    Draw,
+    ElementKind,
+    Event,
+    EventKind,
+    OpenGoal,
+    Outcome,
+    SourcePlace,
+)
 
-ORIGINS = {"clock": " (by the clock)", "observation": " (as observed)", "order": " (by the order of tokens)"}
+
+class StepKind(StrEnum):
+    """What a step of a story tells."""
+
+    DRAW = "draw"
+    LINE = "line"  # of the model, on the way of the draw
+    EVENT = "event"
+    CAUSE = "cause"  # an element of the conflict
+    FAULT = "fault"  # the element to blame
+    TRIED = "tried"  # what the search tried in vain
+    ABORT = "abort"
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One link of the chain: when (None: always), why in a line, and where that is written.
+    """One link of the chain: when (None: always), what, and where that is written.
 
-    `kind` is draw, line (of the model, on the way of the draw), event, cause (of the conflict), fault or abort.
-    `limits` are the lines that set what the faulty line compares with.
+    `subject` is a draw with how it is drawn, the rule of a line, an event, an element of the conflict, what was tried,
+    or the abort (None: the mission went to its end). `limits` are the lines that set what the faulty one compares with.
     """
 
-    kind: str
+    kind: StepKind
     tick: int | None
-    reason: str
-    place: Place | None
-    limits: tuple[Place, ...] = ()
+    subject: "tuple[Draw, ParameterConfiguration | None] | str | Event | ConflictElement | Deadlock | Abort | None"
+    place: SourcePlace | None = None
+    limits: tuple[SourcePlace, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,8 +56,8 @@ class Story:
 
     number: int
     seed: int
-    code: str
-    title: str
+    judgement: Judgement
+    open_goals: tuple[OpenGoal, ...]
     last_tick: int
     final_tick: int
     steps: tuple[Step, ...]
@@ -53,18 +74,20 @@ def tell(result: MissionResult, agent: AgentConfiguration, influence: Influence,
     indices = {*shown, *(index for index in events_to_abort(outcome, parameters) if index >= min(shown, default=0))}
     way = [outcome.events[index] for index in sorted(indices)]
     if draws:
-        way = [event for event in way if event.kind != "sample"]
+        way = [event for event in way if event.kind is not EventKind.SAMPLE]
+    abort = outcome.abort
     steps = [
         *draws,
-        *(_event(event) for event in way),
+        *(Step(StepKind.EVENT, event.tick, event) for event in way),
         *_conflict(outcome),
-        _end(outcome, result),
+        *([Step(StepKind.TRIED, None, abort.deadlock)] if abort is not None and abort.deadlock is not None else ()),
+        Step(StepKind.ABORT, outcome.last_tick, abort),
     ]
     return Story(
         result.number,
         result.seed,
-        result.judgement.code,
-        result.judgement.reason,
+        result.judgement,
+        result.open_goals,
         outcome.last_tick,
         outcome.final_tick,
         tuple(_without_repeats(steps)),
@@ -82,13 +105,11 @@ def _suspects(outcome: Outcome, fault: Fault | None) -> tuple[str, ...]:
 def _tokens_of(outcome: Outcome, influence: Influence, parameters: tuple[str, ...]) -> list[int]:
     """The last observations of the tokens whose rules the draws act through: where a draw shows outside its reactor."""
     found: list[int] = []
-    for predicate in dict.fromkeys(
-        rule.rpartition(".")[2] for name in parameters for rule, _ in influence.get(name, ())
-    ):
+    for predicate in dict.fromkeys(line.predicate for name in parameters for line in influence.get(name, ())):
         shown = [
             index
             for index, event in enumerate(outcome.events)
-            if event.kind == "observation" and event.text.partition("(")[0] == predicate
+            if event.kind is EventKind.OBSERVATION and event.predicate == predicate
         ]
         found += shown[-1:]
     return found
@@ -104,84 +125,49 @@ def _draws(
         if not drawn:
             continue
         draw, lines = drawn[-1], influence.get(name, ())
-        clipped = "" if draw.raw == draw.value else f" (drawn {number(draw.raw)}, then clipped)"
-        reason = f"{name} is {number(draw.value)}{clipped}{_manner(by_name.get(name))}"
         tick = draw.tick if name in by_name and by_name[name].mode == "intra" else None
-        steps.append(Step("draw", tick, reason, lines[0][1] if lines else _sampled_at(outcome, name)))
-        steps += [Step("line", None, f"it acts through the rule of {rule}", place) for rule, place in lines[1:]]
+        place = lines[0].place if lines else _sampled_at(outcome, name)
+        steps.append(Step(StepKind.DRAW, tick, (draw, by_name.get(name)), place))
+        steps += [Step(StepKind.LINE, None, line.rule, line.place) for line in lines[1:]]
     return steps
 
 
-def _manner(parameter: ParameterConfiguration | None) -> str:
-    return f": {describe(parameter)}" if parameter is not None else ""
-
-
-def _sampled_at(outcome: Outcome, name: str) -> Place | None:
+def _sampled_at(outcome: Outcome, name: str) -> SourcePlace | None:
     """The line that samples a parameter, if the conflict knows it."""
     conflict = outcome.abort.conflict if outcome.abort else None
-    for cause in conflict.causes if conflict else ():
-        if any(term.name == "sampledParameter" and term.arguments[1] == name for term in cause.terms):
-            return cause.place
+    for element in conflict.elements if conflict else ():
+        if any(term.name == "sampledParameter" and term.arguments[1] == name for term in element.terms):
+            return element.place
     return None
 
 
-def _event(event: Event) -> Step:
-    about = f" on {event.timeline}" if event.timeline else ""
-    who = {"": "the mission file"}.get(event.reactor, event.reactor)
-    match event.kind:
-        case "observation":
-            reason = f"{who} publishes {event.timeline} = {event.text}"
-        case "request":
-            reason = f"{who} requests {event.text}{about}"
-        case "sample":
-            reason = f"{who} draws {event.text}"
-        case "relax":
-            reason = f"{who} repairs its plan: {event.text}"
-        case _:
-            reason = f"{who}: {event.kind} {event.text}{about}"
-    return Step("event", event.tick, reason, None)
-
-
 def _conflict(outcome: Outcome) -> list[Step]:
-    """The causes of the conflict, from the draw outwards, the line to blame last."""
+    """The elements of the conflict, from the draw outwards, the line to blame last."""
     conflict = outcome.abort.conflict if outcome.abort else None
     if conflict is None:
         return []
-    guilty = culprit(conflict)
-    found = blame(conflict)
+    culprit = culprit_of(conflict)
     steps = [
-        Step("cause", None, _because(cause), cause.place)
-        for index, cause in ((index, conflict.causes[index]) for index in in_telling_order(conflict))
-        if index != guilty and cause.kind != "sample" and cause.place not in found.limits
+        Step(StepKind.CAUSE, None, element, element.place)
+        for number, element in (
+            (number, conflict.elements[number]) for number in in_telling_order(conflict, culprit.number)
+        )
+        if number != culprit.number
+        and element.kind is not ElementKind.SAMPLE
+        and (element.place is None or element.place not in culprit.limits)
     ]
-    if guilty is not None:
-        cause = conflict.causes[guilty]
-        steps.append(Step("fault", None, _because(cause), cause.place, found.limits))
+    if culprit.element is not None:
+        steps.append(Step(StepKind.FAULT, None, culprit.element, culprit.place, culprit.limits))
     return steps
-
-
-def _because(cause: Cause) -> str:
-    """What a cause did, whose it is, and, where no line of the model says it, what does."""
-    whose = f"{cause.token}: " if cause.token and cause.token not in cause.because else ""
-    return f"{whose}{cause.because}{ORIGINS.get(cause.kind, '')}"
-
-
-def _end(outcome: Outcome, result: MissionResult) -> Step:
-    code = result.judgement.code
-    name = CODE_NAMES.get(code, result.judgement.reason)
-    if outcome.abort is None:
-        return Step("abort", outcome.last_tick, f"the mission fails ({code}: {name})", None)
-    repairs = f" after {outcome.abort.relaxes} repairs" if outcome.abort.relaxes else ""
-    return Step("abort", outcome.abort.tick, f"{outcome.abort.reactor} gives up{repairs} ({code}: {name})", None)
 
 
 def _without_repeats(steps: list[Step]) -> list[Step]:
     """The steps with those left out whose line the story has told already, the fault excepted."""
     kept: list[Step] = []
     told: set[tuple[str, int]] = set()
-    guilty = next((step.place for step in steps if step.kind == "fault"), None)
+    guilty = next((step.place for step in steps if step.kind is StepKind.FAULT), None)
     for step in steps:
-        if step.place is not None and step.kind != "fault":
+        if step.place is not None and step.kind is not StepKind.FAULT:
             key = (step.place.file, step.place.line)
             if key in told or step.place == guilty:
                 continue

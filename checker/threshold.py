@@ -8,6 +8,7 @@ edge in the conflict's own terms).
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from enum import StrEnum
 from fractions import Fraction
 
 from checker.batch.result import MissionResult
@@ -16,11 +17,20 @@ from checker.oracle import Verdict
 from checker.simplest import shortest_decimal
 from checker.smt.edges import Edge, find_failing_range
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.distributions import DISTRIBUTIONS
 
 Refly = Callable[[AgentConfiguration, int, int], MissionResult]  # agent, number, seed
 HALVINGS = 30
 NARROW = 1e-5  # of the parameter's range: flights stop there, for floats of the engine are no sharper
 LUCK = 0.01  # a cut of samples alone is believed when chance would bring it less often
+
+
+class Witness(StrEnum):
+    """What tells where failing begins."""
+
+    Z3 = "z3"
+    FLIGHTS = "flights"
+    SAMPLES = "samples"
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +56,7 @@ class Threshold:
     """What a bucket has to do with one parameter.
 
     `is_causal`: the example passes when this value alone is changed; None where that was not tried. `edge` is where
-    failing begins, found by `method` (z3, flights or samples); `edge_fails` tells whether it fails at `edge` itself.
+    failing begins, found by `witnesses`; `edge_fails` tells whether it fails at `edge` itself.
     """
 
     parameter: str
@@ -56,8 +66,13 @@ class Threshold:
     is_above: bool
     edge: float
     edge_fails: bool
-    method: str
+    witnesses: tuple[Witness, ...]
     flights: int
+
+    @property
+    def method(self) -> str:
+        """How the edge was found, in words."""
+        return " and ".join(self.witnesses)
 
     @property
     def condition(self) -> str:
@@ -74,7 +89,7 @@ def find_thresholds(
     example = by_number[bucket.example]
     found: list[Threshold] = []
     for parameter in agent.parameters:
-        if parameter.distribution == "fixed":
+        if DISTRIBUTIONS[parameter.distribution].is_constant:
             continue
         failing = [_in_force(by_number[number], parameter.name) for number in bucket.missions]
         passing = [
@@ -140,14 +155,14 @@ def _sharpen(
     name = parameter.name
     if flown is not None:
         agrees = proved is not None and proved[0] == flown[0] and abs(float(proved[1].value) - flown[1]) < 1e-4
-        method = "z3 and flights" if agrees else "flights"
-        return Threshold(name, own, cut, is_causal, *flown, method, flights)
+        witnesses = (Witness.Z3, Witness.FLIGHTS) if agrees else (Witness.FLIGHTS,)
+        return Threshold(name, own, cut, is_causal, *flown, witnesses, flights)
     if proved is not None and is_causal is None:
         is_above, edge = proved
-        return Threshold(name, own, cut, None, is_above, float(edge.value), not edge.is_safe, "z3", flights)
+        return Threshold(name, own, cut, None, is_above, float(edge.value), not edge.is_safe, (Witness.Z3,), flights)
     if is_causal is None and cut is not None and cut.luck * len(agent.parameters) < LUCK:
         between = shortest_decimal(min(cut.passing, cut.failing), max(cut.passing, cut.failing))
-        return Threshold(name, own, cut, None, cut.is_above, between, False, "samples", 0)
+        return Threshold(name, own, cut, None, cut.is_above, between, False, (Witness.SAMPLES,), 0)
     return None
 
 

@@ -5,6 +5,7 @@ from typing import assert_never
 
 from compiler.program import (
     FIRST_PARAMETER,
+    TOKEN_VARIABLES,
     Assign,
     Call,
     Child,
@@ -34,7 +35,6 @@ from compiler.program import (
     UnionOf,
 )
 
-BUILT_IN = ("state", "object", "duration", "start", "end")
 INDENT = "  "
 
 
@@ -152,7 +152,7 @@ def operand_text(operand: Operand) -> str:
         case LocalVariable(slot=slot):
             return f"v{slot}"
         case TokenVariable(token=token, variable=number):
-            return f"t{token}.{BUILT_IN[number] if number < FIRST_PARAMETER else f'p{number - FIRST_PARAMETER}'}"
+            return f"t{token}.{TOKEN_VARIABLES[number] if number < FIRST_PARAMETER else f'p{number - FIRST_PARAMETER}'}"
         case Field(base=base, members=members):
             return ".".join(("this" if base is None else operand_text(base), *members))
         case UnionOf(operands=operands):

@@ -12,11 +12,11 @@ import click
 from runtime.solver.search import Solver
 from runtime.user.limit import WATCH
 
-PATIENCE = 0.5  # seconds until progress is told, and between two tellings
+_PROGRESS_SECONDS = 0.5  # until progress is told, and between two tellings
 
 
 class Clock:
-    """Asked again and again whether to stop; while it is entered, the first Ctrl-C only makes it say so."""
+    """A call says whether to stop: time is over, or Ctrl-C was pressed, which interrupts nothing the first time."""
 
     def __init__(self, solver: Solver, seconds: float | None) -> None:
         self.solver = solver
@@ -41,7 +41,7 @@ class Clock:
 
     def __call__(self) -> bool:
         now = time.monotonic()
-        if self._is_terminal and now - self._told >= PATIENCE:
+        if self._is_terminal and now - self._told >= _PROGRESS_SECONDS:
             self._told = now
             solver = self.solver
             self._write(

@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from checker.batch.result import MissionResult
-from checker.batch.store import LATEST, Run, Store, StoreError, open_store
+from checker.batch.store import LATEST, Run, RunStore, StoreError, open_store
 from checker.batch.worker import fly_one
 from checker.campaign import Campaign
 from checker.excerpts import Excerpts
@@ -20,6 +20,7 @@ from checker.models import ModelSet, load_models
 from checker.oracle import Verdict
 from nddlc.check import STORE
 from nddlc.inputs import Unusable
+from runtime.executive.rendering import event_data, trace_line
 
 
 @click.command()
@@ -44,7 +45,7 @@ def command(what: str, style: str, store_path: Path, events: bool) -> int:
         raise Unusable(str(problem)) from None
 
 
-def _explain(store: Store, name: str, number: int | None, style: str, events: bool) -> int:
+def _explain(store: RunStore, name: str, number: int | None, style: str, events: bool) -> int:
     run = store.find(name)
     if run is None:
         known = ", ".join(store.run_ids()[:10])
@@ -61,12 +62,9 @@ def _explain(store: Store, name: str, number: int | None, style: str, events: bo
         click.echo("model, mission file or nddlc have changed since this run; the explanation is of what was flown\n")
     text, plain = _told(result, fault, campaign, findings, excerpts)
     if events and result.outcome is not None:
-        trace = [
-            f"{one.tick:>7}  {one.reactor:<12} {one.kind:<12} {one.timeline:<10} {one.text}"
-            for one in result.outcome.events
-        ]
-        text += "\n" + "\n".join(trace) + "\n"
-        plain["events"] = trace
+        lines = [trace_line(event) for event in result.outcome.events]
+        text += "\n" + "\n".join(lines) + "\n"
+        plain |= {"events": lines, "trace": [event_data(event) for event in result.outcome.events]}
     click.echo(text if style == "text" else json.dumps(plain, ensure_ascii=False, indent=1), nl=style != "text")
     return 0
 

@@ -10,7 +10,6 @@ import click
 
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
-from nddlc.because import as_data, shortened, story
 from nddlc.cancellation import Clock
 from nddlc.gantt import drawing
 from nddlc.inputs import Unusable, chosen_dialect, colours, columns, readable
@@ -24,7 +23,8 @@ from runtime.plan.tags import REJECTED
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.limits import Limits, model_limits
 from runtime.solver.configuration.read import read_configuration
-from runtime.solver.learning.failure_log import Failure, Recorder
+from runtime.solver.learning.failure_log import FailedFlaw, FailureLog
+from runtime.solver.learning.rendering import as_data, story
 from runtime.solver.search import Solver
 from runtime.solver.tags import PLAN, RESULT_NAMES
 
@@ -93,12 +93,12 @@ def command(
         return 1
     limits = _limits(loaded, horizon, max_steps, max_depth)
     solver = Solver(loaded.database, configuration, limits.start, limits.end, strategy == "europa")
-    recorder = Recorder(loaded.database, solver.queues, solver.stack) if explain else None
-    solver.account = recorder
+    log = FailureLog(loaded.database, solver.agenda, solver.stack) if explain else None
+    solver.failure_log = log
     clock = Clock(solver, max_seconds)
     with clock, redirect_stdout(sys.stderr):  # what constraints print there would be read by programs
         result = solver.solve(limits.steps, limits.depth, clock)
-    reasons = _reasons(recorder, told, result)
+    reasons = _reasons(log, told, result)
     before = told["domains"]
     told |= read(loaded.database) | {"consistent": told["consistent"]}
     ended = INTERRUPTED if clock.is_interrupted and result != PLAN else RESULT_NAMES[result]
@@ -119,7 +119,7 @@ def _show(
     told: Facts,
     levels: Mapping[str, Run],
     found: list[tuple[str, str]],
-    reasons: dict[str, Failure],
+    reasons: dict[str, FailedFlaw],
     limits: Limits,
     as_json: bool,
     style: str,
@@ -177,25 +177,23 @@ def _show_refusal(loaded: Loaded, told: Facts, as_json: bool) -> None:
     click.echo("refused: the model is in error")
 
 
-def _reasons(recorder: Recorder | None, told: Facts, result: int) -> dict[str, Failure]:
+def _reasons(log: FailureLog | None, told: Facts, result: int) -> dict[str, FailedFlaw]:
     """What an explanation was asked for: why there is no plan, or why tokens were rejected."""
-    if recorder is None:
+    if log is None:
         return {}
     if told["consistent"] is False:
-        return {"there is no plan": recorder.contradiction()}
+        return {"there is no plan": log.note_contradiction()}
     if result == PLAN:
-        return {
-            f"`{name}` was rejected": failure for name, failure in recorder.reasons.items() if _is_out(recorder, name)
-        }
-    return {} if recorder.end is None else {"there is no plan": recorder.end}
+        return {f"`{name}` was rejected": failure for name, failure in log.rejections.items() if _is_out(log, name)}
+    return {} if log.end is None else {"there is no plan": log.end}
 
 
-def _why(name: str, failure: Failure) -> Iterator[str]:
+def _why(name: str, failure: FailedFlaw) -> Iterator[str]:
     """The lines that explain one thing."""
-    yield from ("", f"why {name}:", *shortened(story(failure, 1)))
+    yield from ("", f"why {name}:", *story(failure))
 
 
-def _is_out(recorder: Recorder, name: str) -> bool:
+def _is_out(log: FailureLog, name: str) -> bool:
     """Whether the token of that name is rejected now."""
-    tokens = token_names(recorder.database, live_tokens(recorder.database))
-    return any(tokens[t] == name and recorder.plan.rows.status[t] == REJECTED for t in tokens)
+    tokens = token_names(log.database, live_tokens(log.database))
+    return any(tokens[t] == name and log.plan.rows.status[t] == REJECTED for t in tokens)

@@ -1,12 +1,15 @@
 """What is kept of one mission of a batch, and how it is written as JSON and read again."""
 
 import json
-from dataclasses import asdict, dataclass, replace
+from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
+from enum import Enum
 from functools import cache
-from typing import Any, get_args, get_origin, get_type_hints
+from itertools import repeat
+from types import UnionType
+from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from checker.oracle import Judgement, Verdict
-from runtime.executive.outcome import Draw, Outcome
+from runtime.executive.outcome import Draw, OpenGoal, Outcome
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +32,11 @@ class MissionResult:
         """The fate of the mission."""
         return self.judgement.verdict
 
+    @property
+    def open_goals(self) -> tuple[OpenGoal, ...]:
+        """The goals that a mission failed for, if nothing ended it early."""
+        return self.outcome.open_goals if self.outcome is not None and self.outcome.abort is None else ()
+
 
 def condense(outcome: Outcome) -> Outcome:
     """An outcome without its events, and of each parameter the least, the greatest and the last draw."""
@@ -42,38 +50,63 @@ def condense(outcome: Outcome) -> Outcome:
 
 def write_result(result: MissionResult) -> str:
     """One line of JSON, the same for equal results."""
-    row = {
-        "number": result.number,
-        "seed": result.seed,
-        "verdict": result.verdict.value,
-        "code": result.judgement.code,
-        "reason": result.judgement.reason,
-        "has_trace": result.has_trace,
-        "detail": result.detail,
-        "outcome": None if result.outcome is None else asdict(result.outcome),
-    }
-    return json.dumps(row, ensure_ascii=False, separators=(",", ":"))
+    return json.dumps(_plain(result), ensure_ascii=False, separators=(",", ":"))
 
 
 def read_result(text: str) -> MissionResult:
     """The result that `write_result` wrote."""
-    row = json.loads(text)
-    judgement = Judgement(Verdict(row["verdict"]), row["code"], row["reason"])
-    outcome = None if row["outcome"] is None else _read(Outcome, row["outcome"])
-    return MissionResult(row["number"], row["seed"], judgement, outcome, row["has_trace"], row["detail"])
+    found = _read(MissionResult, json.loads(text))
+    assert isinstance(found, MissionResult)
+    return found
+
+
+def _plain(value: Any) -> Any:
+    """A value as JSON can say it: a dataclass as the fields that differ from their defaults, an enum by its value."""
+    if is_dataclass(value):
+        named = ((one, getattr(value, one.name)) for one in fields(value))
+        return {one.name: _plain(item) for one, item in named if one.default is MISSING or one.default != item}
+    if isinstance(value, tuple):
+        return [_plain(item) for item in value]
+    return value.value if isinstance(value, Enum) else value
 
 
 def _read(kind: Any, value: Any) -> Any:
-    """The value of type `kind` that `asdict` and JSON turned into `value`: dataclasses, tuples, options and atoms."""
-    if hasattr(kind, "__dataclass_fields__"):
+    """The value of type `kind` that `_plain` and JSON turned into `value`."""
+    if _is_record(kind):
         hints = _hints(kind)
         return kind(**{name: _read(hints[name], item) for name, item in value.items()})
+    if _is_enum(kind):
+        return kind(value)
+    origin: Any = get_origin(kind)
     inner = get_args(kind)
-    if get_origin(kind) is tuple:
-        return tuple(_read(inner[0], item) for item in value)
-    if type(None) in inner and value is not None:
-        return _read(next(one for one in inner if one is not type(None)), value)
+    if origin is tuple:
+        kinds = repeat(inner[0]) if inner[-1] is Ellipsis else inner
+        return tuple(_read(one, item) for one, item in zip(kinds, value, strict=False))
+    if origin in (Union, UnionType):
+        chosen = next((one for one in inner if _fits(one, value)), None)
+        return value if chosen is None else _read(chosen, value)
     return value
+
+
+def _fits(kind: Any, value: Any) -> bool:
+    """Whether JSON says a value of type `kind` as it says `value`; numbers, texts and None need no reading."""
+    match value:
+        case dict():
+            return _is_record(kind)
+        case list():
+            return get_origin(kind) is tuple
+        case str():
+            return _is_enum(kind)
+        case _:
+            return False
+
+
+def _is_record(kind: Any) -> bool:
+    return is_dataclass(kind)
+
+
+def _is_enum(kind: Any) -> bool:
+    return isinstance(kind, type) and issubclass(kind, Enum)
 
 
 @cache

@@ -12,6 +12,7 @@ from checker.oracle import Verdict
 LATEST = "latest"
 FOLDER = ".nddlc"
 COMMIT_EVERY = 64  # results
+VERSION = 2  # of the schema and of `write_result`; other versions are not read
 SCHEMA = """
 CREATE TABLE IF NOT EXISTS runs (
     turn INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -44,7 +45,7 @@ class Run:
     missions: int
 
 
-class Store:
+class RunStore:
     """Runs on disk. Results are written in transactions: a reader sees whole missions or none."""
 
     def __init__(self, connection: sqlite3.Connection) -> None:
@@ -106,20 +107,18 @@ class Store:
 
 
 @contextmanager
-def open_store(path: Path) -> Iterator[Store]:
+def open_store(path: Path) -> Iterator[RunStore]:
     """Open or make the store at `path`; whatever happens inside, finished missions are written."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         if path.parent.name == FOLDER and not (path.parent / ".gitignore").exists():
             (path.parent / ".gitignore").write_text("*\n", encoding="ascii")  # nothing in here is for others
         connection = sqlite3.connect(path, timeout=10.0)
-        connection.execute("PRAGMA journal_mode = WAL")
-        connection.execute("PRAGMA synchronous = NORMAL")
-        connection.executescript(SCHEMA)
+        _prepare(connection, path)
     except (OSError, sqlite3.Error) as problem:
         reason = getattr(problem, "strerror", None) or problem
         raise StoreError(f"the store `{path}` cannot be opened: {reason}") from problem
-    store = Store(connection)
+    store = RunStore(connection)
     try:
         yield store
     finally:
@@ -127,3 +126,17 @@ def open_store(path: Path) -> Iterator[Store]:
             store.flush()
         finally:
             connection.close()
+
+
+def _prepare(connection: sqlite3.Connection, path: Path) -> None:
+    """Make the tables of a new store; refuse one that another version of nddlc has written."""
+    (version,) = connection.execute("PRAGMA user_version").fetchone()
+    if connection.execute("SELECT COUNT(*) FROM sqlite_master").fetchone() == (0,):
+        version = VERSION
+    if version != VERSION:
+        connection.close()
+        what = f"the store `{path}` has format {version or 1}, this nddlc reads format {VERSION}"
+        raise StoreError(f"{what}: delete it, or keep it and name another")
+    connection.execute("PRAGMA journal_mode = WAL")
+    connection.execute("PRAGMA synchronous = NORMAL")
+    connection.executescript(f"PRAGMA user_version = {VERSION};{SCHEMA}")

@@ -92,6 +92,6 @@ def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
     return MissionResult(task.number, task.seed, judgement, outcome, has_trace=True)
 
 
-def error_result(task: Task, reason: str, detail: str = "", code: str = "") -> MissionResult:
+def error_result(task: Task, message: str, detail: str = "", code: str = "") -> MissionResult:
     """The result of a mission that could not be flown to its end, by a fault of the tool or of code it was given."""
-    return MissionResult(task.number, task.seed, Judgement(Verdict.ERROR, code, reason), None, False, detail)
+    return MissionResult(task.number, task.seed, Judgement(Verdict.ERROR, code, message=message), None, False, detail)

@@ -12,8 +12,10 @@ from checker.excerpts import Excerpts
 from checker.explain import confirmation_data, place_data, threshold_data
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES, Verdict
+from checker.rendering import failure_text
 from checker.report.wording import verdict_word
 from runtime.executive.configuration import ParameterConfiguration
+from runtime.executive.rendering import element_text
 
 FORMAT = "nddlc-report/1"
 
@@ -64,15 +66,15 @@ def _parameter(parameter: ParameterConfiguration) -> dict[str, Any]:
 
 
 def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
-    bucket = fault.bucket
+    bucket, culprit = fault.bucket, fault.bucket.culprit
     return {
         "code": bucket.code,
         "meaning": CODE_NAMES.get(bucket.code),
-        "reason": bucket.reason,
+        "reason": failure_text(bucket.judgement, bucket.open_goals),
         "reactor": bucket.reactor,
-        "place": place_data(bucket.blame.place, excerpts),
-        "because": bucket.blame.because,
-        "limits": [place_data(limit, excerpts) for limit in bucket.blame.limits],
+        "place": place_data(culprit.place, excerpts),
+        "because": element_text(culprit.element) if culprit.element is not None else "",
+        "limits": [place_data(limit, excerpts) for limit in culprit.limits],
         "count": len(bucket.missions),
         "share": bucket.share,
         "example": bucket.example,
@@ -90,7 +92,7 @@ def _mission(result: MissionResult) -> dict[str, Any]:
         "seed": result.seed,
         "verdict": result.verdict.value,
         "code": result.judgement.code,
-        "reason": result.judgement.reason,
+        "reason": failure_text(result.judgement, result.open_goals),
         "last_tick": None if outcome is None else outcome.last_tick,
         "draws": []
         if outcome is None

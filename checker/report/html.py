@@ -7,15 +7,16 @@ from importlib.resources import files
 
 from checker.batch.result import MissionResult
 from checker.excerpts import Excerpts
-from checker.explain import confirmation_text, threshold_text
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES, Verdict
+from checker.rendering import confirmation_text, failure_text, step_text, threshold_evidence
 from checker.report.svg import Dot, rate_plot, scatter_plot, strip_plot
 from checker.report.wording import blamed, decision, missions, percent, rate_line, verdict_word
 from checker.sampling.wording import describe, number
-from checker.story import Step, Story
+from checker.story import Step, StepKind, Story
 from runtime.executive.configuration import ParameterConfiguration
-from runtime.executive.outcome import Place
+from runtime.executive.distributions import DISTRIBUTIONS
+from runtime.executive.outcome import SourcePlace
 
 MOST_ROWS = 1000
 COLOURS = 6
@@ -80,39 +81,40 @@ def _fault(index: int, fault: Fault, findings: Findings, excerpts: Excerpts, sto
     first, last = bucket.first_tick, bucket.last_tick
     when = f"at tick {first}" if first == last else f"at ticks {first} to {last}"
     meaning = escape(CODE_NAMES.get(bucket.code, "unknown"))
+    why = _words(failure_text(bucket.judgement, bucket.open_goals))
     parts = [
         f'<section class="card fault" style="--colour: var(--f{index % COLOURS})">',
-        f"<h3>{missions(len(bucket.missions))} ({percent(bucket.share)}): {_words(bucket.reason)}</h3>",
+        f"<h3>{missions(len(bucket.missions))} ({percent(bucket.share)}): {why}</h3>",
         f'<p class="soft">{bucket.code}, {meaning}; {escape(bucket.reactor)} gives up {when}</p>',
     ]
-    places = [place for place in (bucket.blame.place, *bucket.blame.limits) if place is not None]
+    places = [place for place in (bucket.culprit.place, *bucket.culprit.limits) if place is not None]
     if places:
         parts.append("<pre>" + "\n".join(_excerpt(place, excerpts, marked=True) for place in places) + "</pre>")
     for threshold in fault.thresholds:
-        condition, _, evidence = threshold_text(threshold).partition(" (")
-        items = "".join(f"<li>{escape(item)}</li>" for item in evidence.removesuffix(")").split("; "))
-        parts.append(f'<p class="when">fails when <b>{escape(condition)}</b></p><ul class="evidence">{items}</ul>')
+        items = "".join(f"<li>{escape(item)}</li>" for item in threshold_evidence(threshold))
+        condition = escape(threshold.condition)
+        parts.append(f'<p class="when">fails when <b>{condition}</b></p><ul class="evidence">{items}</ul>')
     if fault.confirmation is not None:
         parts.append(f'<p class="soft">z3 {escape(confirmation_text(fault))}.</p>')
     if story is not None:
         parts.append(f"<details open><summary>Mission {story.number}, from the draw to the abort</summary>")
         parts.append('<ol class="chain">')
-        parts += [_step(step, excerpts) for step in story.steps]
+        parts += [_step(step, story, excerpts) for step in story.steps]
         parts.append("</ol></details>")
     parts.append(f"<p><code>nddlc explain {findings.run_id}#{bucket.example}</code></p></section>")
     return parts
 
 
-def _step(step: Step, excerpts: Excerpts) -> str:
+def _step(step: Step, story: Story, excerpts: Excerpts) -> str:
     when = f'<span class="soft">tick {step.tick}</span> ' if step.tick is not None else ""
     places = [place for place in (step.place, *step.limits) if place is not None]
-    is_fault = step.kind == "fault"
+    is_fault = step.kind is StepKind.FAULT
     lines = "\n".join(_excerpt(place, excerpts, marked=is_fault) for place in places)
     source = f"<pre>{lines}</pre>" if lines else ""
-    return f'<li class="{step.kind}"><span class="why">{when}{_words(step.reason)}</span>{source}</li>'
+    return f'<li class="{step.kind}"><span class="why">{when}{_words(step_text(step, story))}</span>{source}</li>'
 
 
-def _excerpt(place: Place, excerpts: Excerpts, *, marked: bool) -> str:
+def _excerpt(place: SourcePlace, excerpts: Excerpts, *, marked: bool) -> str:
     line = excerpts.line(place).expandtabs(4)
     first = place.text.strip().split("\n")[0].strip()
     start = line.find(first) if first else -1
@@ -124,7 +126,7 @@ def _excerpt(place: Place, excerpts: Excerpts, *, marked: bool) -> str:
 
 
 def _parameters(findings: Findings) -> list[str]:
-    drawn = [one for one in findings.agent.parameters if one.distribution != "fixed"]
+    drawn = [one for one in findings.agent.parameters if not DISTRIBUTIONS[one.distribution].is_constant]
     if not drawn or not findings.results:
         return []
     by_name = {parameter.name: _dots(findings, parameter) for parameter in drawn}
@@ -190,7 +192,7 @@ def _rows(findings: Findings, results: Sequence[MissionResult]) -> list[str]:
         parts.append(
             f'<tr><td class="n">{result.number}</td><td class="v"><i class="chip"{colour}></i>{word}</td>'
             f'<td class="n">{tick}</td>{values}<td class="n">{result.seed}</td>'
-            f"<td>{_words(result.judgement.reason)}</td></tr>"
+            f"<td>{_words(failure_text(result.judgement, result.open_goals))}</td></tr>"
         )
     parts.append("</tbody></table></div>")
     if len(results) > MOST_ROWS:

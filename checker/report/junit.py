@@ -3,9 +3,9 @@
 from xml.etree import ElementTree
 
 from checker.excerpts import Excerpts
-from checker.explain import threshold_text
 from checker.findings import Findings
 from checker.oracle import Verdict
+from checker.rendering import failure_text, threshold_text
 from nddl_lang.text.junit import junit_text, printable
 
 
@@ -24,16 +24,15 @@ def junit_report(findings: Findings, excerpts: Excerpts) -> str:
         attributes = {"classname": name, "name": f"mission {result.number} (seed {result.seed})"}
         case = ElementTree.SubElement(suite, "testcase", attributes)
         if result.verdict is Verdict.ERROR:
-            ElementTree.SubElement(case, "error", {"message": printable(result.judgement.reason)})
+            ElementTree.SubElement(case, "error", {"message": printable(result.judgement.message)})
         elif result.verdict is Verdict.FAIL:
             fault = faults[result.number]
-            message = f"{result.judgement.code}: {result.judgement.reason}"
+            message = f"{result.judgement.code}: {failure_text(result.judgement, result.open_goals)}"
             failure = ElementTree.SubElement(
                 case, "failure", {"type": result.judgement.code, "message": printable(message)}
             )
             lines = [f"fails when {threshold_text(threshold)}" for threshold in fault.thresholds]
-            if fault.bucket.blame.place is not None:
-                place = fault.bucket.blame.place
+            if (place := fault.bucket.culprit.place) is not None:
                 lines.insert(0, f"{excerpts.path(place)}: {excerpts.line(place).strip()}")
             lines.append(f"nddlc explain {findings.run_id}#{result.number}")
             failure.text = printable("\n".join(lines))

@@ -3,12 +3,12 @@
 from typing import Any
 
 from checker.excerpts import Excerpts
-from checker.explain import threshold_text
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES
+from checker.rendering import failure_text, threshold_text
 from checker.report.wording import missions, percent
 from nddl_lang.text.sarif import sarif_log, uri_of
-from runtime.executive.outcome import Place
+from runtime.executive.outcome import SourcePlace
 
 
 def sarif_report(findings: Findings, excerpts: Excerpts) -> str:
@@ -20,19 +20,20 @@ def sarif_report(findings: Findings, excerpts: Excerpts) -> str:
 
 def _result(fault: Fault, findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
     bucket = fault.bucket
-    parts = [f"{missions(len(bucket.missions))} ({percent(bucket.share)}) fail here: {bucket.reason}."]
+    why = failure_text(bucket.judgement, bucket.open_goals)
+    parts = [f"{missions(len(bucket.missions))} ({percent(bucket.share)}) fail here: {why}."]
     parts += [f"Fails when {threshold_text(threshold)}." for threshold in fault.thresholds]
     parts.append(f"Explained by `nddlc explain {findings.run_id}#{bucket.example}`.")
-    where = bucket.blame.place or Place(findings.mission.source.name, 1, 1, "")
+    where = bucket.culprit.place or SourcePlace(findings.mission.source.name, 1, 1, "")
     return {
         "ruleId": bucket.code,
         "level": "error",
         "message": {"text": " ".join(parts)},
         "locations": [_location(where, excerpts)],
-        "relatedLocations": [_location(limit, excerpts) for limit in bucket.blame.limits],
+        "relatedLocations": [_location(limit, excerpts) for limit in bucket.culprit.limits],
     }
 
 
-def _location(place: Place, excerpts: Excerpts) -> dict[str, Any]:
+def _location(place: SourcePlace, excerpts: Excerpts) -> dict[str, Any]:
     region = {"startLine": place.line, "startColumn": place.column}
     return {"physicalLocation": {"artifactLocation": {"uri": uri_of(excerpts.file(place))}, "region": region}}

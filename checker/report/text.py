@@ -1,8 +1,9 @@
 """Findings in, the summary that a terminal or a CI log shows out: some 25 lines."""
 
 from checker.excerpts import Excerpts
-from checker.explain import confirmation_text, excerpt_lines, threshold_text
+from checker.explain import excerpt_lines
 from checker.findings import Findings
+from checker.rendering import confirmation_text, failure_text, threshold_text
 from checker.report.wording import blamed, decision, fault_title, headline, rate_line
 from checker.sampling.wording import describe
 
@@ -17,10 +18,14 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
     lines += [f"  {parameter.name}: {describe(parameter)}" for parameter in findings.agent.parameters]
     for index, fault in enumerate(findings.faults[:MOST_FAULTS]):
         bucket = fault.bucket
-        lines += ["", f"{index + 1}. {fault_title(findings, index)}", f"   {bucket.reason}"]
-        if bucket.blame.place is not None:
-            lines += excerpt_lines(bucket.blame.place, excerpts, marked=True, indent="   ")
-        for limit in bucket.blame.limits:
+        lines += [
+            "",
+            f"{index + 1}. {fault_title(findings, index)}",
+            f"   {failure_text(bucket.judgement, bucket.open_goals)}",
+        ]
+        if bucket.culprit.place is not None:
+            lines += excerpt_lines(bucket.culprit.place, excerpts, marked=True, indent="   ")
+        for limit in bucket.culprit.limits:
             lines += excerpt_lines(limit, excerpts, marked=True, indent="   ")
         lines += [f"   fails when {threshold_text(threshold)}" for threshold in fault.thresholds[:2]]
         if fault.confirmation is not None:
@@ -31,5 +36,5 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
     if findings.errors:
         lines += ["", f"errors {blamed(findings)}, counted nowhere: {len(findings.errors)}"]
         for error in findings.errors[:MOST_ERRORS]:
-            lines.append(f"   mission {error.number} (seed {error.seed}): {error.judgement.reason}")
+            lines.append(f"   mission {error.number} (seed {error.seed}): {failure_text(error.judgement)}")
     return "\n".join(lines) + "\n"

@@ -8,7 +8,7 @@ from checker.statistics import Rate
 
 def percent(share: float) -> str:
     """A share as people read it, such as `5.5 %`."""
-    return f"{number(round(share * 100.0, 2 if share < 0.1 else 1))} %"
+    return f"{_percentage(share)} %"
 
 
 def missions(count: int) -> str:
@@ -77,4 +77,8 @@ def verdict_word(findings: Findings) -> str:
 
 
 def _interval(bounds: tuple[float, float]) -> str:
-    return f"{percent(bounds[0]).removesuffix(' %')} to {percent(bounds[1])}"
+    return f"{_percentage(bounds[0])} to {percent(bounds[1])}"
+
+
+def _percentage(share: float) -> str:
+    return number(round(share * 100.0, 2 if share < 0.1 else 1))

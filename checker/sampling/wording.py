@@ -3,6 +3,7 @@
 import math
 
 from runtime.executive.configuration import ParameterConfiguration
+from runtime.executive.distributions import DISTRIBUTIONS
 
 
 def number(value: float) -> str:
@@ -14,19 +15,14 @@ def number(value: float) -> str:
 
 def describe(parameter: ParameterConfiguration) -> str:
     """The distribution in one phrase, such as `uniform on [0.1, 4], one value per mission`."""
-    box = f"[{number(parameter.lower)}, {number(parameter.upper)}]"
-    match parameter.distribution:
-        case "uniform":
-            shape = f"uniform on {box}"
-        case "normal":
-            shape = f"normal, matched to {box}"
-        case "truncated_normal":
-            shape = f"normal, truncated to {box}"
-        case "discrete":
-            shape = "one of " + ", ".join(number(value) for value in parameter.values)
-        case "fixed":
-            shape = f"always {number(parameter.values[0])}"
-    if parameter.distribution == "fixed":
+    distribution = DISTRIBUTIONS[parameter.distribution]
+    values = [number(value) for value in parameter.values]
+    shape = distribution.words.format(
+        box=f"[{number(parameter.lower)}, {number(parameter.upper)}]",
+        values=", ".join(values),
+        value=values[0] if values else "",
+    )
+    if distribution.is_constant:
         return shape
     whole = ", whole numbers" if parameter.is_whole else ""
     rhythm = "one value per mission" if parameter.mode == "inter" else f"redrawn every {parameter.update} ticks"

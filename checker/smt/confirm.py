@@ -1,4 +1,4 @@
-"""Have z3 judge a conflict: its terms in, whether they really cannot hold together out, with the causes that matter."""
+"""Have z3 judge a conflict: its terms in, whether they cannot hold together out, with the elements that matter."""
 
 from dataclasses import dataclass
 from enum import Enum
@@ -22,7 +22,7 @@ class Finding(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Confirmation:
-    """z3's answer. `core` numbers the causes of a set that already contradicts itself; nothing in it is superfluous.
+    """z3's answer. `core` numbers the elements of a set that already contradicts itself; nothing in it is superfluous.
 
     `untranslated` names the terms that z3 was not told; a confirmation without them is a confirmation all the more.
     """
@@ -33,22 +33,22 @@ class Confirmation:
 
 
 def confirm(conflict: Conflict, effort: int = EFFORT) -> Confirmation:
-    """Ask z3 whether the causes of `conflict` can hold together (the engine said they cannot)."""
+    """Ask z3 whether the elements of `conflict` can hold together (the engine said they cannot)."""
     words = Vocabulary(conflict)
     solver = z3.Solver()
     solver.set("rlimit", effort)
     solver.add(*words.base())
     untranslated: list[str] = []
-    marks = [z3.Bool(f"cause {number}") for number in range(len(conflict.causes))]
-    for mark, cause in zip(marks, conflict.causes, strict=True):
-        for term in cause.terms:
+    marks = [z3.Bool(f"element {number}") for number in range(len(conflict.elements))]
+    for mark, element in zip(marks, conflict.elements, strict=True):
+        for term in element.terms:
             claim = words.encode(term)
             if claim is None:
                 untranslated.append(term.name)
             else:
                 solver.add(z3.Implies(mark, claim))
     missing = tuple(dict.fromkeys(untranslated))
-    needed = [number for number, cause in enumerate(conflict.causes) if cause.terms]
+    needed = [number for number, element in enumerate(conflict.elements) if element.terms]
     answer = solver.check(*[marks[number] for number in needed])
     if answer != z3.unsat:
         return Confirmation(Finding.REFUTED if answer == z3.sat else Finding.UNKNOWN, (), missing)
@@ -56,7 +56,7 @@ def confirm(conflict: Conflict, effort: int = EFFORT) -> Confirmation:
 
 
 def _shrink(solver: z3.Solver, marks: list[z3.BoolRef], needed: list[int]) -> tuple[int, ...]:
-    """Leave out one cause after the other, the first first, while the rest still contradicts itself."""
+    """Leave out one element after the other, the first first, while the rest still contradicts itself."""
     core = {str(mark) for mark in solver.unsat_core()}
     kept = [number for number in needed if str(marks[number]) in core]
     for number in list(kept):

@@ -45,7 +45,7 @@ def find_failing_range(
     solver = z3.Solver()
     solver.set("rlimit", EFFORT)
     solver.add(*words.base())
-    terms = [term for cause in conflict.causes for term in cause.terms]
+    terms = [term for element in conflict.elements for term in element.terms]
     if not any(term.name == "sampledParameter" and term.arguments[1] == parameter for term in terms):
         return None
     solver.add(*[claim for claim in (words.encode(term) for term in terms) if claim is not None])

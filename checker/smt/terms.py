@@ -12,7 +12,8 @@ from typing import Any
 
 import z3
 
-from runtime.executive.outcome import Conflict, Term
+from runtime.executive.outcome import Conflict, Operand, Term, VariableName
+from runtime.executive.rendering import variable_name
 
 ENGINE_INFINITY = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
 Number = Any  # z3.ArithRef: z3 tells type checkers nothing
@@ -24,19 +25,23 @@ class Vocabulary:
     """The variables of one conflict as z3 constants, and its symbols as numbers."""
 
     def __init__(self, conflict: Conflict, freed: frozenset[str] = frozenset()) -> None:
-        self.kinds = {variable.name: variable.kind for variable in conflict.variables}
+        operands = (one for element in conflict.elements for term in element.terms for one in term.arguments)
+        self.variables = tuple(dict.fromkeys(one for one in operands if isinstance(one, VariableName)))
         self.freed = freed
         self._symbols: dict[str, int] = {}
 
-    def number(self, argument: str | float | int) -> Number:
+    def number(self, operand: Operand) -> Number:
         """A variable, a number, or the number of a symbol."""
-        if isinstance(argument, str):
-            if argument in self.kinds:
-                return z3.Real(argument) if self.kinds[argument] == "float" else z3.Int(argument)
-            return z3.IntVal(self._symbols.setdefault(argument, len(self._symbols)))
-        if isinstance(argument, int):
-            return z3.IntVal(int(argument))
-        return rational(Fraction(argument))
+        match operand:
+            case VariableName():
+                name = f"{operand.reactor}:{variable_name(operand)}"
+                return z3.Real(name) if operand.kind == "float" else z3.Int(name)
+            case str():
+                return z3.IntVal(self._symbols.setdefault(operand, len(self._symbols)))
+            case int():
+                return z3.IntVal(int(operand))
+            case _:
+                return rational(Fraction(operand))
 
     def parameter(self, name: str) -> Number:
         """The value of a sampled parameter, where it is free."""
@@ -44,12 +49,16 @@ class Vocabulary:
 
     def base(self) -> list[Claim]:
         """What holds of the variables by their kinds."""
-        return [z3.And(z3.Int(name) >= 0, z3.Int(name) <= 1) for name, kind in self.kinds.items() if kind == "bool"]
+        truths = [self.number(variable) for variable in self.variables if variable.kind == "bool"]
+        return [z3.And(truth >= 0, truth <= 1) for truth in truths]
 
     def encode(self, term: Term) -> Claim | None:
         """What `term` demands; None where it has no translation."""
         if term.name == "bounds":
             return self._bounds(*term.arguments)
+        if term.name == "member":
+            variable, *values = [self.number(one) for one in term.arguments]
+            return z3.Or(*[variable == value for value in values])
         if term.name == "sampledParameter":
             variable, name, value = term.arguments[:3]
             target = self.number(variable)
@@ -59,7 +68,7 @@ class Vocabulary:
         encoder = ENCODERS.get(term.name)
         return None if encoder is None else encoder([self.number(one) for one in term.arguments])
 
-    def _bounds(self, variable: str | float | int, lower: str | float | int, upper: str | float | int) -> Claim:
+    def _bounds(self, variable: Operand, lower: Operand, upper: Operand) -> Claim:
         number = self.number(variable)
         parts = []
         if not (isinstance(lower, int | float) and lower <= -ENGINE_INFINITY):

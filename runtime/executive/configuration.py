@@ -11,7 +11,6 @@ Value = int | float | bool | str
 Bounds = tuple[float, float]  # both ends included; -inf and inf where there is none
 
 OnFailure = Literal["abort_agent", "kill_reactor"]
-DistributionName = Literal["uniform", "normal", "truncated_normal", "discrete", "fixed"]
 Mode = Literal["inter", "intra"]
 
 
@@ -60,7 +59,7 @@ class ParameterConfiguration:
     name: str
     lower: float
     upper: float
-    distribution: DistributionName = "uniform"
+    distribution: str = "uniform"  # a row of `runtime.executive.distributions`
     mode: Mode = "inter"
     update: int = 10
     clip: Bounds | None = None

@@ -26,7 +26,7 @@ class World:
         self.trace = trace
 
     def learn(self, program: Program) -> None:
-        """Take note of the parameters of a model; those that the mission does not list are uniform over their domain."""
+        """Take note of the parameters of a model; what the mission does not list is uniform over its domain."""
         for site in program.sampled:
             if site.name not in self.parameters and site.default is not None and site.default.interval is not None:
                 lower, upper = site.default.interval

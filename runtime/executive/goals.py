@@ -1,4 +1,4 @@
-"""What a reactor was asked for: queued until its window meets it, made a goal, given up, taken back, done (T-REX 1.8)."""
+"""What a reactor was asked for: queued until its window comes, posted, given up, taken back, done (T-REX 1.8)."""
 
 from runtime.executive.messages import Request
 from runtime.executive.outcome import EventKind, OpenGoal, Reason, ReasonKind

@@ -43,7 +43,9 @@ def run_mission(
 ) -> Outcome:
     """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
 
-    It ends at the final tick, or at `until`. With `every_tick` reactors are woken at each tick, whether or not anything can happen; events are the same.
+    It ends at the final tick, or at `until`. With `every_tick` reactors are woken at each tick, whether or not anything
+    can happen; events are the same.
+
     Raises `UnusableModelError` for a model that does not load, and `ValueError` (of `workbench` and `agent`) for
     timelines that do not exist or have no single owner.
     """

@@ -101,6 +101,12 @@ class ConflictElement:
     terms: tuple[Term, ...]
     observed: tuple[str, str] | None = None
 
+    def names(self, token: TokenName) -> bool:
+        """Whether what it says speaks of `token`."""
+        operands = self.says.arguments if self.says is not None else ()
+        is_about = self.kind is ElementKind.LONGEST and self.token == token
+        return is_about or any(isinstance(one, VariableName) and one.token == token for one in operands)
+
 
 @dataclass(frozen=True, slots=True)
 class Conflict:
@@ -191,6 +197,7 @@ class ReasonKind(StrEnum):
     RAISED = "raised"
     # of the mission
     GOALS_OPEN = "goals open"
+    NO_RECORD = "no record"
 
 
 @dataclass(frozen=True, slots=True)

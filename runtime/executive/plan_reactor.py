@@ -166,11 +166,11 @@ class PlanReactor:
         for token in self.draws.outdated(self.bench, tick):
             if not self.bench.renew(token):
                 return Unsettled("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
-        if any(goal.request.start[0] <= tick for goal in self.goals.live()):
-            self._make_way(tick)
+        if any(goal.request.start[0] <= tick for goal in self.goals.live()) and not self._make_way(tick):
+            return Unsettled("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
         return None
 
-    def _make_way(self, tick: int) -> None:
+    def _make_way(self, tick: int) -> bool:
         """Undo what binds the present to tokens that the model alone plans, where what was asked for could begin."""
         waiting = [
             goal.token
@@ -181,7 +181,9 @@ class PlanReactor:
             for line in self.timelines:
                 if line.is_internal and line.current != NOTHING:
                     for token in self.bench.merged_early(line.current, tick):
-                        self.bench.cancel(token)
+                        if not self.bench.renew(token):
+                            return False
+        return True
 
     def _settle(self, tick: int) -> Unsettled | None:
         """Settle the present, or leave the plan as it was."""

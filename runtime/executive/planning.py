@@ -7,7 +7,7 @@ from runtime.executive.story import conflict_of
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.configuration.configuration import Configuration, FlawFilter
-from runtime.solver.flaws.filters import Scope
+from runtime.solver.flaws.filters import PlanningScope
 from runtime.solver.search import Solver
 from runtime.solver.tags import EXHAUSTED, PLAN
 
@@ -19,7 +19,7 @@ class LimitError(RuntimeError):
     """A limit of the engine itself was reached: no verdict about the model."""
 
 
-class Window(Scope):
+class Window(PlanningScope):
     """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7); for the present, those that hold now."""
 
     def __init__(self, bench: Workbench) -> None:
@@ -76,7 +76,7 @@ class Planner:
             bench.database, replace(configuration, filters=filters + clock, managers=managers), 0, 1, False
         )
         self.solver.set_scope(self.window)
-        self.solver.queues.earliest = True
+        self.solver.agenda.earliest = True
         self.max_steps = max_steps
         self.max_depth = max_depth
         self.is_fresh = True
@@ -93,7 +93,7 @@ class Planner:
             return "done"
         is_deep = self.max_depth is not None and self.solver.depth > self.max_depth
         if outcome == EXHAUSTED or is_deep:
-            self.solver.take_back()
+            self.solver.undo_all()
             self.is_fresh = True
             return "exhausted" if outcome == EXHAUSTED else "deep"
         return "decided"
@@ -119,7 +119,7 @@ class Planner:
         if outcome == PLAN:
             return "done"
         is_deep = solver.depth > depth
-        solver.take_back()
+        solver.undo_all()
         if outcome == EXHAUSTED:
             return "exhausted"
         if (self.max_depth if is_deep else self.max_steps) is None:

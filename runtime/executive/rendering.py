@@ -49,6 +49,7 @@ REASONS = {
     ReasonKind.DEPTH: "more than {limit} decisions are needed at once",
     ReasonKind.RAISED: "its code failed: {message}",
     ReasonKind.GOALS_OPEN: "mandatory goals stayed open",
+    ReasonKind.NO_RECORD: "ended at tick {tick} of {limit} without an abort record",
 }
 INFIX = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 SIGNS = {"addEq": "+", "mulEq": "*", "temporalDistance": "+"}

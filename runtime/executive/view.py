@@ -320,16 +320,17 @@ class PlanView:
         return int(self.engine.lower(v)) if self.engine.is_singleton(v) else NONE
 
     def merged_early(self, t: int, tick: int) -> list[int]:
-        """The tokens merged into `t` whose masters have not begun, and that nobody asked for."""
+        """Planned tokens that have not begun, that nobody asked for, and that `t` serves already."""
         rows = self.rows
-        found = []
+        found: dict[int, None] = {}
         other = rows.merged[t]
         while other >= 0:
-            master = rows.master[other]
-            if master >= 0 and not self.is_started(master, tick - 1) and not self.is_due_to_request(master):
-                found.append(int(other))
+            master = int(rows.master[other])
+            if master >= 0 and self.is_active(master) and not self.is_started(master, tick - 1):
+                if not self.is_due_to_request(master):
+                    found[master] = None
             other = rows.merged_next[other]
-        return found
+        return list(found)
 
     def is_due_to_request(self, t: int) -> bool:
         """Whether the token, or one that it follows from, is one that somebody asked for."""

@@ -2,7 +2,8 @@
 
 from math import inf
 
-from compiler.program import FIRST_PARAMETER, DomainConstant
+from compiler.program import FIRST_PARAMETER, OBJECT, DomainConstant
+from runtime.constraints.domains.tags import FLAG_DECISION
 from runtime.executive.messages import Arguments
 from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST, PlanView
@@ -135,7 +136,20 @@ class Workbench(PlanView):
 
     def cancel(self, t: int) -> bool:
         """Take a token out of the plan, with all that followed from it; it stays to be decided again."""
-        return bool(self.database.cancel(t))
+        return bool(self.database.cancel(t)) and self._undecide(t)
+
+    def _undecide(self, t: int) -> bool:
+        """Undo what the planner decided about the variables of a token."""
+        engine = self.engine
+        first = int(self.rows.var0[t])
+        made = [
+            r
+            for v in range(first + OBJECT, first + int(self.rows.width[t]))
+            if engine.is_decided(v)
+            for r in engine.restrictions_of(v)
+            if engine.restriction_flags[r] & FLAG_DECISION and engine.restriction_span[r] == NONE
+        ]
+        return not made or bool(engine.retract((), (), made, ()) and self.database.settle())
 
     def renew(self, t: int) -> bool:
         """Let the rules of a planned token fire anew, in its place on its timeline."""

@@ -5,76 +5,71 @@ from runtime.constraints.engine cimport Engine
 from runtime.plan.lifecycle cimport settle
 from runtime.plan.store.marks cimport commit, mark, release, rewind
 from runtime.plan.store.plan cimport Plan
-from runtime.solver.learning.conflict_analysis cimport Blame
+from runtime.solver.learning.conflict_analysis cimport ConflictAnalysis
 from runtime.solver.resolvers.choices cimport mend
-from runtime.solver.learning.disjunctive cimport Crowds
+from runtime.solver.learning.disjunctive cimport Disjunctive
 from runtime.solver.flaws.decisions cimport Decisions
 from runtime.solver.flaws.filters cimport Filters
-from runtime.solver.resolvers.resource_resolvers cimport is_mended
-from runtime.solver.flaws.agenda cimport Queues
+from runtime.solver.flaws.resource_selection cimport is_resource_managed
+from runtime.solver.flaws.agenda cimport Agenda
 from runtime.solver.flaws.selection cimport select
-from runtime.solver.learning.dead_end cimport complete
-from runtime.solver.flaws.agenda_updates cimport catch_up, fill, note_levels
+from runtime.solver.learning.dead_end cimport explain_dead_end
+from runtime.solver.flaws.agenda_updates cimport update, rebuild, note_levels
 
-cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
-cdef long long RESOURCE_THREAT, TIMEOUT, UNBOUND_VARIABLE
+cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, _NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
+cdef long long TIMEOUT, UNBOUND_VARIABLE
 
 
 cdef class Solver:
-    cdef public object database, account, nogoods
+    cdef public object database, failure_log, nogoods
     cdef public Plan plan
     cdef public Engine engine
-    cdef public bint europa, has_active, is_exhausted, is_started, is_close, is_hopeless, may_restart
+    cdef public bint europa, has_active, is_exhausted, is_started, checks_overload, is_dead_end, may_restart
     cdef public Filters filters
-    cdef public Queues queues
+    cdef public Agenda agenda
     cdef public Decisions stack
-    cdef public Blame blame
-    cdef public Crowds crowds
+    cdef public ConflictAnalysis analysis
+    cdef public Disjunctive disjunctive
     cdef public long long steps, failures, steps_floor, depth_floor, max_steps, max_depth
 
-    cpdef int set_horizon(self, long long lower, long long upper) except -1
-
     cpdef int set_scope(self, object scope) except -1
-
-    cpdef int set_custom(self, object manager) except -1
 
     @cython.locals(o="long long")
     cpdef int refresh(self) except -1
 
     cpdef int keep(self) except -1
 
-    cpdef int take_back(self) except -1
+    cpdef int undo_all(self) except -1
 
     @cython.locals(count="long long", outcome="long long")
     cpdef long long solve(self, long long max_steps, long long max_depth, object is_late=*) except? -1
 
-    @cython.locals(d="long long", most="long long", outcome="long long", q=Queues, stack=Decisions)
+    @cython.locals(d="long long", most="long long", outcome="long long", agenda=Agenda, stack=Decisions)
     cpdef long long step(self) except? -1
 
     cpdef long long fail(self, long long d) except? -1
 
     @cython.locals(level="long long", stack=Decisions)
-    cpdef bint is_known_in_vain(self, long long d) except -1
+    cpdef bint _is_nogood(self, long long d) except -1
 
     @cython.locals(stack=Decisions)
-    cpdef long long go_to(self, long long d) except? -1
+    cpdef long long _retry(self, long long d) except? -1
 
-    @cython.locals(heap="long long", q=Queues)
-    cpdef bint is_reordered(self, long long d) except -1
+    @cython.locals(heap="long long", agenda=Agenda)
+    cpdef bint _is_reordered(self, long long d) except -1
 
-    cpdef long long begin_anew(self) except? -1
+    cpdef long long restart(self) except? -1
 
     @cython.locals(o="long long")
-    cpdef int look_closer(self) except -1
+    cpdef int check_overload(self) except -1
 
-    @cython.locals(d="long long", q=Queues, stack=Decisions)
-    cpdef long long enter(self) except? -1
+    cpdef long long _enter(self) except? -1
 
     @cython.locals(stack=Decisions)
-    cpdef long long leave(self, long long d) except? -1
+    cpdef long long _undo(self, long long d) except? -1
 
     @cython.locals(stack=Decisions, target="long long")
-    cpdef long long give_up(self, long long d, bint is_explained) except? -1
+    cpdef long long _backjump(self, long long d, bint is_explained) except? -1
 
 
-cpdef bint is_rejection(Queues q, Decisions stack, long long d) except -1
+cpdef bint _is_rejection(Agenda agenda, Decisions stack, long long d) except -1

@@ -1,9 +1,9 @@
-"""Name the integer codes of the solver: kinds of flaws, components, orders, results."""
+"""Integer codes of the solver: kinds of flaws, components, orders, results."""
 
 NONE = -1
 
 # ---- kinds of flaws, one per manager ----
-THREAT, OPEN_CONDITION, UNBOUND_VARIABLE, RESOURCE_THREAT, CUSTOM = range(5)
+THREAT, OPEN_CONDITION, UNBOUND_VARIABLE, RESOURCE_THREAT = range(4)
 MANAGER_NAMES = ("ThreatManager", "OpenConditionManager", "UnboundVariableManager", "ResourceThreatManager")
 
 # ---- filters; all but the first are tested anew at every step ----
@@ -17,10 +17,10 @@ MANAGER_NAMES = ("ThreatManager", "OpenConditionManager", "UnboundVariableManage
     FILTER_LOCAL,
     FILTER_NOT_SINGLETON,
     FILTER_INFINITE,
-    FILTER_MASTER_LOOSE,
-    FILTER_TOKEN_LOOSE,
+    FILTER_PARENT_NOT_ASSIGNED,
+    FILTER_NOT_ASSIGNED,
 ) = range(11)
-POLICY_PARTIAL, POLICY_POSSIBLE, POLICY_TOTAL = range(3)
+POLICY_PARTIAL, POLICY_POSSIBLE, _POLICY_TOTAL = range(3)
 
 # ---- handlers ----
 (
@@ -37,27 +37,15 @@ POLICY_PARTIAL, POLICY_POSSIBLE, POLICY_TOTAL = range(3)
 ) = range(10)
 
 # ---- what an HSTS handler offers, and how it sorts ----
-MERGE_FIRST, ACTIVATE_FIRST, MERGE_ONLY, ACTIVATE_ONLY = range(4)
-ORDER_KEY, ORDER_EARLY, ORDER_LATE, ORDER_NEAR, ORDER_FAR = range(5)
+_MERGE_FIRST, ACTIVATE_FIRST, MERGE_ONLY, ACTIVATE_ONLY = range(4)
+ORDER_EARLY, ORDER_LATE, ORDER_NEAR, ORDER_FAR, ORDER_KEY = range(5)
 
 # ---- which flaw of a resource comes first ----
 PREFER_LOWER, PREFER_UPPER, PREFER_MOST, PREFER_LEAST, PREFER_EARLIEST, PREFER_LATEST = range(6)
 
-# ---- how pairs of uses are sorted; the same for predecessor (even) and successor (odd), and by impact ----
-(
-    PAIR_EARLIEST,
-    PAIR_LATEST,
-    PAIR_LONGEST,
-    PAIR_SHORTEST,
-    PAIR_KEY_UP,
-    PAIR_KEY_DOWN,
-) = range(6)
-PAIR_IMPACT = 12
-
-# ---- which pairs are kept, and what is posted on them ----
-KEEP_ALL, KEEP_LATE_PREDECESSORS, KEEP_PRESENT_SUCCESSORS, KEEP_BOTH = range(4)
+# ---- which constraint is posted on a pair of uses, and whether pairs or constraints vary first ----
 PRECEDES_ONLY, PRECEDES_FIRST, CONCURRENT_ONLY, CONCURRENT_FIRST = range(4)
-PAIR_FIRST, CONSTRAINT_FIRST = range(2)
+_PAIR_FIRST, CONSTRAINT_FIRST = range(2)
 
 # ---- the solver's state after a step ----
 MOVED, FAILED, PLAN, EXHAUSTED, TIMEOUT = range(5)
@@ -67,25 +55,25 @@ RESULT_NAMES = ("moved", "failed", "plan", "exhausted", "timeout")
 BEST_PRIORITY = 0.0
 WORST_PRIORITY = 99999.0
 
-# ---- a slot that is in no heap; what kind of entry a queue dropped ----
+# ---- a slot that is in no heap; the kinds of slots in the undo log of the agenda ----
 NO_KEY = -(2**62)
 DROPPED_TOKEN, DROPPED_VARIABLE, DROPPED_EFFECT = range(3)
 NO_PRIORITY = 1.0e9
 
-# ---- what became of a choice; the phases of an open condition ----
+# ---- what became of a resolver; the phases of an open condition ----
 APPLIED, FAILED_CHOICE, NO_CHOICE = range(3)
 PHASE_MERGE, PHASE_ACTIVATE, PHASE_REJECT, PHASE_DONE = range(4)
 
-# ---- the reasons of a decision: all that came before ----
+# ---- a conflict set of all earlier decisions ----
 EVERYTHING = -2
 
 # ---- after all that has happened ----
 NOW = 2**62
 
-# ---- restarts: failures before the first one, sizes that are told apart, and how finely weights divide them ----
+# ---- restarts: failures before the first one; cap and scale of domain sizes over weights ----
 FEW_FAILURES = 250
 LARGEST_SIZE = 2**44
 WEIGHT_SCALE = 2**16
 
-# ---- what spreads the numbers of variables over all places (Knuth's multiplicative hashing) ----
+# ---- Knuth's multiplicative hashing of the ids of variables ----
 SPREAD = 2654435761

@@ -6,100 +6,109 @@ import time
 from dataclasses import replace
 
 from checker.batch.worker import Fly
+from compiler.program import DomainConstant
 from runtime.executive.chance import sample
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import (
     Abort,
-    Cause,
     Conflict,
-    Draw,
+    ConflictElement,
+    ElementKind,
     Event,
+    EventKind,
     Outcome,
-    Place,
+    Phase,
+    Reason,
+    ReasonKind,
+    RepairStage,
+    SourcePlace,
     Term,
-    VariableInfo,
+    TokenName,
+    VariableName,
 )
 
 SURFACE_MAX = 63  # less 25 ticks of ascent: fails when 10 * rate > 38
 ASCENT = 25
-SAMPLE = Place("psim.nddl", 40, 3, "gpsHitRate == sampledParameter(GPS_HIT_RATE);")
-PRODUCT = Place("psim.nddl", 41, 3, "expectedDuration == gpsHitRate * minHits;")
-LASTS = Place("psim.nddl", 42, 3, "duration <= expectedDuration;")
-CONTAINS = Place("rules.nddl", 30, 3, "contains(Gps.Active fix);")
-LIMIT = Place("rules.nddl", 34, 3, "duration <= SURFACE_MAX;")
-CONSTANT = Place("navigator.nddl", 5, 1, "SURFACE_MAX = 66;")
+SAMPLE = SourcePlace("psim.nddl", 40, 3, "gpsHitRate == sampledParameter(GPS_HIT_RATE);")
+PRODUCT = SourcePlace("psim.nddl", 41, 3, "expectedDuration == gpsHitRate * minHits;")
+LASTS = SourcePlace("psim.nddl", 42, 3, "duration <= expectedDuration;")
+CONTAINS = SourcePlace("rules.nddl", 30, 3, "contains(Gps.Active fix);")
+LIMIT = SourcePlace("rules.nddl", 34, 3, "duration <= SURFACE_MAX;")
+CONSTANT = SourcePlace("navigator.nddl", 5, 1, "SURFACE_MAX = 66;")
+FIX = TokenName("Gps.Active", 7)
+SURFACE = TokenName("Nav.Surface", 5)
+NUMBER = "float"
+
+
+def of(token: TokenName, name: str, kind: str = "int") -> VariableName:
+    """A variable of a token; those of floats are locals of its rule."""
+    return VariableName(name, kind, token, kind == NUMBER)
+
+
+def element(kind: ElementKind, place: SourcePlace | None, token: TokenName | None, *terms: Term) -> ConflictElement:
+    """An element that says its first term."""
+    return ConflictElement(kind, place, token.predicate if token and place else "", token, terms[0], terms)
 
 
 def linked_conflict(rate: float) -> Conflict:
     """The draw, the rule of Figure 7 and the navigator's limit, in one database."""
-    gps, nav = "Gps.Active#7", "Nav.Surface#5"
-    causes = (
-        Cause("sample", SAMPLE, "Gps::Active", gps, f"gpsHitRate == {rate!r}", (
-            Term("sampledParameter", (f"{gps}.gpsHitRate", "GPS_HIT_RATE", rate)),)),
-        Cause("constraint", PRODUCT, "Gps::Active", gps, "expectedDuration == gpsHitRate * 10", (
-            Term("mulEq", (f"{gps}.gpsHitRate", 10.0, f"{gps}.expectedDuration")),)),
-        Cause("constraint", LASTS, "Gps::Active", gps, f"duration >= {10 * rate:g}", (
-            Term("leq", (f"{gps}.expectedDuration", f"{gps}.duration")),)),
-        Cause("duration", None, "", gps, "end - start == duration", (
-            Term("temporalDistance", (f"{gps}.start", f"{gps}.duration", f"{gps}.end")),)),
-        Cause("relation", CONTAINS, "Nav::Surface", nav, "the fix begins at least 25 ticks after the surfacing", (
-            Term("precedence", (f"{gps}.start", f"{nav}.start", -ASCENT)),
-            Term("precedence", (f"{nav}.end", f"{gps}.end", 0)))),
-        Cause("duration", None, "", nav, "end - start == duration", (
-            Term("temporalDistance", (f"{nav}.start", f"{nav}.duration", f"{nav}.end")),)),
-        Cause("assignment", CONSTANT, "", "", f"SURFACE_MAX == {SURFACE_MAX}", (
-            Term("bounds", ("SURFACE_MAX", SURFACE_MAX, SURFACE_MAX)),)),
-        Cause("constraint", LIMIT, "Nav::Surface", nav, f"duration <= {SURFACE_MAX}", (
-            Term("leq", (f"{nav}.duration", "SURFACE_MAX")),)),
-    )  # fmt: skip
-    kinds = {"gpsHitRate": "float", "expectedDuration": "float", "SURFACE_MAX": "int"}
-    names = dict.fromkeys(
-        argument
-        for cause in causes
-        for term in cause.terms
-        for argument in term.arguments
-        if isinstance(argument, str) and argument != "GPS_HIT_RATE"
-    )
-    return Conflict(causes, tuple(VariableInfo(name, kinds.get(name.rpartition(".")[2], "int")) for name in names))
+    drawn, expected = of(FIX, "gpsHitRate", NUMBER), of(FIX, "expectedDuration", NUMBER)
+    limit = VariableName("SURFACE_MAX", "int")
+    return Conflict((
+        element(ElementKind.SAMPLE, SAMPLE, FIX, Term("sampledParameter", (drawn, "GPS_HIT_RATE", rate))),
+        element(ElementKind.CONSTRAINT, PRODUCT, FIX, Term("mulEq", (drawn, 10.0, expected))),
+        element(ElementKind.CONSTRAINT, LASTS, FIX, Term("leq", (expected, of(FIX, "duration")))),
+        element(ElementKind.DURATION, None, FIX, _duration(FIX)),
+        element(
+            ElementKind.RELATION, CONTAINS, SURFACE,
+            Term("precedence", (of(FIX, "start"), of(SURFACE, "start"), -ASCENT)),
+            Term("precedence", (of(SURFACE, "end"), of(FIX, "end"), 0)),
+        ),
+        element(ElementKind.DURATION, None, SURFACE, _duration(SURFACE)),
+        element(ElementKind.ASSIGNMENT, CONSTANT, None, Term("bounds", (limit, SURFACE_MAX, SURFACE_MAX))),
+        element(ElementKind.CONSTRAINT, LIMIT, SURFACE, Term("leq", (of(SURFACE, "duration"), limit))),
+    ))  # fmt: skip
+
+
+def _duration(token: TokenName) -> Term:
+    return Term("temporalDistance", (of(token, "start"), of(token, "duration"), of(token, "end")))
 
 
 def split_conflict(rate: float) -> Conflict:
     """What the navigator alone sees: no fix yet, and the time of the surfacing is over."""
-    nav = "Nav.Surface#5"
-    causes = (
-        Cause("clock", None, "", nav, "still at it at tick 264, so end >= 265", (
-            Term("bounds", (f"{nav}.end", 265, 900)),)),
-        Cause("observation", None, "", nav, "began at tick 201", (Term("bounds", (f"{nav}.start", 201, 201)),)),
-        *linked_conflict(rate).causes[5:],
-    )  # fmt: skip
-    kept = tuple(v for v in linked_conflict(rate).variables if v.name.startswith((nav, "SURFACE_MAX")))
-    return Conflict(causes, kept)
+    lasts = element(ElementKind.CLOCK, None, SURFACE, Term("bounds", (of(SURFACE, "end"), 265, 900)))
+    began = element(ElementKind.OBSERVATION, None, SURFACE, Term("bounds", (of(SURFACE, "start"), 201, 201)))
+    return Conflict((lasts, began, *linked_conflict(rate).elements[5:]))
 
 
 def _outcome(agent: AgentConfiguration, seed: int, *, is_linked: bool) -> Outcome:
     draws = tuple(sample(parameter, seed, 0) for parameter in agent.parameters)
     rate = next(draw.value for draw in draws if draw.parameter == "GPS_HIT_RATE")
+    hits = (("minHits", DomainConstant("float", "float", (10.0, 10.0), None)),)
     events = [
-        Event(0, "observe", "observation", "psim", "helm", "Inactive"),
-        *_sampled(draws),
-        Event(101, "dispatch", "request", "navigator", "helm", "Ascend", (0,)),
-        Event(226, "observe", "observation", "psim", "gps", "Active(minHits=10)", (3, 1)),
+        Event(0, Phase.OBSERVE, EventKind.OBSERVATION, "psim", "helm", "Inactive"),
+        *(Event(25, Phase.SYNCHRONISE, EventKind.SAMPLE, "psim", draw=draw) for draw in draws),
+        Event(101, Phase.DISPATCH, EventKind.REQUEST, "navigator", "helm", "Ascend", causes=(0,), request=7),
+        Event(226, Phase.OBSERVE, EventKind.OBSERVATION, "psim", "gps", "Active", hits, (3, 1), FIX),
     ]
     end, conflict = ASCENT + math.ceil(10 * rate), None
     if end > SURFACE_MAX:
         conflict = linked_conflict(rate) if is_linked else split_conflict(rate)
     if conflict is None:
-        events.append(Event(agent.final_tick, "end", "end", "", "", f"mission over at tick {agent.final_tick}"))
+        events.append(Event(agent.final_tick, Phase.END, EventKind.END))
         return Outcome(seed, agent.final_tick, agent.final_tick, None, draws, tuple(events), ())
-    summary = "`gps` still holds `Active` when it must be over"
-    events.append(Event(265, "synchronise", "relax", "navigator", "", "keep past", (4,)))
-    events.append(Event(265, "synchronise", "abort", "navigator", "gps", f"F1: {summary}", (4, 5)))
-    abort = Abort("F1", 265, "navigator", ("gps",), summary, conflict, 2, len(events) - 1)
+    reason = Reason(ReasonKind.GOES_ON, FIX, tick=265)
+    repair = RepairStage.KEEP_PAST
+    events.append(
+        Event(
+            265, Phase.REPAIR, EventKind.RELAX, "navigator", causes=(4,), stage=repair, reason=reason, conflict=conflict
+        )
+    )
+    events.append(
+        Event(265, Phase.SYNCHRONISE, EventKind.ABORT, "navigator", "gps", causes=(4, 5), code="F1", reason=reason)
+    )
+    abort = Abort("F1", 265, "navigator", ("gps",), reason, conflict, 2, len(events) - 1)
     return Outcome(seed, 265, agent.final_tick, abort, draws, tuple(events), ())
-
-
-def _sampled(draws: tuple[Draw, ...]) -> list[Event]:
-    return [Event(25, "synchronise", "sample", "psim", "", f"{one.parameter} = {one.value!r}") for one in draws]
 
 
 def load_linked(agent: AgentConfiguration) -> Fly:

@@ -49,7 +49,7 @@ def test_a_result_survives_json() -> None:
 def test_crashes_hangs_and_bugs_cost_one_mission_each() -> None:
     results = fly(load_troubled, range(14), 2, time_limit=1.0)
     assert [result.number for result in results] == list(range(1, 15))
-    reasons = {result.number: result.judgement.reason for result in results if result.verdict is Verdict.ERROR}
+    reasons = {result.number: result.judgement.message for result in results if result.verdict is Verdict.ERROR}
     assert reasons == {
         1: "ValueError: a bug of ours",
         2: "took longer than 1 s",

@@ -7,11 +7,12 @@ import pytest
 from checker.batch.result import MissionResult
 from checker.batch.worker import Load, Task, fly_one
 from checker.buckets import group_failures
-from checker.causes import blame, draws_behind, events_to_abort
+from checker.causes import culprit_of, draws_behind, events_to_abort
 from checker.mission import read_mission
 from checker.sampling.seeds import mission_seed
 from checker.threshold import find_cut, find_thresholds
 from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.rendering import event_text
 from tests.checker.fake_agent import CONSTANT, LIMIT, linked_conflict, load_linked, load_split, split_conflict
 
 
@@ -28,17 +29,17 @@ def fly(load: Load) -> tuple[MissionResult, ...]:
 
 def test_the_line_to_blame_is_the_limit_not_the_draw() -> None:
     for conflict in (linked_conflict(3.95), split_conflict(3.95)):
-        found = blame(conflict)
+        found = culprit_of(conflict)
         assert found.place == LIMIT
         assert found.limits == (CONSTANT,)
-    assert blame(None).place is None
+    assert culprit_of(None).place is None
 
 
 def test_failures_at_one_line_are_one_bucket() -> None:
     results = fly(load_linked)
     (bucket,) = group_failures(results)
     assert bucket.code == "F1"
-    assert bucket.blame.place == LIMIT
+    assert bucket.culprit.place == LIMIT
     assert 2 <= len(bucket.missions) <= 20
     assert bucket.share == len(bucket.missions) / 200
     assert bucket.first_tick == bucket.last_tick == 265
@@ -86,7 +87,7 @@ def test_a_cut_is_the_best_there_is() -> None:
 def test_the_events_lead_from_the_draw_to_the_abort() -> None:
     result = next(one for one in fly(load_split) if one.has_trace)
     assert result.outcome is not None
-    events = [result.outcome.events[index].text for index in events_to_abort(result.outcome, ("GPS_HIT_RATE",))]
+    events = [event_text(result.outcome.events[index]) for index in events_to_abort(result.outcome, ("GPS_HIT_RATE",))]
     assert events[0].startswith("GPS_HIT_RATE = 3.")
-    assert events[1:] == ["Active(minHits=10)"]
+    assert events[1:] == ["Active(minHits=10.0)"]
     assert draws_behind(result.outcome) == ("GPS_HIT_RATE",)

@@ -24,7 +24,7 @@ from checker.report.sarif import sarif_report
 from checker.report.svg import Axis
 from checker.report.text import text_report
 from checker.report.write import write_whole
-from runtime.executive.outcome import Place
+from runtime.executive.outcome import SourcePlace
 from tests.checker.fake_agent import load_split
 from tests.sarif import check_sarif
 
@@ -43,7 +43,7 @@ def findings(campaign: Campaign) -> Findings:
     results: list[MissionResult] = []
     agent, tasks = campaign.models.agent, [campaign.task(number) for number in range(1, 61)]
     fly_all(load_split, agent, tasks, 1, 30.0, results.append)
-    broken = Judgement(Verdict.ERROR, "", "KeyError: <'x' & \x07>")
+    broken = Judgement(Verdict.ERROR, message="KeyError: <'x' & \x07>")
     results[2] = replace(results[2], judgement=broken, outcome=None, has_trace=False)
     return campaign.assess(tuple(results))
 
@@ -110,9 +110,9 @@ def test_a_file_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
 def test_an_excerpt_is_of_what_was_flown(tmp_path: Path) -> None:
     (tmp_path / "m.nddl").write_text("int x;\nint changed;\n")
     excerpts = Excerpts(tmp_path)
-    assert excerpts.line(Place("m.nddl", 1, 1, "int x;")) == "int x;"
-    assert excerpts.line(Place("m.nddl", 2, 1, "int y;")) == "int y;"
-    assert excerpts.line(Place("gone.nddl", 2, 1, "int z;")) == "int z;"
+    assert excerpts.line(SourcePlace("m.nddl", 1, 1, "int x;")) == "int x;"
+    assert excerpts.line(SourcePlace("m.nddl", 2, 1, "int y;")) == "int y;"
+    assert excerpts.line(SourcePlace("gone.nddl", 2, 1, "int z;")) == "int z;"
 
 
 def test_names_are_the_same_in_every_checkout(tmp_path: Path) -> None:

@@ -8,13 +8,16 @@ import pytest
 from checker.simplest import shortest_decimal, simplest_between
 from checker.smt.confirm import Finding, confirm
 from checker.smt.edges import Edge, find_failing_range
-from runtime.executive.outcome import Cause, Conflict, Term, VariableInfo
+from runtime.executive.outcome import Conflict, ConflictElement, ElementKind, Operand, Term, VariableName
 from tests.checker.fake_agent import linked_conflict, split_conflict
 
 
 def conflict(kinds: dict[str, str], *terms: Term) -> Conflict:
-    causes = tuple(Cause("constraint", None, "", "", "", (term,)) for term in terms)
-    return Conflict(causes, tuple(VariableInfo(name, kind) for name, kind in kinds.items()))
+    def operand(given: Operand) -> Operand:
+        return VariableName(given, kinds[given]) if isinstance(given, str) and given in kinds else given
+
+    named = [replace(term, arguments=tuple(operand(one) for one in term.arguments)) for term in terms]
+    return Conflict(tuple(ConflictElement(ElementKind.CONSTRAINT, None, "", None, term, (term,)) for term in named))
 
 
 def test_a_real_conflict_is_confirmed_with_its_core() -> None:
@@ -29,9 +32,8 @@ def test_a_conflict_that_can_hold_is_not_confirmed() -> None:
 
 
 def test_the_core_leaves_out_what_does_not_matter() -> None:
-    bystander = Cause("constraint", None, "", "", "x <= 5", (Term("leq", ("SURFACE_MAX", 1000)),))
-    padded = linked_conflict(3.95)
-    padded = replace(padded, causes=(bystander, *padded.causes))
+    bystander = conflict({"SURFACE_MAX": "int"}, Term("leq", ("SURFACE_MAX", 1000)))
+    padded = Conflict((*bystander.elements, *linked_conflict(3.95).elements))
     assert confirm(padded).core == tuple(range(1, 9))
 
 
@@ -55,6 +57,10 @@ def test_terms_without_translation_are_named() -> None:
         ({"b": "bool", "x": "int"}, [Term("testLeq", ("b", "x", 3)), Term("eq", ("x", 4)), Term("or", ("b",))]),
         ({"x": "int"}, [Term("eqMaximum", ("x", 1, 2, 3)), Term("leq", ("x", 2))]),
         ({"x": "int"}, [Term("countNonZeroes", ("x", 0, 1, 2)), Term("leq", ("x", 1))]),
+        (
+            {"x": "symbol"},
+            [Term("member", ("x", "RED", "BLUE")), Term("neq", ("x", "RED")), Term("neq", ("x", "BLUE"))],
+        ),
         ({"x": "int"}, [Term("precedence", ("x", "x", -1))]),
     ],
 )

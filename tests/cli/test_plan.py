@@ -124,7 +124,7 @@ def test_a_search_stops_when_time_is_over(tmp_path: Path, capsys: pytest.Capture
 def test_progress_is_told_on_a_terminal_and_wiped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
-    monkeypatch.setattr("nddlc.cancellation.PATIENCE", 0.0)
+    monkeypatch.setattr("nddlc.cancellation._PROGRESS_SECONDS", 0.0)
     planned(tmp_path, LONG, "--strategy", "europa", "--max-steps", "3000")
     told = terminal.getvalue()
     assert re.search(r"\r0 s, \d+ steps, \d+ failed, depth \d+ +\r", told)
@@ -195,13 +195,13 @@ def test_an_interrupted_search_shows_how_far_it_came(tmp_path: Path) -> None:
     code = (
         "import os, signal, sys, threading, time\n"
         "from nddlc.main import run\n"
-        "import nddlc.cancellation as patience\n"
+        "from nddlc.cancellation import Clock\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-        "enter = patience.Clock.__enter__\n"
+        "enter = Clock.__enter__\n"
         "def entered(clock):\n"
         "    threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
         "    return enter(clock)\n"
-        "patience.Clock.__enter__ = entered\n"
+        "Clock.__enter__ = entered\n"
         f"sys.exit(run(['plan', '--strategy', 'europa', {str(path)!r}]))\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=60)

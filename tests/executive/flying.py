@@ -97,3 +97,8 @@ def lines(outcome: Outcome, *kinds: str) -> list[str]:
 def history(outcome: Outcome, timeline: str) -> list[str]:
     """What was published on a timeline: tick and value."""
     return [f"{e.tick} {event_text(e)}" for e in outcome.events if e.kind == "observation" and e.timeline == timeline]
+
+
+def open_goals(outcome: Outcome) -> list[str]:
+    """The mandatory goals that were not achieved, each with its reason."""
+    return [goal_text(goal) for goal in outcome.open_goals]

@@ -5,6 +5,7 @@ import pytest
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
+from runtime.executive.rendering import event_text
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
@@ -68,14 +69,14 @@ def test_the_plan_stays_small_for_twenty_thousand_ticks() -> None:
     assert seen[1] == seen[-1]
     assert seen[-1][0] <= 5
     last = reactor.trace.events[-1]
-    assert (last.tick, last.text) == (20_000, "Tick(n=2000, x=1000.0)")
+    assert (last.tick, event_text(last)) == (20_000, "Tick(n=2000, x=1000.0)")
 
 
 def test_the_plan_stays_small() -> None:
     reactor = metronome(2_000)
     seen = let_pass(reactor, 0, 2_000)
     assert seen[1] == seen[2]
-    assert reactor.trace.events[-1].text == "Tick(n=200, x=100.0)"
+    assert event_text(reactor.trace.events[-1]) == "Tick(n=200, x=100.0)"
 
 
 def test_what_is_visited_at_every_tick_stays_small_too() -> None:

@@ -1,7 +1,7 @@
 """Sampled parameters in flight: one value per mission, or a new one at each update, whatever the planner tries."""
 
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
-from runtime.executive.outcome import Outcome
+from runtime.executive.outcome import EventKind, Outcome
 from tests.executive.flying import fly, history, lines, simulator
 
 SEA = """
@@ -74,7 +74,7 @@ def test_a_given_value_replaces_the_draw() -> None:
 def test_a_draw_is_told_before_what_it_leads_to() -> None:
     outcome = sailed("inter")
     kinds = [event.kind for event in outcome.events]
-    assert kinds.index("sample") < kinds.index("observation")
+    assert kinds.index(EventKind.SAMPLE) < kinds.index(EventKind.OBSERVATION)
 
 
 def test_a_goal_with_a_range_leaves_the_draw_its_say() -> None:

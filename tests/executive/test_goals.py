@@ -1,7 +1,8 @@
 """Goals and requests: taken, refused, rejected, recalled, asked for in time."""
 
 from runtime.executive.configuration import GoalConfiguration
-from tests.executive.flying import Flyer, fly, history, lines, planner, simulator
+from runtime.executive.rendering import reason_text
+from tests.executive.flying import Flyer, fly, history, lines, open_goals, planner, simulator
 
 LAMP = """
 class Lamp extends AgentTimeline { predicate Off { } predicate On { int n; } Lamp(Mode m) { super(m, "Off"); } }
@@ -31,7 +32,7 @@ def busy(**given: object) -> tuple[GoalConfiguration, ...]:
 def test_a_goal_carries_its_parameters_to_the_owner_of_what_it_needs() -> None:
     rules = "User::Busy { contains(Lamp.On on); on.n == k; meets(Idle rest); on.end == end; }"
     outcome = fly(user(rules), lamp("Lamp::On { duration == n; }"), goals=busy(parameters=(("k", 3),)), until=12)
-    assert outcome.unmet_goals == ()
+    assert open_goals(outcome) == []
     assert lines(outcome, "request") == ["0 request user Busy(k=3)", "1 request user lamp On(n=3)"]
     assert history(outcome, "lamp") == ["0 Off", "3 On(n=3)", "6 Off"]
 
@@ -39,7 +40,7 @@ def test_a_goal_carries_its_parameters_to_the_owner_of_what_it_needs() -> None:
 def test_a_goal_of_an_unknown_predicate_is_refused() -> None:
     goals = (GoalConfiguration("lamp", "Shine", mandatory=True),)
     outcome = fly(lamp(""), goals=goals)
-    assert outcome.unmet_goals == ("Shine: `lamp` has no predicate `Shine`",)
+    assert open_goals(outcome) == ["Shine: `lamp` has no predicate `Shine`"]
 
 
 def test_a_goal_whose_arguments_do_not_fit_is_refused() -> None:
@@ -47,18 +48,18 @@ def test_a_goal_whose_arguments_do_not_fit_is_refused() -> None:
     goals = (GoalConfiguration("lamp", "On", mandatory=True, parameters=(("n", 7),)),)
     outcome = fly(simulator("sim", f"{limited} Lamp lamp = new Lamp(Internal); close();", "lamp"), goals=goals)
     assert lines(outcome, "reject") == ["0 reject sim lamp On(n=7): its arguments do not fit"]
-    assert outcome.abort is None and len(outcome.unmet_goals) == 1
+    assert outcome.abort is None and len(outcome.open_goals) == 1
 
 
 def test_a_goal_that_comes_too_late_is_refused() -> None:
     outcome = fly(user(""), lamp(""), goals=busy(at=5, start=(1, 4)))
-    assert outcome.unmet_goals == ("Busy: too late",)
+    assert open_goals(outcome) == ["Busy: too late"]
 
 
 def test_who_does_not_look_ahead_takes_no_goals() -> None:
     goals = (GoalConfiguration("lamp", "On", mandatory=True),)
     outcome = fly(lamp("", lookahead=0), goals=goals)
-    assert outcome.unmet_goals == ("On: `sim` does not look ahead and takes no goals",)
+    assert open_goals(outcome) == ["On: its owner does not look ahead and takes no goals"]
     asked = fly(user("User::Busy { contains(Lamp.On on); }"), lamp("", lookahead=0), goals=busy())
     assert lines(asked, "request") == ["0 request user Busy"]
 
@@ -69,19 +70,19 @@ def test_a_goal_without_a_place_is_rejected_and_the_rest_is_done() -> None:
     )
     outcome = fly(user("User::Busy { duration == 4; }"), lamp(""), goals=goals, until=12)
     assert outcome.abort is None
-    assert outcome.unmet_goals == ("Busy(k=2): the planner found no place for it",)
+    assert open_goals(outcome) == ["Busy(k=2): the planner found no place for it"]
     assert history(outcome, "user") == ["0 Idle", "3 Busy(k=1)", "7 Idle"]
 
 
 def test_a_mandatory_goal_that_has_not_ended_is_unmet() -> None:
     outcome = fly(user("User::Busy { duration == 8; }"), lamp(""), goals=busy(start=(5, 5)), until=10)
-    assert outcome.unmet_goals == ("Busy",)
-    assert fly(user("User::Busy { duration == 5; }"), lamp(""), goals=busy(start=(5, 5)), until=10).unmet_goals == ()
+    assert open_goals(outcome) == ["Busy"]
+    assert open_goals(fly(user("User::Busy { duration == 5; }"), lamp(""), goals=busy(start=(5, 5)), until=10)) == []
 
 
 def test_a_goal_that_is_due_after_the_end_is_unmet() -> None:
-    assert fly(user(""), lamp(""), goals=busy(at=50), until=10).unmet_goals == ("Busy",)
-    assert fly(user(""), lamp(""), goals=busy(start=(500, 600)), until=10).unmet_goals == ("Busy",)
+    assert open_goals(fly(user(""), lamp(""), goals=busy(at=50), until=10)) == ["Busy"]
+    assert open_goals(fly(user(""), lamp(""), goals=busy(start=(500, 600)), until=10)) == ["Busy"]
 
 
 def test_a_goal_may_be_unbounded() -> None:
@@ -130,15 +131,15 @@ def test_a_sub_goal_without_a_place_ends_the_mission() -> None:
     outcome = fly(user(rules), lamp(""), until=20)
     assert outcome.abort is not None
     assert (outcome.abort.code, outcome.abort.tick, outcome.abort.relaxes) == ("F4", 0, 1)
-    assert outcome.abort.summary.startswith("no place for Lamp.On#")
-    assert outcome.abort.conflict is not None and len(outcome.abort.conflict.causes) >= 2
+    assert reason_text(outcome.abort.reason).startswith("no place for Lamp.On#")
+    assert outcome.abort.conflict is not None and len(outcome.abort.conflict.elements) >= 2
 
 
 def test_a_sub_goal_of_a_rejectable_goal_only_costs_the_goal() -> None:
     rules = "User::Busy { contains(Lamp.On on); on.duration >= 5; } Lamp::On { duration <= 3; }"
     outcome = fly(user(rules), lamp(""), goals=busy(), until=20)
     assert outcome.abort is None
-    assert outcome.unmet_goals == ("Busy: the planner found no place for it",)
+    assert open_goals(outcome) == ["Busy: the planner found no place for it"]
 
 
 def test_two_users_of_one_timeline_are_served_one_after_the_other() -> None:
@@ -157,5 +158,5 @@ def test_two_users_of_one_timeline_are_served_one_after_the_other() -> None:
         goals=goals,
         until=40,
     )
-    assert outcome.abort is None and outcome.unmet_goals == ()
+    assert outcome.abort is None and open_goals(outcome) == []
     assert history(outcome, "lamp") == ["0 Off", "3 On(n=1)", "7 Off", "13 On(n=2)", "17 Off"]

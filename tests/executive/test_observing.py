@@ -5,7 +5,8 @@ import pytest
 from runtime.executive.agent import OwnershipError
 from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.outcome import Outcome
-from tests.executive.flying import Flyer, fly, history, lines, planner, simulator
+from runtime.executive.rendering import reason_text
+from tests.executive.flying import Flyer, fly, history, lines, open_goals, planner, simulator
 
 LAMP = """
 class Lamp extends AgentTimeline { predicate Off { } predicate On { int n; } Lamp(Mode m) { super(m, "Off"); } }
@@ -60,7 +61,7 @@ def test_the_order_in_the_configuration_does_not_matter() -> None:
 @pytest.mark.parametrize("duration", [1, 5, 9, 10])
 def test_early_and_late_answers_within_the_slack_need_no_repair(duration: int) -> None:
     outcome = shone(duration)
-    assert outcome.abort is None and outcome.unmet_goals == ()
+    assert outcome.abort is None and open_goals(outcome) == []
     assert lines(outcome, "relax") == []
     assert history(outcome, "user") == ["0 Idle", "3 Busy", f"{4 + duration} Idle"]
 
@@ -72,7 +73,7 @@ def test_one_tick_past_the_bound_there_is_a_repair() -> None:
         "14 relax user forgetting the past: Lamp.On#4 goes on at tick 14, later than the plan allows",
         "14 reject user user Busy: dropped in the repair",
     ]
-    assert outcome.unmet_goals == ("Busy: dropped in the repair",)
+    assert open_goals(outcome) == ["Busy: dropped in the repair"]
 
 
 def test_what_is_only_planned_gives_way_to_the_world_with_the_past_kept() -> None:
@@ -102,7 +103,7 @@ def test_an_observation_that_the_model_forbids_is_unexpected() -> None:
     outcome = fly(user("Lamp::Off { duration >= 9; }"), blinking(4), until=20)
     assert outcome.abort is not None
     assert (outcome.abort.code, outcome.abort.tick, outcome.abort.relaxes) == ("F2", 4, 2)
-    assert outcome.abort.summary == "Lamp.Off#0 ended at tick 4, when the plan does not allow it"
+    assert reason_text(outcome.abort.reason) == "Lamp.Off#0 ended at tick 4, when the plan does not allow it"
 
 
 def test_a_predicate_that_the_user_does_not_know_is_undefined() -> None:

@@ -3,6 +3,7 @@
 import pytest
 
 from runtime.executive.configuration import GoalConfiguration
+from runtime.executive.rendering import reason_text
 from tests.executive.flying import fly, history, lines, planner, simulator
 
 STATES = """
@@ -17,7 +18,7 @@ CELL = "Cell cell = new Cell(Internal); close();"
 def lived(rules: str, until: int = 9, objects: str = CELL, lookahead: int = 1) -> list[str]:
     """What a cell with these rules publishes."""
     outcome = fly(planner("it", f"{STATES}{rules}{objects}", "cell", lookahead=lookahead), until=until)
-    assert outcome.abort is None, outcome.abort.summary
+    assert outcome.abort is None, reason_text(outcome.abort.reason)
     return history(outcome, "cell")
 
 

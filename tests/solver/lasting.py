@@ -55,7 +55,7 @@ def plan_and_undo(count: int) -> list[tuple[int, int]]:
 
     def turn(_: int) -> None:
         assert solver.solve(10**6, 10**6, lambda: False) == PLAN
-        solver.take_back()
+        solver.undo_all()
 
     return repeated(count, turn, database.engine, database.plan, database.plan.rows, database)
 

@@ -1,5 +1,6 @@
 """A solver's configuration as text, what is read of it, and what is wrong with it."""
 
+import re
 from pathlib import Path
 from textwrap import dedent
 
@@ -10,6 +11,8 @@ from runtime.solver.configuration.configuration import Configuration, FlawFilter
 from runtime.solver.configuration.limits import Limits, model_limits
 from runtime.solver.configuration.read import read_configuration
 from tests.solver.planning import loaded
+
+MANUAL = Path(__file__).resolve().parent.parent.parent / "docs" / "plan.md"
 
 SAMPLE = """\
 <Solver name="S">
@@ -75,12 +78,18 @@ def test_xml_says_managers_filters_and_handlers_in_order() -> None:
     assert (threats.handlers[0].priority, threats.handlers[0].order) == (3.0, ("late",))
     assert variables.filters == (FlawFilter("FlawFilter", Match(class_name="T", variable="x")),)
     (listed,) = variables.handlers
-    assert (listed.values, listed.guards, listed.master_guards) == (("red", "blue"), (("x", "3"),), (("y", "true"),))
+    assert (listed.values, listed.guards, listed.parent_guards) == (("red", "blue"), (("x", "3"),), (("y", "true"),))
     assert (listed.priority, listed.max_choices, listed.specificity) == (7.0, 2, 4)
 
 
 def test_toml_says_the_same_as_xml() -> None:
     assert read_well("s.toml", SAME_AS_TOML) == read_well("s.xml", SAMPLE)
+
+
+def test_the_example_in_the_manual_is_well_formed() -> None:
+    (text,) = re.findall(r"```toml\n(.*?)```", MANUAL.read_text(encoding="utf-8"), re.DOTALL)
+    configuration = read_well("s.toml", text)
+    assert [handler.values for handler in configuration.managers[1].handlers] == [("fast", "slow")]
 
 
 def test_a_handler_without_priority_has_that_of_its_manager_or_the_worst() -> None:
@@ -150,6 +159,21 @@ def test_a_mistake_in_toml_is_told_with_its_line() -> None:
         "6: no flaw manager is called `Threats`",
     ]
     assert complaints_of("a = \n", "s.toml") == ["1: invalid value"]
+
+
+@pytest.mark.parametrize(
+    ("text", "complaint"),
+    [
+        ('filter = [{ component = "HorizonFilter" },\n  { perdicate = "p" }]', "2: `perdicate` means nothing here"),
+        ('[manager]\ncomponent = "ThreatManager"\ndefault_priority = -1', "3: `defaultPriority` must be a number"),
+        ('[[manager]]\ncomponent = "ThreatManager"\nhandler = 3', "3: `manager.handler` means nothing here"),
+        ('[[manager]]\n"compon\\u0065nt" = "ThreatManager"\n"lab\\u0065ls" = 1', "1: `labels` means nothing here"),
+        ("[[manager]]\na = \nb = 1", "2: invalid value"),
+    ],
+)
+def test_a_mistake_is_told_at_its_table_or_key(text: str, complaint: str) -> None:
+    (found,) = complaints_of(text, "s.toml")
+    assert found.startswith(complaint)
 
 
 def test_any_bytes_are_read_without_an_exception() -> None:

@@ -53,11 +53,11 @@ def test_no_colouring_has_all_choices_of_a_nogood(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("seed", range(20))
 def test_a_full_store_changes_no_verdict(tmp_path: Path, seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(nogoods, "MOST", 4)
+    monkeypatch.setattr(nogoods, "_MOST", 4)
     solver = solver_for(tmp_path, guards_model(seed))
     small = solver.solve(20000, 2**60)
     assert len(solver.nogoods.sets) <= 4
-    monkeypatch.setattr(nogoods, "LONGEST", 0)
+    monkeypatch.setattr(nogoods, "_LONGEST", 0)
     without = solver_for(tmp_path, guards_model(seed))
     assert without.solve(20000, 2**60) == small
     assert not without.nogoods.sets
@@ -67,7 +67,7 @@ def test_what_is_learned_is_not_explored_again(tmp_path: Path, monkeypatch: pyte
     text, _ = colouring(3, 24)
     steps = []
     for longest in (24, 0):
-        monkeypatch.setattr(nogoods, "LONGEST", longest)
+        monkeypatch.setattr(nogoods, "_LONGEST", longest)
         solver = solver_for(tmp_path, text)
         solver.solve(20000, 2**60)
         steps.append(solver.steps)

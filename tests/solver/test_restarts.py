@@ -1,4 +1,4 @@
-"""A search that begins anew says the same as one that does not, and finds what is hidden sooner."""
+"""A search with restarts has the same verdict as one without, and finds hidden contradictions sooner."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -7,7 +7,7 @@ import pytest
 
 from bench.hard_models import model
 from runtime.solver.configuration.configuration import Configuration, default_configuration
-from runtime.solver.learning.failure_log import Recorder
+from runtime.solver.learning.failure_log import FailureLog
 from runtime.solver.search import Solver
 from runtime.solver.tags import EXHAUSTED, PLAN, RESULT_NAMES
 from tests.solver.planning import resources_configuration, solver_for
@@ -22,10 +22,10 @@ CLASSES = """
 
 
 def restless(folder: Path, text: str, how: Configuration | None = None) -> Solver:
-    """A solver that begins anew after two failures, then after three, and so on."""
+    """A solver that restarts after two failures, then after three, and so on."""
     solver = solver_for(folder, text, how=how)
     solver.refresh()
-    solver.queues.weights.limit = 2
+    solver.agenda.restarts.limit = 2
     return solver
 
 
@@ -49,7 +49,7 @@ def test_restarts_change_no_verdict_of_variables(tmp_path: Path) -> None:
         puzzle = variables_puzzle(seed)
         solver = restless(tmp_path, puzzle.text)
         assert solved(solver) == ("plan" if puzzle.has_plan else "exhausted"), puzzle.text
-        restarts += solver.queues.weights.restarts
+        restarts += solver.agenda.restarts.count
     assert restarts
 
 
@@ -60,14 +60,14 @@ def test_what_is_hard_is_found_behind_what_is_easy(tmp_path: Path, feasible: boo
     assert solver.solve(2**62, 2**62) == wanted
     steady = solver_for(tmp_path, text)
     steady.refresh()
-    steady.queues.weights.limit = NEVER
+    steady.agenda.restarts.limit = NEVER
     steady.solve(10 * solver.steps, 2**62)
     assert steady.steps == solver.steps if feasible else steady.steps >= 10 * solver.steps
 
 
 def test_runs_grow_and_begin_from_the_root(tmp_path: Path) -> None:
     solver = restless(tmp_path, model("knot", 3, False))
-    weights, limits, depths = solver.queues.weights, [2], []
+    weights, limits, depths = solver.agenda.restarts, [2], []
     while solver.step() not in (PLAN, EXHAUSTED):
         if weights.limit != limits[-1]:
             limits.append(weights.limit)
@@ -100,8 +100,8 @@ def test_variables_keep_their_order_where_it_may_matter(tmp_path: Path, text: st
     assert not solver_for(tmp_path, whole, europa=True).may_restart
 
 
-def test_who_asks_for_an_account_is_told_of_one_run(tmp_path: Path) -> None:
+def test_a_failure_log_is_of_one_run(tmp_path: Path) -> None:
     solver = restless(tmp_path, model("knot", 2, False))
-    solver.account = Recorder(solver.database, solver.queues, solver.stack)
+    solver.failure_log = FailureLog(solver.database, solver.agenda, solver.stack)
     assert solved(solver) == "exhausted"
-    assert solver.queues.weights.restarts == 0
+    assert solver.agenda.restarts.count == 0

@@ -7,6 +7,7 @@ import pytest
 from checker.smt.confirm import Finding, confirm
 from runtime.constraints.explanation.cause import CauseKind
 from runtime.constraints.minimisation.minimise import minimise
+from runtime.executive.rendering import element_text
 from runtime.executive.story import conflict_of
 from runtime.executive.workbench import Workbench
 from runtime.user.fault import UserCodeError
@@ -137,7 +138,7 @@ def test_z3_names_what_it_was_not_told_and_believes_terms(tmp_path: Path) -> Non
     told = conflict_of(Workbench(database(text, library(tmp_path, silent)), "reactor"))
     assert told is not None
     assert confirm(told).untranslated == ("twice",)
-    assert "twice(y, x)" in [cause.because for cause in told.causes]
+    assert "twice(y, x)" in [element_text(element) for element in told.elements]
 
 
 @pytest.mark.parametrize(

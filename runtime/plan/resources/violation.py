@@ -8,7 +8,6 @@ from runtime.constraints.domains.bitset import has_value
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.constraints.propagators.external import External, argument, refuse
-from runtime.plan import tags
 from runtime.plan.resources.profile import Levels
 from runtime.plan.tags import AS_IT_IS, LIMITS, TOO_HIGH, TOO_LOW, TOO_TIGHT
 
@@ -46,31 +45,6 @@ class Excess(External):
         self.charged: list[tuple[int, float]] = []  # tokens that use it there, and how much for certain
         self.table: Callable[[Any], Any] | None = None
         self.judge: Callable[[Any, Any], Any] | None = None
-
-    def words(self, name: str, token: Callable[[int], str]) -> str:
-        """What is wrong with the resource of that name, and who uses it; `token` knows names."""
-        who = ", ".join(f"{token(t)} {amount:g}" for t, amount in self.charged if t >= 0)
-        who = f": {who}" if who else ""
-        if self.table is not None:
-            side = "falls below its least" if self.wrong == TOO_LOW else "rises above its greatest"
-            return f"the level of {name} {side}, {self.limit:g}, by {self.at} in any order{who}"
-        match self.wrong:
-            case tags.TOO_LOW if self.helper:
-                level = self.limit - self.amount
-                return f"the level of {name} falls to {level:g} at {self.at}, its least is {self.limit:g}{who}"
-            case tags.TOO_LOW:
-                return f"{name} needs {self.room + self.amount:g} of {self.room:g} available at {self.at}{who}"
-            case tags.TOO_HIGH:
-                level = self.limit + self.amount
-                return f"the level of {name} rises to {level:g} at {self.at}, its greatest is {self.limit:g}{who}"
-            case tags.TOO_TIGHT:
-                have = self.room * (self.until - self.at)
-                unit = "ticks" if self.room == 1.0 else "amount times ticks"
-                window = f"[{self.at}, {self.until}]"
-                return f"{name} needs {have + self.amount:g} of {have:g} {unit} available in {window}{who}"
-            case tags.TOO_FAST:
-                return f"too much of {name} flows at {self.at}, by {self.amount:g}{who}"
-        return f"too much of {name} is used altogether, by {self.amount:g}{who}"
 
     def share(self, low: int, high: int, length: int) -> int:
         """How much time lies in the window of a use that may last from `low` to `high`."""

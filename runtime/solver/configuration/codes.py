@@ -1,4 +1,4 @@
-"""Name every complaint about a solver's configuration."""
+"""Diagnostic codes of a solver's configuration."""
 
 from nddl_lang.text.diagnostic import Code, Severity
 

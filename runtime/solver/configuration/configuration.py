@@ -1,4 +1,4 @@
-"""Hold what a solver is told: which flaws it mends, in which order, and how; as frozen data."""
+"""Solver configuration as frozen data: which flaws are mended, in which order, and how."""
 
 from dataclasses import dataclass, replace
 
@@ -7,14 +7,14 @@ from runtime.solver.tags import WORST_PRIORITY
 
 @dataclass(frozen=True, slots=True)
 class Match:
-    """Which tokens, variables or instants a filter or handler means; all that is given must hold."""
+    """Which tokens, variables or resources a filter or handler matches; all that is given must hold."""
 
     class_name: str | None = None
     predicate: str | None = None
     variable: str | None = None
-    master_class: str | None = None
-    master_predicate: str | None = None
-    master_relation: str | None = None
+    parent_class: str | None = None
+    parent_predicate: str | None = None
+    parent_relation: str | None = None
     token_name: str | None = None
 
     @property
@@ -24,9 +24,9 @@ class Match:
             self.class_name,
             self.predicate,
             self.variable,
-            self.master_class,
-            self.master_predicate,
-            self.master_relation,
+            self.parent_class,
+            self.parent_predicate,
+            self.parent_relation,
             self.token_name,
         )
         return sum(attribute is not None for attribute in given)
@@ -34,7 +34,7 @@ class Match:
 
 @dataclass(frozen=True, slots=True)
 class FlawFilter:
-    """What is not to be mended. `component` FlawFilter excludes all that matches; the others test more."""
+    """Flaws to exclude. `component` FlawFilter excludes all that match; the others test more."""
 
     component: str = "FlawFilter"
     match: Match = Match()
@@ -43,9 +43,9 @@ class FlawFilter:
 
 @dataclass(frozen=True, slots=True)
 class FlawHandler:
-    """How a flaw is mended: the component, when it applies, and what it is told.
+    """How a flaw is mended: the component, when it applies, and its settings.
 
-    `guards` and `master_guards` are pairs of a variable of the token (of its parent) and the value it must have.
+    `guards` and `parent_guards` are pairs of a variable of the token (of its parent) and the value it must have.
     `order` sorts choices; `choice` says which an HSTS handler offers; `values` are those of ValEnum.
     `keep`, `constraint` and `iterate` are for resource threats.
     """
@@ -53,7 +53,7 @@ class FlawHandler:
     component: str
     match: Match = Match()
     guards: tuple[tuple[str, str], ...] = ()
-    master_guards: tuple[tuple[str, str], ...] = ()
+    parent_guards: tuple[tuple[str, str], ...] = ()
     priority: float = WORST_PRIORITY
     max_choices: int = 0
     order: tuple[str, ...] = ()
@@ -66,12 +66,12 @@ class FlawHandler:
     @property
     def specificity(self) -> int:
         """How many conditions it has: of all handlers that apply, the most specific one is taken."""
-        return self.match.weight + len(self.guards) + len(self.master_guards)
+        return self.match.weight + len(self.guards) + len(self.parent_guards)
 
 
 @dataclass(frozen=True, slots=True)
 class FlawManager:
-    """One kind of flaw, what is left out of it, and how it is mended; `order` sorts flaws of resources.
+    """One kind of flaw, its filters and handlers; `order` sorts flaws of resources.
 
     A manager of resources leaves nothing out, unless it stands `for_tokens`: see `with_resources`.
     """
@@ -85,7 +85,7 @@ class FlawManager:
 
 @dataclass(frozen=True, slots=True)
 class Configuration:
-    """All that a solver is told; `filters` apply to tokens and variables of every manager."""
+    """The settings of a solver; `filters` apply to tokens and variables of every manager."""
 
     name: str
     filters: tuple[FlawFilter, ...]

@@ -1,4 +1,4 @@
-"""Hold a configuration as it is written, in XML or TOML: elements with attributes, children and spans."""
+"""A configuration as it is written, in XML or TOML: elements with attributes, children and spans."""
 
 from dataclasses import dataclass
 

@@ -1,147 +1,69 @@
-"""Say which filters and handlers of a configuration concern a token, a variable or a resource, from names alone.
+"""Handler matching: the filters and handlers of a configuration for a kind of token, a variable or a resource.
 
-What depends on names and classes only is settled here, once per kind of token; what changes during search (horizon,
-guards) is handed on as numbers.
+What depends on names and classes only is decided here, once per kind; what changes during search (horizon, guards)
+is handed on as codes.
 """
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from compiler.program import FIRST_PARAMETER, OBJECT, START, STATE, ClassCode, PredicateCode, Program
+from compiler.program import FIRST_PARAMETER, OBJECT, START, STATE, TOKEN_VARIABLES, ClassCode, PredicateCode, Program
 from runtime.solver.configuration.configuration import Configuration, FlawFilter, FlawHandler, Match
+from runtime.solver.configuration.words import FILTERS, POLICIES, STANDARD
 from runtime.solver.tags import (
-    ACTIVATE_FIRST,
-    ACTIVATE_ONLY,
     FILTER_GUARD,
     FILTER_HORIZON,
     FILTER_HORIZON_VARIABLE,
     FILTER_INFINITE,
     FILTER_LOCAL,
-    FILTER_MASTER_LOOSE,
+    FILTER_NOT_ASSIGNED,
     FILTER_NOT_GUARD,
     FILTER_NOT_SINGLETON,
     FILTER_PARAMETER,
+    FILTER_PARENT_NOT_ASSIGNED,
     FILTER_STATIC,
-    FILTER_TOKEN_LOOSE,
-    HANDLER_BASIC,
-    HANDLER_HSTS,
-    HANDLER_HSTS_THREAT,
-    HANDLER_LISTED,
-    HANDLER_MAX,
-    HANDLER_MIN,
-    HANDLER_RANDOM,
-    HANDLER_RESOURCE,
-    HANDLER_SUPPORT,
-    HANDLER_THREAT,
     MANAGER_NAMES,
-    MERGE_FIRST,
-    MERGE_ONLY,
     NONE,
-    OPEN_CONDITION,
-    ORDER_EARLY,
-    ORDER_FAR,
-    ORDER_KEY,
-    ORDER_LATE,
-    ORDER_NEAR,
-    POLICY_PARTIAL,
-    POLICY_POSSIBLE,
-    POLICY_TOTAL,
-    RESOURCE_THREAT,
-    THREAT,
-    UNBOUND_VARIABLE,
 )
 
-FILTER_CODES = {
-    "FlawFilter": FILTER_STATIC,
-    "HorizonFilter": FILTER_HORIZON,
-    "HorizonVariableFilter": FILTER_HORIZON_VARIABLE,
-    "GuardFilter": FILTER_GUARD,
-    "NotGuardFilter": FILTER_NOT_GUARD,
-    "ParameterFilter": FILTER_PARAMETER,
-    "LocalVariableFilter": FILTER_LOCAL,
-    "Singleton": FILTER_NOT_SINGLETON,
-    "InfiniteDynamicFilter": FILTER_INFINITE,
-    "MasterMustBeInsertedFilter": FILTER_MASTER_LOOSE,
-    "TokenMustBeAssignedFilter": FILTER_TOKEN_LOOSE,
-    "ParentMustBeInsertedFilter": FILTER_TOKEN_LOOSE,
-}
-POLICY_CODES = {
-    "PartiallyContained": POLICY_PARTIAL,
-    "PossiblyContained": POLICY_POSSIBLE,
-    "TotallyContained": POLICY_TOTAL,
-}
-HANDLER_CODES = {
-    "StandardVariableHandler": HANDLER_MIN,
-    "Min": HANDLER_MIN,
-    "Max": HANDLER_MAX,
-    "Random": HANDLER_RANDOM,
-    "ValEnum": HANDLER_LISTED,
-    "StandardOpenConditionHandler": HANDLER_SUPPORT,
-    "SupportedOpenConditionHandler": HANDLER_SUPPORT,
-    "BasicOpenConditionHandler": HANDLER_BASIC,
-    "HSTSOpenConditionDecisionPoint": HANDLER_HSTS,
-    "StandardThreatHandler": HANDLER_THREAT,
-    "HSTSThreatDecisionPoint": HANDLER_HSTS_THREAT,
-    "ResourceThreatHandler": HANDLER_RESOURCE,
-}
-ORDER_CODES = {
-    "early": ORDER_EARLY,
-    "late": ORDER_LATE,
-    "near": ORDER_NEAR,
-    "far": ORDER_FAR,
-    "ascendingKey": ORDER_KEY,
-}
-CHOICE_CODES = {
-    "mergeFirst": MERGE_FIRST,
-    "activateFirst": ACTIVATE_FIRST,
-    "mergeOnly": MERGE_ONLY,
-    "activateOnly": ACTIVATE_ONLY,
-}
-TOKEN_FILTERS = (FILTER_HORIZON, FILTER_MASTER_LOOSE)
-VARIABLE_FILTERS = (
+_TOKEN_FILTERS = (FILTER_HORIZON, FILTER_PARENT_NOT_ASSIGNED)
+_VARIABLE_FILTERS = (
     FILTER_HORIZON,
     FILTER_HORIZON_VARIABLE,
     FILTER_GUARD,
     FILTER_NOT_GUARD,
     FILTER_NOT_SINGLETON,
     FILTER_INFINITE,
-    FILTER_TOKEN_LOOSE,
+    FILTER_NOT_ASSIGNED,
 )
-STANDARD = {
-    THREAT: "StandardThreatHandler",
-    OPEN_CONDITION: "StandardOpenConditionHandler",
-    UNBOUND_VARIABLE: "StandardVariableHandler",
-    RESOURCE_THREAT: "ResourceThreatHandler",
-}
-COUNTED = "CBReusable"  # is used without tokens
-BUILT_IN = ("state", "object", "duration", "start", "end")  # variables of every token, in order
-SIMILAR_RELATIONS = {"before": ("before", "meets"), "after": ("after", "met_by")}
+_COUNTED = "CBReusable"  # is used without tokens
+_SIMILAR_RELATIONS = {"before": ("before", "meets"), "after": ("after", "met_by")}
 
 
 @dataclass(frozen=True, slots=True)
 class TokenKind:
-    """All that a configuration can know of a token before search: full predicate names, relation, name."""
+    """What a configuration can match of a token before search: full predicate names, relation, name."""
 
     predicate: str
-    master_predicate: str | None = None
+    parent_predicate: str | None = None
     relation: str | None = None
     name: str = ""
 
 
 @dataclass(frozen=True, slots=True)
-class Treatment:
-    """What a manager does about a kind of flaw.
+class HandlerRow:
+    """The filters and handlers of a manager for a kind of flaw.
 
     `filters` are pairs (code, policy) that are tested at every step: the flaw waits while one of them holds.
-    `handlers` are indices into `Matching.handlers`, the one to take first; those with guards may not apply.
+    `handlers` are indices into `HandlerMatching.handlers`, best first; those with guards may not apply.
     """
 
     filters: tuple[tuple[int, int], ...]
     handlers: tuple[int, ...]
 
 
-class Matching:
-    """A configuration seen with the classes and predicates of a program."""
+class HandlerMatching:
+    """A configuration matched with the classes and predicates of a program."""
 
     def __init__(self, configuration: Configuration, program: Program) -> None:
         self.filters = configuration.filters
@@ -158,129 +80,128 @@ class Matching:
             self.handlers_of.append(list(range(first, len(self.handlers))))
 
     @property
-    def reads_masters(self) -> bool:
-        """Whether any filter or handler asks for the parent of a token."""
-        return any(match.master_class or match.master_predicate or match.master_relation for match in self.matches())
+    def reads_parents(self) -> bool:
+        """Whether any filter or handler matches the parent of a token."""
+        return any(match.parent_class or match.parent_predicate or match.parent_relation for match in self._matches())
 
     @property
     def reads_names(self) -> bool:
-        """Whether any filter or handler asks for the name of a token."""
-        return any(match.token_name is not None for match in self.matches())
+        """Whether any filter or handler matches the name of a token."""
+        return any(match.token_name is not None for match in self._matches())
 
-    def matches(self) -> Iterator[Match]:
+    def _matches(self) -> Iterator[Match]:
         """All match attributes of the configuration."""
         yield from (one.match for one in self.filters)
         yield from (one.match for manager in self.managers for one in manager.filters)
         yield from (one.match for one in self.handlers)
 
-    def token(self, manager: int, token: TokenKind) -> Treatment | None:
-        """What manager number `manager` does about a token that is open or not ordered; None: nothing."""
-        return self.treat(manager, token, None, None, TOKEN_FILTERS)
+    def token(self, manager: int, token: TokenKind) -> HandlerRow | None:
+        """The row of a manager for an open or unordered token; None: a filter excludes it."""
+        return self._match(manager, token, None, None, _TOKEN_FILTERS)
 
-    def token_variable(self, manager: int, token: TokenKind, variable: str, is_local: bool) -> Treatment | None:
-        """What manager number `manager` does about a variable of a token, or of a rule instance of it."""
-        place = FILTER_LOCAL if is_local else FILTER_PARAMETER
-        return self.treat(manager, token, None, variable, (*VARIABLE_FILTERS, place))
+    def token_variable(self, manager: int, token: TokenKind, variable: str, is_local: bool) -> HandlerRow | None:
+        """The row of a manager for a variable of a token, or a local one of its rules."""
+        own = FILTER_LOCAL if is_local else FILTER_PARAMETER
+        return self._match(manager, token, None, variable, (*_VARIABLE_FILTERS, own))
 
-    def variable_text(self, predicate: str, place: int) -> str | None:
-        """What variable number `place` of a token is called; None for those that nobody decides.
+    def variable_text(self, predicate: str, number: int) -> str | None:
+        """The name of variable `number` of a token; None for those that nobody decides.
 
         An event has one time, which both its start and its end are, and no duration.
         """
         code = self.predicates[predicate]
-        if place >= FIRST_PARAMETER:
-            return code.parameters[place - FIRST_PARAMETER].name
-        if place == START and code.is_event:
+        if number >= FIRST_PARAMETER:
+            return code.parameters[number - FIRST_PARAMETER].name
+        if number == START and code.is_event:
             return "time"
-        if place == STATE or (code.is_event and place != OBJECT):
+        if number == STATE or (code.is_event and number != OBJECT):
             return None
-        return BUILT_IN[place]
+        return TOKEN_VARIABLES[number]
 
-    def place_of(self, predicate: str, name: str) -> int:
-        """Which variable of a token is called `name`; NONE if none."""
-        if name in BUILT_IN:
-            return BUILT_IN.index(name)
+    def variable_number(self, predicate: str, name: str) -> int:
+        """The number of the variable of a token that is called `name`; NONE if none is."""
+        if name in TOKEN_VARIABLES:
+            return TOKEN_VARIABLES.index(name)
         code = self.predicates[predicate]
         if name == "time" and code.is_event:
             return START
         names = [parameter.name for parameter in code.parameters]
         return FIRST_PARAMETER + names.index(name) if name in names else NONE
 
-    def member(self, manager: int, owner: str, variable: str) -> Treatment | None:
-        """What manager number `manager` does about a member of an object of class `owner`."""
-        return self.treat(manager, None, owner, variable, VARIABLE_FILTERS)
+    def member(self, manager: int, owner: str, variable: str) -> HandlerRow | None:
+        """The row of a manager for a member of an object of class `owner`."""
+        return self._match(manager, None, owner, variable, _VARIABLE_FILTERS)
 
-    def global_variable(self, manager: int, variable: str) -> Treatment | None:
-        """What manager number `manager` does about a global variable."""
-        return self.treat(manager, None, None, variable, VARIABLE_FILTERS)
+    def global_variable(self, manager: int, variable: str) -> HandlerRow | None:
+        """The row of a manager for a global variable."""
+        return self._match(manager, None, None, variable, _VARIABLE_FILTERS)
 
-    def instant(self, manager: int, resource: str) -> Treatment | None:
-        """What manager number `manager` does about a resource of class `resource`; mostly filters do not concern it."""
+    def resource(self, manager: int, owner: str) -> HandlerRow | None:
+        """The row of a manager for a resource of a class; filters count only in a manager that stands `for_tokens`."""
         if self.managers[manager].for_tokens:
-            return (
-                None if COUNTED in self.ancestry(resource) else self.treat(manager, None, resource, None, TOKEN_FILTERS)
-            )
-        fitting = [h for h in self.handlers_of[manager] if self.fits(self.handlers[h].match, None, resource, None)]
-        return Treatment((), self.sorted(fitting))
+            is_counted = _COUNTED in self._ancestry(owner)
+            return None if is_counted else self._match(manager, None, owner, None, _TOKEN_FILTERS)
+        fitting = [h for h in self.handlers_of[manager] if self._fits(self.handlers[h].match, None, owner, None)]
+        return HandlerRow((), self._sorted(fitting))
 
-    def treat(
+    def _match(
         self, manager: int, token: TokenKind | None, owner: str | None, variable: str | None, tested: tuple[int, ...]
-    ) -> Treatment | None:
+    ) -> HandlerRow | None:
         dynamic = []
         for one in (*self.filters, *self.managers[manager].filters):
-            if not self.fits(one.match, token, owner, variable):
+            if not self._fits(one.match, token, owner, variable):
                 continue
-            code = FILTER_CODES[one.component]
+            code = FILTERS[one.component]
             if code == FILTER_STATIC or (code in (FILTER_LOCAL, FILTER_PARAMETER) and code in tested):
                 return None
             if code in tested:
-                dynamic.append((code, policy(one)))
-        fitting = [h for h in self.handlers_of[manager] if self.fits(self.handlers[h].match, token, owner, variable)]
-        return Treatment(tuple(dict.fromkeys(dynamic)), self.sorted(fitting))
+                dynamic.append((code, _policy(one)))
+        fitting = [h for h in self.handlers_of[manager] if self._fits(self.handlers[h].match, token, owner, variable)]
+        return HandlerRow(tuple(dict.fromkeys(dynamic)), self._sorted(fitting))
 
-    def sorted(self, handlers: list[int]) -> tuple[int, ...]:
+    def _sorted(self, handlers: list[int]) -> tuple[int, ...]:
         """The most specific first, then the lowest priority, then the last in the text; the standard one at the end."""
         own, *given = handlers
         given.sort(key=lambda h: (-self.handlers[h].specificity, self.handlers[h].priority, -h))
         return (*given, own)
 
-    def fits(self, match: Match, token: TokenKind | None, owner: str | None, variable: str | None) -> bool:
+    def _fits(self, match: Match, token: TokenKind | None, owner: str | None, variable: str | None) -> bool:
         """Whether all that `match` gives holds."""
         if token is not None:
             owner = self.predicates[token.predicate].class_name
-        elif match.predicate or match.token_name is not None or match.master_relation:
+        elif match.predicate or match.token_name is not None or match.parent_relation:
             return False
-        if match.class_name is not None and (owner is None or match.class_name not in self.ancestry(owner)):
+        if match.class_name is not None and (owner is None or match.class_name not in self._ancestry(owner)):
             return False
         if match.variable is not None and match.variable != variable:
             return False
         if token is None:
-            return not (match.master_class or match.master_predicate)
-        if match.predicate is not None and match.predicate not in spellings(token.predicate):
+            return not (match.parent_class or match.parent_predicate)
+        if match.predicate is not None and match.predicate not in _spellings(token.predicate):
             return False
         if match.token_name is not None and match.token_name not in token.name:
             return False
-        return self.fits_master(match, token)
+        return self._fits_parent(match, token)
 
-    def fits_master(self, match: Match, token: TokenKind) -> bool:
+    def _fits_parent(self, match: Match, token: TokenKind) -> bool:
         """Whether all that `match` gives about the parent holds."""
-        master = token.master_predicate
-        relation = token.relation if master is not None and token.relation is not None else "none"
-        if match.master_relation is not None:
-            wanted = SIMILAR_RELATIONS.get(match.master_relation, (match.master_relation,))
+        parent = token.parent_predicate
+        relation = token.relation if parent is not None and token.relation is not None else "none"
+        if match.parent_relation is not None:
+            wanted = _SIMILAR_RELATIONS.get(match.parent_relation, (match.parent_relation,))
             if relation not in wanted:
                 return False
-        if match.master_class is None and match.master_predicate is None:
+        if match.parent_class is None and match.parent_predicate is None:
             return True
-        if master is None:
+        if parent is None:
             return False
-        if match.master_class is not None:
-            return match.master_class in self.ancestry(self.predicates[master].class_name) and (
-                match.master_predicate is None or match.master_predicate in spellings(master)
+        if match.parent_class is not None:
+            return match.parent_class in self._ancestry(self.predicates[parent].class_name) and (
+                match.parent_predicate is None or match.parent_predicate in _spellings(parent)
             )
-        return match.master_predicate in spellings(master)
+        return match.parent_predicate in _spellings(parent)
 
-    def ancestry(self, name: str) -> list[str]:
+    def _ancestry(self, name: str) -> list[str]:
         """A class and all it extends."""
         found = []
         current: str | None = name
@@ -293,12 +214,12 @@ class Matching:
         return found
 
 
-def spellings(predicate: str) -> tuple[str, str]:
+def _spellings(predicate: str) -> tuple[str, str]:
     """The ways to name a predicate in a configuration: alone, or with its class."""
     return predicate, predicate.rpartition(".")[2]
 
 
-def policy(one: FlawFilter) -> int:
+def _policy(one: FlawFilter) -> int:
     """The policy of a horizon filter; 0 for others."""
     is_horizon = one.component in ("HorizonFilter", "HorizonVariableFilter")
-    return POLICY_CODES[one.policy] if is_horizon else 0
+    return POLICIES.index(one.policy) if is_horizon else 0

@@ -1,4 +1,4 @@
-# The C types of `treatments.py`.
+# The C types of `handler_table.py`.
 
 cimport cython
 
@@ -6,13 +6,13 @@ cdef long long FILTER_HORIZON, FILTER_HORIZON_VARIABLE, FILTER_INFINITE, FILTER_
 cdef long long PREFER_EARLIEST
 
 
-cdef class Treatments:
+cdef class HandlerTable:
     cdef public object matching, vocabulary
-    cdef public long long managers, treatments, handlers, heaps
+    cdef public long long managers, row_count, handlers, heaps
     cdef public long long[::1] manager_kind, filter_first, filter_count, filter_code, filter_policy, first_handler
     cdef public long long[::1] handler_count, handler_of, heap_of, kind_of_predicate, handler_code, handler_most
     cdef public long long[::1] handler_choice, token_order, handler_constraint, handler_iterate, pairs_by_default
-    cdef public long long[::1] instant_order, instant_orders, prefers_earliest, handler_guards, manager_heap
+    cdef public long long[::1] resource_order, resource_orders, prefers_earliest, handler_guards, manager_heap
     cdef public long long[::1] manager_heaps
     cdef public bint by_predicate
     cdef public dict rows, kinds, token_rows, variable_rows
@@ -20,19 +20,19 @@ cdef class Treatments:
     cdef public double[::1] handler_priority, heap_priority
 
     cpdef long long token_kind(
-        self, long long predicate, long long master, long long relation, long long label
+        self, long long predicate, long long parent, long long relation, long long label
     ) except? -1
 
     cpdef long long token_row(self, long long manager, long long kind) except? -1
 
-    cpdef long long variable_row(self, long long manager, long long kind, long long place) except? -1
+    cpdef long long variable_row(self, long long manager, long long kind, long long number) except? -1
 
     cpdef long long local_row(self, long long manager, long long kind, long long name) except? -1
 
-    cpdef long long place_of(self, long long predicate, object name) except? -1
+    cpdef long long variable_number(self, long long predicate, object name) except? -1
 
     cpdef long long member_row(self, long long manager, long long owner, long long name) except? -1
 
-    cpdef long long instant_row(self, long long manager, long long owner) except? -1
+    cpdef long long resource_row(self, long long manager, long long owner) except? -1
 
     cpdef long long global_row(self, long long manager, long long name) except? -1

@@ -1,4 +1,4 @@
-"""Find the horizon and the limits that a model gives its planner: an object that is a PlannerConfig."""
+"""Limits of the search that a model gives: an object that is a PlannerConfig."""
 
 from dataclasses import dataclass
 
@@ -6,8 +6,8 @@ from compiler.program import ClassCode
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.plan.database import PlanDatabase
 
-MEMBERS = ("m_horizonStart", "m_horizonEnd", "m_maxPlannerSteps", "m_maxPlannerDepth")
-UNLIMITED = 2**62
+_MEMBERS = ("m_horizonStart", "m_horizonEnd", "m_maxPlannerSteps", "m_maxPlannerDepth")
+_UNLIMITED = 2**62
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,27 +16,27 @@ class Limits:
 
     start: int
     end: int
-    steps: int = UNLIMITED
-    depth: int = UNLIMITED
+    steps: int = _UNLIMITED
+    depth: int = _UNLIMITED
 
 
 def model_limits(database: PlanDatabase) -> Limits | None:
-    """What the first object of class PlannerConfig says, where all that it says is known; None if there is none."""
+    """The limits of the first object of class PlannerConfig whose horizon is known; None if there is none."""
     plan = database.plan
     classes = {each.name: each for each in database.program.classes}
     for o in range(len(database.objects.names)):
         owner = database.program.classes[plan.object_class[o]]
         if not _is_configuration(owner, classes):
             continue
-        places = {member.name: place for place, member in enumerate(owner.members)}
+        numbers = {member.name: number for number, member in enumerate(owner.members)}
         values = []
-        for name in MEMBERS:
-            v = plan.object_var0[o] + places[name] if name in places else -1
-            value = UNLIMITED
+        for name in _MEMBERS:
+            v = plan.object_var0[o] + numbers[name] if name in numbers else -1
+            value = _UNLIMITED
             if v >= 0 and plan.engine.lb[v] == plan.engine.ub[v] and plan.engine.ub[v] < HALF_INF:
                 value = plan.engine.lb[v]
             values.append(value)
-        if UNLIMITED not in values[:2]:
+        if _UNLIMITED not in values[:2]:
             return Limits(*values)
     return None
 

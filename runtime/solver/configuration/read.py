@@ -25,55 +25,29 @@ from runtime.solver.configuration.read_xml import read_xml
 from runtime.solver.configuration.words import (
     CHOICES,
     CONSTRAINTS,
-    INSTANT_ORDERS,
+    FILTERS,
+    HANDLERS,
     ITERATIONS,
     KEEPS,
     PAIR_ORDERS,
     POLICIES,
+    RESOURCE_ORDERS,
+    STANDARD,
     TOKEN_ORDERS,
 )
-from runtime.solver.tags import MANAGER_NAMES, WORST_PRIORITY
+from runtime.solver.tags import MANAGER_NAMES, NONE, RESOURCE_THREAT, WORST_PRIORITY
 
-THREATS, OPEN_CONDITIONS, VARIABLES, RESOURCES = MANAGER_NAMES
-HANDLERS = {
-    "StandardVariableHandler": VARIABLES,
-    "Min": VARIABLES,
-    "Max": VARIABLES,
-    "Random": VARIABLES,
-    "ValEnum": VARIABLES,
-    "StandardOpenConditionHandler": OPEN_CONDITIONS,
-    "SupportedOpenConditionHandler": OPEN_CONDITIONS,
-    "BasicOpenConditionHandler": OPEN_CONDITIONS,
-    "HSTSOpenConditionDecisionPoint": OPEN_CONDITIONS,
-    "StandardThreatHandler": THREATS,
-    "HSTSThreatDecisionPoint": THREATS,
-    "ResourceThreatHandler": RESOURCES,
-}
-FILTERS = (
-    "FlawFilter",
-    "HorizonFilter",
-    "HorizonVariableFilter",
-    "GuardFilter",
-    "NotGuardFilter",
-    "ParameterFilter",
-    "LocalVariableFilter",
-    "Singleton",
-    "InfiniteDynamicFilter",
-    "MasterMustBeInsertedFilter",
-    "TokenMustBeAssignedFilter",
-    "ParentMustBeInsertedFilter",
-)
-MATCHES = {  # the ways to write an attribute, the one that counts first
+_MATCHES = {  # the ways to write an attribute, the one that counts first
     "class_name": ("class-match", "class"),
     "predicate": ("predicate-match", "predicate"),
     "variable": ("var-match", "variable"),
-    "master_class": ("masterClass",),
-    "master_predicate": ("masterPredicate",),
-    "master_relation": ("masterRelation",),
+    "parent_class": ("masterClass",),
+    "parent_predicate": ("masterPredicate",),
+    "parent_relation": ("masterRelation",),
     "token_name": ("tokenName",),
 }
-MATCH_NAMES = {name for names in MATCHES.values() for name in names} | {"label", "component"}
-HANDLER_ATTRIBUTES = {
+_MATCH_NAMES = {name for names in _MATCHES.values() for name in names} | {"label", "component"}
+_HANDLER_ATTRIBUTES = {
     "HSTSOpenConditionDecisionPoint": {"choice", "order"},
     "HSTSThreatDecisionPoint": {"order"},
     "ResourceThreatHandler": {"order", "filter", "constraint", "iterate"},
@@ -113,9 +87,10 @@ class _Reading:
     def manager(self, element: Element) -> FlawManager:
         named = element.find("component")
         component = named.value if named else element.tag
-        if component not in MANAGER_NAMES:
+        kind = MANAGER_NAMES.index(component) if component in MANAGER_NAMES else NONE
+        if kind == NONE:
             self.complaints.append(UNKNOWN_MANAGER.at(named.span if named else element.span, name=component))
-        known = {"component", "label", "defaultPriority"} | ({"order"} if component == RESOURCES else set())
+        known = {"component", "label", "defaultPriority"} | ({"order"} if kind == RESOURCE_THREAT else set())
         self.spare(element, known)
         default = self.number(element, "defaultPriority", WORST_PRIORITY)
         filters = []
@@ -124,14 +99,14 @@ class _Reading:
             if child.tag == "FlawFilter":
                 filters.append(self.filter(child))
             elif child.tag == "FlawHandler":
-                handlers += self.handler(child, component, default)
+                handlers += self.handler(child, kind, default)
             else:
                 self.complaints.append(UNKNOWN_ELEMENT.at(child.span, name=child.tag))
-        order = self.words(element, "order", INSTANT_ORDERS) or ("lower", "most", "earliest")
+        order = self.words(element, "order", RESOURCE_ORDERS) or ("lower", "most", "earliest")
         if "lower" in order and "upper" in order:
             self.complaints.append(BOTH_LEVELS.at(element.span))
         if not handlers:
-            handlers = [FlawHandler(standard(component), priority=default)]
+            handlers = [FlawHandler(STANDARD.get(kind, ""), priority=default)]
         return FlawManager(component, tuple(filters), tuple(handlers), order)
 
     def filter(self, element: Element) -> FlawFilter:
@@ -140,44 +115,44 @@ class _Reading:
         if name not in FILTERS:
             self.complaints.append(UNKNOWN_FILTER.at(component.span if component else element.span, name=name))
         is_horizon = name in ("HorizonFilter", "HorizonVariableFilter")
-        self.spare(element, MATCH_NAMES | ({"policy"} if is_horizon else set()))
+        self.spare(element, _MATCH_NAMES | ({"policy"} if is_horizon else set()))
         for child in element.children:
             self.complaints.append(UNKNOWN_ELEMENT.at(child.span, name=child.tag))
-        return FlawFilter(name, match(element), self.word(element, "policy", POLICIES))
+        return FlawFilter(name, _match(element), self.word(element, "policy", POLICIES))
 
-    def handler(self, element: Element, manager: str, default: float) -> Iterator[FlawHandler]:
+    def handler(self, element: Element, kind: int, default: float) -> Iterator[FlawHandler]:
         """The handler, unless it mends another kind of flaw."""
         named = element.find("component")
-        name = named.value if named else standard(manager)
+        name = named.value if named else STANDARD.get(kind, "")
         if name not in HANDLERS:
             self.complaints.append(UNKNOWN_HANDLER.at(named.span if named else element.span, name=name))
             return
-        if HANDLERS[name] != manager:
-            if manager in MANAGER_NAMES:
-                place = named.span if named else element.span
-                self.complaints.append(MISPLACED_HANDLER.at(place, name=name, manager=manager))
+        if HANDLERS[name][0] != kind:
+            if kind != NONE:
+                span = named.span if named else element.span
+                self.complaints.append(MISPLACED_HANDLER.at(span, name=name, manager=MANAGER_NAMES[kind]))
             return
-        self.spare(element, MATCH_NAMES | {"priority", "maxChoices"} | HANDLER_ATTRIBUTES.get(name, set()))
-        guards, master_guards, values = [], [], []
+        self.spare(element, _MATCH_NAMES | {"priority", "maxChoices"} | _HANDLER_ATTRIBUTES.get(name, set()))
+        guards, parent_guards, values = [], [], []
         for child in element.children:
             if child.tag == "Guard":
                 guards.append(self.pair(child))
             elif child.tag == "MasterGuard":
-                master_guards.append(self.pair(child))
+                parent_guards.append(self.pair(child))
             elif child.tag == "Value" and name == "ValEnum":
                 values.append(self.required(child, "val"))
             elif child.tag != "distribution" or name != "Random":
                 self.complaints.append(UNKNOWN_ELEMENT.at(child.span, name=child.tag))
         if name == "ValEnum" and not values:
             self.complaints.append(EMPTY_VALUES.at(element.span))
-        order = self.words(element, "order", PAIR_ORDERS if manager == RESOURCES else TOKEN_ORDERS)
+        order = self.words(element, "order", PAIR_ORDERS if kind == RESOURCE_THREAT else TOKEN_ORDERS)
         if not order and name.startswith("HSTS"):
             order = ("early",)
         yield FlawHandler(
             name,
-            match(element),
+            _match(element),
             tuple(guards),
-            tuple(master_guards),
+            tuple(parent_guards),
             self.number(element, "priority", default),
             int(self.number(element, "maxChoices", 0.0)),
             order,
@@ -233,12 +208,7 @@ class _Reading:
                 self.complaints.append(UNKNOWN_ATTRIBUTE.at(attribute.span, name=attribute.name))
 
 
-def match(element: Element) -> Match:
-    """What the match attributes of a filter or handler say."""
-    found = {field: element.find(*names) for field, names in MATCHES.items()}
+def _match(element: Element) -> Match:
+    """The match attributes of a filter or handler."""
+    found = {field: element.find(*names) for field, names in _MATCHES.items()}
     return Match(**{field: attribute.value for field, attribute in found.items() if attribute is not None})
-
-
-def standard(manager: str) -> str:
-    """The handler that a manager has where none is given."""
-    return next((name for name, mends in HANDLERS.items() if mends == manager and name != "Min"), "")

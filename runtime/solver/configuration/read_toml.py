@@ -1,33 +1,15 @@
-"""Read a solver's configuration from TOML: text in, the elements that the XML would have, with spans, out.
+"""TOML of a solver's configuration (docs/plan.md): text in, the elements that the XML would have out, with spans."""
 
-name = "quick"
-[[filter]]
-component = "HorizonFilter"
-[[manager]]
-component = "UnboundVariableManager"
-default_priority = 0
-[[manager.filter]]
-variable = "start"
-[[manager.handler]]
-component = "ValEnum"
-guards = { mode = "fast" }
-values = ["b", "a"]
-"""
-
-import re
 import tomllib
 from collections.abc import Iterator
 
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source, Span
-from nddl_lang.text.toml_places import toml_of
+from nddl_lang.text.toml_places import Path, find_places, split_error, toml_of
 from runtime.solver.configuration.codes import NOT_READABLE, UNKNOWN_ELEMENT
 from runtime.solver.configuration.element import Attribute, Element, stretch
 
-PLACE = re.compile(r"\(at line (\d+), column (\d+)\)")
-HEADER = re.compile(r"\s*\[\[?\s*([\w.-]+)\s*\]\]?")
-KEY = re.compile(r"\s*([\w-]+)\s*=")
-TABLES = {"filter": "FlawFilter", "handler": "FlawHandler"}
+_Table = dict[str, object]
 
 
 def read_toml(source: Source) -> tuple[Element | None, list[Diagnostic]]:
@@ -35,116 +17,90 @@ def read_toml(source: Source) -> tuple[Element | None, list[Diagnostic]]:
     try:
         table = tomllib.loads(toml_of(source.text))
     except tomllib.TOMLDecodeError as error:
-        found = PLACE.search(str(error))
-        at = source.line_starts[int(found[1]) - 1] + int(found[2]) - 1 if found else len(source.text)
-        reason = PLACE.sub("", str(error)).strip().lower()
+        reason, at = split_error(source, str(error))
         return None, [NOT_READABLE.at(stretch(source, at, at + 1), reason=reason)]
     return _Converter(source).convert(table)
 
 
 class _Converter:
-    """Makes elements of tables; the n-th table of a header is found again in the text for its span."""
+    """Makes elements of tables."""
 
     def __init__(self, source: Source) -> None:
         self.source = source
-        self.headers: dict[str, list[int]] = {}
-        for number, line in enumerate(source.text.splitlines(), 1):
-            header = HEADER.match(line)
-            if header:
-                self.headers.setdefault(header[1], []).append(number)
-        self.taken: dict[str, int] = {}
+        self.places = find_places(source.text)
         self.complaints: list[Diagnostic] = []
 
-    def convert(self, table: dict[str, object]) -> tuple[Element, list[Diagnostic]]:
+    def convert(self, table: _Table) -> tuple[Element, list[Diagnostic]]:
         """The root element, and what had no meaning."""
-        children = []
+        children: list[Element] = []
         for name, value in table.items():
             if name == "filter":
-                children += [self.element("FlawFilter", entry, "filter") for entry in self.tables(value, name, 1)]
+                children += [self.element("FlawFilter", *one) for one in self.tables(value, (name,))]
             elif name == "manager":
-                children += [self.manager(entry) for entry in self.tables(value, name, 1)]
+                children += [self.manager(*one) for one in self.tables(value, (name,))]
             elif name != "name":
-                self.complain(name, 1)
-        attributes = (Attribute("name", str(table.get("name", "")), self.line_span(1)),)
-        return Element("Solver", attributes, tuple(children), self.line_span(1)), self.complaints
+                self.complain((name,))
+        first = stretch(self.source, 0, len(self.source.line(1)))
+        title = Attribute("name", str(table.get("name", "")), first)
+        return Element("Solver", (title,), tuple(children), first), self.complaints
 
-    def manager(self, table: dict[str, object]) -> Element:
-        line = self.next_line("manager")
-        children = []
-        plain = {}
-        for name, value in table.items():
-            if name in TABLES:
-                entries = self.tables(value, f"manager.{name}", line)
-                children += [self.element(TABLES[name], entry, f"manager.{name}") for entry in entries]
-            else:
-                plain[name] = value
+    def manager(self, table: _Table, path: Path) -> Element:
+        children: list[Element] = []
+        plain = dict(table)
+        for name, tag in (("filter", "FlawFilter"), ("handler", "FlawHandler")):
+            if name in plain:
+                children += [self.element(tag, *one) for one in self.tables(plain.pop(name), (*path, name))]
         tag = str(plain.pop("component", ""))
-        return Element(tag, tuple(self.attributes(plain, line)), tuple(children), self.line_span(line))
+        return Element(tag, tuple(self.attributes(plain, path)), tuple(children), self.span(path))
 
-    def element(self, tag: str, table: dict[str, object], header: str) -> Element:
-        line = self.next_line(header)
-        span = self.line_span(line)
-        children = []
+    def element(self, tag: str, table: _Table, path: Path) -> Element:
+        span = self.span(path)
+        children: list[Element] = []
         plain = {}
         for name, value in table.items():
             if name in ("guards", "master_guards") and isinstance(value, dict):
                 guard = "Guard" if name == "guards" else "MasterGuard"
                 for variable, wanted in value.items():
-                    pair = (Attribute("name", variable, span), Attribute("value", as_text(wanted), span))
+                    pair = (Attribute("name", variable, span), Attribute("value", _text(wanted), span))
                     children.append(Element(guard, pair, (), span))
             elif name == "values" and isinstance(value, list):
-                children += [Element("Value", (Attribute("val", as_text(v), span),), (), span) for v in value]
+                children += [Element("Value", (Attribute("val", _text(v), span),), (), span) for v in value]
             else:
                 plain[name] = value
-        return Element(tag, tuple(self.attributes(plain, line)), tuple(children), span)
+        return Element(tag, tuple(self.attributes(plain, path)), tuple(children), span)
 
-    def attributes(self, table: dict[str, object], line: int) -> Iterator[Attribute]:
+    def attributes(self, table: _Table, path: Path) -> Iterator[Attribute]:
         for name, value in table.items():
-            if isinstance(value, list):
-                text = ",".join(as_text(item) for item in value)
-            else:
-                text = as_text(value)
-            yield Attribute(camel(name), text, self.key_span(name, line))
+            text = ",".join(map(_text, value)) if isinstance(value, list) else _text(value)
+            yield Attribute(_camel(name), text, self.span((*path, name)))
 
-    def tables(self, value: object, name: str, line: int) -> list[dict[str, object]]:
+    def tables(self, value: object, path: Path) -> list[tuple[_Table, Path]]:
+        """The tables of an array, or a single one, with their paths."""
         if isinstance(value, dict):
-            return [value]
+            return [(value, path)]
         if isinstance(value, list) and all(isinstance(entry, dict) for entry in value):
-            return value
-        self.complain(name, line)
+            return [(entry, (*path, number)) for number, entry in enumerate(value)]
+        self.complain(path)
         return []
 
-    def next_line(self, header: str) -> int:
-        lines = self.headers.get(header, [])
-        index = self.taken.get(header, 0)
-        self.taken[header] = index + 1
-        return lines[index] if index < len(lines) else 1
+    def span(self, path: Path) -> Span:
+        """A key and its value; of a table, the name in its header."""
+        while path and path not in self.places:  # a key with escapes
+            path = path[:-1]
+        place = self.places.get(path)
+        return stretch(self.source, place.key[0], place.value[1]) if place else stretch(self.source, 0, 0)
 
-    def key_span(self, name: str, line: int) -> Span:
-        for number in range(line, len(self.source.line_starts) + 1):
-            text = self.source.line(number)
-            found = KEY.match(text)
-            if found and found[1] == name:
-                begin = self.source.line_starts[number - 1] + found.start(1)
-                return stretch(self.source, begin, self.source.line_starts[number - 1] + len(text))
-            if number > line and HEADER.match(text):
-                break
-        return self.line_span(line)
-
-    def line_span(self, line: int) -> Span:
-        begin = self.source.line_starts[line - 1]
-        return stretch(self.source, begin, begin + len(self.source.line(line)))
-
-    def complain(self, name: str, line: int) -> None:
-        self.complaints.append(UNKNOWN_ELEMENT.at(self.key_span(name.rpartition(".")[2], line), name=name))
+    def complain(self, path: Path) -> None:
+        name = ".".join(part for part in path if isinstance(part, str))
+        self.complaints.append(UNKNOWN_ELEMENT.at(self.span(path), name=name))
 
 
-def as_text(value: object) -> str:
+def _text(value: object) -> str:
     """A TOML value as the XML would have it."""
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def camel(name: str) -> str:
+def _camel(name: str) -> str:
     """`master_class` as `masterClass`."""
     head, *tail = name.split("_")
     return head + "".join(word.capitalize() for word in tail)

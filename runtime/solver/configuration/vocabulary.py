@@ -1,4 +1,4 @@
-"""Put the plan's numbers into the words that a configuration uses, and back."""
+"""Names of a configuration for numbers of the plan, and back."""
 
 from array import array
 
@@ -6,7 +6,7 @@ from runtime.constraints.domains.tags import KIND_OBJECT, KIND_STRING
 from runtime.plan.database import PlanDatabase
 
 
-class Texts:
+class PlanVocabulary:
     """The names of predicates, classes, relations, variables and values of one database."""
 
     def __init__(self, database: PlanDatabase) -> None:
@@ -28,9 +28,9 @@ class Texts:
         """A label of a token, or the name of a local variable."""
         return self.database.names.text(name)
 
-    def member_text(self, owner: int, place: int) -> str:
+    def member_text(self, owner: int, number: int) -> str:
         """The name of a member of a class."""
-        return self.database.program.classes[owner].members[place].name
+        return self.database.program.classes[owner].members[number].name
 
     def global_text(self, index: int) -> str:
         """The name of a global variable."""
@@ -61,8 +61,8 @@ def grounded(database: PlanDatabase) -> "array[int]":
     found = array("q", [0] * max(plan.object_count, 1))
     for o in range(plan.object_count):
         members = database.program.classes[plan.object_class[o]].members
-        for place, member in enumerate(members):
-            v = plan.object_var0[o] + place
+        for number, member in enumerate(members):
+            v = plan.object_var0[o] + number
             if member.name == "profileType" and plan.engine.kind[v] == KIND_STRING and plan.engine.is_decided(v):
                 found[o] = 1 if database.prototypes.texts.text(int(plan.engine.lower(v))) == "GroundedProfile" else 0
     return found

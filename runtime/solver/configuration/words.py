@@ -1,14 +1,68 @@
-"""List the words that attributes of a configuration may hold; the first of each list is the default.
+"""Words of a configuration and their codes; of the tuples the index is the code, and the first word the default."""
 
-The order is that of the codes in `codes.py`.
-"""
+from runtime.solver.tags import (
+    FILTER_GUARD,
+    FILTER_HORIZON,
+    FILTER_HORIZON_VARIABLE,
+    FILTER_INFINITE,
+    FILTER_LOCAL,
+    FILTER_NOT_ASSIGNED,
+    FILTER_NOT_GUARD,
+    FILTER_NOT_SINGLETON,
+    FILTER_PARAMETER,
+    FILTER_PARENT_NOT_ASSIGNED,
+    FILTER_STATIC,
+    HANDLER_BASIC,
+    HANDLER_HSTS,
+    HANDLER_HSTS_THREAT,
+    HANDLER_LISTED,
+    HANDLER_MAX,
+    HANDLER_MIN,
+    HANDLER_RANDOM,
+    HANDLER_RESOURCE,
+    HANDLER_SUPPORT,
+    HANDLER_THREAT,
+    OPEN_CONDITION,
+    RESOURCE_THREAT,
+    THREAT,
+    UNBOUND_VARIABLE,
+)
 
+FILTERS = {
+    "FlawFilter": FILTER_STATIC,
+    "HorizonFilter": FILTER_HORIZON,
+    "HorizonVariableFilter": FILTER_HORIZON_VARIABLE,
+    "GuardFilter": FILTER_GUARD,
+    "NotGuardFilter": FILTER_NOT_GUARD,
+    "ParameterFilter": FILTER_PARAMETER,
+    "LocalVariableFilter": FILTER_LOCAL,
+    "Singleton": FILTER_NOT_SINGLETON,
+    "InfiniteDynamicFilter": FILTER_INFINITE,
+    "MasterMustBeInsertedFilter": FILTER_PARENT_NOT_ASSIGNED,
+    "TokenMustBeAssignedFilter": FILTER_NOT_ASSIGNED,
+    "ParentMustBeInsertedFilter": FILTER_NOT_ASSIGNED,
+}
+HANDLERS = {  # the kind of flaw that each mends, and its code; the first of a kind is its default
+    "StandardVariableHandler": (UNBOUND_VARIABLE, HANDLER_MIN),
+    "Min": (UNBOUND_VARIABLE, HANDLER_MIN),
+    "Max": (UNBOUND_VARIABLE, HANDLER_MAX),
+    "Random": (UNBOUND_VARIABLE, HANDLER_RANDOM),
+    "ValEnum": (UNBOUND_VARIABLE, HANDLER_LISTED),
+    "StandardOpenConditionHandler": (OPEN_CONDITION, HANDLER_SUPPORT),
+    "SupportedOpenConditionHandler": (OPEN_CONDITION, HANDLER_SUPPORT),
+    "BasicOpenConditionHandler": (OPEN_CONDITION, HANDLER_BASIC),
+    "HSTSOpenConditionDecisionPoint": (OPEN_CONDITION, HANDLER_HSTS),
+    "StandardThreatHandler": (THREAT, HANDLER_THREAT),
+    "HSTSThreatDecisionPoint": (THREAT, HANDLER_HSTS_THREAT),
+    "ResourceThreatHandler": (RESOURCE_THREAT, HANDLER_RESOURCE),
+}
+STANDARD = {kind: name for name, (kind, _) in reversed(HANDLERS.items())}
 POLICIES = ("PartiallyContained", "PossiblyContained", "TotallyContained")
 CHOICES = ("mergeFirst", "activateFirst", "mergeOnly", "activateOnly")
 TOKEN_ORDERS = ("early", "late", "near", "far", "ascendingKey")
-INSTANT_ORDERS = ("lower", "upper", "most", "least", "earliest", "latest")
-PAIR_WORDS = ("earliest", "latest", "longest", "shortest", "ascendingKey", "descendingKey")
-PAIR_ORDERS = (*(word + end for word in PAIR_WORDS for end in ("Predecessor", "Successor")), "leastImpact")
+RESOURCE_ORDERS = ("lower", "upper", "most", "least", "earliest", "latest")
+_PAIR_WORDS = ("earliest", "latest", "longest", "shortest", "ascendingKey", "descendingKey")
+PAIR_ORDERS = (*(word + end for word in _PAIR_WORDS for end in ("Predecessor", "Successor")), "leastImpact")
 KEEPS = ("none", "predecessorNot", "successor", "both")
 CONSTRAINTS = ("precedesOnly", "precedesFirst", "concurrentOnly", "concurrentFirst")
 ITERATIONS = ("pairFirst", "constraintFirst")

@@ -1,4 +1,4 @@
-"""Hold the candidates that a search may mend: heaps in EUROPA's order, and what left them and may come back.
+"""Agenda: candidate flaws in heaps by priority and EUROPA's order, kept incrementally, with an undo log.
 
 A slot is a token or a variable seen by one manager: id times managers plus manager. Entries of heaps may be stale; the
 key that a slot has now is in `token_key` or `variable_key`, NO_KEY if it is in no heap.
@@ -9,14 +9,13 @@ from array import array
 from runtime.constraints.domains.arrays import grown
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
-from runtime.constraints.stn.reach import Reach
 from runtime.plan.store.plan import Plan
-from runtime.plan.tags import END, FLAG_GOAL, FREED, LIST_ORDER, LISTS, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
-from runtime.solver.configuration.handler_table import Treatments
-from runtime.solver.flaws.custom import CustomManager
+from runtime.plan.tags import END, FLAG_GOAL, FREED, OBJECT, ROLE_TOKEN, START, UNDO_BRANCH, UNDO_INPUTS
+from runtime.solver.configuration.handler_table import HandlerTable
 from runtime.solver.flaws.filters import Filters
 from runtime.solver.flaws.guarding import guards_hold
-from runtime.solver.flaws.restarts import Weights
+from runtime.solver.flaws.restarts import Restarts
+from runtime.solver.flaws.sequence import TimelineSequence
 from runtime.solver.flaws.supports import Supports
 from runtime.solver.flaws.uses import Uses
 from runtime.solver.tags import DROPPED_TOKEN, DROPPED_VARIABLE, NO_KEY, NONE, UNBOUND_VARIABLE
@@ -26,60 +25,52 @@ LATEST = 2**38  # starts beyond count as equal
 YOUNGEST = 2**22  # and so do tokens
 
 
-class Queues:
-    """The heaps, the loose slots that are looked at in every step, the parked ones, and the levels of everything."""
+class Agenda:
+    """The heaps, the dynamic slots that are looked at in every step, the deferred ones, and decision levels."""
 
     def __init__(
         self,
         plan: Plan,
-        treatments: Treatments,
+        table: HandlerTable,
         filters: Filters,
         supports: Supports,
         exact: bool,
         in_order: bool,
+        grounded: "array[int]",
     ) -> None:
         self.plan = plan
         self.rows = plan.rows
         self.engine = plan.engine
-        self.treatments = treatments
+        self.table = table
         self.filters = filters
         self.supports = supports
-        self.exact = exact  # make EUROPA's steps
+        self.exact = exact  # makes EUROPA's steps
         self.distances = Distances(plan.engine, exact)
-        self.from_start = Reach(plan.engine, exact)
-        self.to_start = Reach(plan.engine, exact)
-        self.from_end = Reach(plan.engine, exact)
-        self.to_end = Reach(plan.engine, exact)
-        self.uses = Uses(plan, self.distances, array("q", [0]))
-        self.takers = Heap()
-        self.weights = Weights(plan.engine)
-        self.has_custom = False
-        self.custom = CustomManager()
+        self.uses = Uses(plan, self.distances, grounded)
+        self.restarts = Restarts(plan.engine)
         self.found_at = 0
         self.found_low = 0
         self.earliest = False  # goals come before what else is open, in the order of their starts
-        self.probing = False  # a choice is looked for, but not carried out
-        self.managers = max(treatments.managers, 1)
-        self.heaps = [Heap() for _ in range(treatments.heaps)]
-        self.effects = [Heap() for _ in range(treatments.managers)]
-        self.sorted_by_size = array("q", [0] * max(treatments.heaps, 1))
-        for manager in range(treatments.managers):
-            if treatments.manager_kind[manager] == UNBOUND_VARIABLE:
-                first = treatments.manager_heap[manager]
-                for heap in range(first, first + treatments.manager_heaps[manager]):
-                    self.sorted_by_size[heap] = 1 if not in_order or treatments.heap_priority[heap] != 0.0 else 0
-        self.sequence = array("q", [0]) * 64
-        self.range_object = NONE  # whose sequence is known to coincide with the token that is looked around from
-        self.range_first = self.range_end = 0  # between these places only
+        self.probing = False  # a resolver is looked for, but not carried out
+        self.managers = max(table.managers, 1)
+        self.heaps = [Heap() for _ in range(table.heaps)]
+        self.effects = [Heap() for _ in range(table.managers)]
+        self.sorted_by_size = array("q", [0] * max(table.heaps, 1))
+        for manager in range(table.managers):
+            if table.manager_kind[manager] == UNBOUND_VARIABLE:
+                first = table.manager_heap[manager]
+                for heap in range(first, first + table.manager_heaps[manager]):
+                    self.sorted_by_size[heap] = 1 if not in_order or table.heap_priority[heap] != 0.0 else 0
+        self.sequence = TimelineSequence(plan, exact)
         self.level = 0
         self.found_manager = NONE
         self.found_kind = NONE
         self.found_item = NONE
         self.found_handler = NONE
         self.found_priority = 0.0
-        self.make_tables()
+        self._make_tables()
 
-    def make_tables(self) -> None:
+    def _make_tables(self) -> None:
         """Make the tables, empty."""
         self.token_room = 64
         self.variable_room = 256
@@ -88,16 +79,15 @@ class Queues:
         self.restriction_room = 256
         self.token_row = array("q", [NONE]) * (64 * self.managers)
         self.token_key = array("q", [NO_KEY]) * (64 * self.managers)
-        self.token_parked = array("q", [0]) * 64
+        self.token_deferred = array("q", [0]) * 64
         self.token_waiting = array("q", [NONE]) * 64
         self.token_level = array("q", [0]) * 64
         self.active_level = array("q", [0]) * 64
         self.order_level = array("q", [0]) * 64
-        self.place_of = array("q", [0]) * 64
         self.variable_row = array("q", [NONE]) * (256 * self.managers)
         self.variable_key = array("q", [NO_KEY]) * (256 * self.managers)
-        self.variable_parked = array("q", [0]) * 256
-        self.stirs = array("b", [0]) * 256  # by variable: a change may concern what is, or was, queued or parked
+        self.variable_deferred = array("q", [0]) * 256
+        self.watched = array("b", [0]) * 256  # by variable: whether a change of its domain is looked at
         self.variable_level = array("q", [0]) * 256
         self.waits_for = array("q", [NONE]) * 256
         self.waiting_next = array("q", [NONE]) * 256
@@ -105,12 +95,12 @@ class Queues:
         self.edge_level = array("q", [0]) * 256
         self.constraint_level = array("q", [0]) * 256
         self.restriction_level = array("q", [0]) * 256
-        self.loose_count = 0
-        self.loose_slot = array("q", [0]) * 64
-        self.loose_is_variable = array("q", [0]) * 64
+        self.dynamic_count = 0
+        self.dynamic_slot = array("q", [0]) * 64
+        self.dynamic_is_variable = array("q", [0]) * 64
         self.dropped_count = 0
         self.dropped_slot = array("q", [0]) * 256
-        self.dropped_what = array("q", [0]) * 256
+        self.dropped_kind = array("q", [0]) * 256
         self.rows_seen = 0
         self.engine_seen = 0
         self.fired_scope = array("q", [NONE]) * 64  # guards that fired, by level: those of a level end at `fired_end`
@@ -123,19 +113,18 @@ class Queues:
             room = self.rows.token_capacity
             self.token_row = widened(self.token_row, room * self.managers, NONE)
             self.token_key = widened(self.token_key, room * self.managers, NO_KEY)
-            self.token_parked = widened(self.token_parked, room, 0)
+            self.token_deferred = widened(self.token_deferred, room, 0)
             self.token_waiting = widened(self.token_waiting, room, NONE)
             self.token_level = widened(self.token_level, room, 0)
             self.active_level = widened(self.active_level, room, 0)
             self.order_level = widened(self.order_level, room, 0)
-            self.place_of = widened(self.place_of, room, 0)
             self.token_room = room
         if self.variable_room < len(self.engine.kind):
             room = len(self.engine.kind)
             self.variable_row = widened(self.variable_row, room * self.managers, NONE)
             self.variable_key = widened(self.variable_key, room * self.managers, NO_KEY)
-            self.variable_parked = widened(self.variable_parked, room, 0)
-            self.stirs = grown(self.stirs, "b", room, 0)
+            self.variable_deferred = widened(self.variable_deferred, room, 0)
+            self.watched = grown(self.watched, "b", room, 0)
             self.variable_level = widened(self.variable_level, room, 0)
             self.waits_for = widened(self.waits_for, room, NONE)
             self.waiting_next = widened(self.waiting_next, room, NONE)
@@ -153,7 +142,7 @@ class Queues:
         return 0
 
     def note_fired(self, level: int) -> int:
-        """Read which guards have fired since the last time, and put them down for a level above 0."""
+        """Note for a level above 0 the guards that have fired since the last time."""
         if level >= len(self.fired_end):
             self.fired_end = widened(self.fired_end, 2 * level, 0)
             self.waiting_guards = widened(self.waiting_guards, 2 * level, 0)
@@ -196,32 +185,19 @@ class Queues:
 
         `t` is the token that the flaw belongs to (NONE: to nobody).
         """
-        at = self.treatments.first_handler[row]
-        last = at + self.treatments.handler_count[row] - 1
-        while at < last and not guards_hold(self.filters, self.treatments.handler_of[at], t):
+        at = self.table.first_handler[row]
+        last = at + self.table.handler_count[row] - 1
+        while at < last and not guards_hold(self.filters, self.table.handler_of[at], t):
             at += 1
-        return self.treatments.handler_of[at]
+        return self.table.handler_of[at]
 
-    def take_sequence(self, o: int) -> int:
-        """Put the tokens of a timeline into `sequence`; how many there are."""
-        count = 0
-        t = self.rows.head_first[self.plan.object_head[o]]
-        while t >= 0:
-            if count == len(self.sequence):
-                self.sequence = widened(self.sequence, 2 * count, 0)
-            self.sequence[count] = t
-            count += 1
-            t = self.rows.link_after[LISTS * t + LIST_ORDER]
-        return count
-
-    def look_around(self, t: int) -> int:
-        """Have `from_start`, `to_start` and so on answer for the times of token `t`, until the plan changes."""
-        v = self.rows.var0[t]
-        self.from_start.begin(v + START, True)
-        self.to_start.begin(v + START, False)
-        self.from_end.begin(v + END, True)
-        self.to_end.begin(v + END, False)
-        self.range_object = NONE
+    def note_flaw(self, manager: int, item: int, handler: int, priority: float) -> int:
+        """Note the best flaw so far."""
+        self.found_manager = manager
+        self.found_kind = self.table.manager_kind[manager]
+        self.found_item = item
+        self.found_handler = handler
+        self.found_priority = priority
         return 0
 
     def clear(self) -> None:
@@ -230,27 +206,27 @@ class Queues:
             heap.clear()
         for heap in self.effects:
             heap.clear()
-        self.make_tables()
+        self._make_tables()
         self.reserve()
 
-    # ---- into the queues ----
+    # ---- adding candidates ----
 
     def offer_token(self, slot: int) -> int:
-        """Put the slot of a token where its row says, unless it is there."""
+        """Add the slot of a token to the heap that its row names, unless it is there."""
         if self.token_key[slot] != NO_KEY:
             return 0
-        heap = self.treatments.heap_of[self.token_row[slot]]
+        heap = self.table.heap_of[self.token_row[slot]]
         if heap < 0:
             self.token_key[slot] = 0
-            return self.add_loose(slot, 0)
+            return self._add_dynamic(slot, 0)
         key = self.rows.key[slot // self.managers]
-        if self.treatments.heap_priority[heap] != 0.0:
+        if self.table.heap_priority[heap] != 0.0:
             key = -key
         if self.earliest and self.rows.flags[slot // self.managers] & FLAG_GOAL:
             key = self.earliness(slot // self.managers)
         self.token_key[slot] = key
-        queue = self.heaps[heap]
-        queue.push(key, 0, slot)
+        target = self.heaps[heap]
+        target.push(key, 0, slot)
         return 0
 
     def earliness(self, t: int) -> int:
@@ -259,84 +235,84 @@ class Queues:
         return start * YOUNGEST + min(self.rows.key[t], YOUNGEST - 1) - LATEST * YOUNGEST - YOUNGEST
 
     def offer_effect(self, slot: int) -> int:
-        """Put an effect of an action among those that are settled before anything else."""
+        """Add an effect of an action, which is selected before anything else."""
         t = slot // self.managers
-        queue = self.effects[slot % self.managers]
-        queue.push(self.rows.key[t], 0, slot)
+        target = self.effects[slot % self.managers]
+        target.push(self.rows.key[t], 0, slot)
         return 0
 
     def offer_variable(self, slot: int) -> int:
-        """Put the slot of a variable where its row says, unless it is there and as near to the front as it may be."""
-        heap = self.treatments.heap_of[self.variable_row[slot]]
+        """Add the slot of a variable to the heap that its row names, unless it is there with its present key."""
+        heap = self.table.heap_of[self.variable_row[slot]]
         v = slot // self.managers
-        self.stirs[v] = 1
+        self.watched[v] = 1
         if heap < 0:
             if self.variable_key[slot] == NO_KEY:
                 self.variable_key[slot] = 0
-                self.add_loose(slot, 1)
+                self._add_dynamic(slot, 1)
             return 0
         key = self.rank(v) if self.sorted_by_size[heap] else 0
         if self.variable_key[slot] == NO_KEY or key < self.variable_key[slot]:
             self.variable_key[slot] = key
-            queue = self.heaps[heap]
-            queue.push(key, v, slot)
+            target = self.heaps[heap]
+            target.push(key, v, slot)
         return 0
 
     def rank(self, v: int) -> int:
-        """What sorts variables of equal priority: smaller first."""
-        return self.weights.rank(v, self.filters.size(v))
+        """Heap key of a variable: domain size, or dom/wdeg."""
+        return self.restarts.rank(v, self.filters.size(v))
 
     def resize(self, v: int) -> int:
-        """Move a variable whose domain has become smaller to the front."""
+        """Update the key of a variable whose domain was narrowed."""
         for slot in range(v * self.managers, v * self.managers + self.managers):
             if self.variable_key[slot] != NO_KEY:
-                heap = self.treatments.heap_of[self.variable_row[slot]]
+                heap = self.table.heap_of[self.variable_row[slot]]
                 if heap >= 0 and self.sorted_by_size[heap]:
                     self.offer_variable(slot)
         return 0
 
-    def add_loose(self, slot: int, is_variable: int) -> int:
-        """Have a slot looked at in every step."""
-        if self.loose_count == len(self.loose_slot):
-            self.loose_slot = widened(self.loose_slot, 2 * self.loose_count, 0)
-            self.loose_is_variable = widened(self.loose_is_variable, 2 * self.loose_count, 0)
-        self.loose_slot[self.loose_count] = slot
-        self.loose_is_variable[self.loose_count] = is_variable
-        self.loose_count += 1
+    def _add_dynamic(self, slot: int, is_variable: int) -> int:
+        """Add a dynamic slot, which is looked at in every step."""
+        if self.dynamic_count == len(self.dynamic_slot):
+            self.dynamic_slot = widened(self.dynamic_slot, 2 * self.dynamic_count, 0)
+            self.dynamic_is_variable = widened(self.dynamic_is_variable, 2 * self.dynamic_count, 0)
+        self.dynamic_slot[self.dynamic_count] = slot
+        self.dynamic_is_variable[self.dynamic_count] = is_variable
+        self.dynamic_count += 1
         return 0
 
-    # ---- out of the queues, and back ----
+    # ---- removing candidates, and undoing that ----
 
-    def drop(self, slot: int, what: int) -> int:
-        """Note that a slot left its heap, so that going back puts it in again."""
-        if what == DROPPED_VARIABLE:
+    def drop(self, slot: int, kind: int) -> int:
+        """Log that a slot left its heap, so that backtracking adds it again."""
+        if kind == DROPPED_VARIABLE:
             self.variable_key[slot] = NO_KEY
-        elif what == DROPPED_TOKEN:
+        elif kind == DROPPED_TOKEN:
             self.token_key[slot] = NO_KEY
         if self.dropped_count == len(self.dropped_slot):
             self.dropped_slot = widened(self.dropped_slot, 2 * self.dropped_count, 0)
-            self.dropped_what = widened(self.dropped_what, 2 * self.dropped_count, 0)
+            self.dropped_kind = widened(self.dropped_kind, 2 * self.dropped_count, 0)
         self.dropped_slot[self.dropped_count] = slot
-        self.dropped_what[self.dropped_count] = what
+        self.dropped_kind[self.dropped_count] = kind
         self.dropped_count += 1
         return 0
 
-    def park_token(self, slot: int) -> int:
-        """Keep a token back until its times change."""
+    def defer_token(self, slot: int) -> int:
+        """Defer a token until its times change."""
         self.drop(slot, DROPPED_TOKEN)
-        self.token_parked[slot // self.managers] = 1
-        self.stir_times(slot // self.managers)
+        self.token_deferred[slot // self.managers] = 1
+        self._watch_times(slot // self.managers)
         return 0
 
-    def park_variable(self, slot: int, t: int) -> int:
-        """Keep a variable back until its domain changes, or the times of token `t` (NONE: no token)."""
+    def defer_variable(self, slot: int, t: int) -> int:
+        """Defer a variable until its domain changes, or the times of token `t` (NONE: no token)."""
         self.drop(slot, DROPPED_VARIABLE)
         v = slot // self.managers
-        self.variable_parked[v] = 1
+        self.variable_deferred[v] = 1
         if t >= 0 and self.waits_for[v] != t:
             self.forget_waiting(v)
             self.waits_for[v] = t
-            self.stir_times(t)
+            self._watch_times(t)
             first = self.token_waiting[t]
             self.waiting_next[v] = first
             self.waiting_before[v] = NONE
@@ -345,14 +321,14 @@ class Queues:
             self.token_waiting[t] = v
         return 0
 
-    def stir_times(self, t: int) -> int:
-        """Have changes of a token's times seen."""
-        self.stirs[self.rows.var0[t] + START] = 1
-        self.stirs[self.rows.var0[t] + END] = 1
+    def _watch_times(self, t: int) -> int:
+        """Watch the times of a token."""
+        self.watched[self.rows.var0[t] + START] = 1
+        self.watched[self.rows.var0[t] + END] = 1
         return 0
 
     def forget_waiting(self, v: int) -> int:
-        """Take a variable off the list of the token that it waits for."""
+        """Take a variable off the watch list of the token that it waits for."""
         t = self.waits_for[v]
         if t >= 0:
             before = self.waiting_before[v]
@@ -366,40 +342,40 @@ class Queues:
             self.waits_for[v] = NONE
         return 0
 
-    def unpark_token(self, t: int) -> int:
-        """Have a token looked at again."""
-        self.token_parked[t] = 0
+    def resume_token(self, t: int) -> int:
+        """End the deferral of a token."""
+        self.token_deferred[t] = 0
         for slot in range(t * self.managers, t * self.managers + self.managers):
             if self.token_row[slot] >= 0:
                 self.offer_token(slot)
         return 0
 
-    def unpark_variable(self, v: int) -> int:
-        """Have a variable looked at again."""
-        self.variable_parked[v] = 0
+    def resume_variable(self, v: int) -> int:
+        """End the deferral of a variable."""
+        self.variable_deferred[v] = 0
         for slot in range(v * self.managers, v * self.managers + self.managers):
             if self.variable_row[slot] >= 0:
                 self.offer_variable(slot)
         return 0
 
-    def go_back(self, dropped: int, loose: int, rows_seen: int, engine_seen: int) -> int:
-        """Put back what left since then; the plan and the engine have gone back already."""
-        for at in range(loose, self.loose_count):
-            if self.loose_is_variable[at]:
-                self.variable_key[self.loose_slot[at]] = NO_KEY
+    def backtrack(self, dropped: int, dynamic: int, rows_seen: int, engine_seen: int) -> int:
+        """Undo what changed since then; the plan and the engine are undone already."""
+        for at in range(dynamic, self.dynamic_count):
+            if self.dynamic_is_variable[at]:
+                self.variable_key[self.dynamic_slot[at]] = NO_KEY
             else:
-                self.token_key[self.loose_slot[at]] = NO_KEY
-        self.loose_count = loose
+                self.token_key[self.dynamic_slot[at]] = NO_KEY
+        self.dynamic_count = dynamic
         at = self.dropped_count
         while at > dropped:
             at -= 1
             slot = self.dropped_slot[at]
-            what = self.dropped_what[at]
-            if what == DROPPED_VARIABLE:
+            kind = self.dropped_kind[at]
+            if kind == DROPPED_VARIABLE:
                 if self.variable_row[slot] >= 0 and self.engine.kind[slot // self.managers] >= 0:
                     self.offer_variable(slot)
             elif self.rows.status[slot // self.managers] != FREED:
-                if what == DROPPED_TOKEN:
+                if kind == DROPPED_TOKEN:
                     self.offer_token(slot)
                 else:
                     self.offer_effect(slot)

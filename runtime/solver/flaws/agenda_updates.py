@@ -1,4 +1,4 @@
-"""Feed the queues: read the new part of the trails of plan and engine, and put what is new or changed in its place."""
+"""Agenda updates: candidates that the new part of the trails of plan and engine adds or moves."""
 
 from runtime.constraints.domains.tags import (
     TRAIL_CONSTRAINT,
@@ -26,215 +26,216 @@ from runtime.plan.tags import (
     UNDO_NEW_TOKEN,
     UNDO_STATUS,
 )
-from runtime.solver.flaws.agenda import Queues
+from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.tags import NO_KEY, NONE, OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 
 
-def fill(q: Queues) -> int:
-    """Forget all queues and look at every token and variable once; levels count from here."""
-    q.clear()
-    q.level = 0
-    for t in range(q.rows.token_count):
-        if q.rows.status[t] == INACTIVE:
-            add_open(q, t)
-        elif q.rows.status[t] == ACTIVE:
-            add_threat(q, t)
-    for v in range(q.engine.variables):
-        if q.engine.kind[v] >= 0 and not q.engine.constant[v]:
-            add_variable(q, v)
-    for s in range(q.rows.scope_count):
-        if q.rows.scope_watch[s] >= 0 and q.rows.scope_branch[s] == BRANCH_WAITING:
-            q.waiting_guards[0] += 1
-    q.rows_seen = q.rows.trail_length if q.rows.level else 0  # the first mark empties that trail
-    q.engine_seen = q.engine.trail_size
+def rebuild(agenda: Agenda) -> int:
+    """Rebuild the agenda from every token and variable; levels count from here."""
+    agenda.clear()
+    agenda.level = 0
+    for t in range(agenda.rows.token_count):
+        if agenda.rows.status[t] == INACTIVE:
+            _add_open(agenda, t)
+        elif agenda.rows.status[t] == ACTIVE:
+            _add_threat(agenda, t)
+    for v in range(agenda.engine.variables):
+        if agenda.engine.kind[v] >= 0 and not agenda.engine.constant[v]:
+            _add_variable(agenda, v)
+    for s in range(agenda.rows.scope_count):
+        if agenda.rows.scope_watch[s] >= 0 and agenda.rows.scope_branch[s] == BRANCH_WAITING:
+            agenda.waiting_guards[0] += 1
+    agenda.rows_seen = agenda.rows.trail_length if agenda.rows.level else 0  # the first mark empties that trail
+    agenda.engine_seen = agenda.engine.trail_size
     return 0
 
 
-def catch_up(q: Queues, level: int) -> int:
-    """Read what the trails say since the last time; all of it belongs to decision number `level`."""
-    q.level = level
-    q.reserve()
-    rows = q.rows
-    engine = q.engine
-    at = q.engine_seen
+def update(agenda: Agenda, level: int) -> int:
+    """Read the trails since the last time; all of it belongs to decision level `level`."""
+    agenda.level = level
+    agenda.reserve()
+    rows = agenda.rows
+    engine = agenda.engine
+    at = agenda.engine_seen
     while at < engine.trail_size:
         code = engine.trail_key[at] & 15
         name = engine.trail_key[at] >> 4
         if code == TRAIL_VARIABLE:
-            q.forget_waiting(name)
-            q.variable_parked[name] = 0
-            q.stirs[name] = 0
-            q.variable_level[name] = level
-            forget_slots(q, name)
+            agenda.forget_waiting(name)
+            agenda.variable_deferred[name] = 0
+            agenda.watched[name] = 0
+            agenda.variable_level[name] = level
+            _forget_slots(agenda, name)
         elif code == TRAIL_EDGE:
-            q.edge_level[name] = level
+            agenda.edge_level[name] = level
         elif code == TRAIL_CONSTRAINT:
-            q.constraint_level[name] = level
+            agenda.constraint_level[name] = level
         elif code == TRAIL_RESTRICTION:
-            q.restriction_level[name] = level
+            agenda.restriction_level[name] = level
         at += 1
-    q.note_fired(level)
-    at = q.rows_seen
+    agenda.note_fired(level)
+    at = agenda.rows_seen
     while at < rows.trail_length:
         if rows.trail_code[at] == UNDO_STATUS:
-            see_status(q, rows.trail_index[at])
+            _update_status(agenda, rows.trail_index[at])
         elif rows.trail_code[at] == UNDO_NEW_TOKEN:
             t = rows.trail_index[at]
-            q.token_level[t] = level
-            q.token_parked[t] = 0
-            for slot in range(t * q.managers, t * q.managers + q.managers):
-                q.token_row[slot] = NONE  # a token that was undone may have had its number
-                q.token_key[slot] = NO_KEY
+            agenda.token_level[t] = level
+            agenda.token_deferred[t] = 0
+            for slot in range(t * agenda.managers, t * agenda.managers + agenda.managers):
+                agenda.token_row[slot] = NONE  # a token that was undone may have had its number
+                agenda.token_key[slot] = NO_KEY
             if rows.status[t] == INACTIVE:
-                add_open(q, t)
+                _add_open(agenda, t)
         elif rows.trail_code[at] == UNDO_LINK and rows.trail_index[at] % LISTS == LIST_ORDER:
-            q.order_level[rows.trail_index[at] // LISTS] = level
+            agenda.order_level[rows.trail_index[at] // LISTS] = level
         at += 1
-    q.rows_seen = at
-    at = q.engine_seen
+    agenda.rows_seen = at
+    at = agenda.engine_seen
     while at < engine.trail_size:
         code = engine.trail_key[at] & 15
         name = engine.trail_key[at] >> 4
         if code <= TRAIL_REAL_UPPER or code == TRAIL_HOLES:
-            if q.stirs[name]:
-                see_change(q, name)
-        elif code == TRAIL_VARIABLE and q.plan.variable_role[name] == ROLE_LOCAL:
-            add_variable(q, name)
+            if agenda.watched[name]:
+                _update_domain(agenda, name)
+        elif code == TRAIL_VARIABLE and agenda.plan.variable_role[name] == ROLE_LOCAL:
+            _add_variable(agenda, name)
         at += 1
-    q.engine_seen = at
+    agenda.engine_seen = at
     return 0
 
 
-def note_levels(q: Queues, level: int) -> int:
-    """Read of a failed attempt only which guards fired, and which edges, constraints and restrictions it posted."""
-    q.reserve()
-    q.note_fired(level)
-    engine = q.engine
-    at = q.engine_seen
+def note_levels(agenda: Agenda, level: int) -> int:
+    """Read of a failed resolver only the guards that fired, and the edges, constraints and restrictions it posted."""
+    agenda.reserve()
+    agenda.note_fired(level)
+    engine = agenda.engine
+    at = agenda.engine_seen
     while at < engine.trail_size:
         code = engine.trail_key[at] & 15
         name = engine.trail_key[at] >> 4
         if code == TRAIL_EDGE:
-            q.edge_level[name] = level
+            agenda.edge_level[name] = level
         elif code == TRAIL_CONSTRAINT:
-            q.constraint_level[name] = level
+            agenda.constraint_level[name] = level
         elif code == TRAIL_RESTRICTION:
-            q.restriction_level[name] = level
+            agenda.restriction_level[name] = level
         at += 1
     return 0
 
 
-def forget_slots(q: Queues, v: int) -> int:
-    """A variable is new: nothing that was known under its id holds."""
-    for slot in range(v * q.managers, v * q.managers + q.managers):
-        q.variable_row[slot] = NONE
-        q.variable_key[slot] = NO_KEY
+def _forget_slots(agenda: Agenda, v: int) -> int:
+    """Reset the slots of a new variable, whose id may have been in use."""
+    for slot in range(v * agenda.managers, v * agenda.managers + agenda.managers):
+        agenda.variable_row[slot] = NONE
+        agenda.variable_key[slot] = NO_KEY
     return 0
 
 
-def see_status(q: Queues, t: int) -> int:
-    """A token has another state."""
-    if q.rows.status[t] == ACTIVE:
-        q.active_level[t] = q.level
-        add_threat(q, t)
-        first = q.rows.var0[t]
-        for v in range(first, first + q.rows.width[t]):
-            add_variable(q, v)
-    elif q.rows.status[t] == INACTIVE:
-        add_open(q, t)
+def _update_status(agenda: Agenda, t: int) -> int:
+    """Update for a token with a new state."""
+    if agenda.rows.status[t] == ACTIVE:
+        agenda.active_level[t] = agenda.level
+        _add_threat(agenda, t)
+        first = agenda.rows.var0[t]
+        for v in range(first, first + agenda.rows.width[t]):
+            _add_variable(agenda, v)
+    elif agenda.rows.status[t] == INACTIVE:
+        _add_open(agenda, t)
     return 0
 
 
-def see_change(q: Queues, v: int) -> int:
-    """A domain has become smaller."""
-    role = q.plan.variable_role[v]
+def _update_domain(agenda: Agenda, v: int) -> int:
+    """Update for a domain that was narrowed."""
+    role = agenda.plan.variable_role[v]
     if role == ROLE_INTERNAL:
         return 0
-    if q.variable_parked[v]:
-        q.unpark_variable(v)
+    if agenda.variable_deferred[v]:
+        agenda.resume_variable(v)
     else:
-        q.resize(v)
+        agenda.resize(v)
     if role == ROLE_TOKEN:
-        t = q.plan.variable_owner[v]
-        place = v - q.rows.var0[t]
-        if place == START or place == END:
-            if q.token_parked[t]:
-                q.unpark_token(t)
-            waiting = q.token_waiting[t]
+        t = agenda.plan.variable_owner[v]
+        number = v - agenda.rows.var0[t]
+        if number == START or number == END:
+            if agenda.token_deferred[t]:
+                agenda.resume_token(t)
+            waiting = agenda.token_waiting[t]
             while waiting >= 0:
-                after = q.waiting_next[waiting]
-                q.forget_waiting(waiting)
-                q.unpark_variable(waiting)
+                after = agenda.waiting_next[waiting]
+                agenda.forget_waiting(waiting)
+                agenda.resume_variable(waiting)
                 waiting = after
     return 0
 
 
-def kind_of(q: Queues, t: int) -> int:
-    """The kind that the configuration sees in a token."""
-    rows = q.rows
-    master = rows.master[t]
-    parent = rows.predicate[master] if master >= 0 else NONE
-    return q.treatments.token_kind(rows.predicate[t], parent, rows.relation[t], rows.label[t])
+def _kind_of(agenda: Agenda, t: int) -> int:
+    """The kind of a token by predicate, parent, relation and name."""
+    rows = agenda.rows
+    parent = rows.master[t]
+    asker = rows.predicate[parent] if parent >= 0 else NONE
+    return agenda.table.token_kind(rows.predicate[t], asker, rows.relation[t], rows.label[t])
 
 
-def add_open(q: Queues, t: int) -> int:
-    """Put an inactive token into the queues of open conditions."""
-    kind = kind_of(q, t)
-    for manager in range(q.treatments.managers):
-        if q.treatments.manager_kind[manager] == OPEN_CONDITION:
-            slot = t * q.managers + manager
-            q.token_row[slot] = q.treatments.token_row(manager, kind)
-            q.token_key[slot] = NO_KEY
-            if q.token_row[slot] >= 0:
-                if q.rows.flags[t] & FLAG_EFFECT:
-                    q.offer_effect(slot)
-                q.offer_token(slot)
+def _add_open(agenda: Agenda, t: int) -> int:
+    """Add an inactive token as an open condition."""
+    kind = _kind_of(agenda, t)
+    for manager in range(agenda.table.managers):
+        if agenda.table.manager_kind[manager] == OPEN_CONDITION:
+            slot = t * agenda.managers + manager
+            agenda.token_row[slot] = agenda.table.token_row(manager, kind)
+            agenda.token_key[slot] = NO_KEY
+            if agenda.token_row[slot] >= 0:
+                if agenda.rows.flags[t] & FLAG_EFFECT:
+                    agenda.offer_effect(slot)
+                agenda.offer_token(slot)
     return 0
 
 
-def add_threat(q: Queues, t: int) -> int:
-    """Put an active token of a timeline into the queues of threats."""
-    if not q.plan.predicate_timeline[q.rows.predicate[t]] or q.rows.link_head[LISTS * t + LIST_ORDER] >= 0:
+def _add_threat(agenda: Agenda, t: int) -> int:
+    """Add an active token of a timeline as a threat."""
+    is_ordered = agenda.rows.link_head[LISTS * t + LIST_ORDER] >= 0
+    if is_ordered or not agenda.plan.predicate_timeline[agenda.rows.predicate[t]]:
         return 0
-    kind = kind_of(q, t)
-    for manager in range(q.treatments.managers):
-        if q.treatments.manager_kind[manager] == THREAT:
-            slot = t * q.managers + manager
-            q.token_row[slot] = q.treatments.token_row(manager, kind)
-            q.token_key[slot] = NO_KEY
-            if q.token_row[slot] >= 0:
-                q.offer_token(slot)
+    kind = _kind_of(agenda, t)
+    for manager in range(agenda.table.managers):
+        if agenda.table.manager_kind[manager] == THREAT:
+            slot = t * agenda.managers + manager
+            agenda.token_row[slot] = agenda.table.token_row(manager, kind)
+            agenda.token_key[slot] = NO_KEY
+            if agenda.token_row[slot] >= 0:
+                agenda.offer_token(slot)
     return 0
 
 
-def add_variable(q: Queues, v: int) -> int:
-    """Put a variable into the queues of unbound variables, if it is one that a solver decides."""
-    role = q.plan.variable_role[v]
-    owner = q.plan.variable_owner[v]
-    name = q.plan.variable_name[v]
+def _add_variable(agenda: Agenda, v: int) -> int:
+    """Add a variable as unbound, if it is one that a solver decides."""
+    role = agenda.plan.variable_role[v]
+    owner = agenda.plan.variable_owner[v]
+    name = agenda.plan.variable_name[v]
     kind = NONE
     if role == ROLE_TOKEN or role == ROLE_LOCAL:
-        if q.rows.status[owner] != ACTIVE:
+        if agenda.rows.status[owner] != ACTIVE:
             return 0
-        kind = kind_of(q, owner)
+        kind = _kind_of(agenda, owner)
     elif role != ROLE_GLOBAL and role != ROLE_MEMBER:
         return 0
-    if q.is_decided(v):
+    if agenda.is_decided(v):
         return 0
-    for manager in range(q.treatments.managers):
-        if q.treatments.manager_kind[manager] != UNBOUND_VARIABLE:
+    for manager in range(agenda.table.managers):
+        if agenda.table.manager_kind[manager] != UNBOUND_VARIABLE:
             continue
         if role == ROLE_TOKEN:
-            row = q.treatments.variable_row(manager, kind, v - q.rows.var0[owner])
+            row = agenda.table.variable_row(manager, kind, v - agenda.rows.var0[owner])
         elif role == ROLE_LOCAL:
-            row = q.treatments.local_row(manager, kind, name)
+            row = agenda.table.local_row(manager, kind, name)
         elif role == ROLE_GLOBAL:
-            row = q.treatments.global_row(manager, name)
+            row = agenda.table.global_row(manager, name)
         else:
-            row = q.treatments.member_row(manager, q.plan.object_class[owner], name)
-        slot = v * q.managers + manager
-        q.variable_row[slot] = row
-        q.variable_key[slot] = NO_KEY
+            row = agenda.table.member_row(manager, agenda.plan.object_class[owner], name)
+        slot = v * agenda.managers + manager
+        agenda.variable_row[slot] = row
+        agenda.variable_key[slot] = NO_KEY
         if row >= 0:
-            q.offer_variable(slot)
+            agenda.offer_variable(slot)
     return 0

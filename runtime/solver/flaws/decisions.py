@@ -1,43 +1,46 @@
-"""Hold the stack of decisions as rows of numbers: what each mends, which choice it is at, and how to go back."""
+"""The stack of decisions, as rows of numbers: the flaw, the resolver it is at, the way back, the conflict set."""
 
 from array import array
 from collections.abc import Sequence
 
-from runtime.solver.tags import NONE
+from runtime.solver.flaws.agenda import Agenda
+from runtime.solver.tags import EVERYTHING, NONE
 from runtime.solver.widening import widened
 
 
 class Decisions:
-    """Row 0 is the oldest decision. `depth` rows have been executed; row `depth` may be the active one."""
+    """Row 0 is the oldest decision. `depth` rows are in force; row `depth` may be the active one."""
 
     def __init__(self) -> None:
         room = 64
         self.room = room
         self.depth = 0
+        # The flaw. Of a resource: when it might be exceeded, and whether the level is too low then.
         self.kind = array("q", [0]) * room
         self.manager = array("q", [0]) * room
         self.item = array("q", [0]) * room
         self.handler = array("q", [0]) * room
-        # The choice: how many were tried, the phase of an open condition, and two numbers that each kind uses its way.
+        self.instant = array("q", [0]) * room
+        self.is_low = array("q", [0]) * room
+        # The resolver: how many were tried, the phase of an open condition, and where in its list the next one begins.
         self.tries = array("q", [0]) * room
         self.phase = array("q", [0]) * room
         self.cursor = array("q", [0]) * room
-        self.other = array("q", [0]) * room
         self.lists: dict[int, Sequence[float]] = {}
         # The way back.
         self.mark = array("q", [0]) * room
         self.rows_seen = array("q", [0]) * room
         self.engine_seen = array("q", [0]) * room
         self.dropped = array("q", [0]) * room
-        self.loose = array("q", [0]) * room
-        # Places on timelines and pairs of uses that threats choose from: a pool, each decision has a stretch of it.
+        self.dynamic = array("q", [0]) * room
+        # Insertions on timelines, or pairs of timepoints, to choose from: a pool, each decision has a stretch of it.
         self.pool_first = array("q", [0]) * room
         self.pool_count = array("q", [0]) * room
         self.pool_used = 0
         self.pool_object = array("q", [0]) * room
         self.pool_before = array("q", [0]) * room
         self.pool_after = array("q", [0]) * room
-        # Why choices failed: per decision a list of earlier ones.
+        # The conflict set: per decision a list of earlier ones.
         self.reasons = array("q", [NONE]) * room
         self.is_local = array("q", [0]) * room  # whether they hold only where decisions were made in this order
         self.reason_used = 0
@@ -45,19 +48,25 @@ class Decisions:
         self.reason_level = array("q", [0]) * room
         self.reason_next = array("q", [NONE]) * room
 
-    def open(self, kind: int, manager: int, item: int, handler: int) -> int:
-        """Make row `depth` an untried decision; its number."""
+    def open(self, agenda: Agenda, mark: int) -> int:
+        """Make row `depth` an untried decision about the flaw that the agenda has found; its number."""
         d = self.depth
         if d == self.room:
-            self.grow()
-        self.kind[d] = kind
-        self.manager[d] = manager
-        self.item[d] = item
-        self.handler[d] = handler
+            self._grow()
+        self.kind[d] = agenda.found_kind
+        self.manager[d] = agenda.found_manager
+        self.item[d] = agenda.found_item
+        self.handler[d] = agenda.found_handler
+        self.instant[d] = agenda.found_at
+        self.is_low[d] = agenda.found_low
         self.tries[d] = 0
         self.phase[d] = 0
         self.cursor[d] = NONE
-        self.other[d] = NONE
+        self.mark[d] = mark
+        self.rows_seen[d] = agenda.rows_seen
+        self.engine_seen[d] = agenda.engine_seen
+        self.dropped[d] = agenda.dropped_count
+        self.dynamic[d] = agenda.dynamic_count
         self.pool_first[d] = self.pool_used
         self.pool_count[d] = NONE
         self.reasons[d] = NONE
@@ -79,22 +88,23 @@ class Decisions:
         self.reason_used = 0
         self.reason_free = NONE
 
-    def grow(self) -> int:
+    def _grow(self) -> int:
         """Double the rows."""
         room = 2 * self.room
         self.kind = widened(self.kind, room, 0)
         self.manager = widened(self.manager, room, 0)
         self.item = widened(self.item, room, 0)
         self.handler = widened(self.handler, room, 0)
+        self.instant = widened(self.instant, room, 0)
+        self.is_low = widened(self.is_low, room, 0)
         self.tries = widened(self.tries, room, 0)
         self.phase = widened(self.phase, room, 0)
         self.cursor = widened(self.cursor, room, 0)
-        self.other = widened(self.other, room, 0)
         self.mark = widened(self.mark, room, 0)
         self.rows_seen = widened(self.rows_seen, room, 0)
         self.engine_seen = widened(self.engine_seen, room, 0)
         self.dropped = widened(self.dropped, room, 0)
-        self.loose = widened(self.loose, room, 0)
+        self.dynamic = widened(self.dynamic, room, 0)
         self.pool_first = widened(self.pool_first, room, 0)
         self.pool_count = widened(self.pool_count, room, 0)
         self.reasons = widened(self.reasons, room, NONE)
@@ -102,8 +112,50 @@ class Decisions:
         self.room = room
         return 0
 
+    # ---- resolvers ----
+
+    def choose(self, d: int, cursor: int) -> int:
+        """Note that the resolver at `cursor` is tried."""
+        self.cursor[d] = cursor
+        self.tries[d] += 1
+        return 0
+
+    def next_phase(self, d: int) -> int:
+        """Go on to the next phase of an open condition."""
+        self.phase[d] += 1
+        self.cursor[d] = NONE
+        return 0
+
+    def begin_pool(self, d: int) -> int:
+        """Begin an empty stretch of the pool for row `d`, the last one."""
+        self.pool_used = self.pool_first[d]
+        self.pool_count[d] = 0
+        return 0
+
+    def drop_pool(self, d: int) -> int:
+        """Give the stretch of row `d` back."""
+        self.pool_used = self.pool_first[d]
+        self.pool_count[d] = NONE
+        return 0
+
+    def add_to_pool(self, d: int, o: int, before: int, after: int) -> int:
+        """Add an insertion on object `o` between two tokens, or a precedence between two timepoints."""
+        at = self.pool_used
+        if at == len(self.pool_object):
+            self.pool_object = widened(self.pool_object, 2 * at, 0)
+            self.pool_before = widened(self.pool_before, 2 * at, 0)
+            self.pool_after = widened(self.pool_after, 2 * at, 0)
+        self.pool_object[at] = o
+        self.pool_before[at] = before
+        self.pool_after[at] = after
+        self.pool_used = at + 1
+        self.pool_count[d] += 1
+        return 0
+
+    # ---- conflict sets ----
+
     def add_reason(self, d: int, level: int) -> int:
-        """Put a level on the list of row `d`."""
+        """Add a level to the conflict set of row `d`."""
         reason = self.reason_free
         if reason >= 0:
             self.reason_free = self.reason_next[reason]
@@ -119,7 +171,7 @@ class Decisions:
         return 0
 
     def drop_reasons(self, d: int) -> int:
-        """Give the list of row `d` back."""
+        """Empty the conflict set of row `d`."""
         reason = self.reasons[d]
         while reason >= 0:
             after = self.reason_next[reason]
@@ -129,16 +181,7 @@ class Decisions:
         self.reasons[d] = NONE
         return 0
 
-    def add_to_pool(self, d: int, o: int, before: int, after: int) -> int:
-        """Give row `d` one more thing to choose from."""
-        at = self.pool_used
-        if at == len(self.pool_object):
-            self.pool_object = widened(self.pool_object, 2 * at, 0)
-            self.pool_before = widened(self.pool_before, 2 * at, 0)
-            self.pool_after = widened(self.pool_after, 2 * at, 0)
-        self.pool_object[at] = o
-        self.pool_before[at] = before
-        self.pool_after[at] = after
-        self.pool_used = at + 1
-        self.pool_count[d] += 1
+    def rest_on_everything(self, d: int) -> int:
+        """Make all earlier decisions the conflict set of row `d`: the conflict has no simpler reason."""
+        self.reasons[d] = EVERYTHING
         return 0

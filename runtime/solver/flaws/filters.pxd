@@ -6,15 +6,15 @@ from runtime.constraints.domains.bitset cimport count_values
 from runtime.constraints.engine cimport Engine
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
-from runtime.solver.configuration.handler_table cimport Treatments
+from runtime.solver.configuration.handler_table cimport HandlerTable
 
-cdef long long ACTIVE, END, FILTER_GUARD, FILTER_HORIZON, FILTER_HORIZON_VARIABLE, FILTER_MASTER_LOOSE
-cdef long long FILTER_NOT_GUARD, FILTER_NOT_SINGLETON, FILTER_TOKEN_LOOSE, HALF_INF, INF, KIND_FLOAT, KIND_INT
+cdef long long ACTIVE, END, FILTER_GUARD, FILTER_HORIZON, FILTER_HORIZON_VARIABLE, FILTER_PARENT_NOT_ASSIGNED
+cdef long long FILTER_NOT_GUARD, FILTER_NOT_SINGLETON, FILTER_NOT_ASSIGNED, HALF_INF, INF, KIND_FLOAT, KIND_INT
 cdef long long LISTS, LIST_ORDER, NONE, OBJECT, POLICY_PARTIAL, POLICY_POSSIBLE, ROLE_LOCAL, ROLE_TOKEN, START
 cdef double FLOAT_TOLERANCE
 
 
-cdef class Scope:
+cdef class PlanningScope:
 
     cpdef bint admits_token(self, long long t) except -1
 
@@ -25,12 +25,12 @@ cdef class Filters:
     cdef public Plan plan
     cdef public Rows rows
     cdef public Engine engine
-    cdef public Treatments treatments
+    cdef public HandlerTable table
     cdef public long long lower, upper
     cdef public bint has_scope
-    cdef public Scope scope
+    cdef public PlanningScope scope
 
-    @cython.locals(code="long long", f="long long", first="long long", master="long long")
+    @cython.locals(code="long long", f="long long", first="long long", parent="long long")
     cpdef bint keeps_token(self, long long row, long long t) except -1
 
     @cython.locals(code="long long", f="long long", first="long long", t="long long")
@@ -40,9 +40,9 @@ cdef class Filters:
     cpdef bint waits_for_times(self, long long row) except -1
 
     @cython.locals(end="long long", engine=Engine, start="long long")
-    cpdef bint is_outside(self, long long t, long long policy) except -1
+    cpdef bint _is_outside(self, long long t, long long policy) except -1
 
-    cpdef bint is_assigned(self, long long t) except -1
+    cpdef bint _is_assigned(self, long long t) except -1
 
     @cython.locals(role="long long")
     cpdef long long token_of(self, long long v) except? -1

@@ -1,26 +1,26 @@
-"""Test what a filter keeps back now: tokens outside the horizon, infinite domains, loose parents, the unscoped."""
+"""Flaw filters tested at every step: horizon, scope, infinite domains, guards, unassigned tokens and parents."""
 
 from runtime.constraints.domains.base_domain import is_growing
 from runtime.constraints.domains.bitset import count_values
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, HALF_INF, INF, KIND_FLOAT, KIND_INT
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import ACTIVE, END, LIST_ORDER, LISTS, NONE, OBJECT, ROLE_LOCAL, ROLE_TOKEN, START
-from runtime.solver.configuration.handler_table import Treatments
+from runtime.solver.configuration.handler_table import HandlerTable
 from runtime.solver.tags import (
     FILTER_GUARD,
     FILTER_HORIZON,
     FILTER_HORIZON_VARIABLE,
-    FILTER_MASTER_LOOSE,
+    FILTER_NOT_ASSIGNED,
     FILTER_NOT_GUARD,
     FILTER_NOT_SINGLETON,
-    FILTER_TOKEN_LOOSE,
+    FILTER_PARENT_NOT_ASSIGNED,
     POLICY_PARTIAL,
     POLICY_POSSIBLE,
 )
 
 
-class Scope:
-    """What the search may mend at all; a synchroniser replaces it by one that knows the tick."""
+class PlanningScope:
+    """The flaws in scope; a reactor replaces it by one that knows its window of time."""
 
     def admits_token(self, t: int) -> bool:
         """Whether flaws of token `t` are in scope; asked again when its times change."""
@@ -34,29 +34,29 @@ class Scope:
 class Filters:
     """The horizon, the scope, and the tests."""
 
-    def __init__(self, plan: Plan, treatments: Treatments, lower: int, upper: int) -> None:
+    def __init__(self, plan: Plan, table: HandlerTable, lower: int, upper: int) -> None:
         self.plan = plan
         self.rows = plan.rows
         self.engine = plan.engine
-        self.treatments = treatments
+        self.table = table
         self.lower = lower
         self.upper = upper
         self.has_scope = False
-        self.scope = Scope()
+        self.scope = PlanningScope()
 
     def keeps_token(self, row: int, t: int) -> bool:
         """Whether a filter of `row` keeps token `t` back."""
         if self.has_scope and not self.scope.admits_token(t):
             return True
-        first = self.treatments.filter_first[row]
-        for f in range(first, first + self.treatments.filter_count[row]):
-            code = self.treatments.filter_code[f]
+        first = self.table.filter_first[row]
+        for f in range(first, first + self.table.filter_count[row]):
+            code = self.table.filter_code[f]
             if code == FILTER_HORIZON:
-                if self.is_outside(t, self.treatments.filter_policy[f]):
+                if self._is_outside(t, self.table.filter_policy[f]):
                     return True
-            elif code == FILTER_MASTER_LOOSE:
-                master = self.rows.master[t]
-                if master >= 0 and not self.is_assigned(master):
+            elif code == FILTER_PARENT_NOT_ASSIGNED:
+                parent = self.rows.master[t]
+                if parent >= 0 and not self._is_assigned(parent):
                     return True
         return False
 
@@ -67,11 +67,11 @@ class Filters:
         if self.has_scope and not self.scope.admits_variable(v):
             return True
         t = self.token_of(v)
-        first = self.treatments.filter_first[row]
-        for f in range(first, first + self.treatments.filter_count[row]):
-            code = self.treatments.filter_code[f]
+        first = self.table.filter_first[row]
+        for f in range(first, first + self.table.filter_count[row]):
+            code = self.table.filter_code[f]
             if code == FILTER_HORIZON or code == FILTER_HORIZON_VARIABLE:
-                if t >= 0 and self.is_outside(t, self.treatments.filter_policy[f]):
+                if t >= 0 and self._is_outside(t, self.table.filter_policy[f]):
                     return True
             elif code == FILTER_NOT_SINGLETON:
                 if not self.is_single(v):
@@ -82,7 +82,7 @@ class Filters:
             elif code == FILTER_NOT_GUARD:
                 if self.plan.variable_guards[v] == 0:
                     return True
-            elif code == FILTER_TOKEN_LOOSE and t >= 0 and not self.is_assigned(t):
+            elif code == FILTER_NOT_ASSIGNED and t >= 0 and not self._is_assigned(t):
                 return True
         return False
 
@@ -90,14 +90,14 @@ class Filters:
         """Whether a filter of `row` reads the times of the token."""
         if self.has_scope:
             return True
-        first = self.treatments.filter_first[row]
-        for f in range(first, first + self.treatments.filter_count[row]):
-            code = self.treatments.filter_code[f]
+        first = self.table.filter_first[row]
+        for f in range(first, first + self.table.filter_count[row]):
+            code = self.table.filter_code[f]
             if code == FILTER_HORIZON or code == FILTER_HORIZON_VARIABLE:
                 return True
         return False
 
-    def is_outside(self, t: int, policy: int) -> bool:
+    def _is_outside(self, t: int, policy: int) -> bool:
         """Whether the times of `t` do not lie in the horizon, in the sense of `policy`."""
         start = self.rows.var0[t] + START
         end = self.rows.var0[t] + END
@@ -118,8 +118,8 @@ class Filters:
             or engine.ub[end] > self.upper
         )
 
-    def is_assigned(self, t: int) -> bool:
-        """Whether `t` is active, its object is known, and it has its place there if that is a timeline."""
+    def _is_assigned(self, t: int) -> bool:
+        """Whether `t` is active, its object is known, and it is ordered there if that is a timeline."""
         if self.rows.status[t] != ACTIVE or not self.is_single(self.rows.var0[t] + OBJECT):
             return False
         if not self.plan.predicate_timeline[self.rows.predicate[t]]:
@@ -150,7 +150,7 @@ class Filters:
         return True
 
     def size(self, v: int) -> int:
-        """How many values a variable has; INF if nobody can say."""
+        """Number of values of a variable; INF if it is not finite."""
         if not self.is_finite(v):
             return INF
         if self.engine.kind[v] == KIND_FLOAT:

@@ -1,4 +1,4 @@
-"""Tell whether the guards of a handler hold: variables of the flaw's token, or of the parent, have a value."""
+"""Guards of a handler: whether variables of the flaw's token, or of its parent, have the values it names."""
 
 from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT
 from runtime.solver.flaws.filters import Filters
@@ -9,21 +9,21 @@ TRUTHS = {"true": 1.0, "TRUE": 1.0, "True": 1.0, "false": 0.0, "FALSE": 0.0, "Fa
 
 def guards_hold(filters: Filters, handler: int, t: int) -> bool:
     """Whether all guards of a handler hold."""
-    said = filters.treatments.matching.handlers[handler]
-    if said.guards and (t < 0 or not all(has_value(filters, t, *pair) for pair in said.guards)):
+    said = filters.table.matching.handlers[handler]
+    if said.guards and (t < 0 or not all(_has_value(filters, t, *pair) for pair in said.guards)):
         return False
-    if said.master_guards:
-        master = filters.rows.master[t] if t >= 0 else NONE
-        return master >= 0 and all(has_value(filters, master, *pair) for pair in said.master_guards)
+    if said.parent_guards:
+        parent = filters.rows.master[t] if t >= 0 else NONE
+        return parent >= 0 and all(_has_value(filters, parent, *pair) for pair in said.parent_guards)
     return True
 
 
-def has_value(filters: Filters, t: int, name: str, wanted: str) -> bool:
+def _has_value(filters: Filters, t: int, name: str, wanted: str) -> bool:
     """Whether the variable of `t` that is called `name` is fixed to the value that is written `wanted`."""
-    place = filters.treatments.place_of(filters.rows.predicate[t], name)
-    if place < 0:
+    number = filters.table.variable_number(filters.rows.predicate[t], name)
+    if number < 0:
         return False
-    v = filters.rows.var0[t] + place
+    v = filters.rows.var0[t] + number
     if not filters.is_single(v):
         return False
     kind = filters.engine.kind[v]
@@ -32,9 +32,9 @@ def has_value(filters: Filters, t: int, name: str, wanted: str) -> bool:
     else:
         value = float(filters.engine.lb[v])
     if kind in (KIND_BOOL, KIND_INT, KIND_FLOAT):
-        number = TRUTHS.get(wanted)
+        truth = TRUTHS.get(wanted)
         try:
-            return value == (float(wanted) if number is None else number)
+            return value == (float(wanted) if truth is None else truth)
         except ValueError:
             return False
-    return filters.treatments.vocabulary.value_text(v) == wanted
+    return filters.table.vocabulary.value_text(v) == wanted

@@ -1,4 +1,4 @@
-# The C types of `weights.py`.
+# The C types of `restarts.py`.
 
 cimport cython
 from runtime.constraints.domains.store cimport Store
@@ -6,21 +6,21 @@ from runtime.constraints.domains.store cimport Store
 cdef long long FEW_FAILURES, LARGEST_SIZE, SUPPORT_CONSTRAINT, SUPPORT_EDGE, WEIGHT_SCALE
 
 
-cdef class Weights:
+cdef class Restarts:
     cdef public Store engine
     cdef public long long[::1] weight
-    cdef public long long failures, limit, restarts
+    cdef public long long failures, limit, count
 
     cpdef int clear(self) except -1
 
     @cython.locals(weight="long long")
     cpdef long long rank(self, long long v, long long size) except? -1
 
-    cpdef long long add(self, long long v) except? -1
+    cpdef long long _add(self, long long v) except? -1
 
     @cython.locals(engine=Store, k="long long", kind="long long", support="long long")
     cpdef long long note_failure(self) except? -1
 
     cpdef bint is_due(self) except -1
 
-    cpdef long long begin_anew(self) except? -1
+    cpdef long long restart(self) except? -1

@@ -1,11 +1,10 @@
-"""Choose the flaw to mend next, in EUROPA's order: effects of actions, then by priority, manager and key."""
+"""Flaw selection in EUROPA's order: effects of actions, then by priority, manager and key."""
 
 from runtime.plan.tags import ACTIVE, INACTIVE, LIST_ORDER, LISTS
-from runtime.solver.flaws.agenda import Queues
-from runtime.solver.resolvers.resource_resolvers import select_instant
+from runtime.solver.flaws.agenda import Agenda
+from runtime.solver.flaws.resource_selection import select_resource
 from runtime.solver.tags import (
     BEST_PRIORITY,
-    CUSTOM,
     DROPPED_EFFECT,
     DROPPED_TOKEN,
     DROPPED_VARIABLE,
@@ -18,177 +17,154 @@ from runtime.solver.tags import (
 )
 
 
-def select(q: Queues) -> bool:
-    """Find the next flaw of a token or variable and note it in `q.found_*`; False: there is none."""
-    q.found_item = NONE
-    q.found_priority = NO_PRIORITY
-    for manager in range(q.treatments.managers):
-        if q.treatments.manager_kind[manager] == OPEN_CONDITION and select_effect(q, manager):
+def select(agenda: Agenda) -> bool:
+    """Find the next flaw of a token or variable and note it in `agenda.found_*`; False: there is none."""
+    agenda.found_item = NONE
+    agenda.found_priority = NO_PRIORITY
+    for manager in range(agenda.table.managers):
+        if agenda.table.manager_kind[manager] == OPEN_CONDITION and _select_effect(agenda, manager):
             return True
-    if q.has_custom:
-        select_custom(q)
-    for manager in range(q.treatments.managers):
-        if q.found_priority == BEST_PRIORITY:
+    for manager in range(agenda.table.managers):
+        if agenda.found_priority == BEST_PRIORITY:
             break
-        if q.treatments.manager_kind[manager] == RESOURCE_THREAT:
-            select_instant(q, manager)
+        if agenda.table.manager_kind[manager] == RESOURCE_THREAT:
+            select_resource(agenda, manager)
             continue
-        select_from_heaps(q, manager)
-        if q.loose_count:
-            select_loose(q, manager)
-    return q.found_item >= 0
+        _select_from_heaps(agenda, manager)
+        if agenda.dynamic_count:
+            _select_dynamic(agenda, manager)
+    return agenda.found_item >= 0
 
 
-def select_custom(q: Queues) -> int:
-    """Ask the manager that somebody else has added."""
-    flaw = q.custom.select()
-    if flaw >= 0:
-        q.found_manager = NONE
-        q.found_kind = CUSTOM
-        q.found_item = flaw
-        q.found_handler = NONE
-        q.found_priority = q.custom.priority()
-    return 0
-
-
-def select_effect(q: Queues, manager: int) -> bool:
-    """Find the first effect of an action that is not settled; no filter that changes concerns it."""
-    heap = q.effects[manager]
+def _select_effect(agenda: Agenda, manager: int) -> bool:
+    """Select the first effect of an action that is open; no filter tested in each step concerns it."""
+    heap = agenda.effects[manager]
     while heap.length:
         slot = heap.top_item()
-        t = slot // q.managers
-        if q.rows.key[t] == heap.top_key() and q.rows.status[t] == INACTIVE:
-            take(q, manager, t, q.handler_now(q.token_row[slot], t), BEST_PRIORITY)
+        t = slot // agenda.managers
+        if agenda.rows.key[t] == heap.top_key() and agenda.rows.status[t] == INACTIVE:
+            agenda.note_flaw(manager, t, agenda.handler_now(agenda.token_row[slot], t), BEST_PRIORITY)
             return True
-        is_stale = q.rows.key[t] != heap.top_key()
+        is_stale = agenda.rows.key[t] != heap.top_key()
         heap.pop()
         if not is_stale:
-            q.drop(slot, DROPPED_EFFECT)
+            agenda.drop(slot, DROPPED_EFFECT)
     return False
 
 
-def take(q: Queues, manager: int, item: int, handler: int, priority: float) -> int:
-    """Note the best flaw so far."""
-    q.found_manager = manager
-    q.found_kind = q.treatments.manager_kind[manager]
-    q.found_item = item
-    q.found_handler = handler
-    q.found_priority = priority
-    return 0
-
-
-def select_from_heaps(q: Queues, manager: int) -> int:
+def _select_from_heaps(agenda: Agenda, manager: int) -> int:
     """Compare the best of a manager's heaps with the best so far."""
-    first = q.treatments.manager_heap[manager]
-    for heap in range(first, first + q.treatments.manager_heaps[manager]):
-        priority = q.treatments.heap_priority[heap]
-        if priority >= q.found_priority:
+    first = agenda.table.manager_heap[manager]
+    for heap in range(first, first + agenda.table.manager_heaps[manager]):
+        priority = agenda.table.heap_priority[heap]
+        if priority >= agenda.found_priority:
             break
-        if q.treatments.manager_kind[manager] == UNBOUND_VARIABLE:
-            slot = first_variable(q, heap)
-            row = q.variable_row[slot] if slot >= 0 else NONE
+        if agenda.table.manager_kind[manager] == UNBOUND_VARIABLE:
+            slot = _first_variable(agenda, heap)
+            row = agenda.variable_row[slot] if slot >= 0 else NONE
         else:
-            slot = first_token(q, heap, q.treatments.manager_kind[manager])
-            row = q.token_row[slot] if slot >= 0 else NONE
+            slot = _first_token(agenda, heap, agenda.table.manager_kind[manager])
+            row = agenda.token_row[slot] if slot >= 0 else NONE
         if slot >= 0:
-            take(q, manager, slot // q.managers, q.treatments.handler_of[q.treatments.first_handler[row]], priority)
+            handler = agenda.table.handler_of[agenda.table.first_handler[row]]
+            agenda.note_flaw(manager, slot // agenda.managers, handler, priority)
             break
     return 0
 
 
-def first_token(q: Queues, number: int, kind: int) -> int:
-    """The slot on top of a heap of tokens that is a flaw in scope; those above it are dropped or parked."""
-    heap = q.heaps[number]
+def _first_token(agenda: Agenda, number: int, kind: int) -> int:
+    """The slot on top of a heap of tokens that is a flaw in scope; those above it are dropped or deferred."""
+    heap = agenda.heaps[number]
     while heap.length:
         slot = heap.top_item()
-        if q.token_key[slot] != heap.top_key():
+        if agenda.token_key[slot] != heap.top_key():
             heap.pop()
             continue
-        t = slot // q.managers
-        if not is_token_flaw(q, t, kind):
+        t = slot // agenda.managers
+        if not _is_token_flaw(agenda, t, kind):
             heap.pop()
-            q.drop(slot, DROPPED_TOKEN)
-        elif q.filters.keeps_token(q.token_row[slot], t):
+            agenda.drop(slot, DROPPED_TOKEN)
+        elif agenda.filters.keeps_token(agenda.token_row[slot], t):
             heap.pop()
-            q.park_token(slot)
+            agenda.defer_token(slot)
         else:
             return slot
     return NONE
 
 
-def first_variable(q: Queues, number: int) -> int:
-    """The slot on top of a heap of variables that is a flaw in scope; those above it are dropped or parked."""
-    heap = q.heaps[number]
+def _first_variable(agenda: Agenda, number: int) -> int:
+    """The slot on top of a heap of variables that is a flaw in scope; those above it are dropped or deferred."""
+    heap = agenda.heaps[number]
     while heap.length:
         slot = heap.top_item()
-        if q.variable_key[slot] != heap.top_key():
+        if agenda.variable_key[slot] != heap.top_key():
             heap.pop()
             continue
-        v = slot // q.managers
-        row = q.variable_row[slot]
-        if not is_variable_flaw(q, v):
+        v = slot // agenda.managers
+        row = agenda.variable_row[slot]
+        if not _is_variable_flaw(agenda, v):
             heap.pop()
-            q.drop(slot, DROPPED_VARIABLE)
-        elif q.filters.keeps_variable(row, v):
+            agenda.drop(slot, DROPPED_VARIABLE)
+        elif agenda.filters.keeps_variable(row, v):
             heap.pop()
-            q.park_variable(slot, q.filters.token_of(v) if q.filters.waits_for_times(row) else NONE)
-        elif q.sorted_by_size[number] and q.rank(v) != heap.top_key():
+            agenda.defer_variable(slot, agenda.filters.token_of(v) if agenda.filters.waits_for_times(row) else NONE)
+        elif agenda.sorted_by_size[number] and agenda.rank(v) != heap.top_key():
             heap.pop()
-            q.variable_key[slot] = q.rank(v)
-            heap.push(q.variable_key[slot], v, slot)
+            agenda.variable_key[slot] = agenda.rank(v)
+            heap.push(agenda.variable_key[slot], v, slot)
         else:
             return slot
     return NONE
 
 
-def is_token_flaw(q: Queues, t: int, kind: int) -> bool:
-    """Whether a token still is what the manager mends."""
+def _is_token_flaw(agenda: Agenda, t: int, kind: int) -> bool:
+    """Whether a token still is a flaw of a kind."""
     if kind == THREAT:
-        return q.rows.status[t] == ACTIVE and q.rows.link_head[LISTS * t + LIST_ORDER] < 0
-    return q.rows.status[t] == INACTIVE
+        return agenda.rows.status[t] == ACTIVE and agenda.rows.link_head[LISTS * t + LIST_ORDER] < 0
+    return agenda.rows.status[t] == INACTIVE
 
 
-def is_variable_flaw(q: Queues, v: int) -> bool:
+def _is_variable_flaw(agenda: Agenda, v: int) -> bool:
     """Whether a variable exists, is not decided, and is one of the plan: tokens out of it decide nothing."""
-    if q.engine.kind[v] < 0 or q.is_decided(v):
+    if agenda.engine.kind[v] < 0 or agenda.is_decided(v):
         return False
-    t = q.filters.token_of(v)
-    return t < 0 or q.rows.status[t] == ACTIVE
+    t = agenda.filters.token_of(v)
+    return t < 0 or agenda.rows.status[t] == ACTIVE
 
 
-def select_loose(q: Queues, manager: int) -> int:
-    """Compare all loose flaws of a manager with the best so far: their handlers and filters may have changed."""
-    kind = q.treatments.manager_kind[manager]
+def _select_dynamic(agenda: Agenda, manager: int) -> int:
+    """Compare all dynamic flaws of a manager with the best so far: their handlers and filters may have changed."""
+    kind = agenda.table.manager_kind[manager]
     best_tie = 0
-    is_mine = q.found_manager == manager and q.found_item >= 0
+    is_mine = agenda.found_manager == manager and agenda.found_item >= 0
     if is_mine:
-        best_tie = tie(q, q.found_item, kind, q.found_priority)
-    for at in range(q.loose_count):
-        slot = q.loose_slot[at]
-        if slot % q.managers != manager:
+        best_tie = _tie(agenda, agenda.found_item, kind, agenda.found_priority)
+    for at in range(agenda.dynamic_count):
+        slot = agenda.dynamic_slot[at]
+        if slot % agenda.managers != manager:
             continue
-        item = slot // q.managers
-        if q.loose_is_variable[at]:
-            row = q.variable_row[slot]
-            if not is_variable_flaw(q, item) or q.filters.keeps_variable(row, item):
+        item = slot // agenda.managers
+        if agenda.dynamic_is_variable[at]:
+            row = agenda.variable_row[slot]
+            if not _is_variable_flaw(agenda, item) or agenda.filters.keeps_variable(row, item):
                 continue
-            handler = q.handler_now(row, q.filters.token_of(item))
+            handler = agenda.handler_now(row, agenda.filters.token_of(item))
         else:
-            row = q.token_row[slot]
-            if not is_token_flaw(q, item, kind) or q.filters.keeps_token(row, item):
+            row = agenda.token_row[slot]
+            if not _is_token_flaw(agenda, item, kind) or agenda.filters.keeps_token(row, item):
                 continue
-            handler = q.handler_now(row, item)
-        priority = q.treatments.handler_priority[handler]
-        own = tie(q, item, kind, priority)
-        if priority < q.found_priority or (is_mine and priority == q.found_priority and own < best_tie):
-            take(q, manager, item, handler, priority)
+            handler = agenda.handler_now(row, item)
+        priority = agenda.table.handler_priority[handler]
+        own = _tie(agenda, item, kind, priority)
+        if priority < agenda.found_priority or (is_mine and priority == agenda.found_priority and own < best_tie):
+            agenda.note_flaw(manager, item, handler, priority)
             is_mine = True
             best_tie = own
     return 0
 
 
-def tie(q: Queues, item: int, kind: int, priority: float) -> int:
-    """What orders flaws of one manager that have the same priority: smaller first."""
+def _tie(agenda: Agenda, item: int, kind: int, priority: float) -> int:
+    """Sort key of flaws of one manager and priority."""
     if kind == UNBOUND_VARIABLE:
-        return item if priority == BEST_PRIORITY else q.filters.size(item) * (1 << 24) + item
-    return q.rows.key[item] if priority == BEST_PRIORITY else -q.rows.key[item]
+        return item if priority == BEST_PRIORITY else agenda.filters.size(item) * (1 << 24) + item
+    return agenda.rows.key[item] if priority == BEST_PRIORITY else -agenda.rows.key[item]

@@ -1,4 +1,4 @@
-"""List for each predicate the actions that can bring it about, in EUROPA's order."""
+"""Supports: the actions whose effects include a predicate, in EUROPA's order."""
 
 from array import array
 from collections import Counter
@@ -8,7 +8,7 @@ from compiler.program import Child, Foreach, Guard, Instruction, Program
 
 
 class Supports:
-    """Ways to support a predicate: `action` and the number of its effect, rows `first[p]` to `first[p + 1]`.
+    """Rows `first[p]` to `first[p + 1]` hold the `action` that supports predicate p, and the number of its effect.
 
     `europa`: an action with several effects of the predicate is listed, with all of them, as often as it has them.
     """
@@ -29,29 +29,29 @@ class Supports:
         self.first = array("q", [sum(map(len, ways[:number])) for number in range(len(ways) + 1)])
         self.action = array("q", [action for rows in ways for action, _ in rows])
         self.effect = array("q", [effect for rows in ways for _, effect in rows])
-        self.reach = reachable(program, index, ways)
-        self.guarded = 0  # the set, as bits, of what branches of guards may bring
+        self.reach = _reachable(program, index, ways)
+        self.guarded = 0  # the set, as bits, of predicates below guards
         for code in program.predicates:
             for rule in code.rules:
-                for name in guarded_children(program.rules[rule].body, code.class_name, index):
+                for name in _guarded_children(program.rules[rule].body, code.class_name, index):
                     self.guarded |= self.reach[index[name]]
 
     def leads_to(self, predicate: int, other: int) -> bool:
-        """Whether a token of one predicate, once active, may bring about a token of the other."""
+        """Whether an active token of one predicate may lead to a token of the other."""
         return (self.reach[predicate] >> other) & 1 != 0
 
     def is_guarded(self, predicate: int) -> bool:
-        """Whether a branch of some guard, once it fires, may bring about a token of a predicate."""
+        """Whether a branch of some guard may lead to a token of a predicate."""
         return (self.guarded >> predicate) & 1 != 0
 
 
-def reachable(program: Program, index: dict[str, int], ways: list[list[tuple[int, int]]]) -> list[int]:
+def _reachable(program: Program, index: dict[str, int], ways: list[list[tuple[int, int]]]) -> list[int]:
     """For each predicate the set, as bits, of all that its rules, and actions that support it, may ask for."""
     reach = [1 << number for number in range(len(program.predicates))]
     bases = {code.name: code.base for code in program.classes}
     for number, code in enumerate(program.predicates):
         for rule in code.rules:
-            for name in children(program.rules[rule].body, code.class_name, index):
+            for name in _children(program.rules[rule].body, code.class_name, index):
                 reach[number] |= 1 << index[name]
         for action, _ in ways[number]:
             reach[number] |= 1 << action
@@ -65,22 +65,22 @@ def reachable(program: Program, index: dict[str, int], ways: list[list[tuple[int
     return reach
 
 
-def children(body: Iterable[Instruction], owner: str, index: dict[str, int]) -> Iterator[str]:
+def _children(body: Iterable[Instruction], owner: str, index: dict[str, int]) -> Iterator[str]:
     """The predicates that a body asks for, on any branch, when it runs for a token of class `owner`."""
     for instruction in body:
         if isinstance(instruction, Child):
             name = f"{owner}.{instruction.predicate.rpartition('.')[2]}"
             yield name if instruction.object == "own" and name in index else instruction.predicate
         elif isinstance(instruction, Guard):
-            yield from children((*instruction.then, *instruction.otherwise), owner, index)
+            yield from _children((*instruction.then, *instruction.otherwise), owner, index)
         elif isinstance(instruction, Foreach):
-            yield from children(instruction.body, owner, index)
+            yield from _children(instruction.body, owner, index)
 
 
-def guarded_children(body: Iterable[Instruction], owner: str, index: dict[str, int]) -> Iterator[str]:
+def _guarded_children(body: Iterable[Instruction], owner: str, index: dict[str, int]) -> Iterator[str]:
     """The predicates that branches of the guards of a body ask for."""
     for instruction in body:
         if isinstance(instruction, Guard):
-            yield from children((*instruction.then, *instruction.otherwise), owner, index)
+            yield from _children((*instruction.then, *instruction.otherwise), owner, index)
         elif isinstance(instruction, Foreach):
-            yield from guarded_children(instruction.body, owner, index)
+            yield from _guarded_children(instruction.body, owner, index)

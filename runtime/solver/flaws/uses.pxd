@@ -20,7 +20,7 @@ cdef class Uses:
     cdef public Distances distances
     cdef public long long[::1] grounded, point, takes
     cdef public Flaws flaws
-    cdef public Heap agenda
+    cdef public Heap events
     cdef public long long found_at, found_low, count
     cdef public double found_excess
     cdef public double[::1] amount_least, amount_most
@@ -39,16 +39,16 @@ cdef class Uses:
     cpdef bint worst_flaw(self, long long o) except -1
 
     @cython.locals(
-        agenda=Heap, capacity_high="double", capacity_low="double", engine=Engine, excess="double", high="double",
+        events=Heap, capacity_high="double", capacity_low="double", engine=Engine, excess="double", high="double",
         k="long long", low="double", lower="double", maximum="double", minimum="double", time="long long",
         upper="double"
     )
-    cpdef bint sweep(self, long long o, long long whole) except -1
+    cpdef bint _sweep(self, long long o, long long whole) except -1
 
     @cython.locals(engine=Engine)
     cpdef bint may_order(self, long long o, long long first, long long second) except -1
 
     @cython.locals(v="long long")
-    cpdef bint is_seen(self, long long first, long long second) except -1
+    cpdef bint _is_seen(self, long long first, long long second) except -1
 
     cpdef bint order(self, long long first, long long second, long long together) except -1

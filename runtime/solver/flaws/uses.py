@@ -1,7 +1,7 @@
-"""Find where uses might exceed a resource, and order two of them there.
+"""Resource flaws: the first instant where uses might exceed a resource, and precedences between two uses.
 
-A use that lasts takes at its start and gives back at its end; an event of a reservoir does one of the two. What takes
-is to come after something that gives (or the other way round, where the level is too high): pairs of timepoints.
+A use with an end takes at its start and gives at its end; a reservoir's event does one of the two. A taker is put after
+a giver (or the other way round, where the level is too high): precedences are pairs of timepoints.
 """
 
 from array import array
@@ -19,7 +19,7 @@ from runtime.solver.widening import widened
 
 
 class Uses:
-    """The levels of one resource after another, over arrays that are used again."""
+    """The timepoints of one resource at a time, over arrays that are used again."""
 
     def __init__(self, plan: Plan, distances: Distances, grounded: "array[int]") -> None:
         self.plan = plan
@@ -28,7 +28,7 @@ class Uses:
         self.distances = distances
         self.grounded = grounded  # per object: whether its level is that of everything happening early
         self.flaws = Flaws(plan.engine, plan.resources)
-        self.agenda = Heap()
+        self.events = Heap()
         self.found_at = 0
         self.found_low = 0
         self.found_excess = 0.0
@@ -56,8 +56,8 @@ class Uses:
         if at == len(self.point):
             self.point = widened(self.point, 2 * at, 0)
             self.takes = widened(self.takes, 2 * at, 0)
-            self.amount_least = longer_reals(self.amount_least)
-            self.amount_most = longer_reals(self.amount_most)
+            self.amount_least = _longer_reals(self.amount_least)
+            self.amount_most = _longer_reals(self.amount_most)
         self.point[at] = point
         self.takes[at] = takes
         self.amount_least[at] = least
@@ -77,7 +77,7 @@ class Uses:
     def first_flaw(self, o: int) -> bool:
         """The first instant at which resource `o` might be exceeded."""
         if self.grounded[o]:
-            return self.sweep(o, 0)
+            return self._sweep(o, 0)
         if not self.flaws.find(o):
             return False
         self.found_at = self.flaws.at
@@ -87,18 +87,18 @@ class Uses:
 
     def worst_flaw(self, o: int) -> bool:
         """The instant at which resource `o` might be exceeded most, the first of equals."""
-        return self.sweep(o, 1) if self.grounded[o] else self.first_flaw(o)
+        return self._sweep(o, 1) if self.grounded[o] else self.first_flaw(o)
 
-    def sweep(self, o: int, whole: int) -> bool:
-        """Let all happen as early as it can, and look for the first instant out of bounds, or for the worst one."""
+    def _sweep(self, o: int, whole: int) -> bool:
+        """Sweep over the grounded profile for the first instant out of bounds, or for the worst one."""
         engine = self.engine
-        agenda = self.agenda
-        agenda.clear()
+        events = self.events
+        events.clear()
         self.gather(o)
         for k in range(self.count):
-            agenda.push(engine.lb[self.point[k]], k, k)
+            events.push(engine.lb[self.point[k]], k, k)
         for k, step in enumerate(self.resources.steps.get(o, ())):
-            agenda.push(step[0], self.count + k, -k - 1)
+            events.push(step[0], self.count + k, -k - 1)
         low = self.limit(o, INITIAL, 0)
         high = self.limit(o, INITIAL, 1)
         minimum = self.limit(o, MINIMUM, 0)
@@ -106,11 +106,11 @@ class Uses:
         capacity_low = low
         capacity_high = high
         self.found_excess = 0.0
-        while agenda.length:
-            time = agenda.top_key()
-            while agenda.length and agenda.top_key() == time:
-                k = agenda.top_item()
-                agenda.pop()
+        while events.length:
+            time = events.top_key()
+            while events.length and events.top_key() == time:
+                k = events.top_item()
+                events.pop()
                 if k < 0:
                     _, lower, upper = self.resources.steps[o][-k - 1]
                     low += lower - capacity_low
@@ -132,19 +132,19 @@ class Uses:
                     return True
         return self.found_excess > 0.0
 
-    # ---- what may be ordered ----
+    # ---- precedences ----
 
     def may_order(self, o: int, first: int, second: int) -> bool:
-        """Whether one timepoint of `o` may still be put before another: it is neither impossible nor seen already."""
+        """Whether one timepoint of `o` may be put before another: neither impossible nor known already."""
         engine = self.engine
         if first == second or engine.lb[first] > engine.ub[second] or engine.ub[first] <= engine.lb[second]:
             return False
         if not self.distances.admits(second, first, 0):
             return False
-        return self.distances.admits(first, second, -1) or not (self.grounded[o] or self.is_seen(first, second))
+        return self.distances.admits(first, second, -1) or not (self.grounded[o] or self._is_seen(first, second))
 
-    def is_seen(self, first: int, second: int) -> bool:
-        """Whether flaws see an order that the network knows: they do not follow edges with a positive weight."""
+    def _is_seen(self, first: int, second: int) -> bool:
+        """Whether the envelope sees a precedence of the network: it follows no edges with a positive weight."""
         v = first
         while v != second and self.engine.edge_weight[self.distances.via[v]] <= 0:
             v = self.engine.edge_source[self.distances.via[v]]
@@ -155,7 +155,7 @@ class Uses:
         return self.flaws.marks[first] == self.flaws.mark
 
     def order(self, first: int, second: int, together: int) -> bool:
-        """Put one timepoint before another, or both at the same time."""
+        """Post that one timepoint precedes another, or that both coincide."""
         if not self.engine.add_edge(second, first, 0, NONE, NONE):
             return False
         if together and not self.engine.add_edge(first, second, 0, NONE, NONE):
@@ -163,6 +163,6 @@ class Uses:
         return settle(self.plan)
 
 
-def longer_reals(old: "array[float]") -> "array[float]":
+def _longer_reals(old: "array[float]") -> "array[float]":
     """A copy twice as long."""
     return array("d", bytes(old) + bytes(8 * len(old)))

@@ -1,19 +1,19 @@
-# The C types of `blame.py`.
+# The C types of `conflict_analysis.py`.
 
 cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.resources.resources cimport Resources
 from runtime.solver.flaws.decisions cimport Decisions
-from runtime.solver.flaws.agenda cimport Queues
+from runtime.solver.flaws.agenda cimport Agenda
 from runtime.solver.learning.support_walk cimport Walk
 
 cdef long long END, LIST_ORDER, OBJECT, START
-cdef long long ACTIVE, CONFLICT_DOMAIN, CUSTOM, EVERYTHING, HEAD_OPEN, LISTS, LIST_OPEN, NONE, NOW, OPEN_CONDITION
+cdef long long ACTIVE, CONFLICT_DOMAIN, EVERYTHING, HEAD_OPEN, LISTS, LIST_OPEN, NONE, NOW, OPEN_CONDITION
 cdef long long OP_EXTERNAL, RESOURCE_CONSUMES, RESOURCE_PRODUCES, SIDE_LOWER, SIDE_UPPER, UNBOUND_VARIABLE
 cdef double FLOAT_TOLERANCE
 
 
-cdef class Blame(Walk):
+cdef class ConflictAnalysis(Walk):
     @cython.locals(
         engine=Engine, first="long long", is_all=bint, k="long long", side="long long", support="long long", v="long long"
     )
@@ -25,16 +25,16 @@ cdef class Blame(Walk):
     @cython.locals(heir="long long", latest="long long", reason="long long", stack=Decisions)
     cpdef long long target(self, long long d) except? -1
 
-    @cython.locals(is_new=bint, item="long long", kind="long long", mine="long long", q=Queues)
+    @cython.locals(is_new=bint, item="long long", kind="long long", mine="long long", agenda=Agenda)
     cpdef bint may_bring(self, long long d, long long predicate) except -1
 
-    @cython.locals(other="long long", q=Queues, t="long long")
+    @cython.locals(other="long long", agenda=Agenda, t="long long")
     cpdef long long blame_absence(self, long long d, long long predicate) except? -1
 
-    @cython.locals(q=Queues, t="long long")
+    @cython.locals(agenda=Agenda, t="long long")
     cpdef long long blame_use(self, long long u, long long d) except? -1
 
-    @cython.locals(kind="long long", predicate="long long", q=Queues, u="long long", uses=Resources)
+    @cython.locals(kind="long long", predicate="long long", agenda=Agenda, u="long long", uses=Resources)
     cpdef bint blame_helpers(self, long long o, long long sign, long long d) except -1
 
     @cython.locals(
@@ -42,7 +42,7 @@ cdef class Blame(Walk):
     )
     cpdef long long blame_window(self, excess) except? -1
 
-    @cython.locals(first="long long", q=Queues)
+    @cython.locals(first="long long", agenda=Agenda)
     cpdef long long blame_crowd(self, long long t) except? -1
 
     @cython.locals(

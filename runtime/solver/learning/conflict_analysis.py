@@ -22,10 +22,10 @@ from runtime.plan.tags import (
     START,
 )
 from runtime.solver.learning.support_walk import Walk
-from runtime.solver.tags import CUSTOM, EVERYTHING, NONE, NOW, OPEN_CONDITION, UNBOUND_VARIABLE
+from runtime.solver.tags import EVERYTHING, NONE, NOW, OPEN_CONDITION, UNBOUND_VARIABLE
 
 
-class Blame(Walk):
+class ConflictAnalysis(Walk):
     """The reasons of decisions, as levels."""
 
     # ---- failed choices ----
@@ -37,7 +37,7 @@ class Blame(Walk):
         """
         engine = self.engine
         support = engine.conflict_support
-        if engine.consistent or support < 0 or self.queues.plan.loops_read_choices:
+        if engine.consistent or support < 0 or self.agenda.plan.loops_read_choices:
             self.stack.reasons[d] = EVERYTHING
             return False
         self.begin()
@@ -113,65 +113,65 @@ class Blame(Walk):
 
         Guards wait for decided variables: one that is given a value may let them fire, and one that a merge decides.
         """
-        q = self.queues
+        agenda = self.agenda
         item = self.stack.item[d]
         kind = self.stack.kind[d]
         if kind == OPEN_CONDITION:
-            mine = q.rows.predicate[item]
-            is_new = q.rows.status[item] != ACTIVE or q.supports.first[mine + 1] > q.supports.first[mine]
-            if is_new and q.supports.leads_to(mine, predicate):
+            mine = agenda.rows.predicate[item]
+            is_new = agenda.rows.status[item] != ACTIVE or agenda.supports.first[mine + 1] > agenda.supports.first[mine]
+            if is_new and agenda.supports.leads_to(mine, predicate):
                 return True
-            return q.waiting_guards[d] > 0 and q.supports.is_guarded(predicate)
+            return agenda.waiting_guards[d] > 0 and agenda.supports.is_guarded(predicate)
         if kind == UNBOUND_VARIABLE:
-            return q.plan.variable_guards[item] > 0 and q.supports.is_guarded(predicate)
-        return kind == CUSTOM
+            return agenda.plan.variable_guards[item] > 0 and agenda.supports.is_guarded(predicate)
+        return False
 
     def blame_absence(self, d: int, predicate: int) -> int:
         """Note the decisions before `d` that might have brought a token of a predicate, and whether any still may."""
-        q = self.queues
+        agenda = self.agenda
         for other in range(d + 1):
             if self.may_bring(other, predicate):
                 self.meet(other + 1)
                 self.is_local = True
-        t = q.rows.head_first[HEAD_OPEN]
+        t = agenda.rows.head_first[HEAD_OPEN]
         while t >= 0 and not self.is_local:
-            self.is_local = q.supports.leads_to(q.rows.predicate[t], predicate)
-            t = q.rows.link_after[LISTS * t + LIST_OPEN]
-        if q.supports.is_guarded(predicate):
+            self.is_local = agenda.supports.leads_to(agenda.rows.predicate[t], predicate)
+            t = agenda.rows.link_after[LISTS * t + LIST_OPEN]
+        if agenda.supports.is_guarded(predicate):
             self.is_local = True
         return 0
 
     def blame_use(self, u: int, d: int) -> int:
         """Why use `u` of a resource exists, and is on that resource."""
-        q = self.queues
-        self.ask_domain(q.plan.resources.holder[u])
-        t = q.plan.resources.token[u]
+        agenda = self.agenda
+        self.ask_domain(agenda.plan.resources.holder[u])
+        t = agenda.plan.resources.token[u]
         if t >= 0:
-            self.meet(q.token_level[t])
-        while d >= 0 and q.plan.mark_uses[self.stack.mark[d]] > u:
+            self.meet(agenda.token_level[t])
+        while d >= 0 and agenda.plan.mark_uses[self.stack.mark[d]] > u:
             d -= 1
         self.meet(d + 1)
         return 0
 
     def blame_helpers(self, o: int, sign: int, d: int) -> bool:
         """Why nothing else gives to (takes from) resource `o` what would help; False if that has no simple reason."""
-        q = self.queues
-        uses = q.plan.resources
+        agenda = self.agenda
+        uses = agenda.plan.resources
         for u in range(uses.count):
             if uses.sign[u] == sign and uses.end[u] < 0 and uses.on[u] != o:
                 if not self.engine.is_singleton(uses.holder[u]):
                     return False
                 self.ask_domain(uses.holder[u])
         kind = RESOURCE_PRODUCES if sign > 0 else RESOURCE_CONSUMES
-        for predicate in range(len(q.plan.predicate_resource)):
-            if q.plan.predicate_resource[predicate] == kind:
+        for predicate in range(len(agenda.plan.predicate_resource)):
+            if agenda.plan.predicate_resource[predicate] == kind:
                 self.blame_absence(d, predicate)
         self.is_local = True  # in another order it may come before what it would have helped
         return True
 
     def blame_window(self, excess: Excess) -> int:
         """Why tokens lie in a window that is too narrow: the widest such, that of before the search if it will do."""
-        var0 = self.queues.rows.var0
+        var0 = self.agenda.rows.var0
         needed = int(excess.amount) + excess.until - excess.at
         start = excess.at
         end = excess.until
@@ -188,14 +188,14 @@ class Blame(Walk):
         return 0
 
     def blame_crowd(self, t: int) -> int:
-        """Why token `t` is to be ordered on its timeline (crowds.py)."""
-        q = self.queues
-        first = q.rows.var0[t]
-        self.meet(q.active_level[t])
+        """Why token `t` is to be ordered on its timeline (disjunctive.py)."""
+        agenda = self.agenda
+        first = agenda.rows.var0[t]
+        self.meet(agenda.active_level[t])
         self.ask_domain(first + OBJECT)
-        if q.rows.link_head[LISTS * t + LIST_ORDER] < 0 or q.order_level[t] > 0:
-            self.ask_enough(first + END, SIDE_LOWER, q.filters.lower + 1)
-            self.ask_enough(first + START, SIDE_UPPER, q.filters.upper - 1)
+        if agenda.rows.link_head[LISTS * t + LIST_ORDER] < 0 or agenda.order_level[t] > 0:
+            self.ask_enough(first + END, SIDE_LOWER, agenda.filters.lower + 1)
+            self.ask_enough(first + START, SIDE_UPPER, agenda.filters.upper - 1)
         return 0
 
     def blame_excess(self, c: int, d: int) -> bool:
@@ -217,6 +217,6 @@ class Blame(Walk):
         if excess.tokens:
             self.blame_window(excess)
         for e in excess.edges:
-            self.meet(self.queues.edge_level[e])
+            self.meet(self.agenda.edge_level[e])
             self.ask_weight(e)
         return excess.helper == 0 or self.blame_helpers(excess.resource, excess.helper, d)

@@ -1,7 +1,7 @@
-"""Refuse tokens of one timeline that cannot lie one after the other in the time there is for them.
+"""Disjunctive overload check: the tokens of one timeline need more time than a window has.
 
-What counts is who has a place there, and who must get one: active tokens on that timeline and no other, which the
-horizon does not keep back, nor will. Checked is every window from an earliest start to a latest end.
+Tokens count that are ordered there, or must be: active on that timeline and no other, and excluded by no horizon
+filter, now or later. Windows run from an earliest start to a latest end.
 """
 
 from array import array
@@ -21,21 +21,21 @@ from runtime.plan.tags import (
     START,
     TOO_TIGHT,
 )
-from runtime.solver.flaws.agenda import Queues
+from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.tags import FILTER_HORIZON, NONE, POLICY_PARTIAL, THREAT
 from runtime.solver.widening import widened
 
-PRIME = 1_000_000_007
-MOST_STARTS = 64  # with more tokens only windows from the earliest start are looked at
+_PRIME = 1_000_000_007
+_MOST_STARTS = 64  # with more tokens only windows from the earliest start are looked at
 
 
-class Crowds:
-    """The tokens of one timeline after another, by latest end, over arrays that are used again."""
+class Disjunctive:
+    """The tokens of one timeline at a time, by latest end, over arrays that are used again."""
 
-    def __init__(self, queues: Queues) -> None:
-        self.queues = queues
-        self.rows = queues.rows
-        self.engine = queues.engine
+    def __init__(self, agenda: Agenda) -> None:
+        self.agenda = agenda
+        self.rows = agenda.rows
+        self.engine = agenda.engine
         self.one = NONE
         self.zero = NONE
         self.room = 64
@@ -44,79 +44,79 @@ class Crowds:
         self.start = array("q", [0]) * 64
         self.end = array("q", [0]) * 64
         self.length = array("q", [0]) * 64
-        self.known = array("q", [0]) * 64  # by object: a sum over what was there when it was last looked at
+        self.known = array("q", [0]) * 64  # by object: hash of the tokens that were checked last
         self.stamp = 0
         self.stamped = array("q", [0]) * 64
         self.found_start = 0
         self.found_end = 0
 
     def fit(self) -> bool:
-        """Whether all fit, as far as windows tell; if not, the engine has a conflict."""
-        q = self.queues
-        if q.filters.has_scope:
-            return True  # what a scope keeps back now it may admit later, and the other way round
-        if len(self.known) < q.plan.object_count:
-            self.known = widened(self.known, 2 * q.plan.object_count, 0)
-            self.stamped = widened(self.stamped, 2 * q.plan.object_count, 0)
+        """Whether no window of any timeline is overloaded; else the engine has a conflict."""
+        agenda = self.agenda
+        if agenda.filters.has_scope:
+            return True  # tokens may enter and leave a scope
+        if len(self.known) < agenda.plan.object_count:
+            self.known = widened(self.known, 2 * agenda.plan.object_count, 0)
+            self.stamped = widened(self.stamped, 2 * agenda.plan.object_count, 0)
         self.stamp += 1
         t = self.rows.head_first[HEAD_THREAT]
         while t >= 0:
             o = self.engine.lb[self.rows.var0[t] + OBJECT]
-            if self.is_waiting_for(t, o) and self.stamped[o] != self.stamp:
+            if self._must_be_ordered_on(t, o) and self.stamped[o] != self.stamp:
                 self.stamped[o] = self.stamp
-                if not self.fit_on(o):
+                if not self._fit_on(o):
                     return False
             t = self.rows.link_after[LISTS * t + LIST_THREAT]
         return True
 
-    def is_waiting_for(self, t: int, o: int) -> bool:
-        """Whether an active token without a place must get one on timeline `o`."""
+    def _must_be_ordered_on(self, t: int, o: int) -> bool:
+        """Whether an active, unordered token must be ordered on timeline `o`."""
         return (
             self.engine.ub[self.rows.var0[t] + OBJECT] == o
-            and self.queues.plan.object_timeline[o] != 0
-            and self.must_be_ordered(t)
+            and self.agenda.plan.object_timeline[o] != 0
+            and self._must_be_ordered(t)
         )
 
-    def must_be_ordered(self, t: int) -> bool:
-        """Whether a manager orders token `t`, and no filter keeps it back or can do so later."""
-        q = self.queues
-        treatments = q.treatments
-        for manager in range(q.managers):
-            row = q.token_row[t * q.managers + manager]
-            if treatments.manager_kind[manager] != THREAT or row < 0 or treatments.heap_of[row] < 0:
+    def _must_be_ordered(self, t: int) -> bool:
+        """Whether a manager orders token `t`, and no filter excludes it, now or later."""
+        agenda = self.agenda
+        table = agenda.table
+        for manager in range(agenda.managers):
+            row = agenda.token_row[t * agenda.managers + manager]
+            if table.manager_kind[manager] != THREAT or row < 0 or table.heap_of[row] < 0:
                 continue
-            is_plain = not q.filters.keeps_token(row, t)
-            first = treatments.filter_first[row]
-            for f in range(first, first + treatments.filter_count[row]):
-                if treatments.filter_code[f] != FILTER_HORIZON or treatments.filter_policy[f] != POLICY_PARTIAL:
+            is_plain = not agenda.filters.keeps_token(row, t)
+            first = table.filter_first[row]
+            for f in range(first, first + table.filter_count[row]):
+                if table.filter_code[f] != FILTER_HORIZON or table.filter_policy[f] != POLICY_PARTIAL:
                     is_plain = False
             if is_plain:
                 return True
         return False
 
-    def fit_on(self, o: int) -> bool:
-        """Whether the tokens of timeline `o` fit."""
+    def _fit_on(self, o: int) -> bool:
+        """Whether no window of timeline `o` is overloaded."""
         self.count = 0
-        t = self.rows.head_first[self.queues.plan.object_head[o]]
+        t = self.rows.head_first[self.agenda.plan.object_head[o]]
         while t >= 0:
-            if self.queues.order_level[t] == 0 or self.must_be_ordered(t):
-                self.add(t)
+            if self.agenda.order_level[t] == 0 or self._must_be_ordered(t):
+                self._add(t)
             t = self.rows.link_after[LISTS * t + LIST_ORDER]
         t = self.rows.head_first[HEAD_THREAT]
         while t >= 0:
-            if self.engine.lb[self.rows.var0[t] + OBJECT] == o and self.is_waiting_for(t, o):
-                self.add(t)
+            if self.engine.lb[self.rows.var0[t] + OBJECT] == o and self._must_be_ordered_on(t, o):
+                self._add(t)
             t = self.rows.link_after[LISTS * t + LIST_THREAT]
-        total = self.sum()
-        if total == self.known[o]:
+        times = self._hash()
+        if times == self.known[o]:
             return True
-        if self.find_window():
-            return self.refuse(o)
-        self.known[o] = total
+        if self._find_window():
+            return self._refuse(o)
+        self.known[o] = times
         return True
 
-    def add(self, t: int) -> int:
-        """Put a token where its latest end belongs."""
+    def _add(self, t: int) -> int:
+        """Insert a token by latest end."""
         if self.count == self.room:
             self.room *= 2
             self.token = widened(self.token, self.room, 0)
@@ -141,24 +141,24 @@ class Crowds:
         self.length[at] = max(0, engine.lb[first + DURATION])
         return 0
 
-    def sum(self) -> int:
-        """A number that tells what is gathered from most else."""
+    def _hash(self) -> int:
+        """Hash of the times of the tokens, in order."""
         total = 1
         for k in range(self.count):
-            total = (total * 31 + self.start[k]) % PRIME
-            total = (total * 31 + self.end[k]) % PRIME
-            total = (total * 31 + self.length[k]) % PRIME
+            total = (total * 31 + self.start[k]) % _PRIME
+            total = (total * 31 + self.end[k]) % _PRIME
+            total = (total * 31 + self.length[k]) % _PRIME
         return total
 
-    def find_window(self) -> bool:
-        """Whether some window is too narrow for the tokens that must lie in it; the one that lacks most is found."""
+    def _find_window(self) -> bool:
+        """Whether some window is overloaded; the worst one is noted."""
         first = HALF_INF
         for k in range(self.count):
             first = min(first, self.start[k])
         most = 0
         for i in range(self.count):
             start = self.start[i]
-            if start <= -HALF_INF or (self.count > MOST_STARTS and start > first):
+            if start <= -HALF_INF or (self.count > _MOST_STARTS and start > first):
                 continue
             needed = 0
             for k in range(self.count):
@@ -172,8 +172,8 @@ class Crowds:
                     self.found_end = end
         return most > 0
 
-    def refuse(self, o: int) -> bool:
-        """Post a constraint on the tokens in the window that finds the same, so that the engine can explain it."""
+    def _refuse(self, o: int) -> bool:
+        """Post a constraint on the tokens in the window that fails for the same reason, for its explanation."""
         engine = self.engine
         if self.one < 0:
             self.one = engine.new_constant(KIND_FLOAT, 1.0, 1.0)
@@ -191,7 +191,7 @@ class Crowds:
         inside.sort(key=self.length.__getitem__)
         spare = sum([self.length[k] for k in inside]) - (self.found_end - self.found_start)
         for k in inside:
-            if self.length[k] < spare:  # the longest ones are too long without it
+            if self.length[k] < spare:  # it is overloaded without it
                 spare -= self.length[k]
                 continue
             t = self.token[k]

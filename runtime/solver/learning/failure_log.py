@@ -1,210 +1,265 @@
-"""Keep account of why choices failed while a search runs, so that it can say why there is no plan.
+"""Failure log: which resolvers failed for which flaws, and the causes, as data; words are made in `rendering.py`.
 
-For explanations only: each failed choice is explained and shrunk to a minimal set of causes, which costs far more than
-the search itself. After `MOST` failures the account stays as it is.
+For explanations only: each failure is explained and minimised, which costs far more than the search itself. After
+`_MOST` failures the log stays as it is.
 """
 
 from dataclasses import dataclass
-from typing import Protocol
+from enum import Enum
 
-from runtime.constraints.explanation.cause import Cause
+from nddl_lang.text.source import Span
+from runtime.constraints.domains.tags import FLAG_DECISION
+from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.minimisation.minimise import minimise
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import merge, settle
+from runtime.plan.readout.cause_rendering import words
+from runtime.plan.readout.provenance import span_of
+from runtime.plan.readout.readout import live_tokens, token_names
+from runtime.plan.readout.terms import Term, TermReader, Violation
 from runtime.plan.tags import MERGED, NONE, OBJECT, REJECTED
 from runtime.plan.tokens.predicate_hierarchy import first_active, next_active
 from runtime.plan.tokens.timelines import order
-from runtime.solver.flaws.agenda import Queues
+from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
-from runtime.solver.learning.rendering import Line, Wording
-from runtime.solver.tags import CUSTOM, OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
+from runtime.solver.tags import OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 
-MOST = 400
-MOST_TRIALS = 20
+_MOST = 400
+_MOST_TRIALS = 20
+
+
+class CauseOrigin(Enum):
+    """How a cause comes about that has no source place; an implied one follows from the others."""
+
+    DECLARED = "declared"
+    DECIDED = "decided"
+    IMPLIED = "so"
+
+
+@dataclass(frozen=True, slots=True)
+class FoundCause:
+    """One cause of a failure: where the model says it (None: nowhere), for which token's rule (empty: the script)."""
+
+    span: Span | None
+    owner: str
+    term: Term | Violation
+    origin: CauseOrigin = CauseOrigin.DECIDED
+
+
+class ResolverKind(Enum):
+    """What a resolver does with the names it comes with."""
+
+    PROPAGATE = "nothing is decided yet"
+    MERGE = "the token to merge with"
+    ACTIVATE = "no name"
+    SUPPORT = "the predicate of the action"
+    REJECT = "no name: reject"
+    SPECIFY = "the value"
+    INSERT_ONLY = "the timeline"
+    INSERT_BEFORE = "the timeline, the next token"
+    INSERT_AFTER = "the timeline, the token before"
+    PRECEDE = "two timepoints, the earlier one first"
+
+
+@dataclass(frozen=True, slots=True)
+class Resolver:
+    """A resolver that was tried."""
+
+    kind: ResolverKind
+    names: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Flaw:
+    """What was to be mended: the kind of flaw (NONE: the model itself), the token, variable or resource.
+
+    An open condition has a predicate, too; of a resource, `at` is the instant.
+    """
+
+    kind: int
+    name: str = ""
+    predicate: str = ""
+    at: int = 0
 
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """A choice that failed: by a conflict of `lines`, or because nothing mends what it leads to."""
+    """A resolver that failed: by a conflict of `causes`, or because no resolver mends what it leads to."""
 
-    choice: str
-    lines: tuple[Line, ...]
-    because: "Failure | None" = None
+    resolver: Resolver
+    causes: tuple[FoundCause, ...]
+    because: "FailedFlaw | None" = None
 
 
 @dataclass(frozen=True, slots=True)
-class Failure:
-    """A flaw that no choice mends."""
+class FailedFlaw:
+    """A flaw that no resolver mends."""
 
-    flaw: str
+    flaw: Flaw
     attempts: tuple[Attempt, ...]
 
 
-class Account(Protocol):
-    """What a search tells of its failures."""
+class FailureLog:
+    """The failures of one search: why it ended, and why tokens were rejected."""
 
-    def contradicted(self) -> None: ...
-    def failed(self, d: int) -> None: ...
-    def rejected(self, d: int) -> None: ...
-    def given_up(self, d: int, heir: int) -> None: ...
-
-
-class Recorder:
-    """The account of one search: why it ended, and why tokens were rejected."""
-
-    def __init__(self, database: PlanDatabase, queues: Queues, stack: Decisions) -> None:
+    def __init__(self, database: PlanDatabase, agenda: Agenda, stack: Decisions) -> None:
         self.database = database
         self.plan = database.plan
-        self.queues = queues
+        self.agenda = agenda
         self.stack = stack
         self.count = 0
         self.attempts: dict[int, list[Attempt]] = {}
-        self.reasons: dict[str, Failure] = {}
-        self.end: Failure | None = None
+        self.rejections: dict[str, FailedFlaw] = {}
+        self.end: FailedFlaw | None = None
 
-    def contradiction(self) -> Failure:
-        """Why the model contradicts itself before any decision."""
-        lines = self.lines(Wording(self.database))
-        return Failure("the model contradicts itself", (Attempt("before any decision", lines),))
-
-    def contradicted(self) -> None:
+    def note_contradiction(self) -> FailedFlaw:
         """There is a conflict before any decision."""
-        self.end = self.contradiction()
+        attempt = Attempt(Resolver(ResolverKind.PROPAGATE), self._causes(self._reader()))
+        self.end = FailedFlaw(Flaw(NONE), (attempt,))
+        return self.end
 
-    def failed(self, d: int) -> None:
-        """The present choice of decision `d` has failed; the conflict is still there."""
-        if self.count < MOST:
+    def note_failure(self, d: int) -> None:
+        """The resolver that decision `d` has chosen has failed; the conflict is still there."""
+        if self.count < _MOST:
             self.count += 1
-            wording = Wording(self.database)
-            self.note(d, Attempt(self.choice(d, wording), self.lines(wording)))
+            reader = self._reader()
+            self._add(d, Attempt(self._resolver(d, reader), self._causes(reader)))
 
-    def rejected(self, d: int) -> None:
+    def note_rejection(self, d: int) -> None:
         """Decision `d` has rejected a token."""
-        wording = Wording(self.database)
-        name = wording.token(self.stack.item[d])
-        self.reasons[name] = Failure(self.flaw(d, wording), tuple(self.attempts.get(d, ())))
+        reader = self._reader()
+        name = reader.token(self.stack.item[d])
+        self.rejections[name] = FailedFlaw(self._flaw(d, reader), tuple(self.attempts.get(d, ())))
 
-    def given_up(self, d: int, heir: int) -> None:
-        """Decision `d` has no choice left; `heir` is where the search goes on (NONE: nowhere)."""
-        wording = Wording(self.database)
-        if self.count < MOST:
-            self.try_what_was_left_out(d, wording)
-        failure = Failure(self.flaw(d, wording), tuple(self.attempts.pop(d, ())))
+    def note_dead_end(self, d: int, heir: int) -> None:
+        """Decision `d` has no resolver left; the search goes on at `heir` (NONE: nowhere)."""
+        reader = self._reader()
+        if self.count < _MOST:
+            self._try_pruned(d, reader)
+        failed = FailedFlaw(self._flaw(d, reader), tuple(self.attempts.pop(d, ())))
         for other in range(max(heir, 0) + 1, d):
             self.attempts.pop(other, None)
         if heir < 0:
-            self.end = failure
+            self.end = failed
         else:
-            self.note(heir, Attempt(self.choice(heir, wording), (), failure))
+            self._add(heir, Attempt(self._resolver(heir, reader), (), failed))
 
-    def note(self, d: int, attempt: Attempt) -> None:
-        """Add to what is known of decision `d`; the same is not told twice."""
+    def _add(self, d: int, attempt: Attempt) -> None:
+        """Add to the attempts of decision `d`, each once."""
         known = self.attempts.setdefault(d, [])
         if attempt not in known:
             known.append(attempt)
 
-    def lines(self, wording: Wording) -> tuple[Line, ...]:
-        """The lines of the present conflict, as few as it needs; those that have no place in the model come last."""
+    def _reader(self) -> TermReader:
+        """Names as the plan stands now."""
+        names = token_names(self.database, live_tokens(self.database))
+        return TermReader(self.database, lambda t: names.get(t, f"token {t}"))
+
+    def _causes(self, reader: TermReader) -> tuple[FoundCause, ...]:
+        """The minimal causes of the present conflict; those without a source place come last."""
         engine = self.database.engine
-        found = sorted(engine.explain(), key=lambda cause: cause.span < 0)  # what the model says is kept rather
-        causes: list[Cause] = minimise(engine, found)
-        lines = dict.fromkeys(wording.line(cause) for cause in causes)
-        if any(line.how == "so" for line in lines):  # it says who uses what, and what there is
-            lines = dict.fromkeys(line for line in lines if line.span is not None or line.how != "declared")
-        return tuple(sorted(lines, key=place_of))
+        found = sorted(engine.explain(), key=lambda cause: cause.span < 0)  # source lines are the last to be dropped
+        causes = dict.fromkeys(self._cause(cause, reader) for cause in minimise(engine, found))
+        if any(cause.origin is CauseOrigin.IMPLIED for cause in causes):  # it tells the users and the limits
+            causes = dict.fromkeys(one for one in causes if one.span or one.origin is not CauseOrigin.DECLARED)
+        return tuple(sorted(causes, key=_rank))
 
-    # ---- words ----
+    def _cause(self, cause: Cause, reader: TermReader) -> FoundCause:
+        term = reader.term(cause)
+        if isinstance(term, Violation):
+            return FoundCause(None, "", term, CauseOrigin.IMPLIED)
+        flags = self.database.engine.restriction_flags
+        is_declared = cause.kind is CauseKind.RESTRICTION and not flags[cause.id] & FLAG_DECISION
+        owner = reader.token(cause.owner) if cause.owner >= 0 else ""
+        origin = CauseOrigin.DECLARED if is_declared else CauseOrigin.DECIDED
+        return FoundCause(span_of(self.database, cause.span), owner, term, origin)
 
-    def flaw(self, d: int, wording: Wording) -> str:
-        """What decision `d` mends."""
+    def _flaw(self, d: int, reader: TermReader) -> Flaw:
+        """The flaw of decision `d`."""
         item, kind = self.stack.item[d], self.stack.kind[d]
         if kind == OPEN_CONDITION:
             predicate = self.database.program.predicates[self.plan.rows.predicate[item]].name
-            return f"`{wording.token(item)}` ({predicate}) is not in the plan yet"
+            return Flaw(kind, reader.token(item), predicate)
         if kind == THREAT:
-            return f"`{wording.token(item)}` has no place on its timeline yet"
+            return Flaw(kind, reader.token(item))
         if kind == UNBOUND_VARIABLE:
-            return f"`{wording.variable(item)}` has no value yet"
-        if kind == CUSTOM:
-            return f"flaw {item} is not mended yet"
-        return f"`{self.database.objects.names[item]}` might be used too much at {self.stack.other[d]}"
+            return Flaw(kind, reader.variable(item))
+        return Flaw(kind, self.database.objects.names[item], at=self.stack.instant[d])
 
-    def choice(self, d: int, wording: Wording) -> str:
+    def _resolver(self, d: int, reader: TermReader) -> Resolver:
         """What decision `d` has chosen, while it is in force."""
         stack, rows = self.stack, self.plan.rows
         item, kind = stack.item[d], stack.kind[d]
         if kind == OPEN_CONDITION:
             if rows.status[item] == MERGED:
-                return f"merge it with `{wording.token(rows.merged_into[item])}`"
+                return Resolver(ResolverKind.MERGE, (reader.token(rows.merged_into[item]),))
             if rows.status[item] == REJECTED:
-                return "reject it"
+                return Resolver(ResolverKind.REJECT)
             way = stack.cursor[d]
-            first, last = self.queues.supports.first[rows.predicate[item] : rows.predicate[item] + 2]
+            first, last = self.agenda.supports.first[rows.predicate[item] : rows.predicate[item] + 2]
             if 0 <= way < last - first:
-                action = self.queues.supports.action[first + way]
-                return f"have `{self.database.program.predicates[action].name}` bring it about, or activate it"
-            return "activate it"
+                action = self.agenda.supports.action[first + way]
+                return Resolver(ResolverKind.SUPPORT, (self.database.program.predicates[action].name,))
+            return Resolver(ResolverKind.ACTIVATE)
         if kind == UNBOUND_VARIABLE:
-            return f"give it the value {wording.value(item)}"
-        if kind == CUSTOM:
-            return f"choice {stack.tries[d]}"
+            return Resolver(ResolverKind.SPECIFY, (reader.value(item),))
         at = stack.pool_first[d] + max(stack.cursor[d], 0)
         before, after = stack.pool_before[at], stack.pool_after[at]
         if kind == THREAT:
-            return self.place(stack.pool_object[at], before, after, item, wording)
-        return f"put {wording.variable(before)} before {wording.variable(after)}"
+            return self._insertion(stack.pool_object[at], before, after, item, reader)
+        return Resolver(ResolverKind.PRECEDE, (reader.variable(before), reader.variable(after)))
 
-    def place(self, o: int, before: int, after: int, t: int, wording: Wording) -> str:
-        """A place on a timeline."""
+    def _insertion(self, o: int, before: int, after: int, t: int, reader: TermReader) -> Resolver:
         name = self.database.objects.names[o]
         if before == after:
-            return f"put it on `{name}`"
+            return Resolver(ResolverKind.INSERT_ONLY, (name,))
         if before == t:
-            return f"put it before `{wording.token(after)}` on `{name}`"
-        return f"put it after `{wording.token(before)}` on `{name}`"
+            return Resolver(ResolverKind.INSERT_BEFORE, (name, reader.token(after)))
+        return Resolver(ResolverKind.INSERT_AFTER, (name, reader.token(before)))
 
-    # ---- what the search saw at a glance ----
+    # ---- resolvers that the search pruned ----
 
-    def try_what_was_left_out(self, d: int, wording: Wording) -> None:
-        """Carry out what was not worth trying, to see why."""
+    def _try_pruned(self, d: int, reader: TermReader) -> None:
+        """Carry out resolvers that the search pruned, for the causes."""
         item = self.stack.item[d]
         if self.stack.kind[d] == THREAT:
-            self.try_places(d, item, wording)
+            self._try_insertions(d, item, reader)
         elif self.stack.kind[d] == OPEN_CONDITION:
             rows = self.plan.rows
             other = first_active(self.plan, rows.predicate[item])
             trials = 0
-            while other >= 0 and trials < MOST_TRIALS:
+            while other >= 0 and trials < _MOST_TRIALS:
                 mark = self.database.mark()
                 if not merge(self.plan, item, other, NONE):
-                    self.note(d, Attempt(f"merge it with `{wording.token(other)}`", self.lines(wording)))
+                    resolver = Resolver(ResolverKind.MERGE, (reader.token(other),))
+                    self._add(d, Attempt(resolver, self._causes(reader)))
                 self.database.release(mark)
                 other = next_active(self.plan, other, rows.predicate[item])
                 trials += 1
 
-    def try_places(self, d: int, t: int, wording: Wording) -> None:
-        """Try every place of a token on every timeline that it may be on."""
+    def _try_insertions(self, d: int, t: int, reader: TermReader) -> None:
+        """Try every insertion of a token on every timeline that it may be on."""
         v = self.plan.rows.var0[t] + OBJECT
         trials = 0
         for value in self.database.engine.values_of(v):
             o = int(value)
             if not self.plan.object_timeline[o]:
                 continue
-            count = self.queues.take_sequence(o)
-            sequence = list(self.queues.sequence[:count])
-            places = [(t, other) for other in sequence] + [(sequence[-1], t)] if sequence else [(t, t)]
-            for before, after in places:
+            count = self.agenda.sequence.take(o)
+            sequence = list(self.agenda.sequence.tokens[:count])
+            insertions = [(t, other) for other in sequence] + [(sequence[-1], t)] if sequence else [(t, t)]
+            for before, after in insertions:
                 trials += 1
-                if trials > MOST_TRIALS:
+                if trials > _MOST_TRIALS:
                     return
                 mark = self.database.mark()
                 if not (order(self.plan, o, before, after, NONE) and settle(self.plan)):
-                    self.note(d, Attempt(self.place(o, before, after, t, wording), self.lines(wording)))
+                    self._add(d, Attempt(self._insertion(o, before, after, t, reader), self._causes(reader)))
                 self.database.release(mark)
 
 
-def place_of(line: Line) -> tuple[int, str, int, str]:
-    """What sorts lines: what they come to, then by place in the text, then those without one."""
-    if line.span is None:
-        return (0 if line.how == "so" else 2, "", 0, line.text)
-    return (1, line.span.source.name, line.span.begin, line.text)
+def _rank(cause: FoundCause) -> tuple[int, str, int, str]:
+    """Sort key of causes: implied ones, then by source place, then those without one."""
+    if cause.span is None:
+        return (0 if cause.origin is CauseOrigin.IMPLIED else 2, "", 0, words(cause.term))
+    return (1, cause.span.source.name, cause.span.begin, words(cause.term))

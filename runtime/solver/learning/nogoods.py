@@ -1,4 +1,4 @@
-"""Keep sets of choices that cannot all hold: what an exhausted decision rested on is not explored a second time.
+"""Nogoods: sets of choices that cannot all hold, learned from dead ends.
 
 A choice is named by what it does, by way of names that are the same on every branch: a token of a rule by its parent
 and the statement that asks for it. So a nogood says of the model that no plan has all of its choices, in whatever order
@@ -12,27 +12,27 @@ from typing import Any
 from compiler.program import Foreach, Guard, Instruction, NewObject, Program
 from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.plan.tags import ACTIVE, LIST_ORDER, LISTS, MERGED, NONE, OBJECT, ROLE_LOCAL, ROLE_TOKEN
-from runtime.solver.flaws.agenda import Queues
+from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
 from runtime.solver.tags import EVERYTHING, OPEN_CONDITION, PRECEDES_ONLY, RESOURCE_THREAT, THREAT, UNBOUND_VARIABLE
 
-MOST = 4000
-LONGEST = 24
+_MOST = 4000
+_LONGEST = 24
 
 
 class Nogoods:
-    """The store. It sleeps, and costs nothing, until the first decision is exhausted."""
+    """The store. It records nothing, and costs nothing, before the first dead end."""
 
-    def __init__(self, program: Program, queues: Queues, stack: Decisions) -> None:
-        self.queues = queues
+    def __init__(self, program: Program, agenda: Agenda, stack: Decisions) -> None:
+        self.agenda = agenda
         self.stack = stack
         # One name means many things in a loop, and where objects are made.
         self.is_usable = not any(has_any(rule.body, (Foreach, NewObject)) for rule in program.rules)
         self.clear()
 
     def clear(self) -> None:
-        """Forget everything, for the plan has changed from outside."""
-        self.is_awake = False
+        """Forget everything: the plan was changed from outside."""
+        self.is_recording = False
         self.numbers: dict[Any, int] = {}
         self.made: list[int] = []  # the choice of each decision in force, NONE for one without a name
         self.level: dict[int, int] = {}
@@ -42,24 +42,24 @@ class Nogoods:
 
     # ---- names ----
 
-    def token(self, t: int) -> Any:
+    def _token(self, t: int) -> Any:
         """A name for a token that it has on every branch; None if there is none."""
-        rows = self.queues.rows
-        if t < 0 or self.queues.token_level[t] == 0:
+        rows = self.agenda.rows
+        if t < 0 or self.agenda.token_level[t] == 0:
             return t
-        parent = self.token(rows.master[t]) if rows.master[t] >= 0 else None
+        parent = self._token(rows.master[t]) if rows.master[t] >= 0 else None
         return None if parent is None else (parent, rows.span[t], rows.predicate[t])
 
-    def variable(self, v: int) -> Any:
+    def _variable(self, v: int) -> Any:
         """A name for a variable; None if there is none."""
-        plan, engine = self.queues.plan, self.queues.engine
-        if self.queues.variable_level[v] == 0:
+        plan, engine = self.agenda.plan, self.agenda.engine
+        if self.agenda.variable_level[v] == 0:
             return v
-        owner = self.token(plan.variable_owner[v])
+        owner = self._token(plan.variable_owner[v])
         if owner is None:
             return None
         if plan.variable_role[v] == ROLE_TOKEN:
-            return (owner, v - self.queues.rows.var0[plan.variable_owner[v]])
+            return (owner, v - self.agenda.rows.var0[plan.variable_owner[v]])
         r = engine.restriction_head[v]
         if plan.variable_role[v] != ROLE_LOCAL or r < 0:
             return None
@@ -67,43 +67,48 @@ class Nogoods:
             r = engine.restriction_next[r]
         return (owner, "local", plan.variable_name[v], engine.restriction_span[r])
 
-    def choice(self, d: int) -> Any:
+    def _choice(self, d: int) -> Any:
         """A name for the choice that decision `d` has made; None if there is none."""
-        q, stack = self.queues, self.stack
+        agenda, stack = self.agenda, self.stack
         item, kind = stack.item[d], stack.kind[d]
         name: tuple[Any, ...] = (None,)
         if kind == UNBOUND_VARIABLE:
-            value = q.engine.flo[item] if q.engine.kind[item] == KIND_FLOAT else q.engine.lb[item]
-            name = (self.variable(item), value)
+            value = agenda.engine.flo[item] if agenda.engine.kind[item] == KIND_FLOAT else agenda.engine.lb[item]
+            name = (self._variable(item), value)
         elif kind == OPEN_CONDITION:
-            way = self.token(q.rows.merged_into[item]) if q.rows.status[item] == MERGED else stack.cursor[d]
-            if q.rows.status[item] == ACTIVE and q.supports.first[q.rows.predicate[item] + 1] > 0:
+            way = self._token(agenda.rows.merged_into[item]) if agenda.rows.status[item] == MERGED else stack.cursor[d]
+            if agenda.rows.status[item] == ACTIVE and agenda.supports.first[agenda.rows.predicate[item] + 1] > 0:
                 return None  # an action that supports it has no name
-            name = (self.token(item), q.rows.status[item], way)
+            name = (self._token(item), agenda.rows.status[item], way)
         elif kind == THREAT:
             at = LISTS * item + LIST_ORDER
-            before, after = q.rows.link_before[at], q.rows.link_after[at]
-            name = (self.token(item), q.engine.lb[q.rows.var0[item] + OBJECT], self.token(before), self.token(after))
-        elif kind == RESOURCE_THREAT and q.treatments.handler_constraint[stack.handler[d]] == PRECEDES_ONLY:
+            before, after = agenda.rows.link_before[at], agenda.rows.link_after[at]
+            name = (
+                self._token(item),
+                agenda.engine.lb[agenda.rows.var0[item] + OBJECT],
+                self._token(before),
+                self._token(after),
+            )
+        elif kind == RESOURCE_THREAT and agenda.table.handler_constraint[stack.handler[d]] == PRECEDES_ONLY:
             at = stack.pool_first[d] + stack.cursor[d]
-            name = (self.variable(stack.pool_before[at]), self.variable(stack.pool_after[at]))
+            name = (self._variable(stack.pool_before[at]), self._variable(stack.pool_after[at]))
         return None if None in name else (kind, name)
 
-    def number(self, d: int) -> int:
+    def _number(self, d: int) -> int:
         """The number of the choice of decision `d`, NONE if it has no name."""
-        name = self.choice(d)
+        name = self._choice(d)
         return NONE if name is None else self.numbers.setdefault(name, len(self.numbers))
 
     # ---- while the search goes on ----
 
-    def wake(self) -> None:
-        """Begin to take note of choices; places that were taken before have no name, as neighbours may have come."""
-        if self.is_usable and not self.is_awake:
-            self.is_awake = True
+    def start(self) -> None:
+        """Begin to record choices; insertions made before have no name, as neighbours may have come."""
+        if self.is_usable and not self.is_recording:
+            self.is_recording = True
             for d in range(self.stack.depth):
-                self.take(d, NONE if self.stack.kind[d] == THREAT else self.number(d))
+                self._take(d, NONE if self.stack.kind[d] == THREAT else self._number(d))
 
-    def take(self, d: int, made: int) -> None:
+    def _take(self, d: int, made: int) -> None:
         """Note the choice of decision `d`; those of later ones are undone."""
         while len(self.made) > d:
             undone = self.made.pop()
@@ -116,9 +121,9 @@ class Nogoods:
             self.level[made] = d + 1
 
     def refuted(self, d: int) -> list[int] | None:
-        """Note the choice of decision `d`; the levels of a nogood that now holds entirely, None if there is none."""
-        made = self.number(d)
-        self.take(d, made)
+        """Note the choice of decision `d`; the levels of a nogood that is now complete, None if there is none."""
+        made = self._number(d)
+        self._take(d, made)
         if made < 0 or self.made[d] < 0:
             return None
         waiting = self.watched.pop(made, [])
@@ -138,28 +143,28 @@ class Nogoods:
         return found
 
     def record(self, d: int) -> None:
-        """Learn from decision `d`, which has no choice left, what it rests on; the latest of that is undone next."""
+        """Learn the conflict set of decision `d`, a dead end; the latest of it is undone next."""
         stack = self.stack
         reason = stack.reasons[d]
-        if not self.is_awake or reason == EVERYTHING or stack.is_local[d]:
+        if not self.is_recording or reason == EVERYTHING or stack.is_local[d]:
             return
         levels: list[int] = []
         while reason >= 0:
             levels.append(stack.reason_level[reason])
             reason = stack.reason_next[reason]
         made = [self.made[level - 1] for level in sorted(levels)]
-        if not made or len(made) > LONGEST or NONE in made:
+        if not made or len(made) > _LONGEST or NONE in made:
             return
-        if len(self.sets) == MOST:
-            self.forget()
+        if len(self.sets) == _MOST:
+            self._forget()
         self.watched.setdefault(made[-1], []).append(len(self.sets))
         self.sets.append(tuple(made))
         self.uses.append(0)
 
-    def forget(self) -> None:
+    def _forget(self) -> None:
         """Drop the half that was used least, the older of equals."""
         order = sorted(range(len(self.sets)), key=lambda k: (self.uses[k], k))
-        kept = {k: place for place, k in enumerate(sorted(order[len(order) // 2 :]))}
+        kept = {k: index for index, k in enumerate(sorted(order[len(order) // 2 :]))}
         self.watched = {one: left for one, ks in self.watched.items() if (left := [kept[k] for k in ks if k in kept])}
         self.sets = [self.sets[k] for k in kept]
         self.uses = [self.uses[k] // 2 for k in kept]

@@ -1,150 +1,108 @@
-"""Put tokens, variables and causes of a conflict into the words of the model."""
+"""Words for a failure log: as lines of text, and as plain data."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from typing import Any, assert_never
 
-from nddl_lang.text.source import Span
-from runtime.constraints.domains.tags import (
-    FLAG_DECISION,
-    FLAG_VALUES,
-    HALF_INF,
-    KIND_FLOAT,
-    OP_FREEZE,
-    OP_PLUS,
-    OP_TEMPORAL_DISTANCE,
-)
-from runtime.constraints.explanation.cause import Cause, CauseKind
-from runtime.constraints.propagators.operations import OPERATIONS
-from runtime.plan.database import PlanDatabase
-from runtime.plan.readout.provenance import span_of
-from runtime.plan.readout.readout import live_tokens, token_names
-from runtime.plan.resources.violation import Excess
-from runtime.plan.store.domain_texts import base_text, domain_text
-from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
-from runtime.solver.configuration.handler_matching import BUILT_IN
-from runtime.user.written import Written
+from runtime.plan.readout.cause_rendering import words
+from runtime.solver.learning.failure_log import Attempt, FailedFlaw, Flaw, FoundCause, Resolver, ResolverKind
+from runtime.solver.tags import OPEN_CONDITION, RESOURCE_THREAT, THREAT, UNBOUND_VARIABLE
 
-NAMES = {code: name for name, code in reversed(OPERATIONS.items())} | {OP_PLUS: "addEq", OP_FREEZE: "foreach"}
+_MOST_LINES = 60
+_DEEPEST = 12
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
-    """One thing that holds: where the model says it, for which token's rule (empty: in the script), what it comes to.
-
-    What has no place was `declared` with a variable, or `decided` by the search, or is `so` because of the others.
-    """
-
-    span: Span | None
-    owner: str
-    text: str
-    how: str = "decided"
+def story(failed: FailedFlaw) -> Iterator[str]:
+    """The first lines of a failure: the flaw, each resolver, and the lines of the model that forbid it."""
+    for number, line in enumerate(_story(failed, 1)):
+        if number == _MOST_LINES:
+            yield "  ... and more of the like"
+            return
+        yield line
 
 
-class Wording:
-    """Names as the plan stands now; ask for a new one after it has changed."""
-
-    def __init__(self, database: PlanDatabase) -> None:
-        self.database = database
-        self.plan = database.plan
-        self.engine = database.engine
-        self.tokens = token_names(database, live_tokens(database))
-
-    def token(self, t: int) -> str:
-        """The name of a token."""
-        return self.tokens.get(t, f"token {t}")
-
-    def user(self, t: int) -> str:
-        """The name of a token that uses something, with that of the token whose rule asks for it."""
-        master = self.plan.rows.master[t]
-        return f"{self.token(t)} of {self.token(master)}" if master >= 0 else self.token(t)
-
-    def variable(self, v: int) -> str:
-        """The name of a variable; a constant is its value."""
-        plan, program = self.plan, self.database.program
-        role, owner, name = plan.variable_role[v], plan.variable_owner[v], plan.variable_name[v]
-        if role == ROLE_TOKEN:
-            place = v - plan.rows.var0[owner]
-            code = program.predicates[plan.rows.predicate[owner]]
-            if place >= FIRST_PARAMETER:
-                return f"{self.token(owner)}.{code.parameters[place - FIRST_PARAMETER].name}"
-            if plan.rows.flags[owner] & FLAG_EVENT and place in (START, END):
-                return f"{self.token(owner)}.time"
-            return f"{self.token(owner)}.{BUILT_IN[place]}"
-        if role == ROLE_GLOBAL:
-            return program.globals[name][0]
-        if role == ROLE_MEMBER:
-            member = program.classes[plan.object_class[owner]].members[name].name
-            return f"{self.database.objects.names[owner]}.{member}"
-        if role == ROLE_LOCAL:
-            return f"{self.token(owner)}::{self.database.names.text(name)}"
-        return self.value(v)
-
-    def value(self, v: int) -> str:
-        """The domain of a variable, without its type."""
-        text = domain_text(self.database.prototypes, self.engine, v, self.database.objects.names, "x")
-        text = text.removesuffix(" open").removesuffix(" x").rpartition(" ")[0] or text.removesuffix(" x")
-        return text[1:-1] if text.startswith("{") and "," not in text else text
-
-    def line(self, cause: Cause) -> Line:
-        """A cause as a line of the model."""
-        owner = self.token(cause.owner) if cause.owner >= 0 else ""
-        match cause.kind:
-            case CauseKind.EDGE:
-                text = self.edge(cause.id)
-            case CauseKind.RESTRICTION:
-                text = self.restriction(cause.id)
-            case CauseKind.CONSTRAINT:
-                text = self.constraint(cause.id)
-        if cause.kind is CauseKind.CONSTRAINT and isinstance(self.engine.externals.get(cause.id), Excess):
-            return Line(None, "", text, "so")
-        is_declared = cause.kind is CauseKind.RESTRICTION and not self.is_decision(cause.id)
-        return Line(span_of(self.database, cause.span), owner, text, "declared" if is_declared else "decided")
-
-    def is_decision(self, r: int) -> bool:
-        """Whether a restriction gives a variable its value by decision."""
-        return bool(self.engine.restriction_flags[r] & FLAG_DECISION)
-
-    def edge(self, e: int) -> str:
-        """What a temporal edge says."""
-        engine = self.engine
-        source, target = self.variable(engine.edge_source[e]), self.variable(engine.edge_target[e])
-        weight = int(engine.edge_weight[e])
-        if weight < 0:
-            return f"{target} + {-weight} <= {source}"
-        return f"{target} <= {source}" if weight == 0 else f"{target} <= {source} + {weight}"
-
-    def restriction(self, r: int) -> str:
-        """What an assignment, a declaration or a decision says."""
-        engine = self.engine
-        v = engine.restriction_variable[r]
-        name = self.variable(v)
-        low, high = engine.restriction_lo[r], engine.restriction_hi[r]
-        if engine.restriction_flags[r] & FLAG_VALUES or (
-            engine.kind[v] != KIND_FLOAT and low == high and not self.is_decision(r)
-        ):
-            text = base_text(self.database.prototypes, engine, v, self.database.objects.names)
-            return f"{name} in {text}" if text[:1] in "{[" else f"{name} = {text}"
-        if low == high:
-            return f"{name} = {number(low, engine.kind[v])}"
-        if low <= -HALF_INF:
-            return f"{name} <= {number(high, engine.kind[v])}"
-        if high >= HALF_INF:
-            return f"{name} >= {number(low, engine.kind[v])}"
-        return f"{name} in [{number(low, engine.kind[v])}, {number(high, engine.kind[v])}]"
-
-    def constraint(self, c: int) -> str:
-        """What a constraint says, with the values that its variables may have."""
-        engine = self.engine
-        arguments = list(engine.arguments(c))
-        if engine.op[c] == OP_TEMPORAL_DISTANCE and len(arguments) == 3:
-            names = [self.variable(v) for v in arguments]
-            return f"{names[0]} + {names[1]} = {names[2]}, {names[1]} is {self.value(arguments[1])}"
-        external = engine.externals.get(c)
-        if isinstance(external, Excess):
-            return external.words(self.database.objects.names[external.resource], self.user)
-        name = external.name if isinstance(external, Written) else NAMES.get(engine.op[c], "constraint")
-        return f"{name}({', '.join(self.variable(v) for v in arguments)})"
+def as_data(failed: FailedFlaw) -> dict[str, Any]:
+    """A failure for programs."""
+    return {"flaw": _flaw_words(failed.flaw), "choices": [_attempt_data(attempt) for attempt in failed.attempts]}
 
 
-def number(x: float, kind: int) -> str:
-    """A number as the model would write it."""
-    return repr(float(x)) if kind == KIND_FLOAT else str(int(x))
+def _flaw_words(flaw: Flaw) -> str:
+    """What was to be mended."""
+    if flaw.kind == OPEN_CONDITION:
+        return f"`{flaw.name}` ({flaw.predicate}) is not in the plan yet"
+    if flaw.kind == THREAT:
+        return f"`{flaw.name}` has no place on its timeline yet"
+    if flaw.kind == UNBOUND_VARIABLE:
+        return f"`{flaw.name}` has no value yet"
+    if flaw.kind == RESOURCE_THREAT:
+        return f"`{flaw.name}` might be used too much at {flaw.at}"
+    return "the model contradicts itself"
+
+
+def _resolver_words(resolver: Resolver) -> str:
+    """What was tried."""
+    names = resolver.names
+    match resolver.kind:
+        case ResolverKind.PROPAGATE:
+            return "before any decision"
+        case ResolverKind.MERGE:
+            return f"merge it with `{names[0]}`"
+        case ResolverKind.ACTIVATE:
+            return "activate it"
+        case ResolverKind.SUPPORT:
+            return f"have `{names[0]}` bring it about, or activate it"
+        case ResolverKind.REJECT:
+            return "reject it"
+        case ResolverKind.SPECIFY:
+            return f"give it the value {names[0]}"
+        case ResolverKind.INSERT_ONLY:
+            return f"put it on `{names[0]}`"
+        case ResolverKind.INSERT_BEFORE:
+            return f"put it before `{names[1]}` on `{names[0]}`"
+        case ResolverKind.INSERT_AFTER:
+            return f"put it after `{names[1]}` on `{names[0]}`"
+        case ResolverKind.PRECEDE:
+            return f"put {names[0]} before {names[1]}"
+        case _:
+            assert_never(resolver.kind)
+
+
+def _story(failed: FailedFlaw, depth: int) -> Iterator[str]:
+    margin = "  " * depth
+    while len(failed.attempts) == 1 and failed.attempts[0].because is not None:
+        yield f"{margin}{_flaw_words(failed.flaw)}: {_resolver_words(failed.attempts[0].resolver)}"
+        failed = failed.attempts[0].because
+    yield f"{margin}{_flaw_words(failed.flaw)}"
+    if not failed.attempts:
+        yield f"{margin}  there is nothing to choose from"
+    for attempt in failed.attempts:
+        yield f"{margin}  {_resolver_words(attempt.resolver)}:"
+        if attempt.because is None:
+            yield from (f"{margin}    {_cause_line(cause)}" for cause in attempt.causes)
+        elif depth < _DEEPEST:
+            yield from _story(attempt.because, depth + 2)
+        else:
+            yield f"{margin}    ..."
+
+
+def _cause_line(cause: FoundCause) -> str:
+    """A cause with its source place, what is written there, and what it comes to."""
+    if cause.span is None:
+        return f"({cause.origin.value}) {words(cause.term)}"
+    owner = f", for `{cause.owner}`" if cause.owner else ""
+    text = " ".join(cause.span.text.split())
+    written = f"`{text}`" if len(text) <= 60 else f"`{text[:57]}...`"
+    return f"{cause.span.source.name}:{cause.span.line}: {written}{owner}: {words(cause.term)}"
+
+
+def _attempt_data(attempt: Attempt) -> dict[str, Any]:
+    lines = [
+        {
+            "file": cause.span.source.name if cause.span is not None else None,
+            "line": cause.span.line if cause.span is not None else None,
+            "token": cause.owner or None,
+            "text": words(cause.term),
+        }
+        for cause in attempt.causes
+    ]
+    because = None if attempt.because is None else as_data(attempt.because)
+    return {"choice": _resolver_words(attempt.resolver), "lines": lines, "because": because}

@@ -1,4 +1,4 @@
-# The C types of `walk.py`.
+# The C types of `support_walk.py`.
 
 cimport cython
 from runtime.constraints.engine cimport Engine
@@ -6,13 +6,13 @@ from runtime.constraints.explanation.reasons cimport collect_reasons, collect_we
 from runtime.plan.rules.guards cimport deciders
 from runtime.solver.flaws.decisions cimport Decisions
 from runtime.constraints.stn.distances cimport Distances
-from runtime.solver.flaws.agenda cimport Queues
+from runtime.solver.flaws.agenda cimport Agenda
 
 cdef long long AS_IT_IS, NOW, SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_CONSTRAINT, SUPPORT_EDGE
 
 
 cdef class Walk:
-    cdef public Queues queues
+    cdef public Agenda agenda
     cdef public Decisions stack
     cdef public Engine engine
     cdef public long long stamp, met_count, work_count, origin, opened
@@ -54,7 +54,7 @@ cdef class Walk:
     @cython.locals(c="long long", k="long long")
     cpdef long long ask_weight(self, long long e) except? -1
 
-    @cython.locals(k="long long", q=Queues, s="long long", t="long long")
+    @cython.locals(k="long long", agenda=Agenda, s="long long", t="long long")
     cpdef long long ask_guards(self, long long level) except? -1
 
     @cython.locals(engine=Engine, r="long long", v="long long")

@@ -6,7 +6,7 @@ from runtime.constraints.domains.tags import SIDE_HOLES, SIDE_LOWER, SIDE_UPPER,
 from runtime.constraints.explanation.reasons import collect_reasons, collect_weight
 from runtime.plan.rules.guards import deciders
 from runtime.plan.tags import AS_IT_IS
-from runtime.solver.flaws.agenda import Queues
+from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
 from runtime.solver.tags import NOW
 from runtime.solver.widening import widened
@@ -15,10 +15,10 @@ from runtime.solver.widening import widened
 class Walk:
     """Walks back along supports; `marked[level] == stamp` for the levels that were met."""
 
-    def __init__(self, queues: Queues, stack: Decisions) -> None:
-        self.queues = queues
+    def __init__(self, agenda: Agenda, stack: Decisions) -> None:
+        self.agenda = agenda
         self.stack = stack
-        self.engine = queues.engine
+        self.engine = agenda.engine
         self.stamp = 0
         self.marked = array("q", [0]) * 64
         self.met = array("q", [0]) * 64
@@ -134,26 +134,26 @@ class Walk:
 
     def ask_guards(self, level: int) -> int:
         """Ask why the guards held that fired at a level: what followed rests on all that decided them."""
-        q = self.queues
-        for k in range(q.fired_end[level - 1], q.fired_end[level]):
-            s = q.fired_scope[k]
-            t = q.rows.scope_token[s]
+        agenda = self.agenda
+        for k in range(agenda.fired_end[level - 1], agenda.fired_end[level]):
+            s = agenda.fired_scope[k]
+            t = agenda.rows.scope_token[s]
             if t >= 0:
-                self.meet(q.active_level[t])
+                self.meet(agenda.active_level[t])
             while s >= 0:
-                if q.rows.scope_watch[s] >= 0:
-                    self.ask_arguments(q.rows.scope_watch[s])
-                s = q.rows.scope_parent[s]
+                if agenda.rows.scope_watch[s] >= 0:
+                    self.ask_arguments(agenda.rows.scope_watch[s])
+                s = agenda.rows.scope_parent[s]
         return 0
 
     def ask_arguments(self, c: int) -> int:
         """Ask for the domains of all that decides a guard which waits with a constraint, and who decided it."""
         engine = self.engine
-        for v in deciders(self.queues.plan, c):
+        for v in deciders(self.agenda.plan, c):
             self.ask_domain(v)
             r = engine.restriction_head[v]
             while r >= 0:
-                self.meet(self.queues.restriction_level[r])
+                self.meet(self.agenda.restriction_level[r])
                 r = engine.restriction_next[r]
         return 0
 
@@ -184,14 +184,14 @@ class Walk:
         """The decision that posted an edge, a constraint or a restriction."""
         kind = support & 3
         if kind == SUPPORT_EDGE:
-            return self.queues.edge_level[support >> 2]
+            return self.agenda.edge_level[support >> 2]
         if kind == SUPPORT_CONSTRAINT:
-            return self.queues.constraint_level[support >> 2]
-        return self.queues.restriction_level[support >> 2]
+            return self.agenda.constraint_level[support >> 2]
+        return self.agenda.restriction_level[support >> 2]
 
     def blame_edge(self, source: int, target: int, weight: int) -> bool:
         """Why `target - source <= weight` is impossible, if it is: two bounds, or a path of edges."""
-        distances = self.queues.distances
+        distances = self.agenda.distances
         if distances.admits(source, target, weight):
             return False
         if distances.by_bounds:
@@ -201,7 +201,7 @@ class Walk:
         v = source
         while v != target:
             e = distances.via[v]
-            self.meet(self.queues.edge_level[e])
+            self.meet(self.agenda.edge_level[e])
             self.ask_weight(e)
             v = self.engine.edge_source[e]
         return True
@@ -214,5 +214,5 @@ class Walk:
             self.ask(self.engine.reasons[k] >> 2, self.engine.reasons[k] & 3, NOW)
         c = self.engine.edge_link[e]
         if c >= 0:
-            self.meet(self.queues.constraint_level[c])
+            self.meet(self.agenda.constraint_level[c])
         return 0

@@ -6,44 +6,40 @@ from runtime.plan.lifecycle cimport settle
 from runtime.plan.tokens.timelines cimport order
 from runtime.solver.resolvers.conditions cimport mend_open_condition
 from runtime.solver.flaws.decisions cimport Decisions
-from runtime.solver.resolvers.resource_resolvers cimport mend_instant
-from runtime.solver.resolvers.insertions cimport fill_places, is_open_place
-from runtime.solver.flaws.agenda cimport Queues
+from runtime.solver.resolvers.resource_resolvers cimport mend_resource
+from runtime.solver.resolvers.insertions cimport list_insertions, is_open_insertion
+from runtime.solver.flaws.agenda cimport Agenda
 
 cdef long long SPREAD
-cdef long long APPLIED, CUSTOM, FAILED_CHOICE, HANDLER_HSTS_THREAT, HANDLER_LISTED, HANDLER_MAX, HANDLER_RANDOM
+cdef long long APPLIED, FAILED_CHOICE, HANDLER_HSTS_THREAT, HANDLER_LISTED, HANDLER_MAX, HANDLER_RANDOM
 cdef long long KIND_FLOAT, NEVER, NONE, NO_CHOICE, OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 
 
 @cython.locals(kind="long long")
-cpdef long long mend(Queues q, Decisions stack, long long d) except? -1
-
-
-@cython.locals(outcome="long long")
-cpdef long long mend_custom(Queues q, Decisions stack, long long d) except? -1
+cpdef long long mend(Agenda agenda, Decisions stack, long long d) except? -1
 
 
 @cython.locals(handler="long long", v="long long", x="long long")
-cpdef long long mend_variable(Queues q, Decisions stack, long long d) except? -1
+cpdef long long _mend_variable(Agenda agenda, Decisions stack, long long d) except? -1
 
 
-cpdef long long value_above(Queues q, long long v, long long x) except? -1
+cpdef long long _value_above(Agenda agenda, long long v, long long x) except? -1
 
 
-cpdef long long value_below(Queues q, long long v, long long x) except? -1
+cpdef long long _value_below(Agenda agenda, long long v, long long x) except? -1
 
 
-@cython.locals(count="long long", place="long long", step="long long", v="long long", x="long long")
-cpdef long long random_value(Queues q, Decisions stack, long long d) except? -1
+@cython.locals(count="long long", index="long long", step="long long", v="long long", x="long long")
+cpdef long long _random_value(Agenda agenda, Decisions stack, long long d) except? -1
 
 
 @cython.locals(rest="long long")
-cpdef bint are_coprime(long long a, long long b) except -1
+cpdef bint _are_coprime(long long a, long long b) except -1
 
 
-@cython.locals(v="long long", x="double")
-cpdef long long mend_by_list(Queues q, Decisions stack, long long d) except? -1
+@cython.locals(v="long long")
+cpdef long long _mend_by_list(Agenda agenda, Decisions stack, long long d) except? -1
 
 
-@cython.locals(after="long long", at="long long", before="long long", place="long long", t="long long")
-cpdef long long mend_threat(Queues q, Decisions stack, long long d) except? -1
+@cython.locals(after="long long", at="long long", before="long long", step="long long", t="long long")
+cpdef long long _mend_threat(Agenda agenda, Decisions stack, long long d) except? -1

@@ -1,51 +1,54 @@
-"""List the pairs of uses that EUROPA would order at an instant, in its order and with the filters of a handler."""
+"""Precedences that EUROPA tries for a resource flaw, in its order and with the filters of a handler."""
 
-from runtime.solver.flaws.agenda import Queues
+from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
 from runtime.solver.tags import NONE
 
-Pair = tuple[int, int]  # indices of timepoints: the first is to come before the second
+_Pair = tuple[int, int]  # indices of timepoints, in the order to post
 
 
-def sorted_pairs(q: Queues, stack: Decisions, d: int) -> int:
-    """Put all pairs into the pool of decision `d`; whether they can be ordered is asked when their turn comes."""
-    uses = q.uses
-    engine = q.engine
-    at = stack.other[d]
+def sorted_pairs(agenda: Agenda, stack: Decisions, d: int) -> int:
+    """List all pairs in the pool of decision `d`; whether they can be ordered is asked when their turn comes."""
+    uses = agenda.uses
+    engine = agenda.engine
+    at = stack.instant[d]
     uses.gather(stack.item[d])
     points = range(uses.count)
     here = [engine.lb[uses.point[k]] <= at <= engine.ub[uses.point[k]] for k in points]
-    handler = q.treatments.matching.handlers[stack.handler[d]]
+    handler = agenda.table.matching.handlers[stack.handler[d]]
     found = [
         (i, j)
         for i in points
         for j in points
-        if i != j and (here[i] or here[j]) and is_kept(q, stack, d, i, j, handler.keep) and may_meet(q, i, j)
+        if i != j
+        and (here[i] or here[j])
+        and _is_kept(agenda, stack, d, i, j, handler.keep)
+        and _may_meet(agenda, i, j)
     ]
-    found.sort(key=lambda pair: rank(q, pair, handler.order))
+    found.sort(key=lambda pair: _rank(agenda, pair, handler.order))
     for i, j in found:
         stack.add_to_pool(d, NONE, uses.point[i], uses.point[j])
     return 0
 
 
-def may_meet(q: Queues, i: int, j: int) -> bool:
+def _may_meet(agenda: Agenda, i: int, j: int) -> bool:
     """Whether two timepoints have a time in common."""
-    engine, point = q.engine, q.uses.point
+    engine, point = agenda.engine, agenda.uses.point
     return engine.lb[point[i]] <= engine.ub[point[j]] and engine.lb[point[j]] <= engine.ub[point[i]]
 
 
-def is_kept(q: Queues, stack: Decisions, d: int, i: int, j: int, keep: str) -> bool:
+def _is_kept(agenda: Agenda, stack: Decisions, d: int, i: int, j: int, keep: str) -> bool:
     """Whether a pair passes the handler's filter: its second part takes by then, its first gives later."""
-    uses, engine = q.uses, q.engine
-    at, taker = stack.other[d], 1 if stack.phase[d] else 0
+    uses, engine = agenda.uses, agenda.engine
+    at, taker = stack.instant[d], 1 if stack.is_low[d] else 0
     if keep in ("successor", "both") and (uses.takes[j] != taker or engine.lb[uses.point[j]] > at):
         return False
     return not (keep in ("predecessorNot", "both") and (uses.takes[i] == taker or engine.ub[uses.point[i]] <= at))
 
 
-def rank(q: Queues, pair: Pair, order: tuple[str, ...]) -> tuple[int, ...]:
-    """What sorts pairs: smaller first; what the order leaves open is settled by the ids of the timepoints."""
-    engine, point = q.engine, q.uses.point
+def _rank(agenda: Agenda, pair: _Pair, order: tuple[str, ...]) -> tuple[int, ...]:
+    """Sort key of pairs; ties are broken by the ids of the timepoints."""
+    engine, point = agenda.engine, agenda.uses.point
     ranks = []
     for name in order:
         if name == "leastImpact":

@@ -1,19 +1,21 @@
-"""What an account says of resources: who needs how much of what there is, in one conflict."""
+"""What a failure log says of resources: who needs how much of what there is, in one conflict."""
 
 from pathlib import Path
 
-from runtime.solver.learning.failure_log import Attempt, Recorder
+from runtime.plan.readout.cause_rendering import words
+from runtime.solver.learning.failure_log import Attempt, FailureLog
+from runtime.solver.learning.rendering import story
 from runtime.solver.tags import EXHAUSTED
 from tests.solver.planning import resources_configuration, solver_for
 
 
 def only_attempt(folder: Path, text: str) -> Attempt:
-    """The one thing that the account tells of a model without a plan."""
+    """The one attempt in the failure log of a model without a plan."""
     solver = solver_for(folder, text, how=resources_configuration())
-    recorder = Recorder(solver.database, solver.queues, solver.stack)
-    solver.account = recorder
+    log = FailureLog(solver.database, solver.agenda, solver.stack)
+    solver.failure_log = log
     assert solver.solve(2000, 2**60) == EXHAUSTED
-    failure = recorder.end
+    failure = log.end
     while failure is not None:
         (attempt,) = failure.attempts
         failure = attempt.because
@@ -25,9 +27,9 @@ def test_uses_that_do_not_fit_are_one_conflict(tmp_path: Path) -> None:
     for name, length in (("a", 3), ("b", 4), ("c", 2)):
         text += f"goal(tool.use {name}); eq({name}.duration, {length}); leq(2, {name}.start); leq({name}.end, 10);\n"
     told = only_attempt(tmp_path, text)
-    assert told.lines[0].text == "tool needs 9 of 8 ticks available in [2, 10]: a 3, b 4, c 2"
-    assert [line.span is not None for line in told.lines] == [False, *[True] * 9]
-    assert {line.span.line for line in told.lines if line.span is not None} == {3, 4, 5}
+    assert words(told.causes[0].term) == "tool needs 9 of 8 ticks available in [2, 10]: a 3, b 4, c 2"
+    assert [line.span is not None for line in told.causes] == [False, *[True] * 9]
+    assert {line.span.line for line in told.causes if line.span is not None} == {3, 4, 5}
 
 
 def test_the_amount_counts_where_there_is_more_than_one(tmp_path: Path) -> None:
@@ -35,9 +37,9 @@ def test_the_amount_counts_where_there_is_more_than_one(tmp_path: Path) -> None:
     for name in "abcde":
         text += f"goal(team.uses {name}); eq({name}.duration, 3); eq({name}.quantity, 1.0);"
         text += f"leq(0, {name}.start); leq({name}.end, END);"
-    told = only_attempt(tmp_path, text.replace("END", "7")).lines[0].text
+    told = words(only_attempt(tmp_path, text.replace("END", "7")).causes[0].term)
     assert told == "team needs 15 of 14 amount times ticks available in [0, 7]: a 3, b 3, c 3, d 3, e 3"
-    told = only_attempt(tmp_path, text.replace("END", "5")).lines[0].text
+    told = words(only_attempt(tmp_path, text.replace("END", "5")).causes[0].term)
     assert told == "team needs 5 of 2 available at 2: a 1, b 1, c 1, d 1, e 1"
 
 
@@ -45,10 +47,10 @@ def test_a_tank_that_runs_dry_says_to_what_it_falls(tmp_path: Path) -> None:
     text = "Reservoir tank = new Reservoir(5.0, 0.0, 10.0); close();"
     for name in "ab":
         text += f"goal(tank.consume {name}); eq({name}.quantity, 3.0); leq(0, {name}.time); leq({name}.time, 10);"
-    assert only_attempt(tmp_path, text).lines[0].text == (
+    assert words(only_attempt(tmp_path, text).causes[0].term) == (
         "the level of tank falls to -1 at 10, its least is 0: a 3, b 3"
     )
-    assert only_attempt(tmp_path, text.replace("consume", "produce")).lines[0].text == (
+    assert words(only_attempt(tmp_path, text.replace("consume", "produce")).causes[0].term) == (
         "the level of tank rises to 11 at 10, its greatest is 10: a 3, b 3"
     )
 
@@ -64,7 +66,8 @@ def test_a_use_is_named_with_the_token_that_asks_for_it(tmp_path: Path) -> None:
         goal(two.run b); b.start = [0 9];
     """
     solver = solver_for(tmp_path, text, how=resources_configuration())
-    recorder = Recorder(solver.database, solver.queues, solver.stack)
-    solver.account = recorder
+    log = FailureLog(solver.database, solver.agenda, solver.stack)
+    solver.failure_log = log
     assert solver.solve(2000, 2**60) == EXHAUSTED
-    assert "m needs 2 of 1 available at 3: Reusable.uses#1 of b 1, Reusable.uses#2 of a 1" in repr(recorder.end)
+    assert log.end is not None
+    assert "m needs 2 of 1 available at 3: Reusable.uses#1 of b 1, Reusable.uses#2 of a 1" in "\n".join(story(log.end))

@@ -1,4 +1,4 @@
-"""Where a token may stand in a sequence, found by halving, against a question for each of the sequence."""
+"""Where a token may stand in a sequence: found by halving, against one search per token of the sequence."""
 
 from pathlib import Path
 
@@ -25,7 +25,7 @@ def test_tokens_of_a_sequence_coincide_where_single_searches_say_so(tmp_path: Pa
     asked = 0
     for text in [timelines_puzzle(seed).text for seed in range(25)] + [rules_model(seed) for seed in range(25)]:
         solver = solver_for(tmp_path, text, europa=europa)
-        queues, rows = solver.queues, solver.plan.rows
+        agenda, rows = solver.agenda, solver.plan.rows
         distances = Distances(solver.engine, europa)
         for _ in range(40):
             if solver.step() != MOVED:
@@ -34,10 +34,10 @@ def test_tokens_of_a_sequence_coincide_where_single_searches_say_so(tmp_path: Pa
             placed = [c for c in tokens if rows.status[c] == ACTIVE and rows.link_head[LISTS * c + LIST_ORDER] >= 0]
             for t in tokens:
                 if rows.status[t] in (ACTIVE, INACTIVE):
-                    queues.look_around(t)
+                    agenda.sequence.look_around(t)
                     for c in placed:
                         wanted = coincides(distances, rows.var0[t], rows.var0[c])
-                        assert may_coincide(queues, c) == wanted, text
-                        assert is_out_of_range(queues, c) != wanted
+                        assert may_coincide(agenda, c) == wanted, text
+                        assert is_out_of_range(agenda, c) != wanted
                         asked += 1
     assert asked > 1000

@@ -1,0 +1,143 @@
+"""Words for what the checker has found: a failure, a step of a story, a threshold, z3's answer in, one line each out.
+
+What happened in a mission is worded by `runtime.executive.rendering`.
+"""
+
+from collections.abc import Sequence
+from typing import assert_never
+
+from checker.findings import Fault
+from checker.oracle import CODE_NAMES, Judgement
+from checker.sampling.wording import describe, number
+from checker.smt.confirm import Finding
+from checker.story import Step, StepKind, Story
+from checker.threshold import Threshold, Witness
+from runtime.executive.outcome import (
+    Abort,
+    ConflictElement,
+    Deadlock,
+    ElementKind,
+    Event,
+    EventKind,
+    OpenGoal,
+)
+from runtime.executive.rendering import (
+    choice_text,
+    deadlock_text,
+    element_text,
+    event_text,
+    goal_text,
+    reason_text,
+    token_name,
+    token_text,
+)
+
+ORIGINS = {
+    ElementKind.CLOCK: " (by the clock)",
+    ElementKind.OBSERVATION: " (as observed)",
+    ElementKind.REQUEST: " (as asked for)",
+    ElementKind.ORDER: " (by the order of tokens)",
+}
+
+
+def failure_text(judgement: Judgement, open_goals: Sequence[OpenGoal] = ()) -> str:
+    """Why a mission failed, or could not be flown; empty for one that passed."""
+    if judgement.reason is None:
+        return judgement.message
+    goals = ", ".join(goal_text(goal) for goal in open_goals)
+    return reason_text(judgement.reason) + (f": {goals}" if goals else "")
+
+
+def step_text(step: Step, story: Story) -> str:
+    """What a step tells, without its tick and its place."""
+    match step.subject:
+        case (draw, parameter):
+            clipped = "" if draw.raw == draw.value else f" (drawn {number(draw.raw)}, then clipped)"
+            manner = f": {describe(parameter)}" if parameter is not None else ""
+            return f"{draw.parameter} is {number(draw.value)}{clipped}{manner}"
+        case str(rule):
+            return f"it acts through the rule of {rule}"
+        case Event() as event:
+            return _event_text(event)
+        case ConflictElement() as element:
+            return _element_text(element)
+        case Deadlock() as deadlock:
+            tried = ", ".join(choice_text(choice) for choice in deadlock.tried)
+            return f"{deadlock_text(deadlock)}; tried in vain: {tried}" if tried else deadlock_text(deadlock)
+        case Abort() | None as abort:
+            return _end_text(abort, story)
+        case _:
+            assert_never(step.subject)
+
+
+def step_label(step: Step) -> str:
+    """What marks the step to blame."""
+    return "   <== the line to blame" if step.kind is StepKind.FAULT else ""
+
+
+def confirmation_text(fault: Fault) -> str:
+    """What z3 says, as the end of a sentence that begins with its name."""
+    assert fault.confirmation is not None
+    match fault.confirmation.finding:
+        case Finding.CONFIRMED:
+            text = f"confirms the conflict: {len(fault.confirmation.core)} causes that cannot hold together"
+        case Finding.REFUTED:
+            text = "does not confirm the conflict: by their terms alone the causes can hold together"
+        case Finding.UNKNOWN:
+            text = "could not decide whether the causes can hold together"
+    missing = fault.confirmation.untranslated
+    return text + (f" (not told to it: {', '.join(missing)})" if missing else "")
+
+
+def threshold_text(threshold: Threshold) -> str:
+    """A threshold and the evidence for it."""
+    return f"{threshold.condition} ({'; '.join(threshold_evidence(threshold))})"
+
+
+def threshold_evidence(threshold: Threshold) -> list[str]:
+    """The evidence for a threshold, a line for each witness."""
+    evidence: list[str] = []
+    if Witness.Z3 in threshold.witnesses:
+        evidence.append("proved by z3 on the conflict's terms")
+    if threshold.flights:
+        evidence.append(f"{threshold.flights} flights of the same mission with this value alone changed")
+    cut = threshold.cut
+    if cut is not None:
+        passing, failing = ("up to", "from") if cut.is_above else ("down to", "from")
+        evidence.append(f"samples pass {passing} {number(cut.passing)}, fail {failing} {number(cut.failing)}")
+        if cut.purity < 1.0 or cut.coverage < 1.0:
+            evidence.append(f"{cut.purity:.0%} of the missions beyond fail so, {cut.coverage:.0%} of these lie there")
+    return evidence
+
+
+def _event_text(event: Event) -> str:
+    who = event.reactor or "the mission file"
+    about = f" on {event.timeline}" if event.timeline else ""
+    match event.kind:
+        case EventKind.OBSERVATION:
+            return f"{who} publishes {event.timeline} = {token_text(event.predicate, event.arguments)}"
+        case EventKind.REQUEST:
+            return f"{who} requests {token_text(event.predicate, event.arguments)}{about}"
+        case EventKind.SAMPLE:
+            return f"{who} draws {event_text(event)}"
+        case EventKind.RELAX:
+            return f"{who} repairs its plan: {event_text(event)}"
+        case _:
+            return f"{who}: {event.kind} {event_text(event)}{about}"
+
+
+def _element_text(element: ConflictElement) -> str:
+    """What an element says, whose it is, and, where no line of the model says it, what does."""
+    text = element_text(element)
+    if element.token is not None and not element.names(element.token):
+        text = f"{token_name(element.token)}: {text}"
+    return text + ORIGINS.get(element.kind, "")
+
+
+def _end_text(abort: Abort | None, story: Story) -> str:
+    code = story.judgement.code
+    name = CODE_NAMES.get(code) or failure_text(story.judgement, story.open_goals)
+    if abort is None:
+        return f"the mission fails ({code}: {name})"
+    repairs = f" after {abort.relaxes} repairs" if abort.relaxes else ""
+    return f"{abort.reactor} gives up{repairs} ({code}: {name})"

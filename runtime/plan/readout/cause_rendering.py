@@ -1,0 +1,78 @@
+"""Words for causes and constraints: a term or a violation in, one line out. Nobody else words them."""
+
+from typing import assert_never
+
+from runtime.plan import tags
+from runtime.plan.readout.terms import Term, Violation
+
+_INFIX = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
+_SIGNS = {"addEq": "+", "mulEq": "*", "temporalDistance": "+"}
+
+
+def words(cause: Term | Violation) -> str:
+    """What a cause says, as a modeler would write it."""
+    match cause:
+        case Violation():
+            return _violation(cause)
+        case Term("precedence", (source, target, weight)):
+            return _precedence(str(source), str(target), weight)
+        case Term("bounds", (variable, lower, upper)):
+            return _bounds(str(variable), lower, upper, cause.values)
+        case Term("sampledParameter", (variable, parameter, value)):
+            return f"{variable} = {parameter} = {value}"
+        case Term(name, arguments):
+            return _constraint(name, [str(argument) for argument in arguments])
+        case _:
+            assert_never(cause)
+
+
+def _precedence(source: str, target: str, weight: str | float | int) -> str:
+    assert not isinstance(weight, str)
+    if weight < 0:
+        return f"{target} + {-weight} <= {source}"
+    return f"{target} <= {source}" if weight == 0 else f"{target} <= {source} + {weight}"
+
+
+def _bounds(name: str, lower: str | float | int, upper: str | float | int, values: tuple[str, ...]) -> str:
+    if values:
+        return f"{name} = {values[0]}" if len(values) == 1 else f"{name} in {{{', '.join(values)}}}"
+    has_lower, has_upper = lower != float("-inf"), upper != float("inf")
+    if lower == upper:
+        return f"{name} = {lower}"
+    if has_lower and has_upper:
+        return f"{name} in [{lower}, {upper}]"
+    if not has_lower and not has_upper:
+        return f"{name} may be anything"
+    return f"{name} >= {lower}" if has_lower else f"{name} <= {upper}"
+
+
+def _constraint(name: str, texts: list[str]) -> str:
+    if name in _INFIX and len(texts) == 2:
+        return f"{texts[0]} {_INFIX[name]} {texts[1]}"
+    if name in _SIGNS and len(texts) == 3:
+        return f"{texts[0]} {_SIGNS[name]} {texts[1]} == {texts[2]}"
+    return f"{name}({', '.join(texts)})"
+
+
+def _violation(found: Violation) -> str:
+    """What is wrong with a resource, and who uses it."""
+    name, at, amount, limit = found.resource, found.at, found.amount, found.limit
+    users = ", ".join(f"{user} {used:g}" for user, used in found.users)
+    users = f": {users}" if users else ""
+    if found.in_any_order:
+        side = "falls below its least" if found.wrong == tags.TOO_LOW else "rises above its greatest"
+        return f"the level of {name} {side}, {limit:g}, by {at} in any order{users}"
+    match found.wrong:
+        case tags.TOO_LOW if found.has_helper:
+            return f"the level of {name} falls to {limit - amount:g} at {at}, its least is {limit:g}{users}"
+        case tags.TOO_LOW:
+            return f"{name} needs {found.room + amount:g} of {found.room:g} available at {at}{users}"
+        case tags.TOO_HIGH:
+            return f"the level of {name} rises to {limit + amount:g} at {at}, its greatest is {limit:g}{users}"
+        case tags.TOO_TIGHT:
+            have = found.room * (found.until - at)
+            unit = "ticks" if found.room == 1.0 else "amount times ticks"
+            return f"{name} needs {have + amount:g} of {have:g} {unit} available in [{at}, {found.until}]{users}"
+        case tags.TOO_FAST:
+            return f"too much of {name} flows at {at}, by {amount:g}{users}"
+    return f"too much of {name} is used altogether, by {amount:g}{users}"

@@ -1,0 +1,161 @@
+"""Causes as terms: an edge, restriction or constraint of the engine in, names and numbers that outlive it out."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf
+
+from compiler.program import TOKEN_VARIABLES
+from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, KIND_INT, OP_FREEZE, OP_PLUS, OP_SAMPLE
+from runtime.constraints.explanation.cause import Cause, CauseKind
+from runtime.constraints.propagators.operations import OPERATIONS
+from runtime.plan.database import PlanDatabase
+from runtime.plan.resources.violation import Excess
+from runtime.plan.store.domain_texts import domain_text, set_text
+from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
+from runtime.user.written import Written
+
+_NAMES = {code: name for name, code in reversed(OPERATIONS.items())}
+_NAMES |= {OP_PLUS: "addEq", OP_FREEZE: "foreach", OP_SAMPLE: "sampledParameter"}
+
+Argument = str | float | int
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """One constraint of a conflict, without ids of the engine.
+
+    `name` is a row of the constraint table (`eq`, `mulEq`, `leq`, ...), `precedence` (arguments source, target,
+    bound: target - source <= bound), or `bounds` (arguments variable, lower, upper: a base domain; `values` lists its
+    members where they are names). Arguments are variable names or numbers. A `sampledParameter` term has the variable,
+    the parameter name and the value drawn.
+    """
+
+    name: str
+    arguments: tuple[Argument, ...]
+    values: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """A resource, or a timeline, that is certainly exceeded; fields as in `Excess`, `users` are tokens with amounts."""
+
+    resource: str
+    wrong: int
+    at: int
+    until: int
+    amount: float
+    limit: float
+    room: float
+    has_helper: bool
+    in_any_order: bool
+    users: tuple[tuple[str, float], ...]
+
+
+class TermReader:
+    """Reads terms off a plan as it stands; `token_name` names tokens. A subclass may name arguments its own way."""
+
+    def __init__(self, database: PlanDatabase, token_name: Callable[[int], str]) -> None:
+        self.database = database
+        self.plan = database.plan
+        self.engine = database.engine
+        self.token = token_name
+
+    def term(self, cause: Cause) -> Term | Violation:
+        """What a cause says."""
+        match cause.kind:
+            case CauseKind.EDGE:
+                return self._edge(cause.id)
+            case CauseKind.RESTRICTION:
+                return self._restriction(cause.id)
+            case CauseKind.CONSTRAINT:
+                return self._constraint(cause.id)
+
+    def variable(self, v: int) -> str:
+        """The name of a variable (`a.start`, `a::local`, `rover.mode`, `GLOBAL`); without one, its domain."""
+        plan, program = self.plan, self.database.program
+        role, owner, name = plan.variable_role[v], plan.variable_owner[v], plan.variable_name[v]
+        if role == ROLE_TOKEN:
+            number = v - plan.rows.var0[owner]
+            if number >= FIRST_PARAMETER:
+                code = program.predicates[plan.rows.predicate[owner]]
+                return f"{self.token(owner)}.{code.parameters[number - FIRST_PARAMETER].name}"
+            is_time = plan.rows.flags[owner] & FLAG_EVENT and number in (START, END)
+            return f"{self.token(owner)}.{'time' if is_time else TOKEN_VARIABLES[number]}"
+        if role == ROLE_GLOBAL:
+            return program.globals[name][0]
+        if role == ROLE_MEMBER:
+            member = program.classes[plan.object_class[owner]].members[name].name
+            return f"{self.database.objects.names[owner]}.{member}"
+        if role == ROLE_LOCAL:
+            return f"{self.token(owner)}::{self.database.names.text(name)}"
+        return self.value(v)
+
+    def value(self, v: int) -> str:
+        """The domain of a variable, without its type."""
+        text = domain_text(self.database.prototypes, self.engine, v, self.database.objects.names, "x")
+        text = text.removesuffix(" open").removesuffix(" x").rpartition(" ")[0] or text.removesuffix(" x")
+        return text[1:-1] if text.startswith("{") and "," not in text else text
+
+    def argument(self, v: int) -> Argument:
+        """The name of a variable, or the value of a constant."""
+        engine = self.engine
+        if engine.constant[v] and engine.kind[v] in (KIND_INT, KIND_FLOAT) and engine.lower(v) == engine.upper(v):
+            return _number(engine.lower(v), engine.kind[v])
+        return self.variable(v)
+
+    def _edge(self, e: int) -> Term:
+        engine = self.engine
+        ends = self.argument(engine.edge_source[e]), self.argument(engine.edge_target[e])
+        return Term("precedence", (*ends, int(engine.edge_weight[e])))
+
+    def _restriction(self, r: int) -> Term:
+        """The base domain that a declaration, an assignment or a decision gives."""
+        engine = self.engine
+        v = engine.restriction_variable[r]
+        kind = engine.kind[v]
+        lower, upper = engine.restriction_lo[r], engine.restriction_hi[r]
+        members = list(engine.restriction_values[r]) if engine.restriction_flags[r] & FLAG_VALUES else []
+        if len(members) == 1:
+            lower = upper = members[0]
+        elif not members and kind not in (KIND_INT, KIND_FLOAT):
+            members = [float(x) for x in range(int(lower), int(upper) + 1)]
+        shown = [set_text(self.database.prototypes, kind, [x], self.database.objects.names)[1:-1] for x in members]
+        if kind not in (KIND_INT, KIND_FLOAT):
+            shown.sort()
+        return Term("bounds", (self.argument(v), _number(lower, kind), _number(upper, kind)), tuple(shown))
+
+    def _constraint(self, c: int) -> Term | Violation:
+        engine = self.engine
+        external = engine.externals.get(c)
+        if isinstance(external, Excess):
+            return self._violation(external)
+        code = engine.op[c]
+        name = external.name if isinstance(external, Written) else _NAMES.get(code, f"constraint {code}")
+        return Term(name, tuple(self.argument(v) for v in engine.arguments(c)))
+
+    def _violation(self, excess: Excess) -> Violation:
+        users = tuple((self._user(t), amount) for t, amount in excess.charged if t >= 0)
+        return Violation(
+            self.database.objects.names[excess.resource],
+            excess.wrong,
+            excess.at,
+            excess.until,
+            excess.amount,
+            excess.limit,
+            excess.room,
+            excess.helper != 0,
+            excess.table is not None,
+            users,
+        )
+
+    def _user(self, t: int) -> str:
+        """The name of a token that uses something, with that of the token whose rule asks for it."""
+        parent = self.plan.rows.master[t]
+        return f"{self.token(t)} of {self.token(parent)}" if parent >= 0 else self.token(t)
+
+
+def _number(x: float, kind: int) -> float | int:
+    """A bound as the model would write it; infinite where the engine counts it as infinite."""
+    if abs(x) >= HALF_INF:
+        return inf if x > 0 else -inf
+    return float(x) if kind == KIND_FLOAT else int(x)

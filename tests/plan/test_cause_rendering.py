@@ -1,0 +1,46 @@
+"""Words for causes: one line for each term, as a modeler would write it."""
+
+from math import inf
+
+import pytest
+
+from runtime.plan.readout.cause_rendering import words
+from runtime.plan.readout.terms import Term
+
+
+@pytest.mark.parametrize(
+    ("term", "line"),
+    [
+        (Term("precedence", ("a.end", "b.start", 0)), "b.start <= a.end"),
+        (Term("precedence", ("a.end", "b.start", 3)), "b.start <= a.end + 3"),
+        (Term("precedence", ("a.end", "b.start", -5)), "b.start + 5 <= a.end"),
+        (Term("bounds", ("x", 3, 3)), "x = 3"),
+        (Term("bounds", ("x", 1, 3)), "x in [1, 3]"),
+        (Term("bounds", ("x", 0.5, inf)), "x >= 0.5"),
+        (Term("bounds", ("x", -inf, 4)), "x <= 4"),
+        (Term("bounds", ("x", -inf, inf)), "x may be anything"),
+        (
+            Term(
+                "bounds",
+                (
+                    "x",
+                    7,
+                    7,
+                ),
+                ("red",),
+            ),
+            "x = red",
+        ),
+        (Term("bounds", ("x", 7, 9), ("green", "red")), "x in {green, red}"),
+        (Term("eq", ("x", "y")), "x == y"),
+        (Term("eq", ("x", "y", "z")), "eq(x, y, z)"),
+        (Term("leq", (2, "x")), "2 <= x"),
+        (Term("addEq", ("x", 1, "y")), "x + 1 == y"),
+        (Term("temporalDistance", ("a.start", "a.duration", "a.end")), "a.start + a.duration == a.end"),
+        (Term("mulEq", ("x", 2.5, "y")), "x * 2.5 == y"),
+        (Term("sampledParameter", ("x", "RATE", 0.25)), "x = RATE = 0.25"),
+        (Term("allDiff", ("x", "y", 3)), "allDiff(x, y, 3)"),
+    ],
+)
+def test_a_term_is_one_line(term: Term, line: str) -> None:
+    assert words(term) == line
