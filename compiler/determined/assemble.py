@@ -3,7 +3,6 @@
 from compiler.determined import code
 from compiler.determined.code import STRIDE, Block, Layout
 from compiler.determined.elaborate import FOLLOWING, ROOT, TOGETHER, Elaboration
-from compiler.determined.items import Context
 from compiler.determined.model import Model
 from compiler.determined.operations import Instruction
 from compiler.determined.schedule import AGAIN, Placed, Sequence, schedule
@@ -37,9 +36,7 @@ def linear(placed: list[Placed]) -> list[Instruction]:
     open_branches: list[tuple[tuple[int, bool], int]] = []
     for context, instruction in [*placed, ((), (code.HALT,))]:
         common = 0
-        while (
-            common < min(len(open_branches), len(context)) and open_branches[common][0] == context[common]
-        ):
+        while common < min(len(open_branches), len(context)) and open_branches[common][0] == context[common]:
             common += 1
         while len(open_branches) > common:
             done[open_branches.pop()[1]][2] = len(done)

@@ -87,7 +87,10 @@ class Elaboration:
         for k, parameter in enumerate(predicate.parameters):
             if how == PREVIOUS:
                 break
-            self.sheet.names[bank + k] = (f"{name}.{predicate.name.rpartition('.')[2]}.{parameter.name}", parameter.span)
+            self.sheet.names[bank + k] = (
+                f"{name}.{predicate.name.rpartition('.')[2]}.{parameter.name}",
+                parameter.span,
+            )
         if how == MERGED:
             self.sheet.given.add(layout.starts[line])
             self.sheet.doubtful |= {bank + k for k in range(len(predicate.parameters))}
@@ -100,8 +103,14 @@ class Elaboration:
                 self.sheet.wanted[bank + k] = context
                 if self.model.may_stay_open(parameter.type, parameter.domain):
                     self.sheet.openable.add(bank + k)
-                self._restrict(Cell(bank + k, parameter.type.kind), parameter.type, parameter.domain, context,
-                               parameter.span or self.model.span_of(predicate), parameter.name)
+                self._restrict(
+                    Cell(bank + k, parameter.type.kind),
+                    parameter.type,
+                    parameter.domain,
+                    context,
+                    parameter.span or self.model.span_of(predicate),
+                    parameter.name,
+                )
                 if parameter.copy_of is not None:
                     body = Body(number, -1, {0: number})
                     mine = Cell(bank + k, parameter.type.kind)
@@ -120,7 +129,7 @@ class Elaboration:
         what = f"{child.relation}({child.predicate.rpartition('.')[2]})"
         parent = self.tokens[body.tokens[child.origin]]
         how = RELATIONS.get(child.relation)
-        if child.origin != 0 or how is None or child.bounds and not self.model.are_usual(child):
+        if child.origin != 0 or how is None or (child.bounds and not self.model.are_usual(child)):
             raise Undetermined(Choice.OPEN_TIMES, what, span)
         line, predicate = self.model.target(child, parent.line)
         if self.model.lines[line].role != "own" and how != MERGED:
@@ -230,7 +239,9 @@ class Elaboration:
                 self._equate(first, second, context, span, span.text)
         elif name == "neq" and all(cell.kind == "bool" for cell in cells):
             a, b = cells
-            ways = tuple(Way((x.register,), (y.register,), ((code.NOT, x.register, y.register),)) for x, y in ((a, b), (b, a)))
+            ways = tuple(
+                Way((x.register,), (y.register,), ((code.NOT, x.register, y.register),)) for x, y in ((a, b), (b, a))
+            )
             self.sheet.items.append(Item(context, span, span.text, registers, ways))
         elif name in DEMANDS and len(cells) == 2:
             self.sheet.items.append(Item(context, span, span.text, registers, (), demand(layout, name, cells)))
@@ -262,7 +273,13 @@ class Elaboration:
         self.draws.append(number)
         raw = Cell(self.layout.take(1), "float")
         self.sheet.items.append(
-            Item(context, span, span.text, (raw.register,), (Way((raw.register,), (), ((code.DRAW, raw.register, number),)),))
+            Item(
+                context,
+                span,
+                span.text,
+                (raw.register,),
+                (Way((raw.register,), (), ((code.DRAW, raw.register, number),)),),
+            )
         )
         way = computed(self.layout, code.COPY, target, (raw,))
         self.sheet.items.append(Item(context, span, span.text, (target.register, raw.register), (way,)))

@@ -112,7 +112,9 @@ def _points(operation: int, outputs: int) -> Callable[[Layout, Sequence[Cell]], 
     return ways
 
 
-def _test(real: int, whole: int, swapped: bool = False, negated: bool = False) -> Callable[[Layout, Sequence[Cell]], Ways]:
+def _test(
+    real: int, whole: int, swapped: bool = False, negated: bool = False
+) -> Callable[[Layout, Sequence[Cell]], Ways]:
     """A comparison as a truth value."""
 
     def ways(layout: Layout, cells: Sequence[Cell]) -> Ways:

@@ -27,6 +27,8 @@ class Choice(Enum):
     LATER_FACT = "`{name}` is given for later than the first tick"
     GOAL = "`{name}` is a goal of the model's script"
     OTHER_PREDICATE = "`{name}` may give way to another predicate: its timeline is settled after one that it ends"
+    EARLY = "what is planned on `{name}` starts as soon as it may, by the setting `early`"
+    LIMITED = "the planner's steps of `{name}` are limited"
     SAMPLE = "the draws of `{name}` are not known"
 
 

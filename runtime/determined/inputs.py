@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from runtime.executive.agent import Failure
 from runtime.executive.messages import Observation, Request
+from runtime.executive.outcome import Phase
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.trace import Trace
 
@@ -22,48 +22,49 @@ class Inputs:
     """All of them, oldest first."""
 
     received: list[Input] = field(default_factory=list)
+    is_fresh: bool = False  # something has come in that nobody has looked at
 
-    def notify(self, observation: Observation) -> None:
-        """Note an observation."""
-        self.received.append(Input(observation.tick, True, observation))
-
-    def accept(self, tick: int, is_early: bool, request: Request) -> None:
-        """Note a request."""
-        self.received.append(Input(tick, is_early, request))
-
-    def recall(self, tick: int, number: int) -> None:
-        """Note that a request was taken back."""
-        self.received.append(Input(tick, False, number))
+    def note(self, tick: int, is_early: bool, what: "Observation | Request | int") -> None:
+        """Note an observation, a request, or the number of a request that is taken back."""
+        self.received.append(Input(tick, is_early, what))
+        self.is_fresh = True
 
 
-def catch_up(reactor: PlanReactor, shadow: Trace, inputs: Inputs, until: int, is_settled: bool) -> Failure | None:
+class DisagreementError(RuntimeError):
+    """The general engine does not get through what the register machine carried out: a mistake of ours."""
+
+
+def catch_up(reactor: PlanReactor, shadow: Trace, inputs: Inputs, until: int, is_settled: bool) -> None:
     """Have a fresh reactor live through what came in before tick `until`, or until that tick is settled."""
     waiting = list(inputs.received)
     tick = 0
-    while tick <= until:
-        shadow.tick = tick
-        is_last = tick == until
+    while True:
+        shadow.tick, shadow.phase = tick, Phase.SYNCHRONISE
         _give(reactor, waiting, tick, True)
         reactor.start_tick(tick)
-        if is_last and not is_settled:
-            return None
+        if tick == until and not is_settled:
+            return
         failure = reactor.synchronise(tick)
-        if failure is not None:
-            return failure
         reactor.observations(tick)
-        if is_last:
-            return None
-        while reactor.step(tick):
+        shadow.phase = Phase.DELIBERATE
+        _give(reactor, waiting, tick, False)
+        if tick == until and failure is None:
+            return
+        while failure is None and reactor.step(tick):
             pass
-        failure = reactor.failure()
+        failure = failure or reactor.failure()
         if failure is not None:
-            return failure
+            raise DisagreementError(f"`{reactor.name}` fails at tick {tick}: {failure.code} {failure.reason.kind.name}")
         reactor.recalls()
         reactor.requests(tick)
+        reactor.refusals()
         reactor.due = reactor.next_tick(tick)
-        _give(reactor, waiting, tick, False)
         tick = max(tick + 1, min([reactor.due, until, *(each.tick for each in waiting[:1])]))
-    return None
+
+
+def take_over(reactor: PlanReactor, trace: Trace) -> None:
+    """From now on, what a reactor does is put on record."""
+    reactor.trace = reactor.dispatch.trace = reactor.goals.trace = reactor.draws.world.trace = trace
 
 
 def _give(reactor: PlanReactor, waiting: list[Input], tick: int, is_early: bool) -> None:

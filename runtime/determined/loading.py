@@ -10,9 +10,9 @@ from compiler.determined.code import FOLLOW, STRIDE, WHEN_FALSE, WHEN_TRUE, Bloc
 from compiler.determined.elaborate import TOGETHER
 from compiler.determined.model import Model
 from compiler.determined.reasons import Choice, Reason, Undetermined
-from compiler.program import FIRST_PARAMETER, DomainConstant, PredicateCode, Program
+from compiler.program import DomainConstant, PredicateCode, Program
 from runtime.determined.machine import Machine
-from runtime.determined.present import FAR, NONE
+from runtime.determined.tags import FAR, NONE
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_FACT
 
@@ -41,8 +41,8 @@ class RegisterProgram:
     first: list[FirstToken] = field(default_factory=list)
     blocks: list[Block | None] = field(default_factory=lambda: [None])
     numbers: dict[tuple[int, int, int], int] = field(default_factory=dict)
-    code: array[int] = field(default_factory=lambda: array("i", bytes(4 * STRIDE)))
-    starts: array[int] = field(default_factory=lambda: array("q", [0]))
+    code: "array[int]" = field(default_factory=lambda: array("i", bytes(4 * STRIDE)))
+    starts: "array[int]" = field(default_factory=lambda: array("q", [0]))
     constants: dict[int, float] = field(default_factory=dict)  # register -> value of globals and members
     names: list[str] = field(default_factory=list)  # texts of the numbers of symbols
 

@@ -2,6 +2,8 @@
 
 cimport cython
 
+cdef long long ROW
+
 
 cdef class Log:
     cdef public long long[::1] rows, draws

@@ -2,8 +2,7 @@
 
 from array import array
 
-WISHED = 1 << 40  # marks the block of a token that somebody asked for
-ROW = 5  # tick, timeline, predicate, block (of a token that another one's block started: -1 - row of that one), values
+from runtime.determined.tags import ROW
 
 
 class Log:

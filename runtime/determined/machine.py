@@ -12,8 +12,10 @@ jump table of them.
 import math
 from array import array
 
-from runtime.determined.log import ROW, WISHED, Log
-from runtime.determined.present import (
+from runtime.determined.log import Log
+from runtime.determined.present import Present
+from runtime.determined.tags import (
+    CHANGES,
     DUE,
     ENDING,
     FOLLOWER,
@@ -22,21 +24,23 @@ from runtime.determined.present import (
     NONE,
     OWNER,
     PREDICATE,
+    ROW,
+    RUNS_ON,
     SLOT,
     START,
+    STOPS,
     WISH,
     WISH_END_FROM,
     WISH_END_UNTIL,
     WISH_FROM,
     WISH_LEAST,
     WISH_MOST,
-    Present,
+    WISHED,
 )
 
 NAN = math.nan
 TOLERANCE = 1e-5  # that of the engine's floats
 LARGEST = 2.0**51  # what is larger counts as infinite
-RUNS_ON, CHANGES, STOPS = 0, 1, 2  # why `run` came back
 
 
 class Machine:
@@ -187,7 +191,7 @@ class Machine:
             at += 8
             if op == 0:  # HALT
                 return True
-            elif op == 1:  # COPY
+            if op == 1:  # COPY
                 r[out] = r[a]
             elif op == 2:  # ADD
                 r[out] = r[a] + r[b]
@@ -296,7 +300,9 @@ class Machine:
             self.log.note(present.now, line, a, -1 - self.root_row)
             return True
         if op == 33:  # MERGE
-            return bool(state[PREDICATE * n + line] == a and (present.changed >> line & 1 or not state[ENDING * n + line]))
+            return bool(
+                state[PREDICATE * n + line] == a and (present.changed >> line & 1 or not state[ENDING * n + line])
+            )
         if op == 34:  # PREVIOUS
             return bool(state[present.before + line] == a)
         if op == 35:  # FOLLOW

@@ -6,18 +6,25 @@ timelines, valid while both tokens hold. All of it is in one array, so that a sn
 
 from array import array
 
-NONE = -1
-FAR = 2**51  # later than any tick
-PAIRS = 64  # how many orders of ends can be kept
-
-# Sections of `state`, one number for each timeline.
-PREDICATE, START, SLOT, LEAST, MOST = 0, 1, 2, 3, 4
-FOLLOWER, OWNER = 5, 6  # the block of the token that is to follow, and the timeline after whose token
-ENDING, DUE = 7, 8  # during a tick: what ends now, and the block of what is due now
-WISH, WISH_FROM, WISH_UNTIL = 9, 10, 11  # the block of what somebody asked for, and when it may start
-WISH_END_FROM, WISH_END_UNTIL, WISH_LEAST, WISH_MOST = 12, 13, 14, 15
-BEFORE = 16  # the predicate of the token before
-SECTIONS = 17
+from runtime.determined.tags import (
+    BEFORE,
+    DUE,
+    ENDING,
+    FAR,
+    FOLLOWER,
+    LEAST,
+    MOST,
+    NONE,
+    OWNER,
+    PAIRS,
+    PREDICATE,
+    SECTIONS,
+    SLOT,
+    START,
+    WISH,
+    WISH_FROM,
+    WISH_UNTIL,
+)
 
 
 class Present:
@@ -107,7 +114,11 @@ class Present:
             for j in range(n):
                 if flags[j] == 1 and state[PREDICATE * n + j] >= 0:
                     for k in range(n):
-                        if flags[k] == 0 and state[SLOT * n + k] == state[SLOT * n + j] and state[PREDICATE * n + k] >= 0:
+                        if (
+                            flags[k] == 0
+                            and state[SLOT * n + k] == state[SLOT * n + j]
+                            and state[PREDICATE * n + k] >= 0
+                        ):
                             flags[k] = 1
                             grows = True
                 elif flags[j] == 0 and state[FOLLOWER * n + j] >= 0 and flags[state[OWNER * n + j]] == 1:

@@ -5,17 +5,16 @@ that came from outside so far, and goes on from there. The general engine is the
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from compiler.determined.reasons import Undetermined
-from compiler.program import DomainConstant, PredicateCode
-from runtime.determined.inputs import Inputs, catch_up
+from compiler.program import PredicateCode
+from runtime.determined.inputs import Inputs, catch_up, take_over
 from runtime.determined.loading import RegisterProgram, is_open, number_of
-from runtime.determined.log import ROW, WISHED
-from runtime.determined.machine import CHANGES, STOPS
-from runtime.determined.present import (
+from runtime.determined.publish import Publisher, Wish
+from runtime.determined.tags import (
     FAR,
     NONE,
+    STOPS,
     WISH,
     WISH_END_FROM,
     WISH_END_UNTIL,
@@ -24,27 +23,15 @@ from runtime.determined.present import (
     WISH_MOST,
     WISH_UNTIL,
 )
-from runtime.executive.agent import Failure
 from runtime.executive.configuration import ReactorConfiguration
-from runtime.executive.messages import Arguments, Observation, Request, token_text
-from runtime.executive.outcome import Conflict, Draw
+from runtime.executive.messages import Arguments, Observation, Request
+from runtime.executive.outcome import Conflict, Draw, EventKind, OpenGoal, Reason, ReasonKind, VariableName
 from runtime.executive.plan_reactor import PlanReactor
+from runtime.executive.reactor import Failure, Refusal
 from runtime.executive.story import latest
 from runtime.executive.trace import Trace
 
 AHEAD = 256  # ticks that are carried out before anybody asks for them
-INFINITY = 4503599627370495
-
-
-@dataclass(eq=False, slots=True)
-class Wish:
-    """A request under way; `started` is the tick at which its token started."""
-
-    request: Request
-    line: int
-    block: int
-    values: dict[int, float]
-    started: int = NONE
 
 
 class DeterminedReactor:
@@ -74,28 +61,30 @@ class DeterminedReactor:
         self.parameters = sorted(program.layout.samples, key=lambda name: program.layout.samples[name])
         self.machine = program.machine(self)
         self.numbers = program.model.line_numbers
-        self.watched = sum(1 << n for n in program.internal)
+        self.watched = sum(1 << n for n in program.internal)  # timelines whose changes others see
+        self.publisher = Publisher(self.name, program, trace)
         self.inputs = Inputs()
-        self.wishes: list[Wish] = []
+        self.wishes: list[Wish] = []  # requests that have not started
         self.news: dict[int, Observation] = {}
-        self.draws: dict[tuple[int, int], Draw] = {}
-        self.events = [NONE] * len(program.layout.lines)
+        self.windows: dict[str, tuple[int, int]] = {}
+        self.execution_latency = 0
         self.tick = NONE
         self.reached = NONE  # the last tick that the machine has carried out
         self.base = NONE  # the tick of its snapshot
-        self.told = 0  # rows of the log that have been published
-        self.told_draws = 0
         self.due = 0
-        self.is_stirred = True  # something came in that the machine has not seen
+        self.steps_made = 0
         self.is_beyond = False  # something came in that only the general engine understands
         self.general: PlanReactor | None = None
-        self.unmet: list[str] = []
-        self._begin()
-
-    def _begin(self) -> None:
-        """The facts of the script are what holds first."""
-        for fact in self.program.first:
+        self.refused_goals: list[OpenGoal] = []
+        self.refusals_made: list[Refusal] = []
+        for fact in program.first:
             self._ask(fact.line, fact.block, fact.values, (0, 0), fact.end, (1, FAR))
+        self.machine.keep()
+
+    def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
+        """Take note of the owners' latencies, for the general reactor."""
+        self.windows = windows
+        self.execution_latency = execution_latency
 
     # ---- the tick ----
 
@@ -104,6 +93,7 @@ class DeterminedReactor:
         if self.general is not None:
             self.general.start_tick(tick)
         self.tick = tick
+        self.steps_made = 0
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published this tick; the last word counts."""
@@ -111,74 +101,58 @@ class DeterminedReactor:
         if self.general is not None:
             self.general.notify(observation)
             return
-        self.inputs.notify(observation)
+        self.inputs.note(self.trace.tick, self.tick < self.trace.tick, observation)
         self.news[self.numbers[observation.timeline]] = observation
-        self.is_stirred = True
 
     def synchronise(self, tick: int) -> Failure | None:
         """Carry out the tick, unless that has been done ahead."""
         if self.general is not None:
             return self.general.synchronise(tick)
-        if self.is_beyond or ((self.is_stirred or self.reached < tick) and not self._carry_out(tick)):
-            return self._hand_over(tick, False)
+        if self.news:
+            self._return_to(tick - 1)
+        if self.reached < tick and not self._carry_out(tick):
+            self._hand_over(tick, False)
+            assert self.general is not None
+            return self.general.synchronise(tick)
         return None
 
     def _carry_out(self, tick: int) -> bool:
-        """Carry out all ticks up to `tick`, with what came in; false if the machine stops."""
+        """Carry out all ticks up to `tick`, with what was observed; false if the machine stops."""
         machine = self.machine
-        if self.reached >= tick:
-            self._go_back()
         if self.reached < tick - 1:
-            self.reached = machine.run(self.reached, tick - 1, 0)
+            self.reached = int(machine.run(self.reached, tick - 1, 0))
             if self.reached < tick - 1:
                 return False
-        if not self._take_inputs(tick):
-            return False
-        if machine.present.next_event(tick - 1) <= tick and not machine.tick(tick):
-            return False
-        self.reached = tick
-        return True
-
-    def _go_back(self) -> None:
-        """Return to the snapshot; draws are made anew."""
-        machine = self.machine
-        machine.go_back()
-        machine.log.forget_from(self.base + 1)
-        for k in range(len(machine.sample_until)):
-            machine.sample_until[k] = NONE
-        self.reached = self.base
-
-    def _take_inputs(self, tick: int) -> bool:
-        """Put observations and the next request of each timeline into the machine; false where they do not fit."""
-        state, n = self.machine.present.state, self.machine.lines
         for line, news in self.news.items():
             given = self._given(line, news.predicate, news.arguments)
             if given is None:
                 return False
             self._ask(line, given[0], given[1], (tick, tick), (tick + 1, FAR), (1, FAR))
+        if (self.news or machine.present.next_event(tick - 1) <= tick) and not machine.tick(tick):
+            return False
         self.news.clear()
-        chosen: dict[int, Wish] = {}
-        for wish in self.wishes:
-            best = chosen.get(wish.line)
-            if wish.started < 0 and (best is None or wish.request.start[0] < best.request.start[0]):
-                chosen[wish.line] = wish
-        self.is_stirred = False
-        for line, wish in chosen.items():
-            request = wish.request
-            if request.start[1] < tick:
-                return False
-            if tick == 0 and state[WISH * n + line] >= 0:  # what the script says comes first
-                self.is_stirred = True
-                continue
-            start = (max(request.start[0], tick), request.start[1])
-            self._ask(line, wish.block, wish.values, start, request.end, request.duration)
+        self.reached = tick
         return True
+
+    def _return_to(self, tick: int) -> None:
+        """Take back what was carried out ahead of `tick`."""
+        if self.reached <= tick:
+            return
+        machine = self.machine
+        machine.go_back()
+        machine.log.forget_from(self.base + 1)
+        for k in range(len(machine.sample_until)):
+            machine.sample_until[k] = NONE  # draws are made anew
+        row, draw_row = self.publisher.row, self.publisher.draw_row
+        self.reached = int(machine.run(self.base, tick, 0))
+        assert self.reached == tick and row <= machine.log.row_count
+        self.publisher.row, self.publisher.draw_row = row, min(draw_row, machine.log.draw_count)
 
     def _ask(
         self,
         line: int,
         block: int,
-        values: "dict[int, float] | object",
+        values: dict[int, float],
         start: tuple[int, int],
         end: tuple[int, int],
         duration: tuple[int, int],
@@ -187,18 +161,16 @@ class DeterminedReactor:
         machine = self.machine
         state, n = machine.present.state, machine.lines
         state[WISH * n + line] = block
-        for section, (lower, upper) in (
-            (WISH_FROM, start),
-            (WISH_END_FROM, end),
-            (WISH_LEAST, duration),
-        ):
-            state[section * n + line] = max(lower, 0)
-            state[(section + 1) * n + line] = min(upper, FAR)
-        assert (WISH_UNTIL, WISH_END_UNTIL, WISH_MOST) == (WISH_FROM + 1, WISH_END_FROM + 1, WISH_LEAST + 1)
-        assert isinstance(values, dict)
-        first = machine.wished[line]
+        sections = (
+            (WISH_FROM, WISH_UNTIL, start),
+            (WISH_END_FROM, WISH_END_UNTIL, end),
+            (WISH_LEAST, WISH_MOST, duration),
+        )
+        for first, last, (lower, upper) in sections:
+            state[first * n + line] = max(lower, 0)
+            state[last * n + line] = min(upper, FAR)
         for k, value in values.items():
-            machine.registers[first + k] = value
+            machine.registers[machine.wished[line] + k] = value
 
     def _given(self, line: int, short: str, arguments: Arguments) -> tuple[int, dict[int, float]] | None:
         """The block and the values of a token that comes from outside; None where only the general engine can tell."""
@@ -222,100 +194,74 @@ class DeterminedReactor:
             return False
         draw, until = found
         self.machine.sample_value[parameter] = draw.value
-        self.machine.sample_until[parameter] = until
-        self.draws[parameter, tick] = draw
+        self.machine.sample_until[parameter] = min(until, FAR)
+        self.publisher.draws[parameter, tick] = draw
         return True
-
-    # ---- publishing ----
 
     def observations(self, tick: int) -> list[Observation]:
         """What its own timelines have begun to hold at `tick`; what has begun before is only put on record."""
         if self.general is not None:
             return self.general.observations(tick)
-        return self._publish(tick)
+        found = self.publisher.tell(self.machine.log, tick)
+        self.wishes = [wish for wish in self.wishes if wish.started < 0]
+        return found
 
     def pass_over(self, tick: int) -> None:
-        """Put on record what happened before `tick`: others are about to."""
+        """Put on record what was carried out for ticks before `tick`."""
         if self.general is None:
-            now, phase = self.trace.tick, self.trace.phase
-            self._publish(tick - 1)
-            self.trace.tick, self.trace.phase = now, phase
+            self.publisher.tell(self.machine.log, tick - 1)
 
-    def _publish(self, tick: int) -> list[Observation]:
-        log, trace = self.machine.log, self.trace
-        now = trace.tick
-        published: list[Observation] = []
-        while self.told < log.row_count and log.rows[ROW * self.told] <= tick:
-            at = log.rows[ROW * self.told]
-            last = self.told
-            while last < log.row_count and log.rows[ROW * last] == at:
-                last += 1
-            trace.tick = at
-            trace.phase = "synchronise"
-            self._tell_draws(at)
-            trace.phase = "observe"
-            found = self._tell(range(self.told, last), at)
-            if at == now:
-                published += found
-            self.told = last
-        trace.tick = now
-        return published
+    # ---- the future ----
 
-    def _tell_draws(self, tick: int) -> None:
-        log = self.machine.log
-        while self.told_draws < log.draw_count and log.draws[2 * self.told_draws] <= tick:
-            at = log.draws[2 * self.told_draws : 2 * self.told_draws + 2]
-            self.trace.record_draw(self.name, self.draws[int(at[1]), int(at[0])])
-            self.told_draws += 1
-
-    def _tell(self, rows: range, tick: int) -> list[Observation]:
-        """Publish the tokens of one tick, in the order of the configuration."""
-        log = self.machine.log
-        by_line = {int(log.rows[ROW * row + 1]): row for row in rows}
-        published = []
-        for line in (*self.program.internal, *(n for n in by_line if n not in self.program.internal)):
-            if line not in by_line:
-                continue
-            row = by_line[line]
-            if line not in self.program.internal:
-                continue
-            predicate = self.program.model.program.predicates[log.rows[ROW * row + 2]]
-            arguments = arguments_of(self.program, predicate, log.values[log.rows[ROW * row + 4] :])
-            short = predicate.name.rpartition(".")[2]
-            wish = self._wish_at(line, row, tick)
-            last = self.events[line]
-            causes = (wish.request.event,) if wish is not None else (last,) if last >= 0 else ()
-            name = self.program.model.lines[line].name
-            event = self.trace.record("observation", self.name, name, token_text(short, arguments), causes)
-            self.events[line] = event
-            published.append(Observation(tick, name, short, arguments, event, self.name, row, line))
-        return published
-
-    def _wish_at(self, line: int, row: int, tick: int) -> Wish | None:
-        """The request that a token answers."""
-        block = self.machine.log.rows[ROW * row + 3]
-        for wish in self.wishes:
-            if wish.line == line and wish.started < 0 and block == wish.block | WISHED:
-                wish.started = tick
-                self.is_stirred = self.is_stirred or any(w.line == line and w.started < 0 for w in self.wishes)
-                return wish
-        return None
-
-    # ---- ahead of time ----
+    def urgency(self, tick: int) -> float:
+        """How soon it should be given a step (T-REX 1.3)."""
+        if self.general is not None:
+            return self.general.urgency(tick)
+        return 1.0 / ((1 + self.latency + 1) * (self.steps_made + 1))
 
     def step(self, tick: int) -> bool:
-        """Carry out ticks ahead; where the next one is beyond the machine, plan as the general reactor."""
-        if self.general is None and self.reached == tick and not self.is_stirred:
+        """Take in requests and carry out ticks ahead; where the next one is beyond the machine, plan in general."""
+        self.steps_made += 1
+        if self.general is None:
+            self._take_requests(tick)
+        if self.general is None and self.reached == tick:
             self.machine.keep()
             self.base = tick
             watched = self.watched
             for wish in self.wishes:
-                if wish.started < 0:
-                    watched |= 1 << wish.line
-            self.reached = self.machine.run(tick, min(tick + AHEAD, self.final_tick), watched)
+                watched |= 1 << wish.line
+            self.reached = int(self.machine.run(tick, min(tick + AHEAD, self.final_tick), watched))
             if self.machine.why == STOPS and self.reached == tick:
                 self._hand_over(tick, True)
         return self.general is not None and self.general.step(tick)
+
+    def _take_requests(self, tick: int) -> None:
+        """Have the machine start the next request of each timeline as soon as it may, later than `tick`."""
+        chosen: dict[int, Wish] = {}
+        for wish in self.wishes:
+            best = chosen.get(wish.line)
+            if best is None or wish.request.start[0] < best.request.start[0]:
+                chosen[wish.line] = wish
+        self._return_to_requests(tick, chosen)
+        if self.is_beyond or any(wish.request.start[1] <= tick for wish in chosen.values()):
+            self._hand_over(tick, True)
+
+    def _return_to_requests(self, tick: int, chosen: dict[int, Wish]) -> None:
+        state, n = self.machine.present.state, self.machine.lines
+        asked = {line: int(state[WISH * n + line]) for line in range(n) if not self.machine.present.is_used[line]}
+        wanted = {line: chosen[line].block if line in chosen else NONE for line in asked}
+        if asked == wanted and not self.inputs.is_fresh:
+            return
+        self.inputs.is_fresh = False
+        self._return_to(tick)
+        for line in asked:
+            if line not in chosen:
+                state[WISH * n + line] = NONE
+                continue
+            wish = chosen[line]
+            request = wish.request
+            start = (max(request.start[0], tick + 1), request.start[1])
+            self._ask(line, wish.block, wish.values, start, request.end, request.duration)
 
     def failure(self) -> Failure | None:
         """Why planning has failed for good, if it has."""
@@ -325,11 +271,7 @@ class DeterminedReactor:
         """The next tick that others can see, or at which the machine stops."""
         if self.general is not None:
             return self.general.next_tick(tick)
-        if self.is_stirred:
-            return tick + 1
-        if self.machine.why == STOPS or self.machine.why == CHANGES or self.reached < self.final_tick:
-            return max(tick + 1, self.reached)
-        return self.final_tick
+        return max(tick + 1, min(self.reached, self.final_tick))
 
     # ---- requests ----
 
@@ -337,62 +279,65 @@ class DeterminedReactor:
         """Queue a request for one of its timelines; who does not look ahead takes none."""
         if self.general is not None:
             self.general.accept(request)
-            self.due = min(self.due, self.general.due)
             return
         if self.lookahead == 0:
-            text = token_text(request.predicate, request.arguments)
-            self._refuse(request, f"{text}: `{self.name}` does not look ahead and takes no goals")
+            self._refuse(request)
             return
-        now = self.trace.tick
-        is_early = self.tick < now  # goals of the mission come before the reactor's own turn
-        self.inputs.accept(now, is_early, request)
-        self.due = now if is_early else now + 1
+        self.inputs.note(self.trace.tick, False, request)
         line = self.numbers[request.timeline]
         given = self._given(line, request.predicate, request.arguments)
         if given is None:
             self.is_beyond = True
             return
-        self.wishes.append(Wish(request, line, given[0], given[1]))
-        self.is_stirred = True
+        wish = Wish(request, line, given[0], given[1])
+        self.wishes.append(wish)
+        self.publisher.wishes.append(wish)
 
-    def _refuse(self, request: Request, what: str) -> None:
-        self.trace.record("reject", self.name, request.timeline, what, (request.event,))
+    def _refuse(self, request: Request) -> None:
+        why = Reason(ReasonKind.NO_LOOKAHEAD)
+        causes = (request.event,)
+        event = self.trace.record(
+            EventKind.REFUSE,
+            self.name,
+            request.timeline,
+            request.predicate,
+            request.arguments,
+            causes,
+            request=request.number,
+            reason=why,
+        )
+        self.refusals_made.append(Refusal(request, event))
         if request.is_mandatory:
-            self.unmet.append(what)
+            goal = OpenGoal(request.timeline, request.predicate, request.arguments, why, event)
+            self.refused_goals.append(goal)
 
     def recall(self, number: int) -> None:
         """Drop a request that has not started; what has started goes on to its own end."""
         if self.general is not None:
             self.general.recall(number)
             return
-        for wish in self.wishes:
-            if wish.request.number == number and wish.started < 0:
-                self.inputs.recall(self.tick, number)
-                self.wishes.remove(wish)
-                if self.reached > self.base:
-                    self._go_back()
-                n = self.machine.lines
-                self.machine.present.state[WISH * n + wish.line] = NONE
-                self.machine.keep()
-                self.is_stirred = True
-                self.due = self.tick + 1
-                return
+        self.inputs.note(self.trace.tick, False, number)
+        for wish in self.publisher.wishes:
+            if wish.request.number == number and wish.ended < 0:
+                wish.is_recalled = True
+                if wish.request.is_mandatory:
+                    request, why = wish.request, Reason(ReasonKind.RECALLED)
+                    self.refused_goals.append(OpenGoal(request.timeline, request.predicate, request.arguments, why))
+        self.wishes = [wish for wish in self.wishes if wish.request.number != number]
 
-    def unmet_goals(self) -> list[str]:
+    def refusals(self) -> list[Refusal]:
+        """Which of the requests made to it will not be met."""
+        found, self.refusals_made = self.refusals_made, []
+        return found if self.general is None else found + self.general.refusals()
+
+    def open_goals(self) -> list[OpenGoal]:
         """Mandatory goals that were refused, or that have not run to their end by now."""
         if self.general is not None:
-            return self.unmet + self.general.unmet_goals()
-        return self.unmet + [
-            token_text(wish.request.predicate, wish.request.arguments)
-            for wish in self.wishes
-            if wish.request.is_mandatory and not self._is_over(wish)
+            return self.general.open_goals()
+        left = [wish.request for wish in self.publisher.wishes if wish.ended < 0 and not wish.is_recalled]
+        return self.refused_goals + [
+            OpenGoal(r.timeline, r.predicate, r.arguments, event=r.event) for r in left if r.is_mandatory
         ]
-
-    def _is_over(self, wish: Wish) -> bool:
-        rows = self.machine.log.rows
-        return wish.started >= 0 and any(
-            rows[ROW * row + 1] == wish.line and wish.started < rows[ROW * row] <= self.tick for row in range(self.told)
-        )
 
     def requests(self, tick: int) -> list[Request]:
         """It asks nobody for anything."""
@@ -406,36 +351,41 @@ class DeterminedReactor:
         """It takes nothing back."""
         return [] if self.general is None else self.general.recalls()
 
+    def refused(self, refusal: Refusal) -> None:
+        """It has asked nobody for anything."""
+        if self.general is not None:
+            self.general.refused(refusal)
+
     # ---- the general reactor ----
 
-    def _hand_over(self, tick: int, is_settled: bool) -> Failure | None:
+    def _hand_over(self, tick: int, is_settled: bool) -> None:
         """Become a general reactor that knows what came from outside; `is_settled`: the present of `tick` too."""
+        self.general = self._witness(tick, is_settled)
+        take_over(self.general, self.trace)
+        for name in self.internal:
+            self.general.by_name[name].event = self.publisher.events[self.numbers[name]]
+
+    def _witness(self, tick: int, is_settled: bool) -> PlanReactor:
+        """A general reactor that has lived through the same."""
         shadow = Trace()
         general = self.make_general(shadow)
-        failure = catch_up(general, shadow, self.inputs, tick, is_settled)
-        general.trace = general.dispatch.trace = self.trace
-        for name in self.internal:
-            general.by_name[name].event = self.events[self.numbers[name]]
-        self.general = general
-        if is_settled:
-            self.due = tick + 1
-            return failure
-        return failure or general.synchronise(tick)
+        general.set_owners(self.windows, self.execution_latency)
+        catch_up(general, shadow, self.inputs, tick, is_settled)
+        return general
 
-    def why_it_lasts(self, token: int, key: int) -> tuple[str, Conflict] | None:
+    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """What sets the end of a token that was published: asked of a general reactor, as this one has no causes."""
-        if self.general is not None:
-            general = self.general
-        else:
-            shadow = Trace()
-            general = self.make_general(shadow)
-            if catch_up(general, shadow, self.inputs, self.tick, True) is not None:
-                return None
-        line = self.program.model.lines[key].name if 0 <= key < len(self.events) else ""
-        state = general.by_name.get(line)
-        if state is None or general.bench.started_at(state.current) != self.machine.log.rows[ROW * token]:
-            return general.why_it_lasts(token, key)
-        return latest(general.bench, general.bench.end(state.current))
+        general = self.general or self._witness(self.tick, True)
+        row = (
+            self.machine.log.rows[5 * token : 5 * token + 2]
+            if 0 <= token < self.machine.log.row_count
+            else (NONE, NONE)
+        )
+        if row[0] == key:
+            line = general.by_name[self.program.model.lines[row[1]].name]
+            if line.current >= 0 and general.bench.started_at(line.current) == key:
+                return latest(general.bench, general.bench.end(line.current))
+        return general.why_it_lasts(token, key)
 
 
 def _values(program: RegisterProgram, predicate: PredicateCode, arguments: Arguments) -> dict[int, float] | None:
@@ -449,33 +399,9 @@ def _values(program: RegisterProgram, predicate: PredicateCode, arguments: Argum
         if is_open(domain):
             continue
         value = number_of(program.layout, domain)
-        is_number = parameter.type.kind in ("int", "float", "bool")
-        if value is None or (domain.interval is None and parameter.type.kind != "bool") == is_number:
+        if value is None or (domain.interval is None) == (parameter.type.kind in ("int", "float")):
             return None
         if parameter.type.kind == "int" and value != int(value):
             return None
         values[numbers[name]] = value
     return values
-
-
-def arguments_of(program: RegisterProgram, predicate: PredicateCode, values: object) -> Arguments:
-    """Parameters as others read them, from the log."""
-    names = program.names
-    told = []
-    for k, parameter in enumerate(predicate.parameters):
-        kind, type_name = parameter.type.kind, parameter.type.type_name
-        value = values[k]  # type: ignore[index]
-        if value != value:
-            domain = DomainConstant(kind, type_name, (-INFINITY, INFINITY), None)
-        elif kind == "float":
-            domain = DomainConstant(kind, type_name, (value, value), None)
-        elif kind == "int":
-            domain = DomainConstant(kind, type_name, (int(value), int(value)), None)
-        elif kind == "bool":
-            domain = DomainConstant(kind, type_name, None, (bool(value),))
-        else:
-            if int(value) >= len(names):
-                names[:] = sorted(program.layout.symbols, key=lambda name: program.layout.symbols[name])
-            domain = DomainConstant(kind, type_name, None, (names[int(value)],))
-        told.append((parameter.name, domain))
-    return tuple(told)

@@ -33,6 +33,8 @@ class HistoryError(RuntimeError):
 class PlanReactor:
     """Keeps the plan of its own timelines, and what it expects of others', in step with the world."""
 
+    runs_ahead = False
+
     def __init__(
         self,
         configuration: ReactorConfiguration,
@@ -76,6 +78,9 @@ class PlanReactor:
         self.reach = execution_latency + max(self.lookahead, 1)
 
     # ---- the tick ----
+
+    def pass_over(self, tick: int) -> None:
+        """It never runs ahead."""
 
     def start_tick(self, tick: int) -> None:
         """Set "now", and forget what is over."""
