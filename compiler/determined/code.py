@@ -10,7 +10,7 @@ HALT, COPY, ADD, SUB, MUL, DIV, NEG, ABS, MIN, MAX, SQRT, FLOOR, CEIL, MOD, WHOL
 LEQ, LESS, EQUAL, SAME, NOT, AND, OR = range(15, 22)
 DISTANCE, TOWARDS, TRAVEL = range(22, 25)
 UNIFY, NEED, HOLD, CLEAR, WHEN_FALSE, WHEN_TRUE, DRAW = range(25, 32)
-BEGIN, MERGE, PREVIOUS, FOLLOW, LAST_EXACTLY, LAST_LEAST, LAST_MOST, TIE, WITHIN, MEMBER, ORDER = range(32, 43)
+BEGIN, MERGE, PREVIOUS, FOLLOW, LAST_EXACTLY, LAST_LEAST, LAST_MOST, TIE, WITHIN, MEMBER, ORDER, PLANNED = range(32, 44)
 STRIDE = 8  # numbers of an instruction: operation, result, up to six operands
 
 FLOAT_TOLERANCE = 1e-5  # that of the engine
@@ -91,7 +91,7 @@ class Layout:
     """The registers of a reactor; blocks that are compiled later take more at the end.
 
     Of each timeline there are banks of parameters: of the current token, of the one that is to follow it, of one that
-    is due to start now, and of one that somebody asked for.
+    is due to start now, of one that somebody asked for, and of the token before, where a rule reads that (`remembered`).
     """
 
     lines: tuple[Line, ...]
@@ -100,6 +100,7 @@ class Layout:
     following: list[int] = field(default_factory=list)
     incoming: list[int] = field(default_factory=list)
     wished: list[int] = field(default_factory=list)
+    previous: list[int] = field(default_factory=list)
     starts: list[int] = field(default_factory=list)
     constants: dict[float, int] = field(default_factory=dict)
     presets: dict[int, float] = field(default_factory=dict)  # register -> value that it has for ever
@@ -107,12 +108,13 @@ class Layout:
     globals: dict[int, int] = field(default_factory=dict)  # global variable -> register
     members: dict[tuple[str, tuple[str, ...]], int] = field(default_factory=dict)  # object, member path -> register
     samples: dict[str, int] = field(default_factory=dict)  # parameter -> number
+    remembered: set[int] = field(default_factory=set)
     top: int = 1  # register 0 holds the tick that is now
 
     def __post_init__(self) -> None:
         """Give every timeline its banks."""
         for width in self.widths:
-            for bank in (self.current, self.following, self.incoming, self.wished):
+            for bank in (self.current, self.following, self.incoming, self.wished, self.previous):
                 bank.append(self.take(width))
             self.starts.append(self.take(1))
 

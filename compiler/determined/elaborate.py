@@ -81,18 +81,17 @@ class Elaboration:
         layout = self.layout
         number = len(self.tokens)
         self.tokens.append(TokenRecord(how, line, predicate, parent, rule, slot, context))
-        bank = (layout.following if how == FOLLOWING else layout.current)[line]
+        bank = {FOLLOWING: layout.following, PREVIOUS: layout.previous}.get(how, layout.current)[line]
         self.banks.append(bank)
         name = self.model.lines[line].name
         for k, parameter in enumerate(predicate.parameters):
-            if how == PREVIOUS:
-                break
             self.sheet.names[bank + k] = (
                 f"{name}.{predicate.name.rpartition('.')[2]}.{parameter.name}",
                 parameter.span,
             )
         if how == MERGED:
             self.sheet.given.add(layout.starts[line])
+        if how in (MERGED, PREVIOUS):
             self.sheet.doubtful |= {bank + k for k in range(len(predicate.parameters))}
         if how in (ROOT, TOGETHER):
             self.sheet.given.add(layout.starts[line])
@@ -346,7 +345,9 @@ class Elaboration:
                 k = variable - FIRST_PARAMETER
                 parameter = record.predicate.parameters[k]
                 if record.how == PREVIOUS:
-                    raise Undetermined(Choice.PREDECESSOR, parameter.name, span)
+                    # What starts unplanned looks for its predecessor only after the present is settled.
+                    layout.remembered.add(record.line)
+                    self._act((code.PLANNED,), record.context, span, parameter.name, -1)
                 if self.model.lines[record.line].role != "own" and record.how != MERGED and record.how != ROOT:
                     raise Undetermined(Choice.ASKED_OF_OTHERS, parameter.name, span)
                 return Cell(self.banks[number] + k, parameter.type.kind)

@@ -19,7 +19,6 @@ class Choice(Enum):
     OPEN_VALUE = "nothing says the value of `{name}`"
     UNKNOWN_VALUE = "`{name}` has no value when the mission starts"
     LATE_VALUE = "`{name}` is known only after the token has started"
-    PREDECESSOR = "`{name}` reads the token before, which is looked for after the present is settled"
     FUNCTION = "`{name}` has no register code"
     STATEMENT = "`{name}` has no register code"
     END = "`{name}` reads an end that is not yet known"

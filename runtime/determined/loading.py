@@ -79,6 +79,7 @@ class RegisterProgram:
         machine.following = array("q", layout.following)
         machine.incoming = array("q", layout.incoming)
         machine.wished = array("q", layout.wished)
+        machine.previous = array("q", layout.previous)
         machine.starts = array("q", layout.starts)
         machine.width = array("q", layout.widths)
         machine.default_block = array("q", self.defaults)
@@ -103,6 +104,7 @@ class RegisterProgram:
             machine.kept = kept
         if len(machine.block_start) == len(self.starts):
             return
+        machine.remembers = array("q", [number in layout.remembered for number in range(len(layout.lines))])
         machine.code = array("i", self.code)
         machine.block_start = array("q", self.starts)
         machine.block_predicate = array(

@@ -11,11 +11,12 @@ cdef double LARGEST, NAN, TOLERANCE
 
 cdef class Machine:
     cdef public long long lines, root_row, why
+    cdef public bint is_planned
     cdef public object world
     cdef public Present present
     cdef public Log log
     cdef public double[::1] registers, kept, sample_value
-    cdef public long long[::1] current, following, incoming, wished, starts, width, default_block, order
+    cdef public long long[::1] current, following, incoming, wished, previous, remembers, starts, width, default_block, order
     cdef public long long[::1] block_start, block_predicate, block_mask, sample_until
     cdef public int[::1] code
 

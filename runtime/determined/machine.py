@@ -57,7 +57,10 @@ class Machine:
         self.following = array("q", bytes(8 * lines))
         self.incoming = array("q", bytes(8 * lines))
         self.wished = array("q", bytes(8 * lines))
+        self.previous = array("q", bytes(8 * lines))
+        self.remembers = array("q", bytes(8 * lines))
         self.starts = array("q", bytes(8 * lines))
+        self.is_planned = False  # what starts was asked for or followed, it is not the default
         self.width = array("q", bytes(8 * lines))
         self.default_block = array("q", bytes(8 * lines))
         self.order = array("q", [NONE])
@@ -137,6 +140,7 @@ class Machine:
             return True
         block = state[DUE * n + i]
         is_wish = False
+        self.is_planned = True
         if block < 0:
             if state[WISH * n + i] >= 0 and state[WISH_FROM * n + i] <= tick:
                 block = state[WISH * n + i]
@@ -146,6 +150,7 @@ class Machine:
                 return bool(state[PREDICATE * n + i] < 0)  # nobody has published anything yet
             else:
                 block = self.default_block[i]
+                self.is_planned = False
         if block <= 0:
             return False
         self.start(i, self.block_predicate[block])
@@ -175,6 +180,9 @@ class Machine:
         self.present.start(i, predicate)
         self.registers[self.starts[i]] = self.present.now
         first = self.current[i]
+        if self.remembers[i]:
+            for j in range(self.width[i]):
+                self.registers[self.previous[i] + j] = self.registers[first + j]
         for j in range(self.width[i]):
             self.registers[first + j] = NAN
         return 0
@@ -324,6 +332,8 @@ class Machine:
             return False
         if op == 42:  # ORDER
             return bool(r[line] <= r[a])
+        if op == 43:  # PLANNED
+            return self.is_planned
         value = r[a]
         if not -LARGEST < value < LARGEST or value != math.floor(value):
             return False
