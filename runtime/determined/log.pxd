@@ -19,3 +19,7 @@ cdef class Log:
     cpdef int note_draw(self, long long tick, long long parameter) except -1
 
     cpdef int forget_from(self, long long tick) except -1
+
+    cpdef int grow_rows(self) except -1
+
+    cpdef int grow_values(self) except -1

@@ -22,8 +22,7 @@ class Log:
     def note(self, tick: int, line: int, predicate: int, block: int) -> int:
         """Add a token; its row."""
         if self.row_count == self.row_capacity:
-            self.rows = array("q", bytes(self.rows) + bytes(8 * ROW * self.row_capacity))
-            self.row_capacity *= 2
+            self.grow_rows()
         at = ROW * self.row_count
         self.rows[at] = tick
         self.rows[at + 1] = line
@@ -36,8 +35,7 @@ class Log:
     def take(self, row: int, width: int) -> int:
         """Make room for the parameters of a token; where they go."""
         while self.value_count + width > self.value_capacity:
-            self.values = array("d", bytes(self.values) + bytes(8 * self.value_capacity))
-            self.value_capacity *= 2
+            self.grow_values()
         at = self.value_count
         self.rows[ROW * row + 4] = at
         self.value_count = at + width
@@ -61,4 +59,20 @@ class Log:
                 self.value_count = self.rows[ROW * self.row_count + 4]
         while self.draw_count and self.draws[2 * (self.draw_count - 1)] >= tick:
             self.draw_count -= 1
+        return 0
+
+    def grow_rows(self) -> int:
+        """Make room for twice as many tokens."""
+        more = array("q", bytes(8 * ROW * 2 * self.row_capacity))
+        more[: ROW * self.row_capacity] = array("q", bytes(self.rows))
+        self.rows = more
+        self.row_capacity *= 2
+        return 0
+
+    def grow_values(self) -> int:
+        """Make room for twice as many parameters."""
+        more = array("d", bytes(8 * 2 * self.value_capacity))
+        more[: self.value_capacity] = array("d", bytes(self.values))
+        self.values = more
+        self.value_capacity *= 2
         return 0

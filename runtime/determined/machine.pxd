@@ -29,13 +29,13 @@ cdef class Machine:
 
     @cython.locals(
         n="long long", i="long long", j="long long", k="long long", first="long long", into="long long",
-        present="Present", state="long long[::1]", registers="double[::1]"
+        present="Present"
     )
     cpdef bint tick(self, long long tick) except -1
 
     @cython.locals(
         n="long long", j="long long", first="long long", into="long long", block="long long", mask="long long",
-        row="long long", line="long long", at="long long", is_wish="bint", present="Present", state="long long[::1]", log="Log"
+        row="long long", line="long long", at="long long", is_wish="bint", present="Present", log="Log"
     )
     cpdef bint settle(self, long long i, long long tick) except -1
 
@@ -50,7 +50,7 @@ cdef class Machine:
 
     @cython.locals(
         n="long long", j="long long", block="long long", bound="long long", slot="long long", value="double",
-        present="Present", state="long long[::1]", r="double[::1]"
+        present="Present"
     )
     cpdef bint arrange(self, long long op, long long line, long long a, long long b, long long at) except -1
 

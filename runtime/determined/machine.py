@@ -109,20 +109,18 @@ class Machine:
         """Carry out one tick; false if the machine does not know how."""
         n = self.lines
         present = self.present
-        state = present.state
-        registers = self.registers
-        registers[0] = tick
+        self.registers[0] = tick
         if not present.begin_tick(tick):
             return False
         # What follows goes aside before the blocks of this tick say what follows next.
         for i in range(n):
-            if state[FOLLOWER * n + i] >= 0 and state[ENDING * n + state[OWNER * n + i]]:
-                state[DUE * n + i] = state[FOLLOWER * n + i]
-                state[FOLLOWER * n + i] = NONE
+            if present.state[FOLLOWER * n + i] >= 0 and present.state[ENDING * n + present.state[OWNER * n + i]]:
+                present.state[DUE * n + i] = present.state[FOLLOWER * n + i]
+                present.state[FOLLOWER * n + i] = NONE
                 first = self.following[i]
                 into = self.incoming[i]
                 for j in range(self.width[i]):
-                    registers[into + j] = registers[first + j]
+                    self.registers[into + j] = self.registers[first + j]
         for k in range(n):
             i = self.order[k]
             if i < 0:
@@ -135,19 +133,18 @@ class Machine:
         """Start what takes the place of what has ended on a timeline."""
         n = self.lines
         present = self.present
-        state = present.state
-        if present.changed >> i & 1 or (state[PREDICATE * n + i] >= 0 and not state[ENDING * n + i]):
+        if present.changed >> i & 1 or (present.state[PREDICATE * n + i] >= 0 and not present.state[ENDING * n + i]):
             return True
-        block = state[DUE * n + i]
+        block = present.state[DUE * n + i]
         is_wish = False
         self.is_planned = True
         if block < 0:
-            if state[WISH * n + i] >= 0 and state[WISH_FROM * n + i] <= tick:
-                block = state[WISH * n + i]
-                state[WISH * n + i] = NONE
+            if present.state[WISH * n + i] >= 0 and present.state[WISH_FROM * n + i] <= tick:
+                block = present.state[WISH * n + i]
+                present.state[WISH * n + i] = NONE
                 is_wish = True
             elif present.is_used[i]:
-                return bool(state[PREDICATE * n + i] < 0)  # nobody has published anything yet
+                return bool(present.state[PREDICATE * n + i] < 0)  # nobody has published anything yet
             else:
                 block = self.default_block[i]
                 self.is_planned = False
@@ -161,8 +158,12 @@ class Machine:
             if mask >> j & 1:
                 self.registers[into + j] = self.registers[first + j]
         if is_wish:
-            state[LEAST * n + i] = max(tick + state[WISH_LEAST * n + i], state[WISH_END_FROM * n + i], tick + 1)
-            state[MOST * n + i] = min(tick + state[WISH_MOST * n + i], state[WISH_END_UNTIL * n + i])
+            present.state[LEAST * n + i] = max(
+                tick + present.state[WISH_LEAST * n + i], present.state[WISH_END_FROM * n + i], tick + 1
+            )
+            present.state[MOST * n + i] = min(
+                tick + present.state[WISH_MOST * n + i], present.state[WISH_END_UNTIL * n + i]
+            )
         log = self.log
         self.root_row = log.note(tick, i, self.block_predicate[block], block | WISHED if is_wish else block)
         if not self.carry_out(self.block_start[block]):
@@ -297,28 +298,31 @@ class Machine:
         """Operations on timelines; false where they are not possible."""
         n = self.lines
         present = self.present
-        state = present.state
-        r = self.registers
         if op == 32:  # BEGIN
-            if present.changed >> line & 1 or state[DUE * n + line] >= 0:
+            if present.changed >> line & 1 or present.state[DUE * n + line] >= 0:
                 return False
-            if state[PREDICATE * n + line] >= 0 and not state[ENDING * n + line] and not present.end_with(line):
+            if (
+                present.state[PREDICATE * n + line] >= 0
+                and not present.state[ENDING * n + line]
+                and not present.end_with(line)
+            ):
                 return False
             self.start(line, a)
             self.log.note(present.now, line, a, -1 - self.root_row)
             return True
         if op == 33:  # MERGE
             return bool(
-                state[PREDICATE * n + line] == a and (present.changed >> line & 1 or not state[ENDING * n + line])
+                present.state[PREDICATE * n + line] == a
+                and (present.changed >> line & 1 or not present.state[ENDING * n + line])
             )
         if op == 34:  # PREVIOUS
-            return bool(state[present.before + line] == a)
+            return bool(present.state[present.before + line] == a)
         if op == 35:  # FOLLOW
             block = self.code[at - 2]
-            if state[FOLLOWER * n + line] >= 0 or block <= 0:
+            if present.state[FOLLOWER * n + line] >= 0 or block <= 0:
                 return False
-            state[FOLLOWER * n + line] = block
-            state[OWNER * n + line] = a
+            present.state[FOLLOWER * n + line] = block
+            present.state[OWNER * n + line] = a
             return True
         if op == 39:  # TIE
             present.tie(line, a)
@@ -327,22 +331,22 @@ class Machine:
             return present.put_within(line, a)
         if op == 41:  # MEMBER
             for j in range(b):
-                if r[a + j] == r[line]:
+                if self.registers[a + j] == self.registers[line]:
                     return True
             return False
         if op == 42:  # ORDER
-            return bool(r[line] <= r[a])
+            return bool(self.registers[line] <= self.registers[a])
         if op == 43:  # PLANNED
             return self.is_planned
-        value = r[a]
+        value = self.registers[a]
         if not -LARGEST < value < LARGEST or value != math.floor(value):
             return False
-        bound = state[START * n + line] + int(value)
-        slot = state[SLOT * n + line]
-        if op != 38 and bound > state[LEAST * n + slot]:  # LAST_EXACTLY, LAST_LEAST
-            state[LEAST * n + slot] = bound
-        if op != 37 and bound < state[MOST * n + slot]:  # LAST_EXACTLY, LAST_MOST
-            state[MOST * n + slot] = bound
+        bound = present.state[START * n + line] + int(value)
+        slot = present.state[SLOT * n + line]
+        if op != 38 and bound > present.state[LEAST * n + slot]:  # LAST_EXACTLY, LAST_LEAST
+            present.state[LEAST * n + slot] = bound
+        if op != 37 and bound < present.state[MOST * n + slot]:  # LAST_EXACTLY, LAST_MOST
+            present.state[MOST * n + slot] = bound
         return True
 
     def draw(self, parameter: int) -> bool:
