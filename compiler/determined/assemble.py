@@ -9,7 +9,16 @@ from compiler.determined.schedule import AGAIN, Placed, Sequence, schedule
 from compiler.program import PredicateCode
 
 WITHOUT_RESULT = (code.NEED, code.HOLD, code.CLEAR, code.BEGIN, code.MERGE, code.PREVIOUS, code.FOLLOW)
-WITHOUT_RESULT += (code.LAST_EXACTLY, code.LAST_LEAST, code.LAST_MOST, code.TIE, code.WITHIN, code.MEMBER, code.ORDER, code.PLANNED)
+WITHOUT_RESULT += (
+    code.LAST_EXACTLY,
+    code.LAST_LEAST,
+    code.LAST_MOST,
+    code.TIE,
+    code.WITHIN,
+    code.MEMBER,
+    code.ORDER,
+    code.PLANNED,
+)
 
 
 def compile_block(model: Model, layout: Layout, line: int, predicate: PredicateCode, mask: int) -> Block:

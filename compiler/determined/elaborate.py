@@ -217,6 +217,10 @@ class Elaboration:
         """One constraint: about times, an equality, a function or a comparison."""
         layout, span, name = self.layout, post.span, post.name
         operands = [self._operand(operand, body, span) for operand in post.operands]
+        if is_time_constraint(operands) and name in FUNCTIONS and name != "temporalDistance":
+            operands = [
+                self._computed_time(each, context, span) if isinstance(each, Time) else each for each in operands
+            ]
         if is_time_constraint(operands):
             for act in demand_time(layout, name, operands, self._lines_of, span):
                 self.sheet.items.append(Item(context, span, span.text, act.needs, (), act.instructions))
@@ -250,6 +254,14 @@ class Elaboration:
             self._either(cells, context, span)
         else:
             raise Undetermined(Choice.FUNCTION, name, span)
+
+    def _computed_time(self, time: Time, context: Context, span: Span) -> Cell:
+        """A register for an end or a duration that a function computes."""
+        cell = Cell(self.layout.take(1), "int")
+        self.sheet.homes[cell.register] = context
+        for act in demand_time(self.layout, "eq", (time, cell), self._lines_of, span):
+            self.sheet.items.append(Item(context, span, span.text, act.needs, (), act.instructions))
+        return cell
 
     def _either(self, cells: list[Cell], context: Context, span: Span) -> None:
         """At least one of some truth values."""

@@ -39,6 +39,9 @@ cdef class Machine:
     )
     cpdef bint settle(self, long long i, long long tick) except -1
 
+    @cython.locals(n="long long", j="long long", present="Present")
+    cpdef bint can_start(self, long long i, long long tick) except -1
+
     @cython.locals(j="long long", first="long long")
     cpdef int start(self, long long i, long long predicate) except -1
 

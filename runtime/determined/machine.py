@@ -129,6 +129,19 @@ class Machine:
                 return False
         return present.end_tick(tick)
 
+    def can_start(self, i: int, tick: int) -> bool:
+        """Try out whether what was asked for on a timeline has consistent values; the caller goes back."""
+        n = self.lines
+        present = self.present
+        present.now = tick
+        present.changed = 0
+        self.registers[0] = tick
+        for j in range(n):
+            present.state[ENDING * n + j] = 1
+            present.state[DUE * n + j] = NONE
+        present.state[WISH_FROM * n + i] = tick
+        return self.settle(i, tick)
+
     def settle(self, i: int, tick: int) -> bool:
         """Start what takes the place of what has ended on a timeline."""
         n = self.lines

@@ -7,7 +7,7 @@ cdef long long WISH_UNTIL, BEFORE, SECTIONS
 
 
 cdef class Present:
-    cdef public long long lines, before, pairs, now, changed
+    cdef public long long lines, before, pairs, now, reach, changed
     cdef public long long[::1] state, kept, flags, is_used
 
     @cython.locals(n="long long", k="long long", i="long long")
@@ -35,6 +35,9 @@ cdef class Present:
         count="long long", left="long long", grows="bint"
     )
     cpdef bint end_tick(self, long long tick) except -1
+
+    @cython.locals(n="long long", least="long long")
+    cpdef bint has_room(self, long long i, long long tick) except -1
 
     @cython.locals(n="long long", first="long long", second="long long", moved="bint")
     cpdef bint order_ends(self, long long a, long long b) except -1

@@ -39,6 +39,7 @@ class Present:
         self.flags = array("q", bytes(8 * lines))
         self.is_used = array("q", bytes(8 * lines))  # timelines of other reactors
         self.now = 0
+        self.reach = 1  # how many ticks ahead of its window a request is looked at
         self.changed = 0  # a bit for each timeline on which a token has started at this tick
         self.clear()
 
@@ -70,7 +71,11 @@ class Present:
                 found = self.state[MOST * n + slot]
             if self.state[WISH * n + i] >= 0:
                 # A wish is looked at as soon as the token before it may end.
-                due = max(self.state[WISH_FROM * n + i], self.state[LEAST * n + slot])
+                due = self.state[WISH_FROM * n + i]
+                if due - self.reach > tick:
+                    due -= self.reach
+                elif self.state[LEAST * n + slot] > due:
+                    due = self.state[LEAST * n + slot]
                 if due < found:
                     found = due
         return max(found, tick + 1)
@@ -181,6 +186,8 @@ class Present:
                 return False
             if self.state[ENDING * n + i] and not self.changed >> i & 1:
                 return False
+            if not self.has_room(i, tick):
+                return False
         # An order whose first end is settled has said what it has to say.
         left = 0
         for k in range(count):
@@ -192,6 +199,14 @@ class Present:
                 left += 1
         self.state[pairs] = left
         return True
+
+    def has_room(self, i: int, tick: int) -> bool:
+        """Whether what was asked for on a timeline can still start in its window, if it is time to look."""
+        n = self.lines
+        if self.state[WISH * n + i] < 0 or self.state[WISH_FROM * n + i] - self.reach > tick:
+            return True
+        least = self.state[LEAST * n + self.state[SLOT * n + i]] if self.state[PREDICATE * n + i] >= 0 else 0
+        return bool(max(least, tick + 1) <= self.state[WISH_UNTIL * n + i])
 
     def order_ends(self, a: int, b: int) -> bool:
         """Let the end of `a` be no later than that of `b`; whether a bound has moved."""

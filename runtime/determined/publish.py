@@ -41,6 +41,7 @@ class Publisher:
         self.events = [NOTHING] * len(program.layout.lines)  # the latest event of each timeline
         self.draws: dict[tuple[int, int], Draw] = {}
         self.wishes: list[Wish] = []
+        self.asked: dict[int, Wish] = {}  # what the machine is to start on each timeline
 
     def tell(self, log: Log, until: int) -> list[Observation]:
         """Put on record what has started up to tick `until`; the observations of that very tick."""
@@ -109,11 +110,11 @@ class Publisher:
 
     def _answered(self, line: int, block: int, tick: int) -> Wish | None:
         """The request that a token answers."""
-        for wish in self.wishes:
-            if wish.line == line and wish.started < 0 and block == wish.block | WISHED:
-                wish.started = tick
-                return wish
-        return None
+        wish = self.asked.get(line)
+        if wish is None or block != wish.block | WISHED:
+            return None
+        wish.started = tick
+        return self.asked.pop(line)
 
 
 def arguments_of(program: RegisterProgram, predicate: PredicateCode, value_of: Callable[[int], float]) -> Arguments:
@@ -129,7 +130,7 @@ def domain_of(program: RegisterProgram, kind: str, type_name: str, value: float)
     if value != value:
         return DomainConstant(kind, type_name, (-INFINITY, INFINITY), None)
     if kind == "float":
-        return DomainConstant(kind, type_name, (value, value), None)
+        return DomainConstant(kind, type_name, (value + 0.0, value + 0.0), None)  # no negative zero
     if kind == "int":
         return DomainConstant(kind, type_name, (int(value), int(value)), None)
     if kind == "bool":

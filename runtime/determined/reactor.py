@@ -85,6 +85,7 @@ class DeterminedReactor:
         """Take note of the owners' latencies, for the general reactor."""
         self.windows = windows
         self.execution_latency = execution_latency
+        self.machine.present.reach = execution_latency + 1
 
     # ---- the tick ----
 
@@ -138,15 +139,19 @@ class DeterminedReactor:
         """Take back what was carried out ahead of `tick`."""
         if self.reached <= tick:
             return
+        row, draw_row = self.publisher.row, self.publisher.draw_row
+        self._forget_ahead(self.base)
+        self.reached = int(self.machine.run(self.base, tick, 0))
+        assert self.reached == tick and row <= self.machine.log.row_count
+        self.publisher.row, self.publisher.draw_row = row, min(draw_row, self.machine.log.draw_count)
+
+    def _forget_ahead(self, tick: int) -> None:
+        """Go back to the snapshot, which was taken at `tick`; draws are made anew."""
         machine = self.machine
         machine.go_back()
-        machine.log.forget_from(self.base + 1)
+        machine.log.forget_from(tick + 1)
         for k in range(len(machine.sample_until)):
-            machine.sample_until[k] = NONE  # draws are made anew
-        row, draw_row = self.publisher.row, self.publisher.draw_row
-        self.reached = int(machine.run(self.base, tick, 0))
-        assert self.reached == tick and row <= machine.log.row_count
-        self.publisher.row, self.publisher.draw_row = row, min(draw_row, machine.log.draw_count)
+            machine.sample_until[k] = NONE
 
     def _ask(
         self,
@@ -228,40 +233,65 @@ class DeterminedReactor:
             self.machine.keep()
             self.base = tick
             watched = self.watched
+            limit = min(tick + AHEAD, self.final_tick)
             for wish in self.wishes:
                 watched |= 1 << wish.line
-            self.reached = int(self.machine.run(tick, min(tick + AHEAD, self.final_tick), watched))
+                if wish is not self.publisher.asked.get(wish.line):
+                    limit = min(limit, max(wish.request.start[0] - self.machine.present.reach, tick + 1))
+            self.reached = int(self.machine.run(tick, limit, watched))
             if self.machine.why == STOPS and self.reached == tick:
                 self._hand_over(tick, True)
+            elif self.machine.why == STOPS:  # what the last tick has left half done is taken back
+                self._forget_ahead(tick)
+                self.machine.run(tick, self.reached, 0)
         return self.general is not None and self.general.step(tick)
 
     def _take_requests(self, tick: int) -> None:
         """Have the machine start the next request of each timeline as soon as it may, later than `tick`."""
+        if not self.inputs.is_fresh and not self._is_open(tick):
+            return
+        self.inputs.is_fresh = False
         chosen: dict[int, Wish] = {}
         for wish in self.wishes:
             best = chosen.get(wish.line)
+            self.is_beyond = self.is_beyond or wish.request.start[1] <= tick
             if best is None or wish.request.start[0] < best.request.start[0]:
                 chosen[wish.line] = wish
-        self._return_to_requests(tick, chosen)
-        if self.is_beyond or any(wish.request.start[1] <= tick for wish in chosen.values()):
+        reach = tick + self.machine.present.reach
+        near = [wish.line for wish in self.wishes if wish.request.start[0] <= reach]
+        # Of two requests for the same time the planner says which comes first, or whether both have room.
+        self.is_beyond = self.is_beyond or len(near) > len(set(near))
+        if not self.is_beyond:
+            self._return_to(tick)
+            self._choose(tick, chosen)
+        if self.is_beyond:
             self._hand_over(tick, True)
 
-    def _return_to_requests(self, tick: int, chosen: dict[int, Wish]) -> None:
-        state, n = self.machine.present.state, self.machine.lines
-        asked = {line: int(state[WISH * n + line]) for line in range(n) if not self.machine.present.is_used[line]}
-        wanted = {line: chosen[line].block if line in chosen else NONE for line in asked}
-        if asked == wanted and not self.inputs.is_fresh:
-            return
-        self.inputs.is_fresh = False
-        self._return_to(tick)
-        for line in asked:
-            if line not in chosen:
-                state[WISH * n + line] = NONE
-                continue
-            wish = chosen[line]
+    def _is_open(self, tick: int) -> bool:
+        """Whether a request waits for another one that has started, or will soon be looked at."""
+        reach = tick + self.machine.present.reach
+        return any(
+            wish is not self.publisher.asked.get(wish.line)
+            and (wish.line not in self.publisher.asked or wish.request.start[0] <= reach)
+            for wish in self.wishes
+        )
+
+    def _choose(self, tick: int, chosen: dict[int, Wish]) -> None:
+        machine = self.machine
+        present, n = machine.present, machine.lines
+        self.publisher.asked = chosen
+        for line in range(n):
+            present.state[WISH * n + line] = NONE
+        for line, wish in chosen.items():
             request = wish.request
             start = (max(request.start[0], tick + 1), request.start[1])
             self._ask(line, wish.block, wish.values, start, request.end, request.duration)
+            self.is_beyond = self.is_beyond or not present.has_room(line, tick)
+        machine.keep()
+        self.base = tick
+        for line, wish in chosen.items():
+            self.is_beyond = self.is_beyond or not machine.can_start(line, max(wish.request.start[0], tick + 1))
+            self._forget_ahead(tick)
 
     def failure(self) -> Failure | None:
         """Why planning has failed for good, if it has."""
