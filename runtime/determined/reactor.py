@@ -236,6 +236,7 @@ class DeterminedReactor:
             limit = min(tick + AHEAD, self.final_tick)
             for wish in self.wishes:
                 watched |= 1 << wish.line
+                limit = min(limit, max(self.final_tick - 1, tick + 1))
                 if wish is not self.publisher.asked.get(wish.line):
                     limit = min(limit, max(wish.request.start[0] - self.machine.present.reach, tick + 1))
             self.reached = int(self.machine.run(tick, limit, watched))
@@ -254,7 +255,7 @@ class DeterminedReactor:
         chosen: dict[int, Wish] = {}
         for wish in self.wishes:
             best = chosen.get(wish.line)
-            self.is_beyond = self.is_beyond or wish.request.start[1] <= tick
+            self.is_beyond = self.is_beyond or wish.request.start[1] <= tick or self._comes_last(wish, tick)
             if best is None or wish.request.start[0] < best.request.start[0]:
                 chosen[wish.line] = wish
         reach = tick + self.machine.present.reach
@@ -271,10 +272,15 @@ class DeterminedReactor:
         """Whether a request waits for another one that has started, or will soon be looked at."""
         reach = tick + self.machine.present.reach
         return any(
-            wish is not self.publisher.asked.get(wish.line)
+            self._comes_last(wish, tick)
+            or wish is not self.publisher.asked.get(wish.line)
             and (wish.line not in self.publisher.asked or wish.request.start[0] <= reach)
             for wish in self.wishes
         )
+
+    def _comes_last(self, wish: Wish, tick: int) -> bool:
+        """Whether a request might start at the final tick, when the planner begins nothing that was asked for."""
+        return tick >= self.final_tick - 1 and wish.request.start[0] <= self.final_tick
 
     def _choose(self, tick: int, chosen: dict[int, Wish]) -> None:
         machine = self.machine
