@@ -15,7 +15,7 @@ from checker.models import ModelSet
 from checker.sampling.seeds import mission_seed
 from checker.story import Story, tell
 
-MOST_STORIES = 8
+_MOST_STORIES = 8
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -99,6 +99,6 @@ class Campaign:
         """The story of each fault's example; of very many faults, of the first ones."""
         by_number = {result.number: result for result in findings.results}
         return [
-            self.story(by_number[fault.bucket.example], fault) if index < MOST_STORIES else None
+            self.story(by_number[fault.bucket.example], fault) if index < _MOST_STORIES else None
             for index, fault in enumerate(findings.faults)
         ]

@@ -8,26 +8,19 @@ from dataclasses import dataclass
 
 import networkx as nx
 
-from runtime.executive.outcome import (
-    Conflict,
-    ConflictElement,
-    ElementKind,
-    Event,
-    Outcome,
-    SourcePlace,
-    VariableName,
-)
+from runtime.executive.outcome import Conflict, ConflictElement, ElementKind, Event, Outcome, SourcePlace
+from runtime.plan.readout.names import VariableName
 
 # Kinds of elements that no line of the model can help.
-WORLD = (
+_WORLD = (
     ElementKind.SAMPLE,
     ElementKind.OBSERVATION,
     ElementKind.REQUEST,
     ElementKind.CLOCK,
 )
-VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
-LIMITS = ("leq", "lt", "neq", "bounds", "member", "withinBounds", "precedes", "strictlyPrecedes")
-MOST_EVENTS = 8  # of the way to the abort, the last ones
+_VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
+_LIMITS = ("leq", "lt", "neq", "bounds", "withinBounds", "precedes", "strictlyPrecedes")
+_MOST_EVENTS = 8  # of the way to the abort, the last ones
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,13 +45,13 @@ def culprit_of(conflict: Conflict | None) -> Culprit:
     if conflict is None:
         return Culprit()
     elements = conflict.elements
-    graph = conflict_graph(conflict)
-    roots = _roots(conflict, (ElementKind.SAMPLE,)) or _roots(conflict, WORLD)
+    graph = _conflict_graph(conflict)
+    roots = _roots(conflict, (ElementKind.SAMPLE,)) or _roots(conflict, _WORLD)
     far = _distances(graph, roots)
     candidates = [
         (_rank(element), -far.get(number, len(elements)), -number)
         for number, element in enumerate(elements)
-        if element.place is not None and element.kind not in WORLD
+        if element.place is not None and element.kind not in _WORLD
     ]
     if not candidates:
         return Culprit()
@@ -66,21 +59,21 @@ def culprit_of(conflict: Conflict | None) -> Culprit:
     limits = [
         element.place
         for number, element in enumerate(elements)
-        if number in graph.adj[chosen] and element.kind in VALUES and element.place != elements[chosen].place
+        if number in graph.adj[chosen] and element.kind in _VALUES and element.place != elements[chosen].place
     ]
     return Culprit(chosen, elements[chosen], tuple(place for place in dict.fromkeys(limits) if place is not None))
 
 
 def in_telling_order(conflict: Conflict, last: int) -> list[int]:
     """The numbers of the elements from the draws outwards, `last` at the end; as given where nothing was drawn."""
-    graph = conflict_graph(conflict)
+    graph = _conflict_graph(conflict)
     roots = _roots(conflict, (ElementKind.SAMPLE,))
     far = _distances(graph, roots)
     unknown = len(conflict.elements) if roots else 0
     return sorted(graph, key=lambda number: (number == last, far.get(number, unknown), number))
 
 
-def conflict_graph(conflict: Conflict) -> "nx.Graph[int]":
+def _conflict_graph(conflict: Conflict) -> "nx.Graph[int]":
     """The elements by number, joined where they speak of the same variable."""
     graph: nx.Graph[int] = nx.Graph()
     graph.add_nodes_from(range(len(conflict.elements)))
@@ -96,7 +89,7 @@ def conflict_graph(conflict: Conflict) -> "nx.Graph[int]":
     return graph
 
 
-def event_graph(events: tuple[Event, ...]) -> "nx.DiGraph[int]":
+def _event_graph(events: tuple[Event, ...]) -> "nx.DiGraph[int]":
     """The events of a trace by index, each with arrows to what it caused."""
     graph: nx.DiGraph[int] = nx.DiGraph()
     graph.add_nodes_from(range(len(events)))
@@ -113,7 +106,7 @@ def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int,
     """
     if outcome.abort is None or not outcome.events:
         return ()
-    graph = event_graph(outcome.events)
+    graph = _event_graph(outcome.events)
     target = outcome.abort.event
     ancestors: set[int] = nx.ancestors(graph, target)
     draws = {index: _drawn(outcome.events[index]) for index in sorted(ancestors, reverse=True)}
@@ -127,7 +120,7 @@ def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int,
         while causes := outcome.events[current].causes:
             current = max(causes)
             way.insert(0, current)
-    return tuple(way if len(way) <= MOST_EVENTS else [way[0], *way[1 - MOST_EVENTS :]])
+    return tuple(way if len(way) <= _MOST_EVENTS else [way[0], *way[1 - _MOST_EVENTS :]])
 
 
 def draws_behind(outcome: Outcome) -> tuple[str, ...]:
@@ -137,7 +130,7 @@ def draws_behind(outcome: Outcome) -> tuple[str, ...]:
     names = outcome.abort.conflict.parameters if outcome.abort.conflict is not None else ()
     if names or not outcome.events:
         return names
-    ancestors: set[int] = nx.ancestors(event_graph(outcome.events), outcome.abort.event)
+    ancestors: set[int] = nx.ancestors(_event_graph(outcome.events), outcome.abort.event)
     drawn = (_drawn(outcome.events[index]) for index in sorted(ancestors))
     return tuple(dict.fromkeys(name for name in drawn if name is not None))
 
@@ -157,7 +150,7 @@ def _distances(graph: "nx.Graph[int]", roots: list[int]) -> dict[int, float]:
 
 def _rank(element: ConflictElement) -> int:
     """How likely a line is the mistaken one: written limits before values before relations before the rest."""
-    is_limit = any(term.name in LIMITS for term in element.terms)
+    is_limit = any(term.name in _LIMITS for term in element.terms)
     match element.kind:
         case ElementKind.CONSTRAINT | ElementKind.DURATION if is_limit:
             return 0

@@ -12,7 +12,7 @@ UNKNOWN_CHOICE = Code("NDDL707", Severity.ERROR, "name", "`{key}` cannot be `{fo
 NO_FILE = Code("NDDL708", Severity.ERROR, "include", "there is no file `{path}`")
 TWICE = Code("NDDL709", Severity.ERROR, "duplicate", "{what} `{name}` is there twice")
 NO_OWNER = Code("NDDL710", Severity.ERROR, "name", "no reactor owns the timeline `{timeline}`")
-CIRCLE = Code("NDDL711", Severity.ERROR, "rule", "the reactors use each other in a circle: {circle}")
+CYCLE = Code("NDDL711", Severity.ERROR, "rule", "the reactors use each other in a cycle: {cycle}")
 NO_GOALS = Code(
     "NDDL712", Severity.ERROR, "rule", "`{timeline}` takes no goals: its owner `{reactor}` has a lookahead of 0"
 )

@@ -12,7 +12,7 @@ from checker.story import Step, StepKind, Story
 from checker.threshold import Threshold
 from runtime.executive.outcome import SourcePlace
 
-ARROW = "     │\n     ▼"
+_ARROW = "     │\n     ▼"
 
 
 def story_text(story: Story, run_id: str, excerpts: Excerpts) -> str:
@@ -27,7 +27,7 @@ def story_text(story: Story, run_id: str, excerpts: Excerpts) -> str:
     for index, step in enumerate(story.steps, 1):
         lines += _step_lines(index, step, story, excerpts)
         if index < len(story.steps):
-            lines.append(ARROW)
+            lines.append(_ARROW)
     if story.fault is not None:
         lines += ["", *_fault_lines(story.fault, story.number)]
     return "\n".join(lines) + "\n"

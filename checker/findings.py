@@ -12,7 +12,7 @@ from checker.statistics import Rate, judge_rate
 from checker.threshold import Refly, Threshold, find_thresholds
 from runtime.executive.configuration import AgentConfiguration
 
-MOST_SHARPENED = 8  # buckets whose thresholds are sought by flying again; the rest must do with samples
+_MOST_SHARPENED = 8  # buckets whose thresholds are sought by flying again; the rest must do with samples
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +76,7 @@ def assess(
     rate = judge_rate(failures, counted, check.max_failure_rate, check.confidence)
     faults: list[Fault] = []
     for position, bucket in enumerate(group_failures(ordered)):
-        is_wanted = position < MOST_SHARPENED if focus is None else focus in bucket.missions
+        is_wanted = position < _MOST_SHARPENED if focus is None else focus in bucket.missions
         faults.append(_fault(bucket, ordered, agent, refly if is_wanted else None))
     return Findings(run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), is_interrupted)
 

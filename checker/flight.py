@@ -1,9 +1,10 @@
 """Fly real missions: load the models of an agent once, then run the executive from a seed."""
 
 import sys
+from collections.abc import Mapping
 from contextlib import redirect_stdout
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from pathlib import Path
 from typing import overload
 
@@ -26,28 +27,34 @@ def load(agent: AgentConfiguration) -> Fly:
     """Compile the models of `agent`; the result flies one mission per call."""
     root = Path(agent.root)
     reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
+    _load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
+    return partial(fly_once, agent)
 
-    def fly(seed: int) -> Outcome:
-        with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
-            return _relative(run_mission(agent, programs, seed), root)
 
-    return fly
+def fly_once(
+    agent: AgentConfiguration, seed: int, values: Mapping[str, float] | None = None, until: int | None = None
+) -> Outcome:
+    """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick."""
+    root = Path(agent.root)
+    reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
+    programs = _load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
+    with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
+        return _relative(run_mission(agent, programs, seed, values, until=until), root)
 
 
 @lru_cache(maxsize=4)
-def load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...], seconds: float) -> MissionPrograms:
+def _load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...], seconds: float) -> MissionPrograms:
     """The compiled models and the flaw handling of some reactors; kept, for flights that differ in parameters only."""
     library = load_library(root, constraints, seconds=seconds)
     models = {
         model: compile_model(analyse_file(root / model, callables=library.callables))
         for model in dict.fromkeys(model for model, _ in reactors)
     }
-    solvers = tuple(load_solver(root, solver) for _, solver in reactors)
+    solvers = tuple(_load_solver(root, solver) for _, solver in reactors)
     return MissionPrograms(tuple(models[model] for model, _ in reactors), solvers, library.constraints)
 
 
-def load_solver(root: Path, path: str | None) -> Configuration:
+def _load_solver(root: Path, path: str | None) -> Configuration:
     """The flaw handling in a file; the default where none is named."""
     if path is None:
         return default_configuration()

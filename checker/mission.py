@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
-from checker.codes import CIRCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE
+from checker.codes import CYCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE
 from checker.mission_table import MissionText, Table, nearest
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.read import read_source
@@ -142,6 +142,7 @@ def _read_reactors(tables: list[Table], root: Path) -> tuple[ReactorConfiguratio
             external=table.strings("external"),
             solver=table.string("solver", "") or None,
             early=table.strings("early"),
+            late=table.strings("late"),
             max_steps=table.whole("max_steps", 0, 0) or None,
             max_depth=table.whole("max_depth", 0, 0) or None,
         )
@@ -165,10 +166,10 @@ def _read_reactors(tables: list[Table], root: Path) -> tuple[ReactorConfiguratio
             if timeline not in owners:
                 span = table.text.value_span((*table.path, "external", index))
                 table.text.diagnostics.append(NO_OWNER.at(span, timeline=timeline, help=_suggest(timeline, [*owners])))
-    circle = _find_circle(reactors, {timeline: name for timeline, (name, _) in owners.items()})
-    if circle:
+    cycle = _find_cycle(reactors, {timeline: name for timeline, (name, _) in owners.items()})
+    if cycle:
         span = tables[0].text.key_span(tables[0].path)
-        tables[0].text.diagnostics.append(CIRCLE.at(span, circle=" → ".join(circle)))
+        tables[0].text.diagnostics.append(CYCLE.at(span, cycle=" → ".join(cycle)))
     return tuple(reactors)
 
 
@@ -264,8 +265,8 @@ def _ill_distribution(table: Table, name: str, values: tuple[float, ...], weight
     return reasons
 
 
-def _find_circle(reactors: list[ReactorConfiguration], owners: dict[str, str]) -> list[str]:
-    """The names of reactors on a circle of use, the first repeated at the end; empty where there is none."""
+def _find_cycle(reactors: list[ReactorConfiguration], owners: dict[str, str]) -> list[str]:
+    """The names of reactors on a cycle of use, the first repeated at the end; empty where there is none."""
     uses = {one.name: [owners[name] for name in one.external if name in owners] for one in reactors}
     waiting = {name: set(used) for name, used in uses.items()}
     while free := [name for name, used in waiting.items() if not used]:

@@ -1,7 +1,7 @@
 """The pages of the codes about mission files; `docs/mission.md` describes such a file."""
 
 from checker.codes import (
-    CIRCLE,
+    CYCLE,
     ILL_DISTRIBUTION,
     MISSING_KEY,
     NO_ARGUMENT,
@@ -104,7 +104,7 @@ MISSION_PAGES = (
         "toml",
     ),
     RulePage(
-        CIRCLE,
+        CYCLE,
         "Each of some reactors uses a timeline of the next, and the last one of the first.",
         "Within a tick owners synchronise before users, so there must be an order.",
         '[[reactor]]\nname = "a"\ninternal = ["x"]\nexternal = ["y"]\n\n[[reactor]]\n'

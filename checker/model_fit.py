@@ -11,7 +11,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Note
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 
 Bounds = tuple[float, float]
-INFINITE = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
+_INFINITE = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
 
 
 def find_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[Diagnostic]:
@@ -104,6 +104,6 @@ def _bounds(domain: DomainConstant | None) -> Bounds | None:
         return None
     if domain.interval is not None:
         lower, upper = domain.interval
-        return (float(lower), float(upper)) if max(abs(lower), abs(upper)) < INFINITE else None
+        return (float(lower), float(upper)) if max(abs(lower), abs(upper)) < _INFINITE else None
     numbers = [float(value) for value in domain.values or () if isinstance(value, int | float)]
     return (min(numbers), max(numbers)) if numbers and len(numbers) == len(domain.values or ()) else None

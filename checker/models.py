@@ -43,7 +43,7 @@ def load_models(mission: Mission) -> ModelSet:
     agent = mission.agent
     root = Path(agent.root)
     library = load_library(root, agent.constraints, seconds=agent.constraint_seconds)
-    analyses = analyse_models(agent, library.callables)
+    analyses = _analyse_models(agent, library.callables)
     texts = library.texts | {
         relative_name(source.name, root): source.text
         for analysis in analyses.values()
@@ -62,7 +62,7 @@ def load_models(mission: Mission) -> ModelSet:
     return ModelSet(completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits))
 
 
-def analyse_models(agent: AgentConfiguration, callables: Callables) -> dict[str, Analysis]:
+def _analyse_models(agent: AgentConfiguration, callables: Callables) -> dict[str, Analysis]:
     """The meaning of each model of an agent, by its path in the mission file."""
     names = dict.fromkeys(reactor.model for reactor in agent.reactors)
     return {name: analyse_file(Path(agent.root) / name, callables=callables) for name in names}

@@ -7,7 +7,7 @@ stay open are class F10 of the failure taxonomy (reference of T-REX, 1.10 and 1.
 from dataclasses import dataclass
 from enum import Enum
 
-from runtime.executive.outcome import Outcome, Reason, ReasonKind
+from runtime.executive.outcome import EventKind, Outcome, Reason, ReasonKind
 
 GOALS_OPEN = "F10"
 NO_RECORD = "F7"
@@ -56,6 +56,9 @@ def judge(outcome: Outcome) -> Judgement:
     if outcome.ended_early:
         reason = Reason(ReasonKind.NO_RECORD, tick=outcome.last_tick, limit=outcome.final_tick)
         return Judgement(Verdict.FAIL, NO_RECORD, reason)
+    lost = next((event for event in outcome.events if event.kind is EventKind.KILL), None)
+    if lost is not None:
+        return Judgement(Verdict.FAIL, lost.code, lost.reason)
     if outcome.open_goals:
         return Judgement(Verdict.FAIL, GOALS_OPEN, Reason(ReasonKind.GOALS_OPEN))
     return Judgement(Verdict.PASS)

@@ -28,11 +28,10 @@ from runtime.executive.rendering import (
     event_text,
     goal_text,
     reason_text,
-    token_name,
     token_text,
 )
 
-ORIGINS = {
+_ORIGINS = {
     ElementKind.CLOCK: " (by the clock)",
     ElementKind.OBSERVATION: " (as observed)",
     ElementKind.REQUEST: " (as asked for)",
@@ -62,7 +61,7 @@ def step_text(step: Step, story: Story) -> str:
         case ConflictElement() as element:
             return _element_text(element)
         case Deadlock() as deadlock:
-            tried = ", ".join(choice_text(choice) for choice in deadlock.tried)
+            tried = ", ".join(choice_text(one.choice) for one in deadlock.tried)
             return f"{deadlock_text(deadlock)}; tried in vain: {tried}" if tried else deadlock_text(deadlock)
         case Abort() | None as abort:
             return _end_text(abort, story)
@@ -130,8 +129,8 @@ def _element_text(element: ConflictElement) -> str:
     """What an element says, whose it is, and, where no line of the model says it, what does."""
     text = element_text(element)
     if element.token is not None and not element.names(element.token):
-        text = f"{token_name(element.token)}: {text}"
-    return text + ORIGINS.get(element.kind, "")
+        text = f"{element.token}: {text}"
+    return text + _ORIGINS.get(element.kind, "")
 
 
 def _end_text(abort: Abort | None, story: Story) -> str:

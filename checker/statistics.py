@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from runtime.executive.normal import normal_quantile
 
-DIGITS = 9  # to which intervals are rounded, so that the last bits of `lgamma` reach no report
+_DIGITS = 9  # to which intervals are rounded, so that the last bits of `lgamma` reach no report
 Interval = tuple[float, float]
 
 
@@ -39,7 +39,7 @@ def judge_rate(failures: int, missions: int, limit: float, confidence: float) ->
     exact = exact_interval(failures, missions, confidence)
     exceeds = observed > limit
     is_certain = exact[0] > limit if exceeds else exact[1] <= limit
-    return Rate(failures, missions, round(observed, DIGITS), confidence, wilson, exact, limit, exceeds, is_certain)
+    return Rate(failures, missions, round(observed, _DIGITS), confidence, wilson, exact, limit, exceeds, is_certain)
 
 
 def wilson_interval(failures: int, missions: int, confidence: float) -> Interval:
@@ -53,7 +53,7 @@ def wilson_interval(failures: int, missions: int, confidence: float) -> Interval
     scale = 1.0 + z * z / missions
     lower = 0.0 if failures == 0 else max(0.0, (centre - spread) / scale)
     upper = 1.0 if failures == missions else min(1.0, (centre + spread) / scale)
-    return (round(lower, DIGITS), round(upper, DIGITS))
+    return (round(lower, _DIGITS), round(upper, _DIGITS))
 
 
 def exact_interval(failures: int, missions: int, confidence: float) -> Interval:
@@ -66,7 +66,7 @@ def exact_interval(failures: int, missions: int, confidence: float) -> Interval:
         lower = _solve(lambda share: incomplete_beta(failures, missions - failures + 1, share), tail)
     if failures < missions:  # P(at most `failures` | upper) = tail
         upper = _solve(lambda share: incomplete_beta(failures + 1, missions - failures, share), 1.0 - tail)
-    return (round(lower, DIGITS), round(upper, DIGITS))
+    return (round(lower, _DIGITS), round(upper, _DIGITS))
 
 
 def incomplete_beta(a: float, b: float, x: float) -> float:

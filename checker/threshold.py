@@ -22,7 +22,7 @@ from runtime.executive.distributions import DISTRIBUTIONS
 Refly = Callable[[AgentConfiguration, int, int], MissionResult]  # agent, number, seed
 HALVINGS = 30
 NARROW = 1e-5  # of the parameter's range: flights stop there, for floats of the engine are no sharper
-LUCK = 0.01  # a cut of samples alone is believed when chance would bring it less often
+_LUCK = 0.01  # a cut of samples alone is believed when chance would bring it less often
 
 
 class Witness(StrEnum):
@@ -160,7 +160,7 @@ def _sharpen(
     if proved is not None and is_causal is None:
         is_above, edge = proved
         return Threshold(name, own, cut, None, is_above, float(edge.value), not edge.is_safe, (Witness.Z3,), flights)
-    if is_causal is None and cut is not None and cut.luck * len(agent.parameters) < LUCK:
+    if is_causal is None and cut is not None and cut.luck * len(agent.parameters) < _LUCK:
         between = shortest_decimal(min(cut.passing, cut.failing), max(cut.passing, cut.failing))
         return Threshold(name, own, cut, None, cut.is_above, between, False, (Witness.SAMPLES,), 0)
     return None

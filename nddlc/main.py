@@ -24,12 +24,16 @@ COMMANDS = {
     "fmt": ("nddlc.fmt", "Put models into the one style."),
     "load": ("nddlc.load", "Load models and show their tokens and variables."),
     "plan": ("nddlc.plan", "Search a plan for a model."),
+    "run": ("nddlc.run", "Fly one mission, and show what happened."),
+    "replay": ("nddlc.replay", "Fly the mission of a trace again, and say where it departs."),
+    "gold": ("nddlc.gold", "Compare a mission with how it was accepted to be."),
     "check": ("nddlc.check", "Fly the missions of a mission file, and say what fails and why."),
     "explain": ("nddlc.explain", "Explain why one mission of a run failed."),
     "lsp": ("nddlc.lsp", "Serve an editor over standard input and output."),
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
-PLANNING = ("load", "plan", "check", "explain")  # what is slow where the engine is not compiled
+# What is slow where the engine is not compiled.
+PLANNING = ("load", "plan", "run", "replay", "gold", "check", "explain")
 UNUSABLE, BUG, INTERRUPTED = 2, 3, 130
 MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
 FORBIDDEN = (errno.EACCES, errno.EPERM, errno.ELOOP, errno.ENAMETOOLONG)

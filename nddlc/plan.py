@@ -23,7 +23,8 @@ from runtime.plan.tags import REJECTED
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.limits import Limits, model_limits
 from runtime.solver.configuration.read import read_configuration
-from runtime.solver.learning.failure_log import FailedFlaw, FailureLog
+from runtime.solver.learning.attempts import FailedFlaw
+from runtime.solver.learning.failure_log import FailureLog
 from runtime.solver.learning.rendering import as_data, story
 from runtime.solver.search import Solver
 from runtime.solver.tags import PLAN, RESULT_NAMES

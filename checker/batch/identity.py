@@ -9,7 +9,7 @@ from pathlib import Path
 
 from runtime.executive.configuration import AgentConfiguration
 
-ID_LENGTH = 8
+_ID_LENGTH = 8
 ROOT = Path(__file__).resolve().parents[2]
 ENGINE = ("nddl_lang", "compiler", "runtime")
 
@@ -36,4 +36,4 @@ def run_id(agent: AgentConfiguration, models: str, seed: int, missions: int, eng
     content = asdict(agent)
     del content["root"], content["constraint_seconds"]
     text = json.dumps([content, models, seed, missions, engine], sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()[:ID_LENGTH]
+    return hashlib.sha256(text.encode()).hexdigest()[:_ID_LENGTH]

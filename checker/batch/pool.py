@@ -22,9 +22,9 @@ from checker.oracle import USER_CODE
 from runtime.executive.configuration import AgentConfiguration
 from runtime.user.fault import UserCodeError
 
-LARGEST_CHUNK = 16
-START_LIMIT = 120.0  # seconds for a worker to load the models
-FAILED_STARTS = 3  # workers in a row that may die before they are ready
+_LARGEST_CHUNK = 16
+_START_LIMIT = 120.0  # seconds for a worker to load the models
+_FAILED_STARTS = 3  # workers in a row that may die before they are ready
 
 
 class WorkerError(Exception):
@@ -69,7 +69,7 @@ class Flyer:
         task = Task(number, seed, agent)
         if self._worker is None:
             self._worker = _Worker(self._load, self._agent)
-            if not self._worker.connection.poll(START_LIMIT):
+            if not self._worker.connection.poll(_START_LIMIT):
                 return self._lost(task, "the process did not start")
             message = self._heard()
             if isinstance(message, LoadFailure):
@@ -110,7 +110,7 @@ class _Worker:
         other.close()
         self.owed: deque[Task] = deque()
         self.is_ready = False
-        self.deadline = time.monotonic() + START_LIMIT
+        self.deadline = time.monotonic() + _START_LIMIT
 
     def give(self, chunk: list[Task], time_limit: float) -> None:
         self.owed.extend(chunk)
@@ -137,7 +137,7 @@ class _Pool:
         self.load, self.agent, self.time_limit, self.take = load, agent, time_limit, take
         self.waiting = deque(tasks)
         self.missing = len(tasks)
-        self.chunk = max(1, min(LARGEST_CHUNK, len(tasks) // (workers * 4)))
+        self.chunk = max(1, min(_LARGEST_CHUNK, len(tasks) // (workers * 4)))
         self.failed_starts = 0
         self.workers = [_Worker(load, agent) for _ in range(workers)]
 
@@ -200,7 +200,7 @@ class _Pool:
             self.take(error_result(worker.owed.popleft(), reason, code=code))
         elif not worker.is_ready:
             self.failed_starts += 1
-            if self.failed_starts >= FAILED_STARTS:
+            if self.failed_starts >= _FAILED_STARTS:
                 raise WorkerError(f"workers end before they are ready: {reason}")
         self.waiting.extendleft(reversed(worker.owed))
         self.workers.remove(worker)
@@ -209,9 +209,9 @@ class _Pool:
 
 
 def _unloaded(failure: LoadFailure) -> Exception:
-    """Who is to blame for models that a worker cannot load."""
-    if failure.blame:
-        return UserCodeError(failure.blame, failure.detail, failure.advice)
+    """The exception for models that a worker cannot load."""
+    if failure.user_error:
+        return UserCodeError(failure.user_error, failure.detail, failure.advice)
     return WorkerError(failure.detail)
 
 

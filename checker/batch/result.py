@@ -92,13 +92,18 @@ def _fits(kind: Any, value: Any) -> bool:
     """Whether JSON says a value of type `kind` as it says `value`; numbers, texts and None need no reading."""
     match value:
         case dict():
-            return _is_record(kind)
+            return _is_record(kind) and value.keys() <= _hints(kind).keys() and value.keys() >= _needed(kind)
         case list():
             return get_origin(kind) is tuple
         case str():
             return _is_enum(kind)
         case _:
             return False
+
+
+def _needed(kind: Any) -> set[str]:
+    """The fields without a default."""
+    return {one.name for one in fields(kind) if one.default is MISSING}
 
 
 def _is_record(kind: Any) -> bool:

@@ -11,8 +11,8 @@ from checker.oracle import Verdict
 
 LATEST = "latest"
 FOLDER = ".nddlc"
-COMMIT_EVERY = 64  # results
-VERSION = 2  # of the schema and of `write_result`; other versions are not read
+_COMMIT_EVERY = 64  # results
+_VERSION = 2  # of the schema and of `write_result`; other versions are not read
 SCHEMA = """
 CREATE TABLE IF NOT EXISTS runs (
     turn INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -72,7 +72,7 @@ class RunStore:
     def add(self, run: Run, result: MissionResult) -> None:
         """Keep a result; it is on disk after the next `flush` at the latest."""
         self._pending.append((run.id, result.number, result.verdict.value, write_result(result)))
-        if len(self._pending) >= COMMIT_EVERY:
+        if len(self._pending) >= _COMMIT_EVERY:
             self.flush()
 
     def flush(self) -> None:
@@ -132,11 +132,11 @@ def _prepare(connection: sqlite3.Connection, path: Path) -> None:
     """Make the tables of a new store; refuse one that another version of nddlc has written."""
     (version,) = connection.execute("PRAGMA user_version").fetchone()
     if connection.execute("SELECT COUNT(*) FROM sqlite_master").fetchone() == (0,):
-        version = VERSION
-    if version != VERSION:
+        version = _VERSION
+    if version != _VERSION:
         connection.close()
-        what = f"the store `{path}` has format {version or 1}, this nddlc reads format {VERSION}"
+        what = f"the store `{path}` has format {version or 1}, this nddlc reads format {_VERSION}"
         raise StoreError(f"{what}: delete it, or keep it and name another")
     connection.execute("PRAGMA journal_mode = WAL")
     connection.execute("PRAGMA synchronous = NORMAL")
-    connection.executescript(f"PRAGMA user_version = {VERSION};{SCHEMA}")
+    connection.executescript(f"PRAGMA user_version = {_VERSION};{SCHEMA}")

@@ -34,11 +34,11 @@ class Task:
 class LoadFailure:
     """What a worker says when it cannot load the models: a bug of ours, for they were checked before.
 
-    Unless code of the project is to blame, which was not checked in this process; then that is said in `blame`.
+    Unless code of the project is to blame, which was not checked in this process; then that is said in `user_error`.
     """
 
     detail: str
-    blame: str = ""
+    user_error: str = ""
     advice: str = ""
 
 

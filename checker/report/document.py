@@ -17,19 +17,19 @@ from checker.report.wording import verdict_word
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.rendering import element_text
 
-FORMAT = "nddlc-report/1"
+_FORMAT = "nddlc-report/1"
 
 
 def json_report(findings: Findings, excerpts: Excerpts) -> str:
     """The report as JSON text."""
-    return json.dumps(report_data(findings, excerpts), ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+    return json.dumps(_report_data(findings, excerpts), ensure_ascii=False, indent=1, allow_nan=False) + "\n"
 
 
-def report_data(findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
+def _report_data(findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
     """The report as plain data."""
     rate, agent = findings.rate, findings.agent
     return {
-        "format": FORMAT,
+        "format": _FORMAT,
         "run": findings.run_id,
         "name": agent.name,
         "seed": findings.seed,

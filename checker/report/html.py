@@ -18,7 +18,7 @@ from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.distributions import DISTRIBUTIONS
 from runtime.executive.outcome import SourcePlace
 
-MOST_ROWS = 1000
+_MOST_ROWS = 1000
 COLOURS = 6
 
 
@@ -182,7 +182,7 @@ def _rows(findings: Findings, results: Sequence[MissionResult]) -> list[str]:
         '<div class="scroll"><table><thead><tr><th class="n">mission</th><th>verdict</th><th class="n">tick</th>'
         f'{captions}<th class="n">seed</th><th>reason</th></tr></thead><tbody>'
     ]
-    for result in results[:MOST_ROWS]:
+    for result in results[:_MOST_ROWS]:
         last = {draw.parameter: draw.value for draw in (result.outcome.draws if result.outcome else ())}
         values = "".join(f'<td class="n">{number(last[name]) if name in last else ""}</td>' for name in names)
         fault = fault_of.get(result.number)
@@ -195,6 +195,6 @@ def _rows(findings: Findings, results: Sequence[MissionResult]) -> list[str]:
             f"<td>{_words(failure_text(result.judgement, result.open_goals))}</td></tr>"
         )
     parts.append("</tbody></table></div>")
-    if len(results) > MOST_ROWS:
-        parts.append(f'<p class="soft">{len(results) - MOST_ROWS} more are in the JSON report.</p>')
+    if len(results) > _MOST_ROWS:
+        parts.append(f'<p class="soft">{len(results) - _MOST_ROWS} more are in the JSON report.</p>')
     return parts

@@ -11,7 +11,7 @@ from checker.threshold import Threshold
 
 WIDTH, MARGIN = 760.0, 14.0
 GOLDEN = 0.6180339887498949  # multiples of it spread evenly, so that dots of near values do not hide each other
-MOST_DOTS = 1500
+_MOST_DOTS = 1500
 Box = tuple[float, float]
 
 
@@ -122,7 +122,7 @@ def _horizontal(axis: Axis, floor: float, unit: str = "") -> Iterator[str]:
 def _drawn(dots: Sequence[Dot]) -> list[Dot]:
     """The dots to draw, failing ones last and all of them; of very many passing ones an even selection."""
     passing = [dot for dot in dots if dot.fault is None]
-    every = max(1, -(-len(passing) // MOST_DOTS))
+    every = max(1, -(-len(passing) // _MOST_DOTS))
     return [*passing[::every], *(dot for dot in dots if dot.fault is not None)]
 
 

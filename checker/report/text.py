@@ -7,8 +7,8 @@ from checker.rendering import confirmation_text, failure_text, threshold_text
 from checker.report.wording import blamed, decision, fault_title, headline, rate_line
 from checker.sampling.wording import describe
 
-MOST_FAULTS = 5
-MOST_ERRORS = 3
+_MOST_FAULTS = 5
+_MOST_ERRORS = 3
 
 
 def text_report(findings: Findings, excerpts: Excerpts) -> str:
@@ -16,7 +16,7 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
     lines = [headline(findings), f"  {decision(findings)}", f"  {rate_line(findings.rate)}"]
     lines.append(f"  run {findings.run_id}, seed {findings.seed}")
     lines += [f"  {parameter.name}: {describe(parameter)}" for parameter in findings.agent.parameters]
-    for index, fault in enumerate(findings.faults[:MOST_FAULTS]):
+    for index, fault in enumerate(findings.faults[:_MOST_FAULTS]):
         bucket = fault.bucket
         lines += [
             "",
@@ -31,10 +31,10 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
         if fault.confirmation is not None:
             lines.append(f"   z3 {confirmation_text(fault)}")
         lines.append(f"   why: nddlc explain {findings.run_id}#{bucket.example}")
-    if len(findings.faults) > MOST_FAULTS:
-        lines += ["", f"{len(findings.faults) - MOST_FAULTS} more kinds of failure are in the report"]
+    if len(findings.faults) > _MOST_FAULTS:
+        lines += ["", f"{len(findings.faults) - _MOST_FAULTS} more kinds of failure are in the report"]
     if findings.errors:
         lines += ["", f"errors {blamed(findings)}, counted nowhere: {len(findings.errors)}"]
-        for error in findings.errors[:MOST_ERRORS]:
+        for error in findings.errors[:_MOST_ERRORS]:
             lines.append(f"   mission {error.number} (seed {error.seed}): {failure_text(error.judgement)}")
     return "\n".join(lines) + "\n"

@@ -2,7 +2,7 @@
 
 from runtime.executive.chance import draw_bits
 
-WORD = 0xFFFFFFFF
+_WORD = 0xFFFFFFFF
 
 
 def mission_seed(batch_seed: int, number: int) -> int:
@@ -12,10 +12,10 @@ def mission_seed(batch_seed: int, number: int) -> int:
     of MurmurHash3's 32-bit finaliser, keyed by the batch seed's own stream.
     """
     keys = draw_bits(batch_seed, "mission seeds", 0)
-    return _stir(_stir((number & WORD) ^ (keys & WORD)) ^ (keys >> 32))
+    return _stir(_stir((number & _WORD) ^ (keys & _WORD)) ^ (keys >> 32))
 
 
 def _stir(word: int) -> int:
-    word = ((word ^ (word >> 16)) * 0x85EBCA6B) & WORD
-    word = ((word ^ (word >> 13)) * 0xC2B2AE35) & WORD
+    word = ((word ^ (word >> 16)) * 0x85EBCA6B) & _WORD
+    word = ((word ^ (word >> 13)) * 0xC2B2AE35) & _WORD
     return word ^ (word >> 16)

@@ -12,10 +12,12 @@ from typing import Any
 
 import z3
 
-from runtime.executive.outcome import Conflict, Operand, Term, VariableName
-from runtime.executive.rendering import variable_name
+from runtime.executive.outcome import Conflict
+from runtime.plan.readout.names import VariableName
+from runtime.plan.readout.statements import Argument, Term
 
-ENGINE_INFINITY = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
+_ENGINE_INFINITY = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
+_NAMED = ("symbol", "object", "string")  # kinds whose values are names
 Number = Any  # z3.ArithRef: z3 tells type checkers nothing
 Claim = Any  # z3.BoolRef
 Encoder = Callable[[Sequence[Number]], Claim | None]
@@ -30,11 +32,11 @@ class Vocabulary:
         self.freed = freed
         self._symbols: dict[str, int] = {}
 
-    def number(self, operand: Operand) -> Number:
+    def number(self, operand: Argument) -> Number:
         """A variable, a number, or the number of a symbol."""
         match operand:
             case VariableName():
-                name = f"{operand.reactor}:{variable_name(operand)}"
+                name = f"{operand.reactor}:{operand}"
                 return z3.Real(name) if operand.kind == "float" else z3.Int(name)
             case str():
                 return z3.IntVal(self._symbols.setdefault(operand, len(self._symbols)))
@@ -55,10 +57,7 @@ class Vocabulary:
     def encode(self, term: Term) -> Claim | None:
         """What `term` demands; None where it has no translation."""
         if term.name == "bounds":
-            return self._bounds(*term.arguments)
-        if term.name == "member":
-            variable, *values = [self.number(one) for one in term.arguments]
-            return z3.Or(*[variable == value for value in values])
+            return self._bounds(term)
         if term.name == "sampledParameter":
             variable, name, value = term.arguments[:3]
             target = self.number(variable)
@@ -68,12 +67,15 @@ class Vocabulary:
         encoder = ENCODERS.get(term.name)
         return None if encoder is None else encoder([self.number(one) for one in term.arguments])
 
-    def _bounds(self, variable: Operand, lower: Operand, upper: Operand) -> Claim:
+    def _bounds(self, term: Term) -> Claim:
+        variable, lower, upper = term.arguments
         number = self.number(variable)
+        if term.values and isinstance(variable, VariableName) and variable.kind in _NAMED:
+            return z3.Or(*[number == self.number(value) for value in term.values])
         parts = []
-        if not (isinstance(lower, int | float) and lower <= -ENGINE_INFINITY):
+        if not (isinstance(lower, int | float) and lower <= -_ENGINE_INFINITY):
             parts.append(number >= self.number(lower))
-        if not (isinstance(upper, int | float) and upper >= ENGINE_INFINITY):
+        if not (isinstance(upper, int | float) and upper >= _ENGINE_INFINITY):
             parts.append(number <= self.number(upper))
         return z3.And(*parts)
 

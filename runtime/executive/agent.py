@@ -15,11 +15,11 @@ from runtime.executive.outcome import (
     Phase,
     Reason,
     ReasonKind,
-    Term,
     TimeBounds,
 )
 from runtime.executive.reactor import Failure, Reactor, Refusal
 from runtime.executive.trace import Trace
+from runtime.plan.readout.statements import Term
 
 
 class OwnershipError(ValueError):
@@ -111,9 +111,11 @@ class Agent:
             self._advance(last)
         left = [goal for reactor in [*self.killed, *self.reactors] for goal in reactor.open_goals()]
         left += [OpenGoal(r.timeline, r.predicate, r.arguments) for _, r in self.unsent if r.is_mandatory]
+        if last < final_tick:
+            left = [goal for goal in left if goal.reason is not None]  # the others may still be achieved
         self.trace.phase = Phase.END
         if abort is None:
-            self.trace.record(EventKind.END, "")
+            self.trace.record(EventKind.END, "", code="F10" if left and not self.killed else "")
         return Outcome(
             self.seed,
             self.tick,

@@ -16,7 +16,7 @@ MASK = (1 << 64) - 1
 GOLDEN = 0x9E3779B97F4A7C15  # 2**64 / golden ratio: the increment of SplitMix64 (Steele, Lea, Flood 2014)
 
 
-def mix(word: int) -> int:
+def _mix(word: int) -> int:
     """The 64-bit finaliser of SplitMix64: a bijection in which every input bit reaches every output bit."""
     word = ((word ^ (word >> 30)) * 0xBF58476D1CE4E5B9) & MASK
     word = ((word ^ (word >> 27)) * 0x94D049BB133111EB) & MASK
@@ -24,17 +24,17 @@ def mix(word: int) -> int:
 
 
 @lru_cache(maxsize=1024)
-def stream(seed: int, name: str) -> int:
+def _stream(seed: int, name: str) -> int:
     """Where the stream of `name` starts: FNV-1a of its UTF-8 bytes, stirred together with the seed."""
     digest = 0xCBF29CE484222325
     for byte in name.encode("utf-8"):
         digest = ((digest ^ byte) * 0x100000001B3) & MASK
-    return mix((mix((seed + GOLDEN) & MASK) + digest) & MASK)
+    return _mix((_mix((seed + GOLDEN) & MASK) + digest) & MASK)
 
 
 def draw_bits(seed: int, name: str, index: int) -> int:
-    """64 random bits: output `index` of SplitMix64 started at `stream(seed, name)`, reached without the ones before."""
-    return mix((stream(seed, name) + (index + 1) * GOLDEN) & MASK)
+    """64 random bits: output `index` of SplitMix64 started at `_stream(seed, name)`, without the ones before."""
+    return _mix((_stream(seed, name) + (index + 1) * GOLDEN) & MASK)
 
 
 def draw(seed: int, name: str, index: int) -> float:

@@ -1,10 +1,11 @@
 """Decide which planned tokens are asked of the owners of their timelines, and when requests are taken back."""
 
 from runtime.executive.messages import Request
-from runtime.executive.outcome import EventKind, TimeBounds, TokenName
+from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
+from runtime.plan.readout.names import TokenName
 
 INFINITY = 4503599627370495
 
@@ -41,10 +42,6 @@ class Dispatch:
         latency, lookahead = self.owner_windows.get(line.name, (0, 1))
         return latency + lookahead
 
-    def own_end(self, line: TimelineState) -> int:
-        """The current token of a timeline if its end is nobody's business but of the next one's; else NOTHING."""
-        return NOTHING if line.current == NOTHING or self.is_asked(line.current) else line.current
-
     def takes_requests(self, line: TimelineState) -> bool:
         """Whether the owner of a timeline may be asked: the model must allow it, and who looks ahead by 0 never is."""
         return self.bench.accepts_requests(line.object_id) and self.owner_windows.get(line.name, (0, 1))[1] > 0
@@ -52,28 +49,42 @@ class Dispatch:
     def requests(self, tick: int, final_tick: int) -> list[Request]:
         """Planned tokens on others' timelines that are due to be asked for (T-REX 1.8).
 
-        That is as soon as the earliest start lies inside the owner's window. What cannot begin before the mission ends
-        is not asked for.
+        They are asked for one after the other: what the plan puts behind a token whose end is still to be observed
+        waits. What cannot begin before the mission ends is not asked.
         """
         asked = []
         for line in self.timelines:
             if line.is_internal or not self.takes_requests(line):
                 continue
-            reach = max(tick + self.notice(line), tick + 1)
-            for token in self.bench.planned_after(line.object_id, line.current):
-                start = self.bench.start(token)
-                # What has not started may do so from the next tick on.
-                if self.bench.lower(start) > reach or self.bench.lower(start) >= final_tick:
-                    break
-                key = self.bench.key(token)
-                if key in self.sent:
-                    continue
-                if self.bench.is_blocked(token, self.own_end(line), tick):
-                    break
+            token = self.next_request(line)
+            if token == NOTHING or self.bench.lower(self.bench.start(token)) >= final_tick:
+                continue
+            if self.due_time(line, token, tick) > tick:
+                continue
+            if not self.bench.is_blocked(token, line.current, tick):
                 asked.append(self._ask(line, token, tick))
-                self.sent[key] = asked[-1]
-                self.sent_tokens[key] = token
+                self.sent[self.bench.key(token)] = asked[-1]
+                self.sent_tokens[self.bench.key(token)] = token
         return asked
+
+    def due_time(self, line: TimelineState, token: int, tick: int) -> float:
+        """The tick at which the owner is to be asked for a token (T-REX 1.8).
+
+        That is as soon as its earliest start is in the owner's window; its latest, where it follows from a token of
+        this reactor that has not begun and that begins as late as it may.
+        """
+        start = self.bench.start(token)
+        is_late = self.bench.waits_for_own(token, tick)
+        time = self.bench.upper(start) if is_late else self.bench.lower(start)
+        # What has not started may do so from the next tick on.
+        return time - max(self.notice(line), 1)
+
+    def next_request(self, line: TimelineState) -> int:
+        """The planned token that is to be asked for next; NOTHING while another is open, or where none is planned."""
+        if line.current != NOTHING and self.is_asked(line.current):
+            return NOTHING
+        token = self.bench.next_of(line.object_id, line.current)
+        return NOTHING if token == NOTHING or self.is_asked(token) else token
 
     def _ask(self, line: TimelineState, token: int, tick: int) -> Request:
         bench = self.bench

@@ -10,8 +10,8 @@ from math import floor
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.normal import normal_quantile
 
-SQRT_12 = 3.4641016151377544
-BELOW_RANGE = 0.04163225833177522  # Phi(-sqrt(3)): a moment-matched normal lies below its range this often
+_SQRT_12 = 3.4641016151377544
+_BELOW_RANGE = 0.04163225833177522  # Phi(-sqrt(3)): a moment-matched normal lies below its range this often
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,14 +41,14 @@ def _uniform(parameter: ParameterConfiguration, share: float) -> float:
 def _normal(parameter: ParameterConfiguration, share: float) -> float:
     """Mean and variance are those of the uniform: 4.2 % of the draws lie beyond either end (founding paper, 4)."""
     lower, upper = parameter.lower, parameter.upper
-    return (lower + upper) / 2.0 + (upper - lower) / SQRT_12 * normal_quantile(_inner(share))
+    return (lower + upper) / 2.0 + (upper - lower) / _SQRT_12 * normal_quantile(_inner(share))
 
 
 def _truncated_normal(parameter: ParameterConfiguration, share: float) -> float:
     """The same, held inside the range."""
     lower, upper = parameter.lower, parameter.upper
-    inside = BELOW_RANGE + _inner(share) * (1.0 - 2.0 * BELOW_RANGE)
-    value = (lower + upper) / 2.0 + (upper - lower) / SQRT_12 * normal_quantile(inside)
+    inside = _BELOW_RANGE + _inner(share) * (1.0 - 2.0 * _BELOW_RANGE)
+    value = (lower + upper) / 2.0 + (upper - lower) / _SQRT_12 * normal_quantile(inside)
     return min(max(value, lower), upper)
 
 

@@ -17,10 +17,10 @@ def normal_quantile(share: float) -> float:
     offset = share - 0.5
     if abs(offset) <= 0.425:
         r = 0.180625 - offset * offset
-        return offset * _ratio(r, CENTRE)
+        return offset * _ratio(r, _CENTRE)
     tail = share if offset < 0.0 else 1.0 - share
     r = sqrt(-natural_logarithm(tail))
-    value = _ratio(r - 1.6, MIDDLE) if r <= 5.0 else _ratio(r - 5.0, FAR)
+    value = _ratio(r - 1.6, _MIDDLE) if r <= 5.0 else _ratio(r - 5.0, _FAR)
     return -value if offset < 0.0 else value
 
 
@@ -46,7 +46,7 @@ def _ratio(r: float, coefficients: tuple[tuple[float, ...], tuple[float, ...]]) 
     return above / below
 
 
-CENTRE = (
+_CENTRE = (
     (
         2509.0809287301226727,
         33430.575583588128105,
@@ -68,7 +68,7 @@ CENTRE = (
         1.0,
     ),
 )
-MIDDLE = (
+_MIDDLE = (
     (
         7.7454501427834140764e-4,
         0.0227238449892691845833,
@@ -90,7 +90,7 @@ MIDDLE = (
         1.0,
     ),
 )
-FAR = (
+_FAR = (
     (
         2.01033439929228813265e-7,
         2.71155556874348757815e-5,

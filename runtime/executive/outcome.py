@@ -9,6 +9,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from runtime.executive.messages import Arguments
+from runtime.plan.readout.names import TokenName, VariableName
+from runtime.plan.readout.statements import Term, Violation
+from runtime.solver.learning.attempts import Flaw, Resolver
 
 # ---- names ----
 
@@ -23,48 +26,7 @@ class SourcePlace:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class TokenName:
-    """A token of one reactor: `Class.predicate`, and a number that the reactor never uses again."""
-
-    predicate: str
-    key: int
-
-
-@dataclass(frozen=True, slots=True)
-class VariableName:
-    """A variable of one reactor, with its kind (int, float, bool, symbol, object, string).
-
-    `token` owns it; without one it is a global variable. `is_local`: a rule of the token declares it (or needs it for
-    a part of an expression), else it is a parameter or a time of the token.
-    """
-
-    name: str
-    kind: str
-    token: TokenName | None = None
-    is_local: bool = False
-    reactor: str = ""
-
-
 # ---- conflicts ----
-
-Operand = VariableName | int | float | str  # a variable, a number, or the name of a symbol, an object, a parameter
-
-
-@dataclass(frozen=True, slots=True)
-class Term:
-    """One constraint of a conflict, for a judge that knows nothing of the engine.
-
-    `name` is a row of the constraint registry (`eq`, `mulEq`, `leq`, ...), or
-
-    * `precedence` (source, target, bound): target - source <= bound,
-    * `bounds` (variable, lower, upper): a base domain, infinite bounds as ±inf,
-    * `member` (variable, value, ...): a base domain that lists its values,
-    * `sampledParameter` (variable, parameter, value): a draw.
-    """
-
-    name: str
-    arguments: tuple[Operand, ...]
 
 
 class ElementKind(StrEnum):
@@ -80,6 +42,8 @@ class ElementKind(StrEnum):
     REQUEST = "request"
     CLOCK = "clock"  # what has not happened can only happen later
     ORDER = "order"  # the executive's or the planner's decision about the order of tokens
+    DECISION = "decision"  # a value, or a merge, that the planner has decided
+    RESOURCE = "resource"  # a resource that is used too much
     LONGEST = "longest"  # a token lasts as long as the model allows
     SHARED_END = "shared end"  # an observed token lasts as long as its owner's
 
@@ -97,13 +61,13 @@ class ConflictElement:
     place: SourcePlace | None
     rule: str
     token: TokenName | None
-    says: Term | None
+    says: Term | Violation | None
     terms: tuple[Term, ...]
     observed: tuple[str, str] | None = None
 
     def names(self, token: TokenName) -> bool:
         """Whether what it says speaks of `token`."""
-        operands = self.says.arguments if self.says is not None else ()
+        operands = self.says.arguments if isinstance(self.says, Term) else ()
         is_about = self.kind is ElementKind.LONGEST and self.token == token
         return is_about or any(isinstance(one, VariableName) and one.token == token for one in operands)
 
@@ -125,41 +89,39 @@ class Conflict:
 
 
 class ChoiceKind(StrEnum):
-    """A way to mend a flaw of the plan, or to settle a timeline now."""
+    """A way to settle a timeline now (T-REX 1.4)."""
 
-    ACTIVATE = "activate"
-    MERGE = "merge"  # into `other`
-    REJECT = "reject"
-    ORDER = "order"  # before `other`
-    SPECIFY = "specify"  # `variable` gets `value`
     EXTEND = "extend"  # the present token goes on
     NEXT = "next"  # the planned token starts
     NEW = "new"  # a token of `predicate` starts
     OBSERVE = "observe"  # what was observed stands by itself
-    MEET = "meet"  # what was observed is the planned token `other`
+    MEET = "meet"  # what was observed is the planned token
+
+
+@dataclass(frozen=True, slots=True)
+class PresentChoice:
+    """What might hold on a timeline now."""
+
+    kind: ChoiceKind
+    token: TokenName | None = None
+    predicate: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class FailedChoice:
     """A choice that was tried and failed: by `conflict`, or because nothing mends the flaw that it leads to."""
 
-    kind: ChoiceKind
-    token: TokenName | None
-    other: TokenName | None = None
-    predicate: str = ""
-    variable: VariableName | None = None
-    value: Operand | None = None
+    choice: Resolver | PresentChoice
     conflict: Conflict | None = None
     leads_to: "Deadlock | None" = None
 
 
 @dataclass(frozen=True, slots=True)
 class Deadlock:
-    """A flaw that no choice mends: the token, timeline or variable to decide, and each choice that was tried."""
+    """A flaw of the plan, or a timeline of the present, for which no choice is left, with each that was tried."""
 
-    token: TokenName | None
+    flaw: Flaw | None
     timeline: str = ""
-    variable: VariableName | None = None
     tried: tuple[FailedChoice, ...] = ()
 
 

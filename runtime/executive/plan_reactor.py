@@ -5,17 +5,7 @@ from runtime.executive.dispatch import Dispatch
 from runtime.executive.draws import Draws
 from runtime.executive.goals import Goals
 from runtime.executive.messages import Observation, Request
-from runtime.executive.outcome import (
-    Conflict,
-    ElementKind,
-    EventKind,
-    OpenGoal,
-    Phase,
-    Reason,
-    ReasonKind,
-    RepairStage,
-    VariableName,
-)
+from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.planning import Planner
 from runtime.executive.reactor import Failure, Refusal, Watched
 from runtime.executive.repair import relax
@@ -24,6 +14,7 @@ from runtime.executive.synchronise import Unsettled, settle
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
+from runtime.plan.readout.names import VariableName
 
 
 class HistoryError(RuntimeError):
@@ -60,6 +51,8 @@ class PlanReactor:
         self.timelines += [bench.timeline(name, False) for name in self.external]
         for line in self.timelines:
             line.is_early = line.name in configuration.early
+            line.is_late = line.name in configuration.late
+        bench.late_objects = {line.object_id for line in self.timelines if line.is_internal and not line.is_early}
         self.by_name = {line.name: line for line in self.timelines}
         self.goals = Goals(self.name, bench, self.timelines, trace)
         self.tick = 0
@@ -76,6 +69,7 @@ class PlanReactor:
         """Take note of when owners want to be asked; its own window counts what they need (T-REX 1.1)."""
         self.dispatch.owner_windows = windows
         self.reach = execution_latency + max(self.lookahead, 1)
+        self.planner.window.is_reactive = self.lookahead <= 1
 
     # ---- the tick ----
 
@@ -113,15 +107,15 @@ class PlanReactor:
             if line.current != NOTHING:
                 times.append(bench.upper(bench.end(line.current)))
             for token in bench.planned_after(line.object_id, line.current):
-                start = bench.start(token)
-                times.append(bench.upper(start))
-                if line.is_internal:
-                    if not bench.is_blocked(token, self.dispatch.own_end(line), tick):
-                        times.append(bench.lower(start))
-                elif not self.dispatch.is_asked(token) and not bench.is_blocked(
-                    token, self.dispatch.own_end(line), tick
-                ):
-                    times.append(bench.lower(start) - self.dispatch.notice(line))
+                times.append(bench.upper(bench.start(token)))
+            if line.is_internal:
+                token = bench.next_of(line.object_id, line.current)
+                if token != NOTHING and not bench.is_blocked(token, line.current, tick):
+                    times.append(bench.lower(bench.start(token)))
+            else:
+                token = self.dispatch.next_request(line)
+                if token != NOTHING and not bench.is_blocked(token, line.current, tick):
+                    times.append(self.dispatch.due_time(line, token, tick))
         for token in bench.undecided():
             times.append(bench.upper(bench.start(token)))
             if bench.lower(bench.start(token)) > tick + self.reach:
@@ -167,28 +161,11 @@ class PlanReactor:
         return Failure(first.code, first.reason, lines, first.conflict, self.relaxes, repairs, causes, watched)
 
     def _prepare(self, tick: int) -> Unsettled | None:
-        """Draw anew what was drawn for a tick at which its token does not begin, and make way for commands."""
+        """Draw anew what was drawn for a tick at which its token does not begin."""
         for token in self.draws.outdated(self.bench, tick):
             if not self.bench.renew(token):
                 return Unsettled("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
-        if any(goal.request.start[0] <= tick for goal in self.goals.live()) and not self._make_way(tick):
-            return Unsettled("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
         return None
-
-    def _make_way(self, tick: int) -> bool:
-        """Undo what binds the present to tokens that the model alone plans, where what was asked for could begin."""
-        waiting = [
-            goal.token
-            for goal in self.goals.live()
-            if self.bench.is_active(goal.token) and not self.bench.is_started(goal.token, tick - 1)
-        ]
-        if waiting and self.lookahead <= 1:
-            for line in self.timelines:
-                if line.is_internal and line.current != NOTHING:
-                    for token in self.bench.merged_early(line.current, tick):
-                        if not self.bench.renew(token):
-                            return False
-        return True
 
     def _settle(self, tick: int) -> Unsettled | None:
         """Settle the present, or leave the plan as it was."""
@@ -235,6 +212,7 @@ class PlanReactor:
                 line.source = line.news
                 line.news = None
             if line.is_internal and line.current != NOTHING and self.bench.started_at(line.current) == tick:
+                self.bench.make_values(line.current)
                 arguments = self.bench.arguments(line.current)
                 predicate = self.bench.short_name(line.current)
                 causes = self._causes_of(line)

@@ -20,7 +20,11 @@ class LimitError(RuntimeError):
 
 
 class Window(PlanningScope):
-    """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7); for the present, those that hold now."""
+    """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7); for the present, those that hold now.
+
+    Who looks one tick ahead plans what was asked for and what others are to do, no more: what else its own timelines
+    begin to hold is settled when the time comes, by what holds then.
+    """
 
     def __init__(self, bench: Workbench) -> None:
         self.bench = bench
@@ -28,6 +32,7 @@ class Window(PlanningScope):
         self.end = 0
         self.final = 0
         self.is_present = False
+        self.is_reactive = False
 
     def admits_token(self, t: int) -> bool:
         """Whether flaws of `t` are to be mended now."""
@@ -38,6 +43,8 @@ class Window(PlanningScope):
                 return False  # what can begin at the end at the earliest is not begun
             return bench.upper(start) <= self.tick < bench.upper(bench.end(t))
         earliest = bench.lower(start)
+        if self.is_reactive and earliest > self.tick and bench.is_internal(t) and not bench.is_due_to_request(t):
+            return False
         return earliest <= self.end and earliest < self.final and bench.upper(bench.end(t)) >= self.tick
 
     def admits_variable(self, v: int) -> bool:

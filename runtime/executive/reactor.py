@@ -4,7 +4,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from runtime.executive.messages import Observation, Request
-from runtime.executive.outcome import Conflict, Deadlock, OpenGoal, Reason, VariableName
+from runtime.executive.outcome import Conflict, Deadlock, OpenGoal, Reason
+from runtime.plan.readout.names import VariableName
 
 
 @dataclass(frozen=True, slots=True)

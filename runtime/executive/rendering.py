@@ -1,7 +1,6 @@
 """Words for what happens in a mission: an event, reason or conflict in, one line out. Nobody else words them."""
 
 import json
-from math import inf
 from typing import Any
 
 from compiler.program import DomainConstant
@@ -14,18 +13,19 @@ from runtime.executive.outcome import (
     ElementKind,
     Event,
     EventKind,
-    FailedChoice,
     OpenGoal,
-    Operand,
+    PresentChoice,
     Reason,
     ReasonKind,
-    Term,
-    TokenName,
-    VariableName,
 )
+from runtime.plan.readout.cause_rendering import words
+from runtime.plan.readout.names import VariableName
+from runtime.plan.readout.statements import Argument
+from runtime.solver.learning.attempts import Resolver
+from runtime.solver.learning.rendering import flaw_words, resolver_words
 
-HALF_INFINITY = 2**51  # bounds beyond count as infinite (docs/engine.md)
-REASONS = {
+_HALF_INFINITY = 2**51  # bounds beyond count as infinite (docs/engine.md)
+_REASONS = {
     ReasonKind.NO_LOOKAHEAD: "its owner does not look ahead and takes no goals",
     ReasonKind.NO_OWNER: "nobody owns `{timeline}` any more",
     ReasonKind.UNKNOWN_PREDICATE: "`{timeline}` has no predicate `{predicate}`",
@@ -51,23 +51,9 @@ REASONS = {
     ReasonKind.GOALS_OPEN: "mandatory goals stayed open",
     ReasonKind.NO_RECORD: "ended at tick {tick} of {limit} without an abort record",
 }
-INFIX = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
-SIGNS = {"addEq": "+", "mulEq": "*", "temporalDistance": "+"}
 
 
 # ---- names and values ----
-
-
-def token_name(token: TokenName) -> str:
-    """A token of the plan: `Gps.Active#7`."""
-    return f"{token.predicate}#{token.key}"
-
-
-def variable_name(variable: VariableName) -> str:
-    """A variable of the plan: `Gps.Active#7.duration`, `Gps.Active#7::rate`, or that of a global one."""
-    if variable.token is None:
-        return variable.name
-    return f"{token_name(variable.token)}{'::' if variable.is_local else '.'}{variable.name}"
 
 
 def domain_text(domain: DomainConstant) -> str:
@@ -85,14 +71,14 @@ def token_text(predicate: str, arguments: Arguments) -> str:
     return f"{predicate}({inside})" if inside else predicate
 
 
-def draw_text(draw: Draw) -> str:
+def _draw_text(draw: Draw) -> str:
     """A drawn value: `GPS_HIT_RATE = 3.9 (drawn 4.2)`."""
     clipped = "" if draw.raw == draw.value else f" (drawn {draw.raw!r})"
     return f"{draw.parameter} = {draw.value!r}{clipped}"
 
 
 def _bound(value: float | int) -> str:
-    return "+inf" if value >= HALF_INFINITY else "-inf" if value <= -HALF_INFINITY else repr(value)
+    return "+inf" if value >= _HALF_INFINITY else "-inf" if value <= -_HALF_INFINITY else repr(value)
 
 
 def _value(value: float | int | bool | str) -> str:
@@ -111,7 +97,7 @@ def event_text(event: Event) -> str:
     match event.kind:
         case EventKind.SAMPLE:
             assert event.draw is not None
-            return draw_text(event.draw)
+            return _draw_text(event.draw)
         case EventKind.RELAX:
             return ": ".join(filter(None, (event.stage, why)))
         case EventKind.END:
@@ -127,9 +113,8 @@ def trace_line(event: Event) -> str:
 
 def reason_text(reason: Reason) -> str:
     """A reason as a clause."""
-    token = token_name(reason.token) if reason.token is not None else ""
-    return REASONS[reason.kind].format(
-        token=token,
+    return _REASONS[reason.kind].format(
+        token=reason.token,
         predicate=reason.predicate,
         timeline=reason.timeline,
         tick=reason.tick,
@@ -151,98 +136,39 @@ def element_text(element: ConflictElement) -> str:
     """What an element of a conflict says."""
     match element.kind:
         case ElementKind.LONGEST:
-            assert element.token is not None
-            return f"{token_name(element.token)} lasts as long as the model lets it"
+            return f"{element.token} lasts as long as the model lets it"
         case ElementKind.SHARED_END:
             assert element.observed is not None
             predicate, timeline = element.observed
             return f"{predicate} on `{timeline}` is observed as long as it lasts"
         case _:
             assert element.says is not None
-            return term_text(element.says)
-
-
-def term_text(term: Term) -> str:
-    """A constraint as a modeler writes it."""
-    match term.name, term.arguments:
-        case "precedence", (source, target, int(weight)) if weight < 0:
-            return f"{operand_text(target)} + {-weight} <= {operand_text(source)}"
-        case "precedence", (source, target, weight):
-            plus = f" + {weight}" if weight else ""
-            return f"{operand_text(target)} <= {operand_text(source)}{plus}"
-        case "bounds", (variable, float() | int() as lower, float() | int() as upper):
-            return _bounds_text(operand_text(variable), lower, upper)
-        case "member", (variable, value):
-            return f"{operand_text(variable)} = {value}"
-        case "member", (variable, *values):
-            return f"{operand_text(variable)} in {{{', '.join(map(operand_text, values))}}}"
-        case "sampledParameter", (variable, parameter, value):
-            return f"{operand_text(variable)} = {parameter} = {value!r}"
-    texts = [operand_text(argument) for argument in term.arguments]
-    if term.name in INFIX and len(texts) == 2:
-        return f"{texts[0]} {INFIX[term.name]} {texts[1]}"
-    if term.name in SIGNS and len(texts) == 3:
-        return f"{texts[0]} {SIGNS[term.name]} {texts[1]} == {texts[2]}"
-    return f"{term.name}({', '.join(texts)})"
-
-
-def operand_text(operand: Operand) -> str:
-    """A variable by its name in the model, a number, or a symbol."""
-    match operand:
-        case VariableName():
-            return variable_name(operand)
-        case str():
-            return operand
-        case _:
-            return repr(operand)
-
-
-def _bounds_text(name: str, lower: float, upper: float) -> str:
-    if lower == upper:
-        return f"{name} = {lower}"
-    if lower == -inf:
-        return f"{name} may be anything" if upper == inf else f"{name} <= {upper}"
-    return f"{name} >= {lower}" if upper == inf else f"{name} in [{lower}, {upper}]"
+            return words(element.says)
 
 
 # ---- what was tried ----
 
 
-def choice_text(choice: FailedChoice) -> str:
+def choice_text(choice: Resolver | PresentChoice) -> str:
     """A choice that was tried, without its conflict."""
-    token = token_name(choice.token) if choice.token is not None else ""
-    other = token_name(choice.other) if choice.other is not None else ""
+    if isinstance(choice, Resolver):
+        return resolver_words(choice)
     match choice.kind:
-        case ChoiceKind.ACTIVATE:
-            return f"activate {token}"
-        case ChoiceKind.MERGE:
-            return f"merge {token} into {other}"
-        case ChoiceKind.REJECT:
-            return f"reject {token}"
-        case ChoiceKind.ORDER:
-            return f"{token} before {other}"
-        case ChoiceKind.SPECIFY:
-            assert choice.variable is not None and choice.value is not None
-            return f"{variable_name(choice.variable)} = {operand_text(choice.value)}"
         case ChoiceKind.EXTEND:
-            return f"{token} goes on"
+            return f"{choice.token} goes on"
         case ChoiceKind.NEXT:
-            return f"{token} starts"
+            return f"{choice.token} starts"
         case ChoiceKind.NEW:
             return f"a new {choice.predicate} starts"
         case ChoiceKind.OBSERVE:
             return f"{choice.predicate} was observed and stands by itself"
         case ChoiceKind.MEET:
-            return f"what was observed is {other}"
+            return f"what was observed is {choice.token}"
 
 
 def deadlock_text(deadlock: Deadlock) -> str:
-    """A flaw that no choice mends."""
-    if deadlock.token is not None:
-        return f"{token_name(deadlock.token)} has no place"
-    if deadlock.variable is not None:
-        return f"{variable_name(deadlock.variable)} has no value"
-    return f"nothing can hold on `{deadlock.timeline}`"
+    """A flaw, or a timeline, for which no choice is left."""
+    return flaw_words(deadlock.flaw) if deadlock.flaw is not None else f"nothing can hold on `{deadlock.timeline}`"
 
 
 # ---- the machine form ----
@@ -262,11 +188,11 @@ def event_data(event: Event) -> dict[str, Any]:
         "reactor": event.reactor,
         "timeline": event.timeline,
         "predicate": event.predicate,
-        "arguments": {name: domain_data(domain) for name, domain in event.arguments},
+        "arguments": {name: _domain_data(domain) for name, domain in event.arguments},
         "causes": list(event.causes),
     }
     if event.token is not None:
-        data["token"] = token_name(event.token)
+        data["token"] = str(event.token)
     if event.request is not None:
         data["request"] = event.request
     if event.bounds is not None:
@@ -280,15 +206,15 @@ def event_data(event: Event) -> dict[str, Any]:
     if event.code:
         data["code"] = event.code
     if event.reason is not None:
-        data["reason"] = reason_data(event.reason)
+        data["reason"] = _reason_data(event.reason)
     if event.conflict is not None:
-        data["conflict"] = [element_data(element) for element in event.conflict.elements]
+        data["conflict"] = [_element_data(element) for element in event.conflict.elements]
     if event.deadlock is not None:
-        data["tried"] = deadlock_data(event.deadlock)
+        data["tried"] = _deadlock_data(event.deadlock)
     return data
 
 
-def domain_data(domain: DomainConstant) -> Any:
+def _domain_data(domain: DomainConstant) -> Any:
     """A domain: a value, `[lo, hi]` or a list; infinite bounds are `-inf` and `inf`."""
     if domain.interval is not None:
         lower, upper = domain.interval
@@ -297,54 +223,54 @@ def domain_data(domain: DomainConstant) -> Any:
     return values[0] if len(values) == 1 else values
 
 
-def reason_data(reason: Reason) -> dict[str, Any]:
+def _reason_data(reason: Reason) -> dict[str, Any]:
     """A reason: its kind, what it is about, and the words for it."""
     found: dict[str, Any] = {"kind": reason.kind.value}
     if reason.token is not None:
-        found["token"] = token_name(reason.token)
+        found["token"] = str(reason.token)
     for name in ("predicate", "timeline", "tick", "limit", "message"):
         if (value := getattr(reason, name)) not in (None, ""):
             found[name] = value
     return found | {"words": reason_text(reason)}
 
 
-def element_data(element: ConflictElement) -> dict[str, Any]:
+def _element_data(element: ConflictElement) -> dict[str, Any]:
     """An element of a conflict."""
     place = element.place
     return {
         "kind": element.kind.value,
         "rule": element.rule,
-        "token": token_name(element.token) if element.token is not None else None,
+        "token": str(element.token) if element.token is not None else None,
         "place": place and {"file": place.file, "line": place.line, "column": place.column, "text": place.text},
-        "terms": [[term.name, *(_operand_data(one) for one in term.arguments)] for term in element.terms],
+        "terms": [[term.name, *map(_argument_data, term.arguments), *term.values] for term in element.terms],
         "words": element_text(element),
     }
 
 
-def deadlock_data(deadlock: Deadlock) -> dict[str, Any]:
+def _deadlock_data(deadlock: Deadlock) -> dict[str, Any]:
     """A flaw, with each choice that was tried and why it failed."""
     return {
         "flaw": deadlock_text(deadlock),
         "choices": [
             {
-                "choice": choice_text(one),
-                "conflict": None if one.conflict is None else [element_data(each) for each in one.conflict.elements],
-                "leads_to": None if one.leads_to is None else deadlock_data(one.leads_to),
+                "choice": choice_text(one.choice),
+                "conflict": None if one.conflict is None else [_element_data(each) for each in one.conflict.elements],
+                "leads_to": None if one.leads_to is None else _deadlock_data(one.leads_to),
             }
             for one in deadlock.tried
         ],
     }
 
 
-def _operand_data(operand: Operand) -> Any:
-    match operand:
+def _argument_data(argument: Argument) -> Any:
+    match argument:
         case VariableName():
-            return {"variable": variable_name(operand), "reactor": operand.reactor}
+            return {"variable": str(argument), "reactor": argument.reactor}
         case str():
-            return operand
+            return argument
         case _:
-            return _number_data(operand)
+            return _number_data(argument)
 
 
 def _number_data(value: float | int) -> float | int | str:
-    return "inf" if value >= HALF_INFINITY else "-inf" if value <= -HALF_INFINITY else value
+    return "inf" if value >= _HALF_INFINITY else "-inf" if value <= -_HALF_INFINITY else value

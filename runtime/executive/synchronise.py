@@ -208,12 +208,18 @@ class _Search:
             for token in bench.planned_after(line.object_id, current)[:1]
             if bench.lower(bench.start(token)) <= tick <= bench.upper(bench.start(token))
         ]
+        if not starts or not bench.is_requested(starts[0].token):
+            starts = [Choice(NEXT, token, NOTHING) for token in bench.must_begin(line.object_id, tick)] + starts
         is_asked = bool(starts) and bench.is_requested(starts[0].token)
         if is_asked and self.is_last:
             starts = []  # what can begin at the end at the earliest is not begun
         is_due = bool(starts) and (line.is_early or is_asked)
         new = [Choice(NEW, NOTHING, p) for p in ([line.default, *line.others] if line.default >= 0 else line.others)]
-        return [*starts, *extend, *new] if is_due else [*extend, *starts, *new]
+        if is_due:
+            return [*starts, *extend, *new]
+        if line.is_late and line.default >= 0:
+            return [*extend, new[0], *starts, *new[1:]]
+        return [*extend, *starts, *new]
 
     def fitting(self, line: TimelineState, news: Observation) -> int:
         """The predicate of what was observed; `undefined` if the model has none like it (T-REX 1.6)."""
@@ -243,6 +249,10 @@ class _Search:
             case "extend":
                 holds = bench.at_least(bench.end(token), tick + 1, SPAN_EXECUTIVE, token)
             case "next":
+                if not bench.is_active(token):
+                    holds = bench.activate(token) and bench.place_after(line.object_id, token, line.current)
+                    if not holds:
+                        return False
                 holds = bench.fix(bench.start(token), tick, SPAN_EXECUTIVE, token) and bench.at_least(
                     bench.end(token), tick + 1, SPAN_EXECUTIVE, token
                 )

@@ -14,6 +14,7 @@ class TimelineState:
         "event",
         "is_early",
         "is_internal",
+        "is_late",
         "name",
         "news",
         "object_id",
@@ -31,6 +32,7 @@ class TimelineState:
         # What an internal timeline may hold when nothing else explains now (T-REX 1.4, choice OTHER).
         self.others = [p for name, p in predicates.items() if p != default and name not in ("undefined", "Failed")]
         self.is_early = False  # whether what is planned starts as soon as it may, though nobody asked for it
+        self.is_late = False  # whether what nobody asked for starts only when it must
         self.current = NOTHING
         self.event = NOTHING
         self.news: Observation | None = None

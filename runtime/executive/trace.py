@@ -1,18 +1,8 @@
 """Record what happens in a mission, each event with the earlier events that caused it."""
 
 from runtime.executive.messages import Arguments
-from runtime.executive.outcome import (
-    Conflict,
-    Deadlock,
-    Draw,
-    Event,
-    EventKind,
-    Phase,
-    Reason,
-    RepairStage,
-    TimeBounds,
-    TokenName,
-)
+from runtime.executive.outcome import Conflict, Deadlock, Draw, Event, EventKind, Phase, Reason, RepairStage, TimeBounds
+from runtime.plan.readout.names import TokenName
 
 
 class Trace:

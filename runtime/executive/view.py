@@ -12,9 +12,9 @@ from runtime.constraints.domains.tags import (
     SUPPORT_RESTRICTION,
 )
 from runtime.executive.messages import Arguments
-from runtime.executive.outcome import TokenName
 from runtime.executive.timelines import TimelineState
 from runtime.plan.database import PlanDatabase
+from runtime.plan.readout.names import TokenName
 from runtime.plan.tags import (
     ACTIVE,
     FLAG_FACT,
@@ -60,6 +60,8 @@ class PlanView:
         self.requested: dict[int, int] = {}  # token -> key
         self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
         self.external_objects: set[int] = set()
+        self.internal_objects: set[int] = set()
+        self.late_objects: set[int] = set()  # timelines on which what nobody asked for begins as late as it may
 
     # ---- names ----
 
@@ -75,8 +77,7 @@ class PlanView:
         for number, predicate in enumerate(self.database.program.predicates):
             if predicate.class_name == code.name:
                 predicates[predicate.name.rpartition(".")[2]] = number
-        if not is_internal:
-            self.external_objects.add(o)
+        (self.internal_objects if is_internal else self.external_objects).add(o)
         default = predicates.get(self._default_name(o), NONE)
         return TimelineState(name, o, is_internal, default, predicates)
 
@@ -284,11 +285,32 @@ class PlanView:
         return found
 
     def is_blocked(self, t: int, current: int, tick: int) -> bool:
-        """Whether the earliest start of `t` hangs on a token that has not begun, or on an end still to be observed.
+        """Whether `t` cannot begin before an end that is still to be observed, or its earliest start is only "not yet".
 
-        The bound is followed along edges. `current`, the token that holds on the timeline of `t` now, does not block
-        (NOTHING: it does): it ends when `t` begins. Nor does what this reactor may end itself.
+        `current`, the token that holds on the timeline of `t` now, does not block (NOTHING: it does): it ends when `t`
+        begins. Nor does what this reactor may end itself.
         """
+        return self._follows_awaited(t, current, tick) or self._is_held_back(t, tick)
+
+    def _follows_awaited(self, t: int, current: int, tick: int) -> bool:
+        """Whether edges demand that `t` begins when, or after, a token of another reactor has ended."""
+        engine = self.engine
+        seen = {self.start(t)}
+        stack = list(seen)
+        while stack:
+            e = engine.out_head[stack.pop()]
+            while e >= 0:
+                v = engine.edge_target[e]
+                if engine.edge_weight[e] <= 0 and v not in seen and engine.upper(v) > tick:
+                    if self._is_awaited(v, t, current, tick):
+                        return True
+                    seen.add(v)
+                    stack.append(v)
+                e = engine.out_next[e]
+        return False
+
+    def _is_held_back(self, t: int, tick: int) -> bool:
+        """Whether the earliest start of `t` rests on another token that has not begun, and may do so only later."""
         engine, plan = self.engine, self.database.plan
         v = self.start(t)
         for _ in range(engine.edges_used):
@@ -296,8 +318,6 @@ class PlanView:
             if support < 0 or support & 3 != SUPPORT_EDGE:
                 break
             v = engine.edge_target[support >> 2]
-            if self._is_awaited(v, t, current, tick):
-                return True
         support = engine.lower_support[v]
         if support < 0 or support & 3 != SUPPORT_RESTRICTION or plan.variable_role[v] != ROLE_TOKEN:
             return False
@@ -319,25 +339,37 @@ class PlanView:
         v = self.rows.var0[t] + OBJECT
         return int(self.engine.lower(v)) if self.engine.is_singleton(v) else NONE
 
-    def merged_early(self, t: int, tick: int) -> list[int]:
-        """Planned tokens that have not begun, that nobody asked for, and that `t` serves already."""
-        rows = self.rows
-        found: dict[int, None] = {}
-        other = rows.merged[t]
-        while other >= 0:
-            master = int(rows.master[other])
-            if master >= 0 and self.is_active(master) and not self.is_started(master, tick - 1):
-                if not self.is_due_to_request(master):
-                    found[master] = None
-            other = rows.merged_next[other]
-        return list(found)
-
     def is_due_to_request(self, t: int) -> bool:
         """Whether the token, or one that it follows from, is one that somebody asked for."""
         while t >= 0:
             if self.is_requested(t):
                 return True
             t = self.rows.master[t]
+        return False
+
+    def is_internal(self, t: int) -> bool:
+        """Whether the token is on a timeline of this reactor."""
+        return self.object_of(t) in self.internal_objects
+
+    def must_begin(self, o: int, tick: int) -> list[int]:
+        """Undecided tokens on a timeline, not goals, that can begin at `tick` only."""
+        return [
+            t
+            for t in self.undecided()
+            if not self.is_goal(t)
+            and self.object_of(t) == o
+            and self.engine.lower(self.start(t)) <= tick == self.engine.upper(self.start(t))
+        ]
+
+    def waits_for_own(self, t: int, tick: int) -> bool:
+        """Whether the token is to follow one of this reactor that has not begun, and that nobody asked for."""
+        t = int(self.rows.master[t])
+        while t >= 0:
+            if self.is_requested(t) or self.is_started(t, tick):
+                return False
+            if self.object_of(t) in self.late_objects:
+                return True
+            t = int(self.rows.master[t])
         return False
 
     def reads_clock(self) -> bool:

@@ -3,7 +3,7 @@
 from math import inf
 
 from compiler.program import FIRST_PARAMETER, OBJECT, DomainConstant
-from runtime.constraints.domains.tags import FLAG_DECISION
+from runtime.constraints.domains.tags import FLAG_DECISION, KIND_FLOAT
 from runtime.executive.messages import Arguments
 from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST, PlanView
@@ -87,6 +87,14 @@ class Workbench(PlanView):
             known = [objects.index(str(name)) for name in domain.values if name in objects]
             return self.engine.restrict_base_values(v, [float(o) for o in known], span, t)
         return restrict_constant(self.database.prototypes, v, domain, span, t)
+
+    def make_values(self, t: int) -> None:
+        """Give each number of a token that begins its value, where only the rounding of sums has left two."""
+        engine = self.engine
+        for k in range(FIRST_PARAMETER, int(self.rows.width[t])):
+            v = int(self.rows.var0[t]) + k
+            if engine.kind[v] == KIND_FLOAT and engine.flo[v] != engine.fhi[v] and engine.is_singleton(v):
+                self.fix(v, engine.flo[v], SPAN_EXECUTIVE, t)
 
     def start_clock(self, final_tick: int) -> bool:
         """Let guards on the model's clock fire as soon as what they say has come true; the mission ends in time."""

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sqlite3
 import threading
 import time
 from pathlib import Path
@@ -13,8 +14,33 @@ from checker.batch.result import MissionResult, read_result, write_result
 from checker.batch.store import Run, StoreError, open_store
 from checker.batch.worker import Load, Task
 from checker.mission import read_mission
-from checker.oracle import Verdict
+from checker.oracle import Judgement, Verdict
+from compiler.program import DomainConstant
 from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.outcome import (
+    Abort,
+    ChoiceKind,
+    Conflict,
+    ConflictElement,
+    Deadlock,
+    Draw,
+    ElementKind,
+    Event,
+    EventKind,
+    FailedChoice,
+    OpenGoal,
+    Outcome,
+    Phase,
+    PresentChoice,
+    Reason,
+    ReasonKind,
+    RepairStage,
+    SourcePlace,
+    TimeBounds,
+)
+from runtime.plan.readout.names import TokenName, VariableName
+from runtime.plan.readout.statements import Term, Violation
+from runtime.solver.learning.attempts import Flaw, Resolver, ResolverKind
 from tests.checker.fake_agent import load_linked, load_nothing, load_slow, load_troubled
 
 
@@ -116,3 +142,50 @@ def test_a_store_that_is_no_database_is_refused(tmp_path: Path) -> None:
     (tmp_path / "runs.sqlite").write_text("no database at all, and long enough to be sure of it" * 10)
     with pytest.raises(StoreError, match="cannot be opened"), open_store(tmp_path / "runs.sqlite"):
         pass
+
+
+def test_a_store_of_another_version_is_refused_by_its_name(tmp_path: Path) -> None:
+    path = tmp_path / "runs.sqlite"
+    with open_store(path) as store:
+        store.begin(Run("abcd1234", "/m.toml", 7, 5), keep=True)
+    with open_store(path) as store:
+        assert store.run_ids() == ["abcd1234"]
+    connection = sqlite3.connect(path)
+    connection.execute("PRAGMA user_version = 0")
+    connection.close()
+    with pytest.raises(StoreError, match=r"has format 1, this nddlc reads format 2: delete it"), open_store(path):
+        pass
+
+
+def test_whatever_an_event_carries_survives_json() -> None:
+    spot = VariableName("spot", "symbol", TokenName("Rover.At", 4), True, "rover")
+    terms = (Term("bounds", (spot, 1, 2), ("a", "b")), Term("leq", (spot, 2.5)))
+    full = Violation("battery", 1, 3, 4, 2.0, 1.0, 0.5, False, True, (("Rover.At#4", 2.0),))
+    place = SourcePlace("m.nddl", 1, 2, "x;")
+    conflict = Conflict(
+        (
+            ConflictElement(ElementKind.DECISION, place, "Rover.At", spot.token, terms[0], terms),
+            ConflictElement(ElementKind.RESOURCE, None, "", None, full, (Term("resource", ("battery",)),)),
+            ConflictElement(ElementKind.SHARED_END, None, "", spot.token, None, (), ("At", "rover")),
+        )
+    )
+    inner = Deadlock(Flaw(2, "Rover.At#4"), tried=(FailedChoice(Resolver(ResolverKind.REJECT), conflict),))
+    choice = PresentChoice(ChoiceKind.NEXT, spot.token)
+    deadlock = Deadlock(None, "rover", (FailedChoice(choice, None, inner),))
+    bounds = TimeBounds((0, 3), (-4503599627370495, 5), (1, 9))
+    domain = DomainConstant("int", "int", (3, 4), None)
+    reason = Reason(ReasonKind.NO_PLACE, spot.token, tick=3)
+    events = (
+        Event(3, Phase.REPAIR, EventKind.RELAX, "rover", stage=RepairStage.REPLAN, reason=reason, conflict=conflict),
+        Event(
+            3, Phase.DISPATCH, EventKind.REQUEST, "", "rover", "At", (("n", domain),), (0,), bounds=bounds, request=-1
+        ),
+        Event(4, Phase.SYNCHRONISE, EventKind.SAMPLE, "rover", draw=Draw("P", 4, 1.5, 1.0)),
+        Event(5, Phase.END, EventKind.ABORT, "rover", code="F4", reason=reason, deadlock=deadlock),
+    )
+    abort = Abort("F4", 5, "rover", ("rover",), reason, conflict, 1, 3, (conflict,), deadlock)
+    goal = OpenGoal("rover", "At", (("n", domain),), reason, 1)
+    outcome = Outcome(7, 5, 9, abort, (Draw("P", 4, 1.5, 1.0),), events, (goal,))
+    result = MissionResult(1, 7, Judgement(Verdict.FAIL, "F4", reason), outcome, has_trace=True)
+    assert read_result(write_result(result)) == result
+    assert write_result(read_result(write_result(result))) == write_result(result)

@@ -152,7 +152,7 @@ def test_all_mistakes_are_reported_in_one_go() -> None:
 
 def test_reactors_that_use_each_other_are_refused() -> None:
     text = HEAD.replace('internal = ["gps"]', 'internal = ["gps"]\nexternal = ["nav"]')
-    message = "the reactors use each other in a circle: navigator → psim → navigator"
+    message = "the reactors use each other in a cycle: navigator → psim → navigator"
     assert [(code, said) for _, _, code, said, _ in complaints(text)] == [("NDDL711", message)]
 
 

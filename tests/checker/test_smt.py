@@ -8,12 +8,14 @@ import pytest
 from checker.simplest import shortest_decimal, simplest_between
 from checker.smt.confirm import Finding, confirm
 from checker.smt.edges import Edge, find_failing_range
-from runtime.executive.outcome import Conflict, ConflictElement, ElementKind, Operand, Term, VariableName
+from runtime.executive.outcome import Conflict, ConflictElement, ElementKind
+from runtime.plan.readout.names import VariableName
+from runtime.plan.readout.statements import Argument, Term
 from tests.checker.fake_agent import linked_conflict, split_conflict
 
 
 def conflict(kinds: dict[str, str], *terms: Term) -> Conflict:
-    def operand(given: Operand) -> Operand:
+    def operand(given: Argument) -> Argument:
         return VariableName(given, kinds[given]) if isinstance(given, str) and given in kinds else given
 
     named = [replace(term, arguments=tuple(operand(one) for one in term.arguments)) for term in terms]
@@ -59,7 +61,7 @@ def test_terms_without_translation_are_named() -> None:
         ({"x": "int"}, [Term("countNonZeroes", ("x", 0, 1, 2)), Term("leq", ("x", 1))]),
         (
             {"x": "symbol"},
-            [Term("member", ("x", "RED", "BLUE")), Term("neq", ("x", "RED")), Term("neq", ("x", "BLUE"))],
+            [Term("bounds", ("x", 3, 7), ("RED", "BLUE")), Term("neq", ("x", "RED")), Term("neq", ("x", "BLUE"))],
         ),
         ({"x": "int"}, [Term("precedence", ("x", "x", -1))]),
     ],

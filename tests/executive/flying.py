@@ -43,10 +43,20 @@ def planner(
     latency: int = 0,
     lookahead: int = 100,
     max_steps: int | None = None,
+    early: tuple[str, ...] = (),
+    late: tuple[str, ...] = (),
 ) -> Flyer:
     """A reactor that plans ahead."""
     place = ReactorConfiguration(
-        name, f"{name}.nddl", latency, lookahead, tuple(internal.split()), tuple(external.split()), None, max_steps=max_steps
+        name,
+        f"{name}.nddl",
+        latency,
+        lookahead,
+        tuple(internal.split()),
+        tuple(external.split()),
+        early=early,
+        late=late,
+        max_steps=max_steps,
     )
     return Flyer(place, text)
 

@@ -3,7 +3,8 @@
 from pathlib import Path
 
 from runtime.plan.readout.cause_rendering import words
-from runtime.solver.learning.failure_log import Attempt, FailureLog
+from runtime.solver.learning.attempts import Attempt
+from runtime.solver.learning.failure_log import FailureLog
 from runtime.solver.learning.rendering import story
 from runtime.solver.tags import EXHAUSTED
 from tests.solver.planning import resources_configuration, solver_for

@@ -3,7 +3,7 @@
 from typing import assert_never
 
 from runtime.plan import tags
-from runtime.plan.readout.terms import Term, Violation
+from runtime.plan.readout.statements import Argument, Term, Violation
 
 _INFIX = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 _SIGNS = {"addEq": "+", "mulEq": "*", "temporalDistance": "+"}
@@ -26,14 +26,14 @@ def words(cause: Term | Violation) -> str:
             assert_never(cause)
 
 
-def _precedence(source: str, target: str, weight: str | float | int) -> str:
-    assert not isinstance(weight, str)
+def _precedence(source: str, target: str, weight: Argument) -> str:
+    assert isinstance(weight, int | float)
     if weight < 0:
         return f"{target} + {-weight} <= {source}"
     return f"{target} <= {source}" if weight == 0 else f"{target} <= {source} + {weight}"
 
 
-def _bounds(name: str, lower: str | float | int, upper: str | float | int, values: tuple[str, ...]) -> str:
+def _bounds(name: str, lower: Argument, upper: Argument, values: tuple[str, ...]) -> str:
     if values:
         return f"{name} = {values[0]}" if len(values) == 1 else f"{name} in {{{', '.join(values)}}}"
     has_lower, has_upper = lower != float("-inf"), upper != float("inf")

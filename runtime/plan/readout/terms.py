@@ -1,7 +1,6 @@
 """Causes as terms: an edge, restriction or constraint of the engine in, names and numbers that outlive it out."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from math import inf
 
 from compiler.program import TOKEN_VARIABLES
@@ -9,6 +8,7 @@ from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, 
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.propagators.operations import OPERATIONS
 from runtime.plan.database import PlanDatabase
+from runtime.plan.readout.statements import Argument, Term, Violation
 from runtime.plan.resources.violation import Excess
 from runtime.plan.store.domain_texts import domain_text, set_text
 from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
@@ -16,39 +16,6 @@ from runtime.user.written import Written
 
 _NAMES = {code: name for name, code in reversed(OPERATIONS.items())}
 _NAMES |= {OP_PLUS: "addEq", OP_FREEZE: "foreach", OP_SAMPLE: "sampledParameter"}
-
-Argument = str | float | int
-
-
-@dataclass(frozen=True, slots=True)
-class Term:
-    """One constraint of a conflict, without ids of the engine.
-
-    `name` is a row of the constraint table (`eq`, `mulEq`, `leq`, ...), `precedence` (arguments source, target,
-    bound: target - source <= bound), or `bounds` (arguments variable, lower, upper: a base domain; `values` lists its
-    members where they are names). Arguments are variable names or numbers. A `sampledParameter` term has the variable,
-    the parameter name and the value drawn.
-    """
-
-    name: str
-    arguments: tuple[Argument, ...]
-    values: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Violation:
-    """A resource, or a timeline, that is certainly exceeded; fields as in `Excess`, `users` are tokens with amounts."""
-
-    resource: str
-    wrong: int
-    at: int
-    until: int
-    amount: float
-    limit: float
-    room: float
-    has_helper: bool
-    in_any_order: bool
-    users: tuple[tuple[str, float], ...]
 
 
 class TermReader:
@@ -75,12 +42,7 @@ class TermReader:
         plan, program = self.plan, self.database.program
         role, owner, name = plan.variable_role[v], plan.variable_owner[v], plan.variable_name[v]
         if role == ROLE_TOKEN:
-            number = v - plan.rows.var0[owner]
-            if number >= FIRST_PARAMETER:
-                code = program.predicates[plan.rows.predicate[owner]]
-                return f"{self.token(owner)}.{code.parameters[number - FIRST_PARAMETER].name}"
-            is_time = plan.rows.flags[owner] & FLAG_EVENT and number in (START, END)
-            return f"{self.token(owner)}.{'time' if is_time else TOKEN_VARIABLES[number]}"
+            return f"{self.token(owner)}.{self.part(v, owner)}"
         if role == ROLE_GLOBAL:
             return program.globals[name][0]
         if role == ROLE_MEMBER:
@@ -102,6 +64,15 @@ class TermReader:
         if engine.constant[v] and engine.kind[v] in (KIND_INT, KIND_FLOAT) and engine.lower(v) == engine.upper(v):
             return _number(engine.lower(v), engine.kind[v])
         return self.variable(v)
+
+    def part(self, v: int, owner: int) -> str:
+        """The name of a token's variable without that of the token."""
+        number = v - self.plan.rows.var0[owner]
+        if number >= FIRST_PARAMETER:
+            code = self.database.program.predicates[self.plan.rows.predicate[owner]]
+            return str(code.parameters[number - FIRST_PARAMETER].name)
+        is_time = self.plan.rows.flags[owner] & FLAG_EVENT and number in (START, END)
+        return "time" if is_time else TOKEN_VARIABLES[number]
 
     def _edge(self, e: int) -> Term:
         engine = self.engine

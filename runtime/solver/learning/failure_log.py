@@ -4,10 +4,8 @@ For explanations only: each failure is explained and minimised, which costs far 
 `_MOST` failures the log stays as it is.
 """
 
-from dataclasses import dataclass
-from enum import Enum
+from collections.abc import Callable
 
-from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import FLAG_DECISION
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.minimisation.minimise import minimise
@@ -16,97 +14,36 @@ from runtime.plan.lifecycle import merge, settle
 from runtime.plan.readout.cause_rendering import words
 from runtime.plan.readout.provenance import span_of
 from runtime.plan.readout.readout import live_tokens, token_names
-from runtime.plan.readout.terms import Term, TermReader, Violation
+from runtime.plan.readout.statements import Violation
+from runtime.plan.readout.terms import TermReader
 from runtime.plan.tags import MERGED, NONE, OBJECT, REJECTED
 from runtime.plan.tokens.predicate_hierarchy import first_active, next_active
 from runtime.plan.tokens.timelines import order
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
+from runtime.solver.learning.attempts import Attempt, CauseOrigin, FailedFlaw, Flaw, FoundCause, Resolver, ResolverKind
 from runtime.solver.tags import OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 
 _MOST = 400
 _MOST_TRIALS = 20
 
 
-class CauseOrigin(Enum):
-    """How a cause comes about that has no source place; an implied one follows from the others."""
-
-    DECLARED = "declared"
-    DECIDED = "decided"
-    IMPLIED = "so"
-
-
-@dataclass(frozen=True, slots=True)
-class FoundCause:
-    """One cause of a failure: where the model says it (None: nowhere), for which token's rule (empty: the script)."""
-
-    span: Span | None
-    owner: str
-    term: Term | Violation
-    origin: CauseOrigin = CauseOrigin.DECIDED
-
-
-class ResolverKind(Enum):
-    """What a resolver does with the names it comes with."""
-
-    PROPAGATE = "nothing is decided yet"
-    MERGE = "the token to merge with"
-    ACTIVATE = "no name"
-    SUPPORT = "the predicate of the action"
-    REJECT = "no name: reject"
-    SPECIFY = "the value"
-    INSERT_ONLY = "the timeline"
-    INSERT_BEFORE = "the timeline, the next token"
-    INSERT_AFTER = "the timeline, the token before"
-    PRECEDE = "two timepoints, the earlier one first"
-
-
-@dataclass(frozen=True, slots=True)
-class Resolver:
-    """A resolver that was tried."""
-
-    kind: ResolverKind
-    names: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Flaw:
-    """What was to be mended: the kind of flaw (NONE: the model itself), the token, variable or resource.
-
-    An open condition has a predicate, too; of a resource, `at` is the instant.
-    """
-
-    kind: int
-    name: str = ""
-    predicate: str = ""
-    at: int = 0
-
-
-@dataclass(frozen=True, slots=True)
-class Attempt:
-    """A resolver that failed: by a conflict of `causes`, or because no resolver mends what it leads to."""
-
-    resolver: Resolver
-    causes: tuple[FoundCause, ...]
-    because: "FailedFlaw | None" = None
-
-
-@dataclass(frozen=True, slots=True)
-class FailedFlaw:
-    """A flaw that no resolver mends."""
-
-    flaw: Flaw
-    attempts: tuple[Attempt, ...]
-
-
 class FailureLog:
     """The failures of one search: why it ended, and why tokens were rejected."""
 
-    def __init__(self, database: PlanDatabase, agenda: Agenda, stack: Decisions) -> None:
+    def __init__(
+        self,
+        database: PlanDatabase,
+        agenda: Agenda,
+        stack: Decisions,
+        reader: Callable[[], TermReader] | None = None,
+    ) -> None:
+        """`reader` gives names as the plan stands when it is called; by default they are those of the script."""
         self.database = database
         self.plan = database.plan
         self.agenda = agenda
         self.stack = stack
+        self._reader = reader or self._script_reader
         self.count = 0
         self.attempts: dict[int, list[Attempt]] = {}
         self.rejections: dict[str, FailedFlaw] = {}
@@ -150,7 +87,7 @@ class FailureLog:
         if attempt not in known:
             known.append(attempt)
 
-    def _reader(self) -> TermReader:
+    def _script_reader(self) -> TermReader:
         """Names as the plan stands now."""
         names = token_names(self.database, live_tokens(self.database))
         return TermReader(self.database, lambda t: names.get(t, f"token {t}"))
@@ -172,7 +109,7 @@ class FailureLog:
         is_declared = cause.kind is CauseKind.RESTRICTION and not flags[cause.id] & FLAG_DECISION
         owner = reader.token(cause.owner) if cause.owner >= 0 else ""
         origin = CauseOrigin.DECLARED if is_declared else CauseOrigin.DECIDED
-        return FoundCause(span_of(self.database, cause.span), owner, term, origin)
+        return FoundCause(span_of(self.database, cause.span), owner, term, origin, cause.span)
 
     def _flaw(self, d: int, reader: TermReader) -> Flaw:
         """The flaw of decision `d`."""

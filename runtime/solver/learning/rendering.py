@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any, assert_never
 
 from runtime.plan.readout.cause_rendering import words
-from runtime.solver.learning.failure_log import Attempt, FailedFlaw, Flaw, FoundCause, Resolver, ResolverKind
+from runtime.solver.learning.attempts import Attempt, FailedFlaw, Flaw, FoundCause, Resolver, ResolverKind
 from runtime.solver.tags import OPEN_CONDITION, RESOURCE_THREAT, THREAT, UNBOUND_VARIABLE
 
 _MOST_LINES = 60
@@ -22,10 +22,10 @@ def story(failed: FailedFlaw) -> Iterator[str]:
 
 def as_data(failed: FailedFlaw) -> dict[str, Any]:
     """A failure for programs."""
-    return {"flaw": _flaw_words(failed.flaw), "choices": [_attempt_data(attempt) for attempt in failed.attempts]}
+    return {"flaw": flaw_words(failed.flaw), "choices": [_attempt_data(attempt) for attempt in failed.attempts]}
 
 
-def _flaw_words(flaw: Flaw) -> str:
+def flaw_words(flaw: Flaw) -> str:
     """What was to be mended."""
     if flaw.kind == OPEN_CONDITION:
         return f"`{flaw.name}` ({flaw.predicate}) is not in the plan yet"
@@ -38,7 +38,7 @@ def _flaw_words(flaw: Flaw) -> str:
     return "the model contradicts itself"
 
 
-def _resolver_words(resolver: Resolver) -> str:
+def resolver_words(resolver: Resolver) -> str:
     """What was tried."""
     names = resolver.names
     match resolver.kind:
@@ -69,13 +69,13 @@ def _resolver_words(resolver: Resolver) -> str:
 def _story(failed: FailedFlaw, depth: int) -> Iterator[str]:
     margin = "  " * depth
     while len(failed.attempts) == 1 and failed.attempts[0].because is not None:
-        yield f"{margin}{_flaw_words(failed.flaw)}: {_resolver_words(failed.attempts[0].resolver)}"
+        yield f"{margin}{flaw_words(failed.flaw)}: {resolver_words(failed.attempts[0].resolver)}"
         failed = failed.attempts[0].because
-    yield f"{margin}{_flaw_words(failed.flaw)}"
+    yield f"{margin}{flaw_words(failed.flaw)}"
     if not failed.attempts:
         yield f"{margin}  there is nothing to choose from"
     for attempt in failed.attempts:
-        yield f"{margin}  {_resolver_words(attempt.resolver)}:"
+        yield f"{margin}  {resolver_words(attempt.resolver)}:"
         if attempt.because is None:
             yield from (f"{margin}    {_cause_line(cause)}" for cause in attempt.causes)
         elif depth < _DEEPEST:
@@ -105,4 +105,4 @@ def _attempt_data(attempt: Attempt) -> dict[str, Any]:
         for cause in attempt.causes
     ]
     because = None if attempt.because is None else as_data(attempt.because)
-    return {"choice": _resolver_words(attempt.resolver), "lines": lines, "because": because}
+    return {"choice": resolver_words(attempt.resolver), "lines": lines, "because": because}

@@ -1,0 +1,40 @@
+"""What happened in a mission, drawn in characters: a row per timeline, time from left to right."""
+
+from runtime.executive.outcome import EventKind, Outcome
+
+WIDTH = 100
+MOST = 40  # rows
+
+
+def gantt(outcome: Outcome, width: int = WIDTH) -> str:
+    """A row per timeline, each value with its name as far as there is room, `|` where it begins."""
+    rows: dict[str, list[tuple[int, str]]] = {}
+    for event in outcome.events:
+        if event.kind is EventKind.OBSERVATION:
+            rows.setdefault(event.timeline, []).append((event.tick, event.predicate))
+    if not rows:
+        return ""
+    last = max(outcome.last_tick, 1)
+    margin = max(map(len, rows)) + 1
+    columns = max(width - margin, 20)
+    shown = [f"{name:<{margin}}{_row(values, last, columns)}" for name, values in list(rows.items())[:MOST]]
+    if len(rows) > MOST:
+        shown.append(f"and {len(rows) - MOST} more timelines")
+    scale = f"{'tick':<{margin}}0{outcome.last_tick!s:>{columns - 1}}"
+    return "\n".join([*shown, scale]) + "\n"
+
+
+def _row(values: list[tuple[int, str]], last: int, columns: int) -> str:
+    places = [min(tick * columns // (last + 1), columns - 1) for tick, _ in values]
+    cells = [" "] * columns
+    for number, (place, (_, name)) in enumerate(zip(places, values, strict=True)):
+        end = places[number + 1] if number + 1 < len(places) else columns
+        if end <= place:
+            continue
+        dense = number > 0 and places[number - 1] == place
+        room = end - place
+        text = ("#" if dense else "|") + name[: room - 1]
+        cells[place : place + len(text)] = text
+        for at in range(place + len(text), end):
+            cells[at] = "."
+    return "".join(cells)

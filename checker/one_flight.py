@@ -1,0 +1,95 @@
+"""One mission of a mission file: flown from a seed and given values, and its trace as text that is flown again."""
+
+import json
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from checker.batch.identity import model_digest
+from checker.flight import fly_once
+from checker.mission import Mission
+from checker.models import ModelSet
+from checker.oracle import Judgement, judge
+from runtime.executive.outcome import Outcome
+from runtime.executive.rendering import trace_json
+
+HEAD = "mission"  # the kind of the first line of a trace
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What decides a flight, beside the mission file: the seed, values given to parameters, where it stops."""
+
+    seed: int
+    values: Mapping[str, float]
+    until: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Flight:
+    """A flight that is over."""
+
+    settings: Settings
+    models: str  # digest
+    outcome: Outcome
+    judgement: Judgement
+
+
+def fly(mission: Mission, models: ModelSet, settings: Settings) -> Flight:
+    """Fly the mission once."""
+    outcome = fly_once(models.agent, settings.seed, dict(settings.values), settings.until)
+    return Flight(settings, model_digest(models.texts), outcome, judge(outcome))
+
+
+def trace_text(flight: Flight, mission: Path, trace: Path) -> str:
+    """The flight as JSON Lines: first what decides it, with the mission file relative to the trace, then its events."""
+    head = {
+        "tick": 0,
+        "phase": "start",
+        "kind": HEAD,
+        "mission": Path(os.path.relpath(mission.resolve(), trace.resolve().parent)).as_posix(),
+        "models": flight.models,
+        "seed": flight.settings.seed,
+        "values": dict(sorted(flight.settings.values.items())),
+        "until": flight.settings.until,
+    }
+    lines = [json.dumps(head, ensure_ascii=False, separators=(",", ":"))]
+    lines += [trace_json(event) for event in flight.outcome.events]
+    return "\n".join(lines) + "\n"
+
+
+@dataclass(frozen=True, slots=True)
+class Recorded:
+    """A trace that was read back."""
+
+    mission: Path
+    models: str
+    settings: Settings
+    lines: tuple[str, ...]
+
+
+def read_trace(path: Path) -> Recorded:
+    """Read a trace; raises OSError, or ValueError where the file is none."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    head: dict[str, Any] = json.loads(lines[0]) if lines else {}
+    if not isinstance(head, dict) or head.get("kind") != HEAD:
+        raise ValueError("its first line does not say which mission it is of")
+    try:
+        values = {str(name): float(value) for name, value in head["values"].items()}
+        settings = Settings(int(head["seed"]), values, None if head["until"] is None else int(head["until"]))
+        return Recorded(path.parent / str(head["mission"]), str(head["models"]), settings, tuple(lines[1:]))
+    except (KeyError, TypeError, AttributeError) as problem:
+        raise ValueError("its first line lacks what decides the flight") from problem
+
+
+def first_departure(recorded: Recorded, flight: Flight) -> tuple[int, str, str] | None:
+    """The number of the first line that differs (from 1), as recorded and as flown now; empty where there is none."""
+    flown = [trace_json(event) for event in flight.outcome.events]
+    for number in range(max(len(flown), len(recorded.lines))):
+        old = recorded.lines[number] if number < len(recorded.lines) else ""
+        new = flown[number] if number < len(flown) else ""
+        if old != new:
+            return number + 2, old, new
+    return None

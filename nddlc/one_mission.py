@@ -1,0 +1,51 @@
+"""What `run`, `replay` and `gold` share: a mission file read and its models checked, and values for parameters."""
+
+from pathlib import Path
+
+import click
+
+from checker.mission import Mission, read_mission
+from checker.models import ModelSet, load_models
+from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.nearest import nearest
+from nddl_lang.text.render import render
+from nddlc.inputs import Unusable, colours, readable
+
+
+def prepare(path: str) -> tuple[Path, Mission, ModelSet]:
+    """Read a mission and its models; what is wrong with them is told, and an error ends the command."""
+    (file,) = readable((path,), ())
+    if file.suffix != ".toml":
+        raise Unusable(f"`{path}` is no mission file (.toml)")
+    mission, found = read_mission(file)
+    if mission is None:
+        _tell(found)
+        raise Unusable("the mission file is in error: nothing was flown")
+    models = load_models(mission)
+    _tell((*found, *models.diagnostics))
+    if models.has_errors:
+        raise Unusable("the models are in error: nothing was flown")
+    return file, mission, models
+
+
+def _tell(diagnostics: tuple[Diagnostic, ...]) -> None:
+    for one in diagnostics:
+        if one.severity in (Severity.ERROR, Severity.WARNING):
+            click.echo(render(one, colour=colours()), err=True)
+
+
+def values_of(given: tuple[str, ...], models: ModelSet) -> dict[str, float]:
+    """Values for parameters, from `NAME=VALUE`."""
+    known = [parameter.name for parameter in models.agent.parameters]
+    values: dict[str, float] = {}
+    for one in given:
+        name, sign, text = one.partition("=")
+        if name not in known:
+            meant = nearest(name, known)
+            advice = f"did you mean `{meant}`?" if meant is not None else f"there are: {', '.join(known) or 'none'}"
+            raise Unusable(f"the models sample no parameter `{name}`", advice)
+        try:
+            values[name] = float(text)
+        except ValueError:
+            raise Unusable(f"`{one}` gives `{name}` no number", "write NAME=VALUE" if not sign else None) from None
+    return values

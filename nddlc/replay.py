@@ -1,0 +1,55 @@
+"""`nddlc replay`: fly the mission of a trace again, and say where it departs."""
+
+import json
+from pathlib import Path
+
+import click
+
+from checker.one_flight import first_departure, fly, read_trace
+from nddlc.inputs import Unusable, readable
+from nddlc.one_mission import prepare
+
+SAME, DEPARTS = 0, 1
+
+
+@click.command()
+@click.argument("path", metavar="TRACE")
+@click.option("--mission", metavar="MISSION", help="The mission file, if it is not where the trace says.")
+def command(path: str, mission: str | None) -> int:
+    """Fly the mission of a trace again.
+
+    TRACE was written by `nddlc run --trace`. Ends with 0 if the same happens, with 1 if the flight departs from the
+    trace: then the first event that differs is shown.
+    """
+    (file,) = readable((path,), ())
+    try:
+        recorded = read_trace(Path(file))
+    except ValueError as problem:
+        raise Unusable(f"`{path}` is no trace: {problem}") from None
+    _, read, models = prepare(mission or str(recorded.mission))
+    flight = fly(read, models, recorded.settings)
+    found = first_departure(recorded, flight)
+    if found is None:
+        click.echo(f"the same: {len(recorded.lines)} events, to tick {flight.outcome.last_tick}")
+        return SAME
+    number, old, new = found
+    if recorded.models != flight.models:
+        click.echo("the models are not those of the trace")
+    click.echo(f"departs at line {number}:")
+    click.echo(f"  in the trace: {_shown(old)}")
+    click.echo(f"  flown now:    {_shown(new)}")
+    return DEPARTS
+
+
+def _shown(line: str) -> str:
+    """An event of a trace in short."""
+    if not line:
+        return "nothing"
+    try:
+        event = json.loads(line)
+        inside = ", ".join(f"{name}={value}" for name, value in event["arguments"].items())
+        what = f"{event['predicate']}({inside})" if inside else event["predicate"]
+        parts = (f"tick {event['tick']}", event["reactor"], event["kind"], event["timeline"], what)
+        return " ".join(part for part in parts if part)
+    except (ValueError, KeyError, TypeError, AttributeError):
+        return line

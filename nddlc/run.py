@@ -1,0 +1,75 @@
+"""`nddlc run`: fly one mission, show what happened, and say how it ended."""
+
+import sys
+from pathlib import Path
+
+import click
+
+from checker.happened import gantt
+from checker.mission import LARGEST_SEED
+from checker.one_flight import Flight, Settings, fly, trace_text
+from checker.oracle import Verdict
+from checker.report.write import write_whole
+from nddlc.inputs import Unusable
+from nddlc.one_mission import prepare, values_of
+from runtime.executive.outcome import EventKind
+from runtime.executive.rendering import event_text, goal_text, reason_text
+
+PASS, FAIL = 0, 1
+TOLD = (EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL, EventKind.RELAX, EventKind.KILL, EventKind.ABORT)
+
+
+@click.command()
+@click.argument("path", metavar="MISSION")
+@click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The seed of the mission, else that of the file.")
+@click.option("--param", "given", multiple=True, metavar="NAME=VALUE", help="Give a parameter a value; repeatable.")
+@click.option("--until", type=click.IntRange(0), help="Stop at this tick.")
+@click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write the trace here, as JSON Lines.")
+def command(path: str, seed: int | None, given: tuple[str, ...], until: int | None, trace: Path | None) -> int:
+    """Fly one mission and show what happened.
+
+    MISSION is a mission file (.toml). Ends with 0 if the mission passes, with 1 if it fails, with 2 if it cannot be
+    flown.
+    """
+    file, mission, models = prepare(path)
+    settings = Settings(mission.check.seed if seed is None else seed, values_of(given, models), until)
+    _progress(f"flying {mission.agent.name} ...")
+    flight = fly(mission, models, settings)
+    _progress("")
+    if trace is not None:
+        try:
+            write_whole(trace, trace_text(flight, file, trace))
+        except OSError as problem:
+            raise Unusable(f"cannot write the trace to `{trace}`: {problem.strerror}") from None
+    click.echo(_report(mission.agent.name, flight), nl=False)
+    return PASS if flight.judgement.verdict is Verdict.PASS else FAIL
+
+
+def _progress(text: str) -> None:
+    if sys.stderr.isatty():
+        click.echo(f"\r\x1b[K{text}", nl=False, err=True)
+
+
+def _report(name: str, flight: Flight) -> str:
+    """The Gantt of what happened, what was given up and repaired, and the outcome."""
+    outcome, judgement = flight.outcome, flight.judgement
+    lines = [gantt(outcome)]
+    for event in outcome.events:
+        if event.kind in TOLD:
+            who = " ".join(filter(None, (event.reactor, event.kind.value, event.timeline)))
+            lines.append(f"{event.tick:>7}  {who}: {event_text(event)}\n")
+    counts = {kind: sum(event.kind is kind for event in outcome.events) for kind in EventKind}
+    done = sum(event.kind is EventKind.ACHIEVED and (event.request or 0) < 0 for event in outcome.events)
+    lines.append(
+        f"{name}, seed {flight.settings.seed}: {judgement.verdict.value}"
+        f"{f' {judgement.code}' if judgement.code else ''} at tick {outcome.last_tick}\n"
+    )
+    if judgement.reason is not None:
+        lines.append(f"  {reason_text(judgement.reason)}\n")
+    lines.append(
+        f"  goals achieved {done}, open {len(outcome.open_goals)}; requests {counts[EventKind.REQUEST]}, "
+        f"rejected {counts[EventKind.REJECT]}, refused {counts[EventKind.REFUSE]}, "
+        f"recalled {counts[EventKind.RECALL]}; repairs {counts[EventKind.RELAX]}\n"
+    )
+    lines += [f"  open: {goal_text(goal)}\n" for goal in outcome.open_goals]
+    return "".join(lines)

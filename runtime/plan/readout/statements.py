@@ -1,0 +1,38 @@
+"""What causes say, as data without ids of the engine: terms over named variables, and violated resources."""
+
+from dataclasses import dataclass
+
+from runtime.plan.readout.names import VariableName
+
+Argument = VariableName | str | float | int
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """One constraint of a conflict, without ids of the engine.
+
+    `name` is a row of the constraint table (`eq`, `mulEq`, `leq`, ...), `precedence` (arguments source, target,
+    bound: target - source <= bound), or `bounds` (arguments variable, lower, upper: a base domain; `values` lists its
+    members where they are names). Arguments are variables, numbers, or names of values. A `sampledParameter` term has
+    the variable, the parameter name and the value drawn.
+    """
+
+    name: str
+    arguments: tuple[Argument, ...]
+    values: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """A resource, or a timeline, that is certainly exceeded; fields as in `Excess`, `users` are tokens with amounts."""
+
+    resource: str
+    wrong: int
+    at: int
+    until: int
+    amount: float
+    limit: float
+    room: float
+    has_helper: bool
+    in_any_order: bool
+    users: tuple[tuple[str, float], ...]
