@@ -1,12 +1,12 @@
-"""Decide whether a reactor is determined: a program and its timelines go in, an order of timelines and reasons come out."""
+"""Decide whether a reactor is determined: a program and its timelines in, an order of timelines and reasons out."""
 
 from dataclasses import dataclass
 
 from compiler.determined.assemble import compile_block
 from compiler.determined.code import Block, Layout, Line
-from compiler.determined.elaborate import FOLLOWING, MERGED, TOGETHER
 from compiler.determined.model import Model
-from compiler.determined.reasons import Choice, Reason, Undetermined
+from compiler.determined.reasons import Choice, Reason, UndeterminedError
+from compiler.determined.relations import FOLLOWING, MERGED, TOGETHER
 from compiler.program import Call, NewToken, PredicateCode, Program, Relate
 
 MOST_PARAMETERS = 62  # as many bits has the mask of what is given
@@ -41,8 +41,8 @@ def analyse(program: Program, lines: tuple[Line, ...], lookahead: int) -> Analys
         reasons[Reason(Choice.LOOKAHEAD, "the reactor", None)] = None
     for instruction in program.script:
         match instruction:
-            case NewToken(kind=kind, predicate=predicate, span=span) if kind != "fact":
-                reasons[Reason(Choice.GOAL, predicate, span)] = None
+            case NewToken(kind=kind, predicate=goal, span=span) if kind != "fact":
+                reasons[Reason(Choice.GOAL, goal, span)] = None
             case Relate(span=span):
                 reasons[Reason(Choice.STATEMENT, span.text.split("\n")[0], span)] = None
             case Call(method=method, span=span) if method != "close":
@@ -61,12 +61,12 @@ def analyse(program: Program, lines: tuple[Line, ...], lookahead: int) -> Analys
                 continue
             try:
                 blocks.append(compile_block(model, layout, number, predicate, _everything(predicate)))
-            except Undetermined as obstacle:
+            except UndeterminedError as obstacle:
                 reasons[obstacle.reason] = None
     order: tuple[int, ...] = ()
     try:
         order = order_of(model, blocks)
-    except Undetermined as obstacle:
+    except UndeterminedError as obstacle:
         reasons[obstacle.reason] = None
     return Analysis(model, layout, order, tuple(blocks), tuple(reasons))
 
@@ -76,9 +76,9 @@ def _everything(predicate: PredicateCode) -> int:
 
 
 def order_of(model: Model, blocks: list[Block]) -> tuple[int, ...]:
-    """Timelines in the order in which they are settled: who starts a token of another, or lets one follow, first;
+    """Timelines in the order in which they are settled.
 
-    who reads what holds on another, after it.
+    Who starts a token on another one, or lets one follow there, comes before it; who reads what holds there, after it.
     """
     before: dict[int, set[int]] = {n: set() for n, line in enumerate(model.lines) if line.role != "other"}
     for block in blocks:
@@ -93,6 +93,6 @@ def order_of(model: Model, blocks: list[Block]) -> tuple[int, ...]:
         free = [n for n in before if n not in order and before[n] <= set(order)]
         if not free:
             names = ", ".join(f"`{model.lines[n].name}`" for n in before if n not in order)
-            raise Undetermined(Choice.CIRCLE, names, None)
+            raise UndeterminedError(Choice.CIRCLE, names, None)
         order.append(free[0])
     return tuple(order)

@@ -2,27 +2,23 @@
 
 from compiler.determined import code
 from compiler.determined.code import STRIDE, Block, Layout
-from compiler.determined.elaborate import FOLLOWING, ROOT, TOGETHER, Elaboration
+from compiler.determined.elaborate import Elaboration
 from compiler.determined.model import Model
 from compiler.determined.operations import Instruction
+from compiler.determined.relations import FOLLOWING, ROOT, TOGETHER
 from compiler.determined.schedule import AGAIN, Placed, Sequence, schedule
 from compiler.program import PredicateCode
 
-WITHOUT_RESULT = (code.NEED, code.HOLD, code.CLEAR, code.BEGIN, code.MERGE, code.PREVIOUS, code.FOLLOW)
-WITHOUT_RESULT += (
-    code.LAST_EXACTLY,
-    code.LAST_LEAST,
-    code.LAST_MOST,
-    code.TIE,
-    code.WITHIN,
-    code.MEMBER,
-    code.ORDER,
-    code.PLANNED,
+WITHOUT_RESULT: frozenset[int] = frozenset(
+    {
+        *(code.NEED, code.HOLD, code.CLEAR, code.BEGIN, code.MERGE, code.PREVIOUS, code.FOLLOW, code.LAST_EXACTLY),
+        *(code.LAST_LEAST, code.LAST_MOST, code.TIE, code.WITHIN, code.MEMBER, code.ORDER, code.PLANNED),
+    }
 )
 
 
 def compile_block(model: Model, layout: Layout, line: int, predicate: PredicateCode, mask: int) -> Block:
-    """The block of a predicate on a timeline, with the parameters in `mask` given; raises `Undetermined`."""
+    """The block of a predicate on a timeline, with the parameters in `mask` given; raises `UndeterminedError`."""
     work = Elaboration(model, layout, line, predicate, mask)
     sequence = schedule(work.sheet)
     placed = [*_clearing(work, layout, sequence), *_compared(sequence, layout)]

@@ -91,7 +91,7 @@ class Layout:
     """The registers of a reactor; blocks that are compiled later take more at the end.
 
     Of each timeline there are banks of parameters: of the current token, of the one that is to follow it, of one that
-    is due to start now, of one that somebody asked for, and of the token before, where a rule reads that (`remembered`).
+    is due to start now, of one that somebody asked for, and of the token before (where a rule reads it: `remembered`).
     """
 
     lines: tuple[Line, ...]

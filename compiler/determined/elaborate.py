@@ -1,13 +1,14 @@
 """Elaborate a block: one token that starts, with all that starts at the same tick because of it, as a worksheet."""
 
-from dataclasses import dataclass, field
+from itertools import pairwise
 
 from compiler.determined import code
 from compiler.determined.code import GuardRecord, Layout, LocalRecord, Shown, TokenRecord
 from compiler.determined.items import Context, Item, Worksheet
 from compiler.determined.model import Model, values_of
 from compiler.determined.operations import DEMANDS, FUNCTIONS, Cell, Way, computed, demand, equal_ways
-from compiler.determined.reasons import Choice, Undetermined
+from compiler.determined.reasons import Choice, UndeterminedError
+from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS, RELATIONS, ROOT, TOGETHER, Body
 from compiler.determined.times import Time, demand_time, is_time_constraint
 from compiler.program import (
     DURATION,
@@ -33,28 +34,6 @@ from compiler.program import (
     TypeCode,
 )
 from nddl_lang.text.source import Span
-
-TOGETHER, MERGED, PREVIOUS, FOLLOWING, ROOT = "together", "merged", "previous", "following", "root"
-# How the token that a relation asks for is found: by starting now, by holding now, by following.
-RELATIONS = {
-    "equals": TOGETHER,
-    "starts": TOGETHER,
-    "contained_by": MERGED,
-    "starts_during": MERGED,
-    "ends": MERGED,
-    "meets": FOLLOWING,
-    "met_by": PREVIOUS,
-}
-
-
-@dataclass(eq=False, slots=True)
-class Body:
-    """One rule instance, or the body of a predicate, under way: its token and what its slots stand for."""
-
-    token: int
-    rule: int
-    tokens: dict[int, int]  # token slot -> number of the token
-    locals: dict[int, Cell] = field(default_factory=dict)
 
 
 class Elaboration:
@@ -129,14 +108,14 @@ class Elaboration:
         parent = self.tokens[body.tokens[child.origin]]
         how = RELATIONS.get(child.relation)
         if child.origin != 0 or how is None or (child.bounds and not self.model.are_usual(child)):
-            raise Undetermined(Choice.OPEN_TIMES, what, span)
+            raise UndeterminedError(Choice.OPEN_TIMES, what, span)
         line, predicate = self.model.target(child, parent.line)
         if self.model.lines[line].role != "own" and how != MERGED:
-            raise Undetermined(Choice.ASKED_OF_OTHERS, what, span)
+            raise UndeterminedError(Choice.ASKED_OF_OTHERS, what, span)
         if line == parent.line and how in (TOGETHER, MERGED):
-            raise Undetermined(Choice.OPEN_TIMES, what, span)
+            raise UndeterminedError(Choice.OPEN_TIMES, what, span)
         if how == PREVIOUS and line != parent.line:
-            raise Undetermined(Choice.OPEN_TIMES, what, span)
+            raise UndeterminedError(Choice.OPEN_TIMES, what, span)
         if how == MERGED:
             self._act((code.MERGE, line, self.model.number(predicate)), context, span, what, -1)
         if how == PREVIOUS:
@@ -195,7 +174,7 @@ class Elaboration:
             case Assign(target=target, domain=None, value=value, span=span) if _is_operand(value):
                 self._post(Post("eq", (target, value), None, span), body, context)  # type: ignore[arg-type]
             case _:
-                raise Undetermined(Choice.STATEMENT, instruction.span.text.split("\n")[0], instruction.span)
+                raise UndeterminedError(Choice.STATEMENT, instruction.span.text.split("\n")[0], instruction.span)
 
     def _guard(self, guard: Guard, body: Body, context: Context) -> None:
         condition = self._cell(guard.condition, body, guard.span)
@@ -234,11 +213,11 @@ class Elaboration:
         cells = []
         for each, operand in zip(operands, post.operands, strict=True):
             if not isinstance(each, Cell):
-                raise Undetermined(Choice.END, _text(operand, span), span)
+                raise UndeterminedError(Choice.END, _text(operand, span), span)
             cells.append(each)
         registers = tuple(cell.register for cell in cells)
         if name in ("eq", "concurrent"):
-            for first, second in zip(cells, cells[1:], strict=False):
+            for first, second in pairwise(cells):
                 self._equate(first, second, context, span, span.text)
         elif name == "neq" and all(cell.kind == "bool" for cell in cells):
             a, b = cells
@@ -253,7 +232,7 @@ class Elaboration:
         elif name == "or":
             self._either(cells, context, span)
         else:
-            raise Undetermined(Choice.FUNCTION, name, span)
+            raise UndeterminedError(Choice.FUNCTION, name, span)
 
     def _computed_time(self, time: Time, context: Context, span: Span) -> Cell:
         """A register for an end or a duration that a function computes."""
@@ -330,7 +309,7 @@ class Elaboration:
         found = self._operand(operand, body, span)
         if isinstance(found, Cell):
             return found
-        raise Undetermined(Choice.END, _text(operand, span), span)
+        raise UndeterminedError(Choice.END, _text(operand, span), span)
 
     def _operand(self, operand: Operand, body: Body, span: Span) -> "Cell | Time | DomainConstant":
         layout = self.layout
@@ -343,13 +322,13 @@ class Elaboration:
             case GlobalVariable(index=index):
                 name, type_ = self.model.program.globals[index]
                 if name == "AGENT_CLOCK":
-                    raise Undetermined(Choice.CLOCK, span.text.split("\n")[0], span)
+                    raise UndeterminedError(Choice.CLOCK, span.text.split("\n")[0], span)
                 register = layout.global_variable(index)
                 self.sheet.given.add(register)
                 return Cell(register, type_.kind)
             case LocalVariable(slot=slot):
                 if slot not in body.locals:
-                    raise Undetermined(Choice.STATEMENT, span.text.split("\n")[0], span)
+                    raise UndeterminedError(Choice.STATEMENT, span.text.split("\n")[0], span)
                 return body.locals[slot]
             case TokenVariable(token=token, variable=variable) if variable >= FIRST_PARAMETER:
                 number = body.tokens[token]
@@ -361,7 +340,7 @@ class Elaboration:
                     layout.remembered.add(record.line)
                     self._act((code.PLANNED,), record.context, span, parameter.name, -1)
                 if self.model.lines[record.line].role != "own" and record.how != MERGED and record.how != ROOT:
-                    raise Undetermined(Choice.ASKED_OF_OTHERS, parameter.name, span)
+                    raise UndeterminedError(Choice.ASKED_OF_OTHERS, parameter.name, span)
                 return Cell(self.banks[number] + k, parameter.type.kind)
             case TokenVariable(token=token, variable=variable) if variable in (START, END, DURATION):
                 record = self.tokens[body.tokens[token]]
@@ -371,11 +350,11 @@ class Elaboration:
                     return Cell(layout.starts[record.line], "int")
                 if record.how in (ROOT, TOGETHER, MERGED):
                     return Time(body.tokens[token], variable)
-                raise Undetermined(Choice.END, span.text.split("\n")[0], span)
+                raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
             case Field():
                 return self._member(operand, body, span)
             case _:
-                raise Undetermined(Choice.STATEMENT, span.text.split("\n")[0], span)
+                raise UndeterminedError(Choice.STATEMENT, span.text.split("\n")[0], span)
 
     def _member(self, operand: Field, body: Body, span: Span) -> Cell:
         """A member of an object that is known beforehand: a constant of the mission."""
@@ -385,10 +364,10 @@ class Elaboration:
             case GlobalVariable(index=index):
                 name = self.model.program.globals[index][0]
             case _:
-                raise Undetermined(Choice.STATEMENT, span.text.split("\n")[0], span)
+                raise UndeterminedError(Choice.STATEMENT, span.text.split("\n")[0], span)
         kind = self.model.member_kind(name, operand.members)
         if kind is None:
-            raise Undetermined(Choice.STATEMENT, span.text.split("\n")[0], span)
+            raise UndeterminedError(Choice.STATEMENT, span.text.split("\n")[0], span)
         register = self.layout.member(name, operand.members)
         self.sheet.given.add(register)
         return Cell(register, kind)

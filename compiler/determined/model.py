@@ -1,7 +1,7 @@
 """What a block looks up in the program: whose timeline a child is on, which values a domain allows."""
 
 from compiler.determined.code import LARGEST, Layout, Line
-from compiler.determined.reasons import Choice, Undetermined
+from compiler.determined.reasons import Choice, UndeterminedError
 from compiler.program import Child, DomainConstant, GlobalVariable, PredicateCode, Program, TypeCode
 from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.text.source import Span
@@ -53,19 +53,19 @@ class Model:
             case "any":
                 fitting = [n for n, each in enumerate(self.lines) if owner in self.ancestors(each.class_name)]
                 if not fitting:
-                    raise Undetermined(Choice.RESOURCE, child.predicate, child.span)
+                    raise UndeterminedError(Choice.RESOURCE, child.predicate, child.span)
                 if len(fitting) > 1:
-                    raise Undetermined(Choice.SEVERAL_OBJECTS, child.predicate, child.span)
+                    raise UndeterminedError(Choice.SEVERAL_OBJECTS, child.predicate, child.span)
                 line = fitting[0]
             case GlobalVariable(index=index) if self.program.globals[index][0] in self.line_numbers:
                 line = self.line_numbers[self.program.globals[index][0]]
             case _:
-                raise Undetermined(Choice.SEVERAL_OBJECTS, child.predicate, child.span)
+                raise UndeterminedError(Choice.SEVERAL_OBJECTS, child.predicate, child.span)
         if self.lines[line].role == "other":
-            raise Undetermined(Choice.NO_TIMELINE, child.predicate, child.span)
+            raise UndeterminedError(Choice.NO_TIMELINE, child.predicate, child.span)
         predicate = self.predicate(line, short)
         if predicate is None:
-            raise Undetermined(Choice.RESOURCE, child.predicate, child.span)
+            raise UndeterminedError(Choice.RESOURCE, child.predicate, child.span)
         return line, predicate
 
     def are_usual(self, child: Child) -> bool:

@@ -18,17 +18,14 @@ class Choice(Enum):
     CLOCK = "`{name}` reads the clock"
     OPEN_VALUE = "nothing says the value of `{name}`"
     UNKNOWN_VALUE = "`{name}` has no value when the mission starts"
-    LATE_VALUE = "`{name}` is known only after the token has started"
     FUNCTION = "`{name}` has no register code"
-    STATEMENT = "`{name}` has no register code"
+    STATEMENT = "`{name}` is a statement without register code"
     END = "`{name}` reads an end that is not yet known"
     CIRCLE = "the timelines {name} wait for each other"
     LATER_FACT = "`{name}` is given for later than the first tick"
     GOAL = "`{name}` is a goal of the model's script"
-    OTHER_PREDICATE = "`{name}` may give way to another predicate: its timeline is settled after one that it ends"
     EARLY = "what is planned on `{name}` starts as soon as it may, by the setting `early`"
     LIMITED = "the planner's steps of `{name}` are limited"
-    SAMPLE = "the draws of `{name}` are not known"
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +42,7 @@ class Reason:
         return self.choice.value.format(name=self.name)
 
 
-class Undetermined(Exception):
+class UndeterminedError(Exception):
     """Ends the analysis of one block; raised and caught inside the analysis only."""
 
     def __init__(self, choice: Choice, name: str, span: Span | None) -> None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from compiler.determined import code
 from compiler.determined.items import Context, Item, Worksheet
 from compiler.determined.operations import Instruction, Way
-from compiler.determined.reasons import Choice, Undetermined
+from compiler.determined.reasons import Choice, UndeterminedError
 
 Placed = tuple[Context, Instruction]
 AGAIN = -1  # at the end of an instruction: its result is known, and must come out the same
@@ -48,7 +48,7 @@ class Sequence:
 
 
 def schedule(sheet: Worksheet) -> Sequence:
-    """All items as instructions, each under its context; raises `Undetermined` where something stays unknown."""
+    """All items as instructions, each under its context; raises `UndeterminedError` where something stays unknown."""
     knowledge = Knowledge({register: [()] for register in sheet.given})
     for register in sheet.doubtful - sheet.given:
         knowledge.known[register] = [NOWHERE]
@@ -83,7 +83,7 @@ def schedule(sheet: Worksheet) -> Sequence:
             if register in sheet.openable and not _is_named(register, sheet):
                 continue
             name, span = sheet.names.get(register, ("a value", None))
-            raise Undetermined(Choice.OPEN_VALUE, name, span)
+            raise UndeterminedError(Choice.OPEN_VALUE, name, span)
         _look(register, context, knowledge, placed, looked)
     for item in sheet.items:
         if item.rank == 1:
@@ -202,11 +202,11 @@ def _is_named(register: int, sheet: Worksheet) -> bool:
     return any(register in item.needs for item in sheet.items)
 
 
-def _stuck(waiting: list[Item], knowledge: Knowledge, sheet: Worksheet) -> Undetermined:
+def _stuck(waiting: list[Item], knowledge: Knowledge, sheet: Worksheet) -> UndeterminedError:
     """The value that is missing, with the constraint that waits for it."""
     for item in waiting:
         for register in (*(each for each, _ in item.context), *item.needs):
             if not knowledge.is_readable(register, item.context):
                 name = sheet.names.get(register, ("", None))[0] or item.name.split("\n")[0]
-                return Undetermined(Choice.OPEN_VALUE, name, item.span)
-    return Undetermined(Choice.OPEN_VALUE, waiting[0].name.split("\n")[0], waiting[0].span)
+                return UndeterminedError(Choice.OPEN_VALUE, name, item.span)
+    return UndeterminedError(Choice.OPEN_VALUE, waiting[0].name.split("\n")[0], waiting[0].span)

@@ -2,11 +2,12 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from compiler.determined import code
 from compiler.determined.code import Layout
 from compiler.determined.operations import Cell, Instruction
-from compiler.determined.reasons import Choice, Undetermined
+from compiler.determined.reasons import Choice, UndeterminedError
 from compiler.program import DURATION, END, DomainConstant
 from nddl_lang.text.source import Span
 
@@ -38,9 +39,9 @@ def is_time_constraint(operands: Operands) -> bool:
 
 
 def demand_time(layout: Layout, name: str, operands: Operands, line_of: LineOf, span: Span) -> list[Act]:
-    """What a constraint says of ends; raises `Undetermined` where it says it of what is not known."""
+    """What a constraint says of ends; raises `UndeterminedError` where it says it of what is not known."""
     if name in ("eq", "concurrent"):
-        pairs = zip(operands, operands[1:], strict=False)
+        pairs = pairwise(operands)
         return [act for a, b in pairs for act in _pair(layout, code.LAST_EXACTLY, a, b, 0, line_of, span)]
     if name in ("leq", "precedes"):
         return _pair(layout, code.LAST_MOST, operands[0], operands[1], 0, line_of, span)
@@ -48,7 +49,7 @@ def demand_time(layout: Layout, name: str, operands: Operands, line_of: LineOf, 
         return _pair(layout, code.LAST_MOST, operands[0], operands[1], -1, line_of, span)
     if name == "temporalDistance":
         return _distance(layout, operands, line_of, span)
-    raise Undetermined(Choice.END, span.text.split("\n")[0], span)
+    raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
 
 
 def _pair(
@@ -63,7 +64,7 @@ def _pair(
     """`a` relation `b` + `step`."""
     if isinstance(a, Time) and isinstance(b, Time):
         if a.variable != END or b.variable != END or step:
-            raise Undetermined(Choice.END, span.text.split("\n")[0], span)
+            raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
         tie = code.TIE if relation == code.LAST_EXACTLY else code.WITHIN
         return [Act((), ((tie, line_of(a), line_of(b)),))]
     if isinstance(b, Time):
@@ -73,7 +74,7 @@ def _pair(
         return _bounds(layout, relation, a, b, step, line_of, span)
     assert isinstance(b, Cell)
     if b.is_real and step:
-        raise Undetermined(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
     instructions: list[Instruction] = []
     value = b.register
     if b.is_real:
@@ -103,7 +104,7 @@ def _bounds(
 ) -> list[Act]:
     """An end or duration against an interval: what it may be at most, at least, or both."""
     if domain.interval is None:
-        raise Undetermined(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
     lower, upper = domain.interval
     acts = []
     if relation != code.LAST_MOST and lower > -code.LARGEST:
@@ -119,7 +120,7 @@ def _distance(layout: Layout, operands: Operands, line_of: LineOf, span: Span) -
     """`later - earlier` is `distance`."""
     earlier, distance, later = operands
     if isinstance(distance, Time):
-        raise Undetermined(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
     if isinstance(earlier, Time) and isinstance(later, Time):
         if isinstance(distance, DomainConstant) and distance.interval is not None:
             lower, upper = distance.interval
@@ -128,11 +129,11 @@ def _distance(layout: Layout, operands: Operands, line_of: LineOf, span: Span) -
                     return [Act((), ((code.WITHIN, line_of(later), line_of(earlier)),))]
                 if lower == 0 and upper >= code.LARGEST:
                     return [Act((), ((code.WITHIN, line_of(earlier), line_of(later)),))]
-        raise Undetermined(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
     base = later if isinstance(earlier, Time) else earlier
     time = earlier if isinstance(earlier, Time) else later
     if not isinstance(base, Cell) or not isinstance(time, Time) or time.variable != END:
-        raise Undetermined(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
     way = code.SUB if isinstance(earlier, Time) else code.ADD
     if isinstance(distance, Cell):
         value = layout.take(1)
@@ -144,7 +145,7 @@ def _distance(layout: Layout, operands: Operands, line_of: LineOf, span: Span) -
             )
         ]
     if distance.interval is None:
-        raise Undetermined(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
     acts = []
     for bound, is_lower in zip(distance.interval, (True, False), strict=True):
         if abs(bound) < code.LARGEST:

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from compiler.determined.analysis import analyse
 from compiler.determined.assemble import compile_block
 from compiler.determined.code import FOLLOW, STRIDE, WHEN_FALSE, WHEN_TRUE, Block, Layout, Line
-from compiler.determined.elaborate import TOGETHER
 from compiler.determined.model import Model
-from compiler.determined.reasons import Choice, Reason, Undetermined
+from compiler.determined.reasons import Choice, Reason, UndeterminedError
+from compiler.determined.relations import TOGETHER
 from compiler.program import DomainConstant, PredicateCode, Program
 from runtime.determined.machine import Machine
 from runtime.determined.tags import FAR, NONE
@@ -47,7 +47,7 @@ class RegisterProgram:
     names: list[str] = field(default_factory=list)  # texts of the numbers of symbols
 
     def block(self, line: int, predicate: PredicateCode, mask: int) -> int:
-        """The number of a block, and of all that follow from it; raises `Undetermined`."""
+        """The number of a block, and of all that follow from it; raises `UndeterminedError`."""
         key = (line, self.model.number(predicate), mask)
         if key in self.numbers:
             return self.numbers[key]
@@ -182,7 +182,7 @@ def _load_facts(loaded: RegisterProgram, bench: Workbench, reasons: dict[Reason,
         assert own is not None
         try:
             block = loaded.block(line, own, sum(1 << k for k in values))
-        except Undetermined as obstacle:
+        except UndeterminedError as obstacle:
             reasons[obstacle.reason] = None
             continue
         end = bench.end(t)
@@ -200,7 +200,7 @@ def _load_defaults(loaded: RegisterProgram, reasons: dict[Reason, None]) -> None
             continue
         try:
             loaded.defaults[number] = loaded.block(number, predicate, 0)
-        except Undetermined as obstacle:
+        except UndeterminedError as obstacle:
             obstacles[number] = obstacle.reason
     begun = {each.line: each.block for each in loaded.first}
     waiting = [n for n in loaded.order if loaded.model.lines[n].role == "own"]

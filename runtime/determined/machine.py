@@ -1,9 +1,9 @@
 """Register machine: ticks go in, tokens that start come out; no plan database, no propagation.
 
-At a tick the machine finds what must end (its latest end is now, or something that was asked for may start) and runs the
-block of what starts in its place, timelines in causal order. It stops at whatever the code does not foresee: a value
-that is not known, a constraint that does not hold, bounds without a value. What it has written by then is void; who runs
-it goes back to a snapshot, or hands over to the general engine.
+At a tick the machine finds what must end (its latest end is now, or something that was asked for may start) and runs
+the block of what starts in its place, timelines in causal order. It stops at whatever the code does not foresee: a
+value that is not known, a constraint that does not hold, bounds without a value. What it has written by then is void;
+who runs it goes back to a snapshot, or hands over to the general engine.
 
 The operations are those of `compiler.determined.code`; their numbers are written out, so that the C compiler makes a
 jump table of them.
@@ -343,7 +343,7 @@ class Machine:
         if op == 40:  # WITHIN
             return present.put_within(line, a)
         if op == 41:  # MEMBER
-            for j in range(b):
+            for j in range(b):  # noqa: SIM110 (a generator cannot be compiled here)
                 if self.registers[a + j] == self.registers[line]:
                     return True
             return False

@@ -1,17 +1,16 @@
 """Publish what a machine has carried out: its log in, events of the trace and observations for users out."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
-from compiler.program import DomainConstant, PredicateCode
+from runtime.determined.arguments import arguments_of
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.log import Log
 from runtime.determined.tags import ROW, WISHED
-from runtime.executive.messages import Arguments, Observation, Request
-from runtime.executive.outcome import Draw, EventKind, Phase, TokenName
+from runtime.executive.messages import Observation, Request
+from runtime.executive.outcome import Draw, EventKind, Phase
 from runtime.executive.trace import Trace
+from runtime.plan.readout.names import TokenName
 
-INFINITY = 4503599627370495
 NOTHING = -1
 
 
@@ -115,27 +114,3 @@ class Publisher:
             return None
         wish.started = tick
         return self.asked.pop(line)
-
-
-def arguments_of(program: RegisterProgram, predicate: PredicateCode, value_of: Callable[[int], float]) -> Arguments:
-    """Parameters as others read them."""
-    told = []
-    for k, parameter in enumerate(predicate.parameters):
-        told.append((parameter.name, domain_of(program, parameter.type.kind, parameter.type.type_name, value_of(k))))
-    return tuple(told)
-
-
-def domain_of(program: RegisterProgram, kind: str, type_name: str, value: float) -> DomainConstant:
-    """What a register says of a variable; NaN leaves it open."""
-    if value != value:
-        return DomainConstant(kind, type_name, (-INFINITY, INFINITY), None)
-    if kind == "float":
-        return DomainConstant(kind, type_name, (value + 0.0, value + 0.0), None)  # no negative zero
-    if kind == "int":
-        return DomainConstant(kind, type_name, (int(value), int(value)), None)
-    if kind == "bool":
-        return DomainConstant(kind, type_name, None, (bool(value),))
-    if int(value) >= len(program.names):
-        symbols = program.layout.symbols
-        program.names[:] = sorted(symbols, key=lambda name: symbols[name])
-    return DomainConstant(kind, type_name, None, (program.names[int(value)],))

@@ -4,12 +4,11 @@ It answers as the general reactor would, and wherever its code stops, it becomes
 that came from outside so far, and goes on from there. The general engine is the judge.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
-from compiler.determined.reasons import Undetermined
-from compiler.program import PredicateCode
+from runtime.determined.arguments import given_block
 from runtime.determined.inputs import Inputs, catch_up, take_over
-from runtime.determined.loading import RegisterProgram, is_open, number_of
+from runtime.determined.loading import RegisterProgram
 from runtime.determined.publish import Publisher, Wish
 from runtime.determined.tags import (
     FAR,
@@ -24,12 +23,13 @@ from runtime.determined.tags import (
     WISH_UNTIL,
 )
 from runtime.executive.configuration import ReactorConfiguration
-from runtime.executive.messages import Arguments, Observation, Request
-from runtime.executive.outcome import Conflict, Draw, EventKind, OpenGoal, Reason, ReasonKind, VariableName
+from runtime.executive.messages import Observation, Request
+from runtime.executive.outcome import Conflict, Draw, EventKind, OpenGoal, Reason, ReasonKind
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.reactor import Failure, Refusal
 from runtime.executive.story import latest
 from runtime.executive.trace import Trace
+from runtime.plan.readout.names import VariableName
 
 AHEAD = 256  # ticks that are carried out before anybody asks for them
 
@@ -51,8 +51,7 @@ class DeterminedReactor:
         self.name = configuration.name
         self.internal = configuration.internal
         self.external = configuration.external
-        self.latency = configuration.latency
-        self.lookahead = configuration.lookahead
+        self.latency, self.lookahead = configuration.latency, configuration.lookahead
         self.program = program
         self.drawn = drawn
         self.make_general = general
@@ -112,9 +111,7 @@ class DeterminedReactor:
         if self.news:
             self._return_to(tick - 1)
         if self.reached < tick and not self._carry_out(tick):
-            self._hand_over(tick, False)
-            assert self.general is not None
-            return self.general.synchronise(tick)
+            return self._hand_over(tick, False).synchronise(tick)
         return None
 
     def _carry_out(self, tick: int) -> bool:
@@ -125,7 +122,7 @@ class DeterminedReactor:
             if self.reached < tick - 1:
                 return False
         for line, news in self.news.items():
-            given = self._given(line, news.predicate, news.arguments)
+            given = given_block(self.program, self.machine, line, news.predicate, news.arguments)
             if given is None:
                 return False
             self._ask(line, given[0], given[1], (tick, tick), (tick + 1, FAR), (1, FAR))
@@ -157,7 +154,7 @@ class DeterminedReactor:
         self,
         line: int,
         block: int,
-        values: dict[int, float],
+        values: Mapping[int, float],
         start: tuple[int, int],
         end: tuple[int, int],
         duration: tuple[int, int],
@@ -176,21 +173,6 @@ class DeterminedReactor:
             state[last * n + line] = min(upper, FAR)
         for k, value in values.items():
             machine.registers[machine.wished[line] + k] = value
-
-    def _given(self, line: int, short: str, arguments: Arguments) -> tuple[int, dict[int, float]] | None:
-        """The block and the values of a token that comes from outside; None where only the general engine can tell."""
-        predicate = self.program.model.predicate(line, short)
-        if predicate is None or predicate.is_action or predicate.is_event:
-            return None
-        values = _values(self.program, predicate, arguments)
-        if values is None:
-            return None
-        try:
-            block = self.program.block(line, predicate, sum(1 << k for k in values))
-        except Undetermined:
-            return None
-        self.program.bring_up_to_date(self.machine)
-        return block, values
 
     def draw(self, machine: object, parameter: int, tick: int) -> bool:
         """Give the machine the value of a parameter that is in force at `tick`; false if the mission has none."""
@@ -273,8 +255,10 @@ class DeterminedReactor:
         reach = tick + self.machine.present.reach
         return any(
             self._comes_last(wish, tick)
-            or wish is not self.publisher.asked.get(wish.line)
-            and (wish.line not in self.publisher.asked or wish.request.start[0] <= reach)
+            or (
+                wish is not self.publisher.asked.get(wish.line)
+                and (wish.line not in self.publisher.asked or wish.request.start[0] <= reach)
+            )
             for wish in self.wishes
         )
 
@@ -321,7 +305,7 @@ class DeterminedReactor:
             return
         self.inputs.note(self.trace.tick, False, request)
         line = self.numbers[request.timeline]
-        given = self._given(line, request.predicate, request.arguments)
+        given = given_block(self.program, self.machine, line, request.predicate, request.arguments)
         if given is None:
             self.is_beyond = True
             return
@@ -330,22 +314,14 @@ class DeterminedReactor:
         self.publisher.wishes.append(wish)
 
     def _refuse(self, request: Request) -> None:
-        why = Reason(ReasonKind.NO_LOOKAHEAD)
-        causes = (request.event,)
+        why, line, what = Reason(ReasonKind.NO_LOOKAHEAD), request.timeline, request.predicate
+        causes, number = (request.event,), request.number
         event = self.trace.record(
-            EventKind.REFUSE,
-            self.name,
-            request.timeline,
-            request.predicate,
-            request.arguments,
-            causes,
-            request=request.number,
-            reason=why,
+            EventKind.REFUSE, self.name, line, what, request.arguments, causes, request=number, reason=why
         )
         self.refusals_made.append(Refusal(request, event))
         if request.is_mandatory:
-            goal = OpenGoal(request.timeline, request.predicate, request.arguments, why, event)
-            self.refused_goals.append(goal)
+            self.refused_goals.append(OpenGoal(line, what, request.arguments, why, event))
 
     def recall(self, number: int) -> None:
         """Drop a request that has not started; what has started goes on to its own end."""
@@ -394,12 +370,13 @@ class DeterminedReactor:
 
     # ---- the general reactor ----
 
-    def _hand_over(self, tick: int, is_settled: bool) -> None:
+    def _hand_over(self, tick: int, is_settled: bool) -> PlanReactor:
         """Become a general reactor that knows what came from outside; `is_settled`: the present of `tick` too."""
-        self.general = self._witness(tick, is_settled)
-        take_over(self.general, self.trace)
+        self.general = general = self._witness(tick, is_settled)
+        take_over(general, self.trace)
         for name in self.internal:
-            self.general.by_name[name].event = self.publisher.events[self.numbers[name]]
+            general.by_name[name].event = self.publisher.events[self.numbers[name]]
+        return general
 
     def _witness(self, tick: int, is_settled: bool) -> PlanReactor:
         """A general reactor that has lived through the same."""
@@ -422,22 +399,3 @@ class DeterminedReactor:
             if line.current >= 0 and general.bench.started_at(line.current) == key:
                 return latest(general.bench, general.bench.end(line.current))
         return general.why_it_lasts(token, key)
-
-
-def _values(program: RegisterProgram, predicate: PredicateCode, arguments: Arguments) -> dict[int, float] | None:
-    """The parameters that are given a value, as numbers; None where one is given a choice, or is not known."""
-    numbers = {parameter.name: k for k, parameter in enumerate(predicate.parameters)}
-    values: dict[int, float] = {}
-    for name, domain in arguments:
-        if name not in numbers:
-            return None
-        parameter = predicate.parameters[numbers[name]]
-        if is_open(domain):
-            continue
-        value = number_of(program.layout, domain)
-        if value is None or (domain.interval is None) == (parameter.type.kind in ("int", "float")):
-            return None
-        if parameter.type.kind == "int" and value != int(value):
-            return None
-        values[numbers[name]] = value
-    return values

@@ -125,7 +125,7 @@ class World:
         ]
 
     def check(self) -> None:
-        """Each value must be within its bounds: those of known values, or what these were computed with, are rounded."""
+        """Each value must be within its bounds, but for rounding and for what it was computed with."""
         rounding = max(map(abs, self.values)) * Fraction(2) ** -46
         for v, value in enumerate(self.values):
             lo, hi = self.engine.lower(v), self.engine.upper(v)

@@ -139,7 +139,7 @@ class Writer:
         lasting = chance.choice(("duration == n + 1;", "duration == 5;", "int t; t == ceil(n * 1.5); duration == t;"))
         if with_draw:
             lasting = "float d; int t; d == sampledParameter(SLOW); t == ceil(d * 4.0); duration == t + 1;"
-        after = chance.choice(("", f"meets(object.Rest r); r.k == n;", "meets(object.Rest r);"))
+        after = chance.choice(("", "meets(object.Rest r); r.k == n;", "meets(object.Rest r);"))
         rest = chance.choice(("", "duration >= 3;", "duration == 4;"))
         self.timeline(name, "predicate Rest { int k; } predicate Do { int n; }", "Rest")
         self.rules.append(f"{name}::Do {{ {lasting} {after} }}")
@@ -147,13 +147,17 @@ class Writer:
         for _ in range(chance.randint(0, 3)):
             self.goal(name.lower(), "Do", ("n", chance.randint(1, 6)))
 
-    def helm(self, name: str) -> str:
-        """A timeline of commands with a mirror that has one predicate."""
+    def helm(self, name: str, is_read: bool) -> str:
+        """A timeline of commands with a mirror that has one predicate.
+
+        Where a chain reads the mirror, a command lasts until the next one: the general engine plans the next step of
+        the chain before the command is over, and with it what comes then.
+        """
         mirror = f"{name}Mirror"
         self.timeline(name, "predicate Idle { } predicate Run { float v; }", "Idle")
         self.timeline(mirror, "predicate Holds { float v; }", "Holds")
         self.rules.append(f"{name}::Idle {{ equals({mirror}.Holds s); s.v == 0.0; }}")
-        lasting = self.chance.choice(("", "duration <= 9;", "duration == 6;"))
+        lasting = "" if is_read else self.chance.choice(("", "duration <= 9;", "duration == 6;"))
         self.rules.append(f"{name}::Run {{ equals({mirror}.Holds s); s.v == v; {lasting} }}")
         for _ in range(self.chance.randint(0, 2)):
             self.goal(name.lower(), "Run", ("v", self.chance.choice((1.5, 0.1, -2.0))))
@@ -182,8 +186,9 @@ def random_case(seed: int) -> Case:
         elif kind == "command":
             writer.command(f"K{number}", with_draw)
         else:
-            mirror = writer.helm(f"H{number}")
-            if chance.random() < 0.7:
+            is_read = chance.random() < 0.7
+            mirror = writer.helm(f"H{number}", is_read)
+            if is_read:
                 writer.chain(f"C{number}", mirror, with_draw)
     text = "\n".join(
         [
