@@ -45,6 +45,12 @@ def fly_once(
         return _relative(run_mission(agent, programs, seed, values, until=until), root)
 
 
+def programs_of(agent: AgentConfiguration) -> MissionPrograms:
+    """The compiled models of `agent`, and the flaw handling of its reactors."""
+    reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
+    return _load_programs(Path(agent.root), reactors, agent.constraints, agent.constraint_seconds)
+
+
 @lru_cache(maxsize=4)
 def _load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...], seconds: float) -> MissionPrograms:
     """The compiled models and the flaw handling of some reactors; kept, for flights that differ in parameters only."""

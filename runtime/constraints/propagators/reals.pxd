@@ -29,6 +29,7 @@ cpdef double up(double x) except? -1.0
 
 cpdef bint within(Store s, long long v, double lo, double hi, long long support) except -1
 
+@cython.locals(x=double)
 cpdef bint add(Store s, long long a, long long b, long long r, long long support) except -1
 
 @cython.locals(hi=double, least=double, lo=double, most=double, p=double, q=double, x=double, y=double)
