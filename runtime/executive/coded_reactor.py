@@ -22,6 +22,8 @@ Kinds = Callable[[str, str], Mapping[str, tuple[str, str]] | None]  # timeline, 
 class CodedReactor:
     """Calls a user's reactor, and speaks for it."""
 
+    runs_ahead = False
+
     def __init__(
         self, configuration: CodeConfiguration, make: Callable[[], Reactor], kinds: Kinds, trace: Trace
     ) -> None:
@@ -50,6 +52,9 @@ class CodedReactor:
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
         """Nothing that it does depends on the windows of owners."""
+
+    def pass_over(self, tick: int) -> None:
+        """It never runs ahead."""
 
     def start_tick(self, tick: int) -> None:
         """Nothing is kept from the tick before."""

@@ -62,7 +62,8 @@ def run_mission(
     trace = Trace()
     world = World(configuration, seed, overrides or {}, trace)
     reactors: list[Reactor] = []
-    users = {line for each in (*configuration.reactors, *configuration.coded) for line in each.external}
+    users = {line for each in configuration.reactors for line in each.external}
+    users.update(line for each in configuration.coded for line in each.external)
     for number, (each, program) in enumerate(zip(configuration.reactors, programs.programs, strict=True)):
         world.learn(program)
         loaded = register_program(configuration, programs, number) if compiles else None
