@@ -23,6 +23,7 @@ COMMANDS = {
     "lint": ("nddlc.lint", "Report everything that is wrong with models."),
     "fmt": ("nddlc.fmt", "Put models into the one style."),
     "load": ("nddlc.load", "Load models and show their tokens and variables."),
+    "compile": ("nddlc.compile", "Tell which reactors become register code, and what is in the way of others."),
     "plan": ("nddlc.plan", "Search a plan for a model."),
     "run": ("nddlc.run", "Fly one mission, and show what happened."),
     "replay": ("nddlc.replay", "Fly the mission of a trace again, and say where it departs."),
@@ -34,7 +35,7 @@ COMMANDS = {
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 # What is slow where the engine is not compiled.
-PLANNING = ("load", "plan", "run", "replay", "gold", "check", "explain", "validate")
+PLANNING = ("load", "compile", "plan", "run", "replay", "gold", "check", "explain", "validate")
 UNUSABLE, BUG, INTERRUPTED = 2, 3, 130
 MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
 FORBIDDEN = (errno.EACCES, errno.EPERM, errno.ELOOP, errno.ENAMETOOLONG)

@@ -100,6 +100,8 @@ class Agent:
         abort: Abort | None = None
         while True:
             self.trace.tick = self.tick
+            for reactor in self.reactors:
+                reactor.pass_over(self.tick)
             abort = self._synchronise()
             # At the final tick there is no future to plan for.
             if abort is None and self.tick < final_tick:
@@ -142,7 +144,7 @@ class Agent:
         self.awake = []
         is_last = self.tick == self.configuration.final_tick
         for reactor in list(self.reactors):
-            if reactor.due > self.tick and not is_last and not self.every_tick:
+            if reactor.due > self.tick and not is_last and not self.every_tick and not reactor.runs_ahead:
                 continue
             abort = self._settle(reactor)
             if abort is not None:

@@ -12,6 +12,7 @@ from runtime.executive.trace import Trace
 from runtime.executive.view import PlanView
 
 NOTHING = -1
+NEVER = 2**52
 
 
 class World:
@@ -41,16 +42,22 @@ class World:
 
     def draw(self, reactor: str, name: str, tick: int) -> float | None:
         """The value of a parameter that is in force at `tick`."""
+        found = self.in_force(name, tick)
+        if found is None:
+            return None
+        self.trace.record_draw(reactor, found[0])
+        return found[0].value
+
+    def in_force(self, name: str, tick: int) -> tuple[Draw, int] | None:
+        """The draw of a parameter that is in force at `tick`, and the tick of the next one; not recorded."""
         parameter = self.parameters.get(name)
         if parameter is None:
             return None
         if name in self.overrides:
             value = self.overrides[name]
-            drawn = Draw(name, 0, value, value)
-        else:
-            drawn = sample(parameter, self.seed, tick)
-        self.trace.record_draw(reactor, drawn)
-        return drawn.value
+            return Draw(name, 0, value, value), NEVER
+        until = NEVER if parameter.mode == "inter" else (update_index(parameter, tick) + 1) * parameter.update
+        return sample(parameter, self.seed, tick), until
 
 
 @dataclass(frozen=True, slots=True)

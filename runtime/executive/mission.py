@@ -2,21 +2,28 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from compiler.program import DomainConstant, Program
+from runtime.determined.building import find_out, known
+from runtime.determined.loading import RegisterProgram
+from runtime.determined.reactor import DeterminedReactor
 from runtime.executive.agent import Agent
+from runtime.executive.coded_reactor import CodedReactor
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, Value
 from runtime.executive.draws import Draws, World
 from runtime.executive.messages import Arguments, Request
 from runtime.executive.outcome import Outcome
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
+from runtime.executive.reactor import Reactor
 from runtime.executive.record import MissionRecord
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
-from runtime.plan.database import PlanDatabase
+from runtime.plan.database import Environment, PlanDatabase
 from runtime.solver.configuration.configuration import Configuration
 from runtime.user.constraint import Constraint
+from runtime.user.reactor import Reactor as UserReactor
 
 INFINITY = 4503599627370495
 
@@ -32,6 +39,7 @@ class MissionPrograms:
     programs: tuple[Program, ...]
     solvers: tuple[Configuration, ...]
     constraints: tuple[Constraint, ...] = ()  # those of the project that the models call
+    code: tuple[type[UserReactor], ...] = ()  # the classes of the reactors written in Python
 
 
 def run_mission(
@@ -41,9 +49,10 @@ def run_mission(
     overrides: Mapping[str, float] | None = None,
     every_tick: bool = False,
     until: int | None = None,
+    compiles: bool = True,
 ) -> Outcome:
     """Carry out one mission, see `record_mission`, and forget its record."""
-    return record_mission(configuration, programs, seed, overrides, every_tick, until)[0]
+    return record_mission(configuration, programs, seed, overrides, every_tick, until, compiles)[0]
 
 
 def record_mission(
@@ -53,9 +62,11 @@ def record_mission(
     overrides: Mapping[str, float] | None = None,
     every_tick: bool = False,
     until: int | None = None,
+    compiles: bool = True,
 ) -> tuple[Outcome, MissionRecord]:
     """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
 
+    Determined reactors are carried out as register code, unless `compiles` is false: events are the same.
     It ends at the final tick, or at `until`. With `every_tick` reactors are woken at each tick, whether or not anything
     can happen; events are the same.
 
@@ -64,47 +75,103 @@ def record_mission(
     """
     trace = Trace()
     world = World(configuration, seed, overrides or {}, trace)
-    reactors: list[PlanReactor] = []
-    for each, program, solver in zip(configuration.reactors, programs.programs, programs.solvers, strict=True):
+    reactors: list[Reactor] = []
+    users = {line for each in configuration.reactors for line in each.external}
+    users.update(line for each in configuration.coded for line in each.external)
+    for number, (each, program) in enumerate(zip(configuration.reactors, programs.programs, strict=True)):
         world.learn(program)
-        draws = Draws(each.name, world)
-        database = PlanDatabase(program, draws.draw, programs.constraints)
-        fault = database.run_script()
-        if fault is not None:
-            raise UnusableModelError(f"{fault.span.source.name}:{fault.span.line}: {fault.message}")
-        bench = Workbench(database, each.name)
-        draws.view = bench
-        holds = bench.set_global("TICK_DURATION", configuration.tick)
-        holds = holds and bench.set_global("MISSION_START", 0)
-        holds = holds and bench.set_global("MISSION_END", configuration.final_tick)
-        holds = holds and bench.start_clock(configuration.final_tick)
-        if not holds or not bench.is_consistent():
-            raise UnusableModelError(f"the model of `{each.name}` contradicts itself before the mission begins")
-        bench.commit()
-        planner = Planner(bench, solver, configuration.final_tick, each.max_steps, each.max_depth)
-        reactors.append(PlanReactor(each, bench, planner, configuration.final_tick, trace, draws))
+        loaded = register_program(configuration, programs, number) if compiles else None
+        if loaded is None:
+            reactors.append(plan_reactor(configuration, programs, number, world))
+            continue
+
+        def general(shadow: Trace, number: int = number) -> PlanReactor:
+            apart = World(configuration, seed, overrides or {}, shadow)
+            apart.parameters = world.parameters
+            return plan_reactor(configuration, programs, number, apart)
+
+        reactor = DeterminedReactor(each, loaded, world.in_force, general, configuration.final_tick, trace)
+        reactor.watched = sum(1 << reactor.numbers[line] for line in each.internal if line in users)
+        reactors.append(reactor)
+    kinds_of = partial(parameter_kinds, configuration, programs)
+    for coded, cls in zip(configuration.coded, programs.code, strict=True):
+        make = partial(cls, {**dict(coded.settings), "seed": seed})
+        reactors.append(CodedReactor(coded, make, kinds_of, trace))
     goals = []
     for number, goal in enumerate(configuration.goals):
         kinds = goal_kinds(configuration, programs, goal)
         goals.append((goal.at, request_of(goal, -1 - number, kinds)))
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
     outcome = agent.run(until)
-    return outcome, MissionRecord(tuple(reactor.bench.recorder.close() for reactor in reactors))
+    recorders = [reactor.bench.recorder for reactor in reactors if isinstance(reactor, PlanReactor)]
+    return outcome, MissionRecord(tuple(recorder.close() for recorder in recorders))
+
+
+def plan_reactor(
+    configuration: AgentConfiguration, programs: MissionPrograms, number: int, world: World
+) -> PlanReactor:
+    """A reactor with a plan database of its own."""
+    each = configuration.reactors[number]
+    draws = Draws(each.name, world)
+    bench = loaded_bench(configuration, programs, number, draws.draw)
+    draws.view = bench
+    planner = Planner(bench, programs.solvers[number], configuration.final_tick, each.max_steps, each.max_depth)
+    return PlanReactor(each, bench, planner, configuration.final_tick, world.trace, draws)
+
+
+def register_program(
+    configuration: AgentConfiguration, programs: MissionPrograms, number: int
+) -> RegisterProgram | None:
+    """The register code of a reactor, if it is determined."""
+    each, program = configuration.reactors[number], programs.programs[number]
+    found = known(program, each, configuration.tick, configuration.final_tick)
+    if found is None:
+        bench = loaded_bench(configuration, programs, number, lambda name, token: None)
+        found = find_out(bench, program, each, configuration.tick, configuration.final_tick)
+    return found[0]
+
+
+def loaded_bench(
+    configuration: AgentConfiguration, programs: MissionPrograms, number: int, environment: Environment
+) -> Workbench:
+    """A plan database in which the script of a reactor's model has been run."""
+    name = configuration.reactors[number].name
+    database = PlanDatabase(programs.programs[number], environment, programs.constraints)
+    fault = database.run_script()
+    if fault is not None:
+        raise UnusableModelError(f"{fault.span.source.name}:{fault.span.line}: {fault.message}")
+    bench = Workbench(database, name)
+    holds = bench.set_global("TICK_DURATION", configuration.tick)
+    holds = holds and bench.set_global("MISSION_START", 0)
+    holds = holds and bench.set_global("MISSION_END", configuration.final_tick)
+    holds = holds and bench.start_clock(configuration.final_tick)
+    if not holds or not bench.is_consistent():
+        raise UnusableModelError(f"the model of `{name}` contradicts itself before the mission begins")
+    bench.commit()
+    return bench
 
 
 def goal_kinds(
     configuration: AgentConfiguration, programs: MissionPrograms, goal: GoalConfiguration
-) -> dict[str, tuple[str, str]]:
+) -> Mapping[str, tuple[str, str]]:
     """Kind and type name of each parameter of a goal's predicate, in the model of the timeline's owner."""
-    for reactor, program in zip(configuration.reactors, programs.programs, strict=True):
-        if goal.timeline not in reactor.internal:
-            continue
+    return parameter_kinds(configuration, programs, goal.timeline, goal.predicate) or {}
+
+
+def parameter_kinds(
+    configuration: AgentConfiguration, programs: MissionPrograms, timeline: str, predicate: str
+) -> Mapping[str, tuple[str, str]] | None:
+    """Kind and type name of each parameter of a predicate, as the owner of its timeline, or else a user, has them."""
+    pairs = list(zip(configuration.reactors, programs.programs, strict=True))
+    owners = [program for reactor, program in pairs if timeline in reactor.internal]
+    users = [program for reactor, program in pairs if timeline in reactor.external]
+    for program in owners + users:
         classes = {name: code.type_name for name, code in program.globals}
-        wanted = f"{classes.get(goal.timeline, '')}.{goal.predicate}"
-        for predicate in program.predicates:
-            if predicate.name == wanted:
-                return {p.name: (p.type.kind, p.type.type_name) for p in predicate.parameters}
-    return {}
+        wanted = f"{classes.get(timeline, '')}.{predicate}"
+        for each in program.predicates:
+            if each.name == wanted:
+                return {p.name: (p.type.kind, p.type.type_name) for p in each.parameters}
+    return None
 
 
 def request_of(goal: GoalConfiguration, number: int, kinds: Mapping[str, tuple[str, str]]) -> Request:

@@ -24,6 +24,8 @@ class HistoryError(RuntimeError):
 class PlanReactor:
     """Keeps the plan of its own timelines, and what it expects of others', in step with the world."""
 
+    runs_ahead = False
+
     def __init__(
         self,
         configuration: ReactorConfiguration,
@@ -70,6 +72,9 @@ class PlanReactor:
         self.planner.window.is_reactive = self.lookahead <= 1
 
     # ---- the tick ----
+
+    def pass_over(self, tick: int) -> None:
+        """It never runs ahead."""
 
     def start_tick(self, tick: int) -> None:
         """Set "now", and forget what is over."""

@@ -55,10 +55,14 @@ class Reactor(Protocol):
     external: tuple[str, ...]
     latency: int
     lookahead: int
+    runs_ahead: bool  # whether it carries out ticks before the agent comes to them; then it is never asleep
     due: int  # the next tick at which it has something to do; earlier ones cost nothing
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
         """Take note of the execution latency and look-ahead of the owner of each timeline, and of its own."""
+
+    def pass_over(self, tick: int) -> None:
+        """Put on record what it has carried out for ticks before this one."""
 
     def start_tick(self, tick: int) -> None:
         """Set "now"."""

@@ -159,7 +159,7 @@ class PlanView:
                 return DomainConstant(kind, type_name, None, tuple(bool(x) for x in range(int(lower), int(upper) + 1)))
             if shape == KIND_INT:
                 return DomainConstant(kind, type_name, (_whole(lower), _whole(upper)), None)
-            return DomainConstant(kind, type_name, (max(lower, -INFINITY), min(upper, INFINITY)), None)
+            return DomainConstant(kind, type_name, (max(lower, -INFINITY) + 0, min(upper, INFINITY) + 0), None)
         if not engine.is_finite(v) and engine.lower(v) != engine.upper(v):
             return DomainConstant(kind, type_name, (-INFINITY, INFINITY), None)
         single = engine.lower(v) == engine.upper(v)

@@ -59,7 +59,7 @@ def load_library(
     texts: dict[str, str] = {}
     for name in dict.fromkeys(files):
         path = root / name
-        module = _load_module(path)
+        module = load_module(path)
         own = _list_of(path.as_posix(), getattr(module, LIST, None))
         found += [(path.as_posix(), each) for each in own]
         _note_texts(texts, name, path, own)
@@ -93,7 +93,7 @@ def _library(modules: tuple[Path, ...], seconds: float) -> Library:
     return load_library(Path(), [name.as_posix() for name in names], seconds=seconds)
 
 
-def _load_module(path: Path) -> ModuleType:
+def load_module(path: Path) -> ModuleType:
     """Run the Python file at `path` as a module of its own."""
     name = f"nddlc_user_{sha256(str(path.resolve()).encode()).hexdigest()[:16]}"
     module = ModuleType(name)

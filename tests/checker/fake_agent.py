@@ -33,7 +33,7 @@ PRODUCT = SourcePlace("psim.nddl", 41, 3, "expectedDuration == gpsHitRate * minH
 LASTS = SourcePlace("psim.nddl", 42, 3, "duration <= expectedDuration;")
 CONTAINS = SourcePlace("rules.nddl", 30, 3, "contains(Gps.Active fix);")
 LIMIT = SourcePlace("rules.nddl", 34, 3, "duration <= SURFACE_MAX;")
-CONSTANT = SourcePlace("navigator.nddl", 5, 1, "SURFACE_MAX = 66;")
+CONSTANT = SourcePlace("navigator.nddl", 5, 1, "SURFACE_MAX = 64;")
 FIX = TokenName("Gps.Active", 7)
 SURFACE = TokenName("Nav.Surface", 5)
 NUMBER = "float"

@@ -27,7 +27,7 @@ def workshop(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
 def test_the_fault_is_found_and_explained(workshop: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["check", str(GPS / "mission.toml"), "--missions", MISSIONS]) == 1
     text = capsys.readouterr().out
-    assert re.search(r"navigator\.nddl:5\n +5 \| SURFACE_MAX = 66;", text)
+    assert re.search(r"navigator\.nddl:5\n +5 \| SURFACE_MAX = 64;", text)
     assert re.search(r"rules\.nddl:34\n +34 \|   duration <= SURFACE_MAX;", text)
     assert re.search(r"fails when GPS_HIT_RATE >=? 3\.8", text)
     assert "z3 confirms the conflict" in text

@@ -126,10 +126,11 @@ class World:
         ]
 
     def check(self) -> None:
-        """Each value must be within its bounds: a fraction exactly, another one within what it was computed with."""
+        """Each value must be within its bounds, but for rounding and for what it was computed with."""
+        rounding = max(map(abs, self.values)) * Fraction(2) ** -46
         for v, value in enumerate(self.values):
             lo, hi = self.engine.lower(v), self.engine.upper(v)
-            slack = Fraction(self.slack[v])
+            slack = Fraction(self.slack[v]) + rounding
             assert lo == -math.inf or Fraction(lo) - slack <= value, f"{float(value)!r} lies below {lo!r}"
             assert hi == math.inf or value <= Fraction(hi) + slack, f"{float(value)!r} lies above {hi!r}"
 

@@ -48,6 +48,8 @@ def planner(
     latency: int = 0,
     lookahead: int = 100,
     max_steps: int | None = None,
+    early: tuple[str, ...] = (),
+    late: tuple[str, ...] = (),
 ) -> Flyer:
     """A reactor that plans ahead."""
     place = ReactorConfiguration(
@@ -57,7 +59,8 @@ def planner(
         lookahead,
         tuple(internal.split()),
         tuple(external.split()),
-        None,
+        early=early,
+        late=late,
         max_steps=max_steps,
     )
     return Flyer(place, text)

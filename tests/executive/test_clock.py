@@ -36,15 +36,15 @@ def test_the_guard_does_not_fire_a_tick_early() -> None:
 def test_what_never_comes_to_be_true_takes_the_other_branch() -> None:
     guarded = "User::Busy { if (AGENT_CLOCK < 0) { start == 99; } else { contains(Lamp.On on); } }"
     outcome = fly(user(guarded), OWNER, until=12, goals=BUSY)
-    assert history(outcome, "lamp") == ["0 Off", "7 On(n=[-inf +inf])", "9 Off"]
+    assert history(outcome, "lamp") == ["0 Off", "6 On(n=[-inf +inf])", "8 Off"]
 
 
-def test_a_guarded_part_that_cannot_hold_is_repaired() -> None:
+def test_a_guarded_part_that_cannot_hold_is_final_for_what_runs() -> None:
     guarded = "User::Busy { if (start + 2 <= AGENT_CLOCK) { duration <= 1; } }"
     outcome = fly(user(guarded), OWNER, until=14, goals=BUSY)
-    assert outcome.abort is None
     assert lines(outcome, "relax")[0] == ("8 relax user keeping the past: the plan does not allow it to be tick 8")
-    assert history(outcome, "user") == ["0 Idle", "6 Busy", "8 Idle"]
+    assert outcome.abort is not None and (outcome.abort.code, outcome.abort.tick) == ("F3", 8)
+    assert history(outcome, "user") == ["0 Idle", "6 Busy"]
 
 
 def test_the_mission_ends_where_the_clock_does() -> None:

@@ -30,10 +30,21 @@ def test_what_holds_goes_on_as_long_as_it_may() -> None:
     assert lived("Cell::A { duration <= 4; meets(B b); }") == ["0 A", "4 B"]
 
 
-def test_a_simulator_keeps_what_holds_and_a_planner_gets_on() -> None:
+@pytest.mark.parametrize("lookahead", [1, 20])
+def test_what_holds_is_kept_unless_its_timeline_is_early(lookahead: int) -> None:
     rules = "Cell::A { duration >= 2; duration <= 6; meets(B b); }"
-    assert lived(rules) == ["0 A", "6 B"]
-    assert lived(rules, lookahead=20) == ["0 A", "2 B"]
+    assert lived(rules, lookahead=lookahead) == ["0 A", "6 B"]
+    text = f"{STATES}{rules}Cell cell = new Cell(Internal); close();"
+    assert history(fly(planner("it", text, "cell", lookahead=20, early=("cell",))), "cell")[:2] == ["0 A", "2 B"]
+
+
+def test_a_late_timeline_begins_what_nobody_asked_for_when_it_must() -> None:
+    rules = "Cell::A { duration <= 3; any(B b); start <= b.start; b.start <= start + 5; } Cell::B { duration == 1; }"
+    text = f"{STATES}{rules}Cell cell = new Cell(Internal); close(); goal(Cell.A first); first.start == 0;"
+    usual = history(fly(planner("it", text, "cell", lookahead=20)), "cell")
+    late = history(fly(planner("it", text, "cell", lookahead=20, late=("cell",))), "cell")
+    assert usual[:2] == ["0 A", "3 B"]
+    assert late[:3] == ["0 A", "3 A", "5 B"]
 
 
 def test_the_default_comes_back_when_nothing_is_planned() -> None:

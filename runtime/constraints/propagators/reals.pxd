@@ -29,12 +29,13 @@ cpdef double up(double x) except? -1.0
 
 cpdef bint within(Store s, long long v, double lo, double hi, long long support) except -1
 
+@cython.locals(x=double)
 cpdef bint _add(Store s, long long a, long long b, long long r, long long support) except -1
 
 @cython.locals(hi=double, least=double, lo=double, most=double, p=double, q=double, x=double, y=double)
 cpdef bint _multiply(Store s, long long a, long long b, long long r, long long support) except -1
 
-cpdef bint is_known(Store s, long long v) except -1
+cpdef bint _is_known(Store s, long long v) except -1
 
 @cython.locals(least=double, most=double, x=double)
 cpdef bint _divide(Store s, long long r, double lo, double hi, long long a, long long support) except -1

@@ -1,6 +1,8 @@
 """Propagate arithmetic in which a float takes part: intervals of doubles, rounded outward so that no solution is lost.
 
-A sum or product that is exact in doubles stays as it is; any other bound is widened by one unit in the last place.
+A sum or product that is exact in doubles stays as it is; any other bound is widened by one unit in the last place. What
+follows from values that are known is one value too, the nearest double: it is within the tolerance of all that it might
+be, and what has happened in a mission is a value, however long the chain that led to it.
 """
 
 import math
@@ -108,6 +110,15 @@ def within(s: Store, v: int, lo: float, hi: float, support: int) -> bool:
 
 def _add(s: Store, a: int, b: int, r: int, support: int) -> bool:
     """Narrow a + b = r."""
+    if _is_known(s, a) and _is_known(s, b):
+        x = low(s, a) + low(s, b)
+        return within(s, r, x, x, support)
+    if _is_known(s, r) and _is_known(s, a):
+        x = low(s, r) - low(s, a)
+        return within(s, b, x, x, support)
+    if _is_known(s, r) and _is_known(s, b):
+        x = low(s, r) - low(s, b)
+        return within(s, a, x, x, support)
     if not within(s, r, lower_sum(low(s, a), low(s, b)), upper_sum(high(s, a), high(s, b)), support):
         return False
     if not within(s, a, lower_sum(low(s, r), -high(s, b)), upper_sum(high(s, r), -low(s, b)), support):
@@ -117,6 +128,9 @@ def _add(s: Store, a: int, b: int, r: int, support: int) -> bool:
 
 def _multiply(s: Store, a: int, b: int, r: int, support: int) -> bool:
     """Narrow a * b = r."""
+    if _is_known(s, a) and _is_known(s, b):
+        p = low(s, a) * low(s, b)
+        return within(s, r, p, p, support)
     lo = low(s, a)
     hi = high(s, a)
     p = product(lo, low(s, b))
@@ -137,14 +151,17 @@ def _multiply(s: Store, a: int, b: int, r: int, support: int) -> bool:
 
 
 def _is_known(s: Store, v: int) -> bool:
-    """Tell whether v is a float with one value."""
-    return s.kind[v] == KIND_FLOAT and s.flo[v] == s.fhi[v]
+    """Tell whether v has one value, to the last bit."""
+    return low(s, v) == high(s, v)
 
 
 def _divide(s: Store, r: int, lo: float, hi: float, a: int, support: int) -> bool:
     """Narrow a, where a * b = r and b lies within lo and hi."""
     least = low(s, r)
     most = high(s, r)
+    if least == most and lo == hi and lo != 0.0:
+        x = least / lo
+        return within(s, a, x, x, support)
     # A product within the tolerance of 0 may be 0, whatever the other factor is.
     if lo <= 0.0 <= hi:
         if least <= FLOAT_TOLERANCE and most >= -FLOAT_TOLERANCE:
@@ -173,7 +190,7 @@ def _divide_by(s: Store, a: int, b: int, q: int, support: int) -> bool:
         return s.fail(b, SIDE_HOLES, support)
     if not _divide(s, a, low(s, b), high(s, b), q, support):
         return False
-    return _multiply(s, q, b, a, support)
+    return (_is_known(s, a) and _is_known(s, b)) or _multiply(s, q, b, a, support)
 
 
 def _add_all(s: Store, first: int, count: int, support: int) -> bool:
@@ -320,6 +337,11 @@ def _measure_distance(s: Store, first: int, support: int) -> bool:
     y = s.slot_variable[first + 2]
     u = s.slot_variable[first + 3]
     v = s.slot_variable[first + 4]
+    if _is_known(s, x) and _is_known(s, y) and _is_known(s, u) and _is_known(s, v):
+        p = low(s, x) - low(s, u)
+        q = low(s, y) - low(s, v)
+        least = math.sqrt(p * p + q * q)
+        return within(s, s.slot_variable[first], least, least, support)
     left = low(s, x) - high(s, u)
     right = high(s, x) - low(s, u)
     under = low(s, y) - high(s, v)

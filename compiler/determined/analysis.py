@@ -1,0 +1,98 @@
+"""Decide whether a reactor is determined: a program and its timelines in, an order of timelines and reasons out."""
+
+from dataclasses import dataclass
+
+from compiler.determined.assemble import compile_block
+from compiler.determined.code import Block, Layout, Line
+from compiler.determined.model import Model
+from compiler.determined.reasons import Choice, Reason, UndeterminedError
+from compiler.determined.relations import FOLLOWING, MERGED, TOGETHER
+from compiler.program import Call, NewToken, PredicateCode, Program, Relate
+
+MOST_PARAMETERS = 62  # as many bits has the mask of what is given
+
+
+@dataclass(frozen=True, slots=True)
+class Analysis:
+    """What was found: the order in which timelines are settled, and the reasons against, if any."""
+
+    model: Model
+    layout: Layout
+    order: tuple[int, ...]
+    blocks: tuple[Block, ...]
+    reasons: tuple[Reason, ...]
+
+    @property
+    def is_determined(self) -> bool:
+        """Whether the reactor can be compiled."""
+        return not self.reasons
+
+
+def analyse(program: Program, lines: tuple[Line, ...], lookahead: int) -> Analysis:
+    """Look at every token that may start on a timeline of the reactor, as somebody may ask for it or as the default.
+
+    `lines` are the timelines of the reactor and, with the role "other", the model's other ones.
+    """
+    model = Model(program, lines)
+    widths = [max((len(each.parameters) for each in model.predicates_of(n)), default=0) for n in range(len(lines))]
+    layout = Layout(lines, widths)
+    reasons: dict[Reason, None] = {}
+    if lookahead > 1:
+        reasons[Reason(Choice.LOOKAHEAD, "the reactor", None)] = None
+    for instruction in program.script:
+        match instruction:
+            case NewToken(kind=kind, predicate=goal, span=span) if kind != "fact":
+                reasons[Reason(Choice.GOAL, goal, span)] = None
+            case Relate(span=span):
+                reasons[Reason(Choice.STATEMENT, span.text.split("\n")[0], span)] = None
+            case Call(method=method, span=span) if method != "close":
+                reasons[Reason(Choice.STATEMENT, span.text.split("\n")[0], span)] = None
+            case _:
+                pass
+    blocks: list[Block] = []
+    for number, line in enumerate(lines):
+        if line.role == "other":
+            continue
+        for predicate in model.predicates_of(number):
+            if predicate.span is None or predicate.is_action or predicate.is_event:
+                continue
+            if len(predicate.parameters) > MOST_PARAMETERS:
+                reasons[Reason(Choice.FUNCTION, predicate.name, predicate.span)] = None
+                continue
+            try:
+                blocks.append(compile_block(model, layout, number, predicate, _everything(predicate)))
+            except UndeterminedError as obstacle:
+                reasons[obstacle.reason] = None
+    order: tuple[int, ...] = ()
+    try:
+        order = order_of(model, blocks)
+    except UndeterminedError as obstacle:
+        reasons[obstacle.reason] = None
+    return Analysis(model, layout, order, tuple(blocks), tuple(reasons))
+
+
+def _everything(predicate: PredicateCode) -> int:
+    return (1 << len(predicate.parameters)) - 1
+
+
+def order_of(model: Model, blocks: list[Block]) -> tuple[int, ...]:
+    """Timelines in the order in which they are settled.
+
+    Who starts a token on another one, or lets one follow there, comes before it; who reads what holds there, after it.
+    """
+    before: dict[int, set[int]] = {n: set() for n, line in enumerate(model.lines) if line.role != "other"}
+    for block in blocks:
+        for token in block.tokens[1:]:
+            parent = block.tokens[token.parent].line
+            if token.how in (TOGETHER, FOLLOWING) and token.line != parent:
+                before[token.line].add(parent)
+            elif token.how == MERGED:
+                before[parent].add(token.line)
+    order: list[int] = []
+    while len(order) < len(before):
+        free = [n for n in before if n not in order and before[n] <= set(order)]
+        if not free:
+            names = ", ".join(f"`{model.lines[n].name}`" for n in before if n not in order)
+            raise UndeterminedError(Choice.CIRCLE, names, None)
+        order.append(free[0])
+    return tuple(order)

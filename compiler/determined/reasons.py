@@ -1,0 +1,50 @@
+"""Why a reactor is not determined: the kinds of choice that are in the way, each with the line that leaves it."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+from nddl_lang.text.source import Span
+
+
+class Choice(Enum):
+    """What a model leaves open. The text says what, `{name}` in it names the subject."""
+
+    LOOKAHEAD = "`{name}` looks further ahead than one tick, so it plans"
+    NO_TIMELINE = "`{name}` is on no timeline that the reactor owns or uses"
+    SEVERAL_OBJECTS = "`{name}` may be on several timelines"
+    OPEN_TIMES = "`{name}` leaves open when its token starts"
+    ASKED_OF_OTHERS = "`{name}` is asked of another reactor"
+    RESOURCE = "`{name}` is no predicate of a timeline"
+    CLOCK = "`{name}` reads the clock"
+    OPEN_VALUE = "nothing says the value of `{name}`"
+    UNKNOWN_VALUE = "`{name}` has no value when the mission starts"
+    FUNCTION = "`{name}` has no register code"
+    STATEMENT = "`{name}` is a statement without register code"
+    END = "`{name}` reads an end that is not yet known"
+    CIRCLE = "the timelines {name} wait for each other"
+    LATER_FACT = "`{name}` is given for later than the first tick"
+    GOAL = "`{name}` is a goal of the model's script"
+    EARLY = "what is planned on `{name}` starts as soon as it may, by the setting `early`"
+    LIMITED = "the planner's steps of `{name}` are limited"
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """One choice: its kind, the subject in the modeler's words, and where the model leaves it (None: the setting)."""
+
+    choice: Choice
+    name: str
+    span: Span | None
+
+    @property
+    def text(self) -> str:
+        """The reason in words."""
+        return self.choice.value.format(name=self.name)
+
+
+class UndeterminedError(Exception):
+    """Ends the analysis of one block; raised and caught inside the analysis only."""
+
+    def __init__(self, choice: Choice, name: str, span: Span | None) -> None:
+        super().__init__(choice.name)
+        self.reason = Reason(choice, name, span)

@@ -1,0 +1,72 @@
+"""Parameters as registers hold them, and as reactors tell each other."""
+
+from collections.abc import Callable
+
+from compiler.determined.reasons import UndeterminedError
+from compiler.program import DomainConstant, PredicateCode
+from runtime.determined.loading import RegisterProgram, is_open, number_of
+from runtime.determined.machine import Machine
+from runtime.executive.messages import Arguments
+
+INFINITY = 4503599627370495
+
+
+def given_block(
+    program: RegisterProgram, machine: Machine, line: int, short: str, arguments: Arguments
+) -> tuple[int, dict[int, float]] | None:
+    """The block and the values of a token that comes from outside; None where only the general engine can tell."""
+    predicate = program.model.predicate(line, short)
+    if predicate is None or predicate.is_action or predicate.is_event:
+        return None
+    values = values_of(program, predicate, arguments)
+    if values is None:
+        return None
+    try:
+        block = program.block(line, predicate, sum(1 << k for k in values))
+    except UndeterminedError:
+        return None
+    program.bring_up_to_date(machine)
+    return block, values
+
+
+def values_of(program: RegisterProgram, predicate: PredicateCode, arguments: Arguments) -> dict[int, float] | None:
+    """The parameters that are given a value, as numbers; None where one is given a choice, or is not known."""
+    numbers = {parameter.name: k for k, parameter in enumerate(predicate.parameters)}
+    values: dict[int, float] = {}
+    for name, domain in arguments:
+        if name not in numbers:
+            return None
+        parameter = predicate.parameters[numbers[name]]
+        if is_open(domain):
+            continue
+        value = number_of(program.layout, domain)
+        if value is None or (domain.interval is None) == (parameter.type.kind in ("int", "float")):
+            return None
+        if parameter.type.kind == "int" and value != int(value):
+            return None
+        values[numbers[name]] = value
+    return values
+
+
+def arguments_of(program: RegisterProgram, predicate: PredicateCode, value_of: Callable[[int], float]) -> Arguments:
+    """Parameters as others read them."""
+    told = []
+    for k, parameter in enumerate(predicate.parameters):
+        told.append((parameter.name, domain_of(program, parameter.type.kind, parameter.type.type_name, value_of(k))))
+    return tuple(told)
+
+
+def domain_of(program: RegisterProgram, kind: str, type_name: str, value: float) -> DomainConstant:
+    """What a register says of a variable; NaN leaves it open."""
+    if value != value:
+        return DomainConstant(kind, type_name, (-INFINITY, INFINITY), None)
+    if kind == "float":
+        return DomainConstant(kind, type_name, (value + 0.0, value + 0.0), None)  # no negative zero
+    if kind == "int":
+        return DomainConstant(kind, type_name, (int(value), int(value)), None)
+    if kind == "bool":
+        return DomainConstant(kind, type_name, None, (bool(value),))
+    if int(value) >= len(program.names):
+        symbols = program.layout.symbols
+        program.names[:] = sorted(symbols, key=lambda name: symbols[name])
+    return DomainConstant(kind, type_name, None, (program.names[int(value)],))

@@ -1,0 +1,283 @@
+"""Load a determined reactor once per process: its register code, constants and first tokens; refuse it with reasons."""
+
+from array import array
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from compiler.determined.analysis import analyse
+from compiler.determined.assemble import compile_block
+from compiler.determined.code import FOLLOW, STRIDE, WHEN_FALSE, WHEN_TRUE, Block, Layout, Line
+from compiler.determined.model import Model
+from compiler.determined.reasons import Choice, Reason, UndeterminedError
+from compiler.determined.relations import TOGETHER
+from compiler.program import DomainConstant, PredicateCode, Program
+from runtime.determined.machine import Machine
+from runtime.determined.tags import FAR, NONE
+from runtime.executive.workbench import Workbench
+from runtime.plan.tags import FLAG_FACT
+
+FIRST_TICK = 0
+
+
+@dataclass(frozen=True, slots=True)
+class FirstToken:
+    """A fact of the model's script: it holds from the first tick on."""
+
+    line: int
+    block: int
+    values: Mapping[int, float]
+    end: tuple[int, int]
+
+
+@dataclass(eq=False, slots=True)
+class RegisterProgram:
+    """A reactor as register code; blocks for further sets of given parameters are added when they are asked for."""
+
+    model: Model
+    layout: Layout
+    order: tuple[int, ...]
+    internal: tuple[int, ...]  # own timelines in the order of the configuration
+    defaults: list[int] = field(default_factory=list)
+    first: list[FirstToken] = field(default_factory=list)
+    blocks: list[Block | None] = field(default_factory=lambda: [None])
+    numbers: dict[tuple[int, int, int], int] = field(default_factory=dict)
+    code: "array[int]" = field(default_factory=lambda: array("i", bytes(4 * STRIDE)))
+    starts: "array[int]" = field(default_factory=lambda: array("q", [0]))
+    constants: dict[int, float] = field(default_factory=dict)  # register -> value of globals and members
+    names: list[str] = field(default_factory=list)  # texts of the numbers of symbols
+
+    def block(self, line: int, predicate: PredicateCode, mask: int) -> int:
+        """The number of a block, and of all that follow from it; raises `UndeterminedError`."""
+        key = (line, self.model.number(predicate), mask)
+        if key in self.numbers:
+            return self.numbers[key]
+        made = compile_block(self.model, self.layout, line, predicate, mask)
+        number = len(self.blocks)
+        self.numbers[key] = number
+        self.blocks.append(made)
+        base = len(self.code) // STRIDE
+        self.starts.append(base * STRIDE)
+        here = len(self.code)
+        for instruction in made.instructions:
+            numbers = list(instruction)
+            if numbers[0] in (WHEN_FALSE, WHEN_TRUE):
+                numbers[2] += base
+            self.code.extend(numbers)
+        for k, instruction in enumerate(made.instructions):
+            if instruction[0] == FOLLOW:
+                _, target, _, successor, low, high, *_ = instruction
+                wanted = (low & 0xFFFFFFFF) | high << 32
+                follower = self.block(target, self.model.program.predicates[successor], wanted)
+                self.code[here + STRIDE * k + 6] = follower
+        return number
+
+    def machine(self, world: object) -> Machine:
+        """A machine on which nothing has happened yet."""
+        layout = self.layout
+        machine = Machine(len(layout.lines), world)
+        machine.current = array("q", layout.current)
+        machine.following = array("q", layout.following)
+        machine.incoming = array("q", layout.incoming)
+        machine.wished = array("q", layout.wished)
+        machine.previous = array("q", layout.previous)
+        machine.starts = array("q", layout.starts)
+        machine.width = array("q", layout.widths)
+        machine.default_block = array("q", self.defaults)
+        machine.order = array("q", [*self.order, *[NONE] * (len(layout.lines) - len(self.order))])
+        for number, line in enumerate(layout.lines):
+            machine.present.is_used[number] = line.role != "own"
+        machine.registers = array("d", [0.0])
+        self.bring_up_to_date(machine)
+        return machine
+
+    def bring_up_to_date(self, machine: Machine) -> None:
+        """Give a machine the code and the registers of blocks that were compiled since."""
+        layout = self.layout
+        if len(machine.registers) < layout.top:
+            registers = array("d", [float("nan")]) * layout.top
+            registers[: len(machine.registers)] = array("d", machine.registers)
+            for register, value in (*layout.presets.items(), *self.constants.items()):
+                registers[register] = value
+            machine.registers = registers
+            kept = array("d", registers)
+            kept[: len(machine.kept)] = array("d", machine.kept)
+            machine.kept = kept
+        if len(machine.block_start) == len(self.starts):
+            return
+        machine.remembers = array("q", [number in layout.remembered for number in range(len(layout.lines))])
+        machine.code = array("i", self.code)
+        machine.block_start = array("q", self.starts)
+        machine.block_predicate = array(
+            "q", [NONE if each is None else self.model.number(each.predicate) for each in self.blocks]
+        )
+        machine.block_mask = array("q", [0 if each is None else each.mask for each in self.blocks])
+        count = max(len(layout.samples), 1)
+        if len(machine.sample_value) < count:
+            machine.sample_value = array("d", bytes(8 * count))
+            machine.sample_until = array("q", [NONE] * count)
+
+
+def load_determined(
+    bench: Workbench, program: Program, internal: tuple[str, ...], external: tuple[str, ...], lookahead: int
+) -> tuple[RegisterProgram | None, tuple[Reason, ...]]:
+    """The register code of a reactor whose script has been run in `bench`, or the choices that are in the way."""
+    lines = lines_of(bench, internal, external)
+    analysis = analyse(program, lines, lookahead)
+    if analysis.reasons:
+        return None, analysis.reasons
+    numbers = tuple(analysis.model.line_numbers[name] for name in internal)
+    loaded = RegisterProgram(analysis.model, analysis.layout, analysis.order, numbers)
+    reasons: dict[Reason, None] = {}
+    _load_facts(loaded, bench, reasons)
+    _load_defaults(loaded, reasons)
+    _load_constants(loaded, bench, reasons)
+    loaded.names = sorted(loaded.layout.symbols, key=lambda name: loaded.layout.symbols[name])
+    return (None, tuple(reasons)) if reasons else (loaded, ())
+
+
+def lines_of(bench: Workbench, internal: tuple[str, ...], external: tuple[str, ...]) -> tuple[Line, ...]:
+    """The timelines of the model: those of the reactor first, in the order of the configuration."""
+    objects = bench.database.objects.names
+    found = []
+    for name in (*internal, *external):
+        state = bench.timeline(name, name in internal)
+        default = bench.predicate_name(state.default).rpartition(".")[2] if state.default >= 0 else ""
+        found.append(Line(name, _class_of(bench, name), default, "own" if name in internal else "used"))
+    for name in objects:
+        if name not in internal and name not in external and bench.database.plan.object_timeline[objects.index(name)]:
+            found.append(Line(name, _class_of(bench, name), "", "other"))
+    return tuple(found)
+
+
+def _class_of(bench: Workbench, name: str) -> str:
+    number = bench.database.plan.object_class[bench.database.objects.names.index(name)]
+    return bench.database.program.classes[number].name
+
+
+def _load_facts(loaded: RegisterProgram, bench: Workbench, reasons: dict[Reason, None]) -> None:
+    """The facts of the script: each must hold at the first tick, with values or without, but not with a choice."""
+    objects = bench.database.objects.names
+    taken: set[int] = set()
+    for t in bench.all_tokens():
+        if not bench.rows.flags[t] & FLAG_FACT:
+            continue
+        predicate = bench.database.program.predicates[bench.predicate_of(t)]
+        o = bench.object_of(t)
+        line = loaded.model.line_numbers.get(objects[o], NONE) if o >= 0 else NONE
+        if line < 0 or loaded.model.lines[line].role != "own":
+            reasons[Reason(Choice.NO_TIMELINE, predicate.name, predicate.span)] = None
+            continue
+        if line in taken or bench.started_at(t) != FIRST_TICK:
+            reasons[Reason(Choice.LATER_FACT, predicate.name, predicate.span)] = None
+            continue
+        taken.add(line)
+        values: dict[int, float] = {}
+        for k, (name, domain) in enumerate(bench.arguments(t)):
+            value = number_of(loaded.layout, domain)
+            if value is not None:
+                values[k] = value
+            elif not is_open(domain) and domain.kind in ("int", "float"):
+                reasons[Reason(Choice.UNKNOWN_VALUE, f"{predicate.name}.{name}", predicate.span)] = None
+        own = loaded.model.predicate(line, predicate.name.rpartition(".")[2])
+        assert own is not None
+        try:
+            block = loaded.block(line, own, sum(1 << k for k in values))
+        except UndeterminedError as obstacle:
+            reasons[obstacle.reason] = None
+            continue
+        end = bench.end(t)
+        bounds = (int(max(bench.lower(end), FIRST_TICK + 1)), int(min(bench.upper(end), FAR)))
+        loaded.first.append(FirstToken(line, block, values, bounds))
+
+
+def _load_defaults(loaded: RegisterProgram, reasons: dict[Reason, None]) -> None:
+    """The default token of each own timeline. One that cannot be compiled is in the way where it is the first token."""
+    obstacles: dict[int, Reason] = {}
+    for number, line in enumerate(loaded.model.lines):
+        loaded.defaults.append(0)
+        predicate = loaded.model.predicate(number, line.default) if line.role == "own" and line.default else None
+        if predicate is None:
+            continue
+        try:
+            loaded.defaults[number] = loaded.block(number, predicate, 0)
+        except UndeterminedError as obstacle:
+            obstacles[number] = obstacle.reason
+    begun = {each.line: each.block for each in loaded.first}
+    waiting = [n for n in loaded.order if loaded.model.lines[n].role == "own"]
+    started: set[int] = set()
+    for n in waiting:
+        number = begun.get(n, 0 if n in started else loaded.defaults[n])
+        if number == 0 and n not in started and n in obstacles:
+            reasons[obstacles[n]] = None
+        block = loaded.blocks[number]
+        if block is not None:
+            started |= {token.line for token in block.tokens if token.how == TOGETHER and not token.context}
+
+
+def _load_constants(loaded: RegisterProgram, bench: Workbench, reasons: dict[Reason, None]) -> None:
+    """Global variables and members that the code reads: they must have a value when the mission starts."""
+    for index, register in loaded.layout.globals.items():
+        name, type_ = loaded.model.program.globals[index]
+        v = bench.database.plan.globals[index]
+        _load_constant(loaded, bench, v, type_.kind, type_.type_name, register, name, reasons)
+    for (name, path), register in loaded.layout.members.items():
+        found = member(bench, name, path)
+        if found is None:
+            reasons[Reason(Choice.UNKNOWN_VALUE, f"{name}.{'.'.join(path)}", None)] = None
+        else:
+            text = f"{name}.{'.'.join(path)}"
+            _load_constant(loaded, bench, found[0], found[1], found[2], register, text, reasons)
+
+
+def _load_constant(
+    loaded: RegisterProgram,
+    bench: Workbench,
+    v: int,
+    kind: str,
+    type_name: str,
+    register: int,
+    name: str,
+    reasons: dict[Reason, None],
+) -> None:
+    value = number_of(loaded.layout, bench.domain(v, kind, type_name))
+    if value is None:
+        reasons[Reason(Choice.UNKNOWN_VALUE, name, None)] = None
+    else:
+        loaded.constants[register] = value
+
+
+def member(bench: Workbench, name: str, path: tuple[str, ...]) -> tuple[int, str, str] | None:
+    """The variable, kind and type of a member of an object, through members that are objects."""
+    plan, program = bench.database.plan, bench.database.program
+    objects = bench.database.objects.names
+    if name not in objects:
+        return None
+    o = objects.index(name)
+    for depth, part in enumerate(path):
+        for k, each in enumerate(program.classes[plan.object_class[o]].members):
+            if each.name == part:
+                v = plan.object_var0[o] + k
+                break
+        else:
+            return None
+        if depth == len(path) - 1:
+            return int(v), each.type.kind, each.type.type_name
+        if not bench.engine.is_singleton(v):
+            return None
+        o = int(bench.lower(v))
+    return None
+
+
+def number_of(layout: Layout, domain: DomainConstant) -> float | None:
+    """The number that stands for the one value of a domain; None where there are more."""
+    if domain.interval is not None:
+        return float(domain.interval[0]) if domain.interval[0] == domain.interval[1] else None
+    values = domain.values or ()
+    if len(values) != 1:
+        return None
+    return float(layout.symbol(values[0])) if isinstance(values[0], str) else float(values[0])
+
+
+def is_open(domain: DomainConstant) -> bool:
+    """Whether a domain says nothing at all: a number without bounds."""
+    return domain.interval is not None and domain.interval[0] <= -FAR and domain.interval[1] >= FAR

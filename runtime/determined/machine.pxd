@@ -1,0 +1,60 @@
+# The C types of `machine.py`.
+
+cimport cython
+from runtime.determined.log cimport Log
+from runtime.determined.present cimport Present
+
+cdef long long CHANGES, DUE, ENDING, FOLLOWER, LEAST, MOST, NONE, OWNER, PREDICATE, ROW, RUNS_ON, SLOT, START, STOPS, WISHED
+cdef long long WISH, WISH_END_FROM, WISH_END_UNTIL, WISH_FROM, WISH_LEAST, WISH_MOST
+cdef double LARGEST, NAN, TOLERANCE
+
+
+cdef class Machine:
+    cdef public long long lines, root_row, why
+    cdef public bint is_planned
+    cdef public object world
+    cdef public Present present
+    cdef public Log log
+    cdef public double[::1] registers, kept, sample_value
+    cdef public long long[::1] current, following, incoming, wished, previous, remembers, starts, width, default_block, order
+    cdef public long long[::1] block_start, block_predicate, block_mask, sample_until
+    cdef public int[::1] code
+
+    cpdef int keep(self) except -1
+
+    cpdef int go_back(self) except -1
+
+    @cython.locals(due="long long", present="Present")
+    cpdef long long run(self, long long tick, long long limit, long long watched) except? -1
+
+    @cython.locals(
+        n="long long", i="long long", j="long long", k="long long", first="long long", into="long long",
+        present="Present"
+    )
+    cpdef bint tick(self, long long tick) except -1
+
+    @cython.locals(
+        n="long long", j="long long", first="long long", into="long long", block="long long", mask="long long",
+        row="long long", line="long long", at="long long", is_wish="bint", present="Present", log="Log"
+    )
+    cpdef bint settle(self, long long i, long long tick) except -1
+
+    @cython.locals(n="long long", j="long long", present="Present")
+    cpdef bint can_start(self, long long i, long long tick) except -1
+
+    @cython.locals(j="long long", first="long long")
+    cpdef int start(self, long long i, long long predicate) except -1
+
+    @cython.locals(
+        code="int[::1]", r="double[::1]", op="int", out="long long", a="long long", b="long long", j="long long",
+        x="double", y="double", z="double"
+    )
+    cpdef bint carry_out(self, long long at) except -1
+
+    @cython.locals(
+        n="long long", j="long long", block="long long", bound="long long", slot="long long", value="double",
+        present="Present"
+    )
+    cpdef bint arrange(self, long long op, long long line, long long a, long long b, long long at) except -1
+
+    cpdef bint draw(self, long long parameter) except -1

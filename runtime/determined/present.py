@@ -1,0 +1,266 @@
+"""What holds on each timeline of a determined reactor: current tokens, the bounds of their ends, what is to come.
+
+The end of a token is a pair of bounds in a slot; tokens that end together share one. Orders of two ends are pairs of
+timelines, valid while both tokens hold. All of it is in one array, so that a snapshot is one copy.
+"""
+
+from array import array
+
+from runtime.determined.tags import (
+    BEFORE,
+    DUE,
+    ENDING,
+    FAR,
+    FOLLOWER,
+    LEAST,
+    MOST,
+    NONE,
+    OWNER,
+    PAIRS,
+    PREDICATE,
+    SECTIONS,
+    SLOT,
+    START,
+    WISH,
+    WISH_FROM,
+    WISH_UNTIL,
+)
+
+
+class Present:
+    """The state of all timelines at a tick."""
+
+    def __init__(self, lines: int) -> None:
+        self.lines = lines
+        self.before = BEFORE * lines
+        self.pairs = SECTIONS * lines  # where orders of ends begin: their number, then four numbers each
+        self.state = array("q", bytes(8 * (SECTIONS * lines + 1 + 4 * PAIRS)))
+        self.kept = array("q", self.state)
+        self.flags = array("q", bytes(8 * lines))
+        self.is_used = array("q", bytes(8 * lines))  # timelines of other reactors
+        self.now = 0
+        self.reach = 1  # how many ticks ahead of its window a request is looked at
+        self.changed = 0  # a bit for each timeline on which a token has started at this tick
+        self.clear()
+
+    def clear(self) -> int:
+        """Nothing holds yet."""
+        n = self.lines
+        for k in range(len(self.state)):
+            self.state[k] = 0
+        for i in range(n):
+            self.state[PREDICATE * n + i] = NONE
+            self.state[SLOT * n + i] = i
+            self.state[MOST * n + i] = FAR
+            self.state[FOLLOWER * n + i] = NONE
+            self.state[WISH * n + i] = NONE
+            self.state[BEFORE * n + i] = NONE
+        return 0
+
+    def next_event(self, tick: int) -> int:
+        """The first tick after `tick` at which something may end or start by itself."""
+        n = self.lines
+        found = FAR
+        for i in range(n):
+            if self.state[PREDICATE * n + i] < 0:
+                if not self.is_used[i]:
+                    return tick + 1
+                continue
+            slot = self.state[SLOT * n + i]
+            if self.state[MOST * n + slot] < found:
+                found = self.state[MOST * n + slot]
+            if self.state[WISH * n + i] >= 0:
+                # A wish is looked at as soon as the token before it may end.
+                due = self.state[WISH_FROM * n + i]
+                if due - self.reach > tick:
+                    due -= self.reach
+                elif self.state[LEAST * n + slot] > due:
+                    due = self.state[LEAST * n + slot]
+                if due < found:
+                    found = due
+        return max(found, tick + 1)
+
+    def begin_tick(self, tick: int) -> bool:
+        """Find what ends at `tick`; false if something should and may not."""
+        n = self.lines
+        self.now = tick
+        self.changed = 0
+        for i in range(n):
+            self.state[ENDING * n + i] = 0
+            self.state[DUE * n + i] = NONE
+        for i in range(n):
+            if self.state[PREDICATE * n + i] >= 0 and not self.state[ENDING * n + i]:
+                most = self.state[MOST * n + self.state[SLOT * n + i]]
+                if most < tick or (most == tick and not self.end_with(i)):
+                    return False
+        for i in range(n):
+            if self.state[WISH * n + i] >= 0 and self.state[WISH_FROM * n + i] <= tick:
+                if self.state[WISH_UNTIL * n + i] < tick:
+                    return False
+                if self.state[PREDICATE * n + i] >= 0 and not self.state[ENDING * n + i] and not self.end_with(i):
+                    if self.is_used[i]:
+                        return False
+        return True
+
+    def end_with(self, i: int) -> bool:
+        """End the token of a timeline now, with all that must end with it; false if one of these may not."""
+        n = self.lines
+        # What has started at this tick (2) neither ends nor has others end.
+        for j in range(n):
+            self.flags[j] = 2 if self.changed >> j & 1 else self.state[ENDING * n + j]
+        self.flags[i] = 1
+        grows = True
+        while grows:
+            grows = False
+            for j in range(n):
+                if self.flags[j] == 1 and self.state[PREDICATE * n + j] >= 0:
+                    for k in range(n):
+                        if (
+                            self.flags[k] == 0
+                            and self.state[SLOT * n + k] == self.state[SLOT * n + j]
+                            and self.state[PREDICATE * n + k] >= 0
+                        ):
+                            self.flags[k] = 1
+                            grows = True
+                elif (
+                    self.flags[j] == 0
+                    and self.state[FOLLOWER * n + j] >= 0
+                    and self.flags[self.state[OWNER * n + j]] == 1
+                ):
+                    self.flags[j] = 1
+                    grows = True
+            for k in range(self.state[self.pairs]):
+                at = self.pairs + 1 + 4 * k
+                if self.flags[self.state[at + 1]] == 1 and self.flags[self.state[at]] == 0 and self.is_kept(at):
+                    self.flags[self.state[at]] = 1
+                    grows = True
+        for j in range(n):
+            if self.flags[j] == 1 and not self.state[ENDING * n + j] and self.state[PREDICATE * n + j] >= 0:
+                if self.state[LEAST * n + self.state[SLOT * n + j]] > self.now:
+                    return False
+                if self.is_used[j] and not self.is_news(j):
+                    return False
+        for j in range(n):
+            if self.flags[j] == 1:
+                self.state[ENDING * n + j] = 1
+        return True
+
+    def is_news(self, i: int) -> bool:
+        """Whether another reactor has published something on a timeline now."""
+        n = self.lines
+        return self.state[WISH * n + i] >= 0 and self.state[WISH_FROM * n + i] == self.now
+
+    def is_kept(self, at: int) -> bool:
+        """Whether an order of two ends still speaks of the tokens that hold."""
+        n = self.lines
+        first = self.state[START * n + self.state[at]]
+        return bool(self.state[at + 2] == first and self.state[at + 3] == self.state[START * n + self.state[at + 1]])
+
+    def end_tick(self, tick: int) -> bool:
+        """Let ends that are ordered bound each other; something must hold on each timeline of the reactor."""
+        n = self.lines
+        pairs = self.pairs
+        count = self.state[pairs]
+        grows = True
+        while grows:
+            grows = False
+            for k in range(count):
+                at = pairs + 1 + 4 * k
+                if self.is_kept(at) and self.order_ends(self.state[at], self.state[at + 1]):
+                    grows = True
+            for i in range(n):
+                if (
+                    self.state[FOLLOWER * n + i] >= 0
+                    and self.state[OWNER * n + i] != i
+                    and self.state[PREDICATE * n + i] >= 0
+                ):
+                    if self.order_ends(i, self.state[OWNER * n + i]):
+                        grows = True
+        for i in range(n):
+            if self.state[PREDICATE * n + i] < 0:
+                if not self.is_used[i]:
+                    return False
+                continue
+            slot = self.state[SLOT * n + i]
+            if self.state[LEAST * n + slot] > self.state[MOST * n + slot] or self.state[MOST * n + slot] <= tick:
+                return False
+            if self.state[ENDING * n + i] and not self.changed >> i & 1:
+                return False
+            if not self.has_room(i, tick):
+                return False
+        # An order whose first end is settled has said what it has to say.
+        left = 0
+        for k in range(count):
+            at = pairs + 1 + 4 * k
+            slot = self.state[SLOT * n + self.state[at]]
+            if self.is_kept(at) and self.state[LEAST * n + slot] != self.state[MOST * n + slot]:
+                for j in range(4):
+                    self.state[pairs + 1 + 4 * left + j] = self.state[at + j]
+                left += 1
+        self.state[pairs] = left
+        return True
+
+    def has_room(self, i: int, tick: int) -> bool:
+        """Whether what was asked for on a timeline can still start in its window, if it is time to look."""
+        n = self.lines
+        if self.state[WISH * n + i] < 0 or self.state[WISH_FROM * n + i] - self.reach > tick:
+            return True
+        least = self.state[LEAST * n + self.state[SLOT * n + i]] if self.state[PREDICATE * n + i] >= 0 else 0
+        return bool(max(least, tick + 1) <= self.state[WISH_UNTIL * n + i])
+
+    def order_ends(self, a: int, b: int) -> bool:
+        """Let the end of `a` be no later than that of `b`; whether a bound has moved."""
+        n = self.lines
+        first = self.state[SLOT * n + a]
+        second = self.state[SLOT * n + b]
+        moved = False
+        if self.state[MOST * n + first] > self.state[MOST * n + second]:
+            self.state[MOST * n + first] = self.state[MOST * n + second]
+            moved = True
+        if self.state[LEAST * n + second] < self.state[LEAST * n + first]:
+            self.state[LEAST * n + second] = self.state[LEAST * n + first]
+            moved = self.state[MOST * n + second] >= self.state[LEAST * n + second]
+        return moved
+
+    def tie(self, a: int, b: int) -> int:
+        """Let the tokens of two timelines end together."""
+        n = self.lines
+        first = self.state[SLOT * n + a]
+        second = self.state[SLOT * n + b]
+        if first == second:
+            return 0
+        self.state[LEAST * n + first] = max(self.state[LEAST * n + first], self.state[LEAST * n + second])
+        self.state[MOST * n + first] = min(self.state[MOST * n + first], self.state[MOST * n + second])
+        for i in range(n):
+            if self.state[SLOT * n + i] == second:
+                self.state[SLOT * n + i] = first
+        return 0
+
+    def put_within(self, a: int, b: int) -> bool:
+        """Let the token of `a` end no later than that of `b`; false if there is no room to remember that."""
+        n = self.lines
+        if self.state[SLOT * n + a] == self.state[SLOT * n + b]:
+            return True
+        count = self.state[self.pairs]
+        if count == PAIRS:
+            return False
+        at = self.pairs + 1 + 4 * count
+        self.state[at] = a
+        self.state[at + 1] = b
+        self.state[at + 2] = self.state[START * n + a]
+        self.state[at + 3] = self.state[START * n + b]
+        self.state[self.pairs] = count + 1
+        return True
+
+    def start(self, i: int, predicate: int) -> int:
+        """Make a token of `predicate` the current one of a timeline."""
+        n = self.lines
+        self.state[BEFORE * n + i] = self.state[PREDICATE * n + i]
+        self.state[PREDICATE * n + i] = predicate
+        self.state[START * n + i] = self.now
+        # Tokens that were tied to the one before have ended with it.
+        self.state[SLOT * n + i] = i
+        self.state[LEAST * n + i] = self.now + 1
+        self.state[MOST * n + i] = FAR
+        self.changed |= 1 << i
+        return 0

@@ -1,0 +1,401 @@
+"""A determined reactor among others: requests and observations in, observations out, many quiet ticks in one call.
+
+It answers as the general reactor would, and wherever its code stops, it becomes one: a general reactor is given all
+that came from outside so far, and goes on from there. The general engine is the judge.
+"""
+
+from collections.abc import Callable, Mapping
+
+from runtime.determined.arguments import given_block
+from runtime.determined.inputs import Inputs, catch_up, take_over
+from runtime.determined.loading import RegisterProgram
+from runtime.determined.publish import Publisher, Wish
+from runtime.determined.tags import (
+    FAR,
+    NONE,
+    STOPS,
+    WISH,
+    WISH_END_FROM,
+    WISH_END_UNTIL,
+    WISH_FROM,
+    WISH_LEAST,
+    WISH_MOST,
+    WISH_UNTIL,
+)
+from runtime.executive.configuration import ReactorConfiguration
+from runtime.executive.messages import Observation, Request
+from runtime.executive.outcome import Conflict, Draw, EventKind, OpenGoal, Reason, ReasonKind
+from runtime.executive.plan_reactor import PlanReactor
+from runtime.executive.reactor import Failure, Refusal
+from runtime.executive.story import latest
+from runtime.executive.trace import Trace
+from runtime.plan.readout.names import VariableName
+
+AHEAD = 256  # ticks that are carried out before anybody asks for them
+
+
+class DeterminedReactor:
+    """Implements `Reactor` by a register machine, or, once that has stopped, by a general reactor."""
+
+    runs_ahead = True
+
+    def __init__(
+        self,
+        configuration: ReactorConfiguration,
+        program: RegisterProgram,
+        drawn: Callable[[str, int], tuple[Draw, int] | None],
+        general: Callable[[Trace], PlanReactor],
+        final_tick: int,
+        trace: Trace,
+    ) -> None:
+        self.name = configuration.name
+        self.internal = configuration.internal
+        self.external = configuration.external
+        self.latency, self.lookahead = configuration.latency, configuration.lookahead
+        self.program = program
+        self.drawn = drawn
+        self.make_general = general
+        self.final_tick = final_tick
+        self.trace = trace
+        self.parameters = sorted(program.layout.samples, key=lambda name: program.layout.samples[name])
+        self.machine = program.machine(self)
+        self.numbers = program.model.line_numbers
+        self.watched = sum(1 << n for n in program.internal)  # timelines whose changes others see
+        self.publisher = Publisher(self.name, program, trace)
+        self.inputs = Inputs()
+        self.wishes: list[Wish] = []  # requests that have not started
+        self.news: dict[int, Observation] = {}
+        self.windows: dict[str, tuple[int, int]] = {}
+        self.execution_latency = 0
+        self.tick = NONE
+        self.reached = NONE  # the last tick that the machine has carried out
+        self.base = NONE  # the tick of its snapshot
+        self.due = 0
+        self.steps_made = 0
+        self.is_beyond = False  # something came in that only the general engine understands
+        self.general: PlanReactor | None = None
+        self.refused_goals: list[OpenGoal] = []
+        self.refusals_made: list[Refusal] = []
+        for fact in program.first:
+            self._ask(fact.line, fact.block, fact.values, (0, 0), fact.end, (1, FAR))
+        self.machine.keep()
+
+    def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
+        """Take note of the owners' latencies, for the general reactor."""
+        self.windows = windows
+        self.execution_latency = execution_latency
+        self.machine.present.reach = execution_latency + 1
+
+    # ---- the tick ----
+
+    def start_tick(self, tick: int) -> None:
+        """Set "now"."""
+        if self.general is not None:
+            self.general.start_tick(tick)
+        self.tick = tick
+        self.steps_made = 0
+
+    def notify(self, observation: Observation) -> None:
+        """Take note of what an owner published this tick; the last word counts."""
+        self.due = observation.tick
+        if self.general is not None:
+            self.general.notify(observation)
+            return
+        self.inputs.note(self.trace.tick, self.tick < self.trace.tick, observation)
+        self.news[self.numbers[observation.timeline]] = observation
+
+    def synchronise(self, tick: int) -> Failure | None:
+        """Carry out the tick, unless that has been done ahead."""
+        if self.general is not None:
+            return self.general.synchronise(tick)
+        if self.news:
+            self._return_to(tick - 1)
+        if self.reached < tick and not self._carry_out(tick):
+            return self._hand_over(tick, False).synchronise(tick)
+        return None
+
+    def _carry_out(self, tick: int) -> bool:
+        """Carry out all ticks up to `tick`, with what was observed; false if the machine stops."""
+        machine = self.machine
+        if self.reached < tick - 1:
+            self.reached = int(machine.run(self.reached, tick - 1, 0))
+            if self.reached < tick - 1:
+                return False
+        for line, news in self.news.items():
+            given = given_block(self.program, self.machine, line, news.predicate, news.arguments)
+            if given is None:
+                return False
+            self._ask(line, given[0], given[1], (tick, tick), (tick + 1, FAR), (1, FAR))
+        if (self.news or machine.present.next_event(tick - 1) <= tick) and not machine.tick(tick):
+            return False
+        self.news.clear()
+        self.reached = tick
+        return True
+
+    def _return_to(self, tick: int) -> None:
+        """Take back what was carried out ahead of `tick`."""
+        if self.reached <= tick:
+            return
+        row, draw_row = self.publisher.row, self.publisher.draw_row
+        self._forget_ahead(self.base)
+        self.reached = int(self.machine.run(self.base, tick, 0))
+        assert self.reached == tick and row <= self.machine.log.row_count
+        self.publisher.row, self.publisher.draw_row = row, min(draw_row, self.machine.log.draw_count)
+
+    def _forget_ahead(self, tick: int) -> None:
+        """Go back to the snapshot, which was taken at `tick`; draws are made anew."""
+        machine = self.machine
+        machine.go_back()
+        machine.log.forget_from(tick + 1)
+        for k in range(len(machine.sample_until)):
+            machine.sample_until[k] = NONE
+
+    def _ask(
+        self,
+        line: int,
+        block: int,
+        values: Mapping[int, float],
+        start: tuple[int, int],
+        end: tuple[int, int],
+        duration: tuple[int, int],
+    ) -> None:
+        """Have the machine start a token on a timeline as soon as it may."""
+        machine = self.machine
+        state, n = machine.present.state, machine.lines
+        state[WISH * n + line] = block
+        sections = (
+            (WISH_FROM, WISH_UNTIL, start),
+            (WISH_END_FROM, WISH_END_UNTIL, end),
+            (WISH_LEAST, WISH_MOST, duration),
+        )
+        for first, last, (lower, upper) in sections:
+            state[first * n + line] = max(lower, 0)
+            state[last * n + line] = min(upper, FAR)
+        for k, value in values.items():
+            machine.registers[machine.wished[line] + k] = value
+
+    def draw(self, machine: object, parameter: int, tick: int) -> bool:
+        """Give the machine the value of a parameter that is in force at `tick`; false if the mission has none."""
+        found = self.drawn(self.parameters[parameter], tick)
+        if found is None:
+            return False
+        draw, until = found
+        self.machine.sample_value[parameter] = draw.value
+        self.machine.sample_until[parameter] = min(until, FAR)
+        self.publisher.draws[parameter, tick] = draw
+        return True
+
+    def observations(self, tick: int) -> list[Observation]:
+        """What its own timelines have begun to hold at `tick`; what has begun before is only put on record."""
+        if self.general is not None:
+            return self.general.observations(tick)
+        found = self.publisher.tell(self.machine.log, tick)
+        self.wishes = [wish for wish in self.wishes if wish.started < 0]
+        return found
+
+    def pass_over(self, tick: int) -> None:
+        """Put on record what was carried out for ticks before `tick`."""
+        if self.general is None:
+            self.publisher.tell(self.machine.log, tick - 1)
+
+    # ---- the future ----
+
+    def urgency(self, tick: int) -> float:
+        """How soon it should be given a step (T-REX 1.3)."""
+        if self.general is not None:
+            return self.general.urgency(tick)
+        return 1.0 / ((1 + self.latency + 1) * (self.steps_made + 1))
+
+    def step(self, tick: int) -> bool:
+        """Take in requests and carry out ticks ahead; where the next one is beyond the machine, plan in general."""
+        self.steps_made += 1
+        if self.general is None:
+            self._take_requests(tick)
+        if self.general is None and self.reached == tick:
+            self.machine.keep()
+            self.base = tick
+            watched = self.watched
+            limit = min(tick + AHEAD, self.final_tick)
+            for wish in self.wishes:
+                watched |= 1 << wish.line
+                limit = min(limit, max(self.final_tick - 1, tick + 1))
+                if wish is not self.publisher.asked.get(wish.line):
+                    limit = min(limit, max(wish.request.start[0] - self.machine.present.reach, tick + 1))
+            self.reached = int(self.machine.run(tick, limit, watched))
+            if self.machine.why == STOPS and self.reached == tick:
+                self._hand_over(tick, True)
+            elif self.machine.why == STOPS:  # what the last tick has left half done is taken back
+                self._forget_ahead(tick)
+                self.machine.run(tick, self.reached, 0)
+        return self.general is not None and self.general.step(tick)
+
+    def _take_requests(self, tick: int) -> None:
+        """Have the machine start the next request of each timeline as soon as it may, later than `tick`."""
+        if not self.inputs.is_fresh and not self._is_open(tick):
+            return
+        self.inputs.is_fresh = False
+        chosen: dict[int, Wish] = {}
+        for wish in self.wishes:
+            best = chosen.get(wish.line)
+            self.is_beyond = self.is_beyond or wish.request.start[1] <= tick or self._comes_last(wish, tick)
+            if best is None or wish.request.start[0] < best.request.start[0]:
+                chosen[wish.line] = wish
+        reach = tick + self.machine.present.reach
+        near = [wish.line for wish in self.wishes if wish.request.start[0] <= reach]
+        # Of two requests for the same time the planner says which comes first, or whether both have room.
+        self.is_beyond = self.is_beyond or len(near) > len(set(near))
+        if not self.is_beyond:
+            self._return_to(tick)
+            self._choose(tick, chosen)
+        if self.is_beyond:
+            self._hand_over(tick, True)
+
+    def _is_open(self, tick: int) -> bool:
+        """Whether a request waits for another one that has started, or will soon be looked at."""
+        reach = tick + self.machine.present.reach
+        return any(
+            self._comes_last(wish, tick)
+            or (
+                wish is not self.publisher.asked.get(wish.line)
+                and (wish.line not in self.publisher.asked or wish.request.start[0] <= reach)
+            )
+            for wish in self.wishes
+        )
+
+    def _comes_last(self, wish: Wish, tick: int) -> bool:
+        """Whether a request might start at the final tick, when the planner begins nothing that was asked for."""
+        return tick >= self.final_tick - 1 and wish.request.start[0] <= self.final_tick
+
+    def _choose(self, tick: int, chosen: dict[int, Wish]) -> None:
+        machine = self.machine
+        present, n = machine.present, machine.lines
+        self.publisher.asked = chosen
+        for line in range(n):
+            present.state[WISH * n + line] = NONE
+        for line, wish in chosen.items():
+            request = wish.request
+            start = (max(request.start[0], tick + 1), request.start[1])
+            self._ask(line, wish.block, wish.values, start, request.end, request.duration)
+            self.is_beyond = self.is_beyond or not present.has_room(line, tick)
+        machine.keep()
+        self.base = tick
+        for line, wish in chosen.items():
+            self.is_beyond = self.is_beyond or not machine.can_start(line, max(wish.request.start[0], tick + 1))
+            self._forget_ahead(tick)
+
+    def failure(self) -> Failure | None:
+        """Why planning has failed for good, if it has."""
+        return None if self.general is None else self.general.failure()
+
+    def next_tick(self, tick: int) -> int:
+        """The next tick that others can see, or at which the machine stops."""
+        if self.general is not None:
+            return self.general.next_tick(tick)
+        return max(tick + 1, min(self.reached, self.final_tick))
+
+    # ---- requests ----
+
+    def accept(self, request: Request) -> None:
+        """Queue a request for one of its timelines; who does not look ahead takes none."""
+        if self.general is not None:
+            self.general.accept(request)
+            return
+        if self.lookahead == 0:
+            self._refuse(request)
+            return
+        self.inputs.note(self.trace.tick, False, request)
+        line = self.numbers[request.timeline]
+        given = given_block(self.program, self.machine, line, request.predicate, request.arguments)
+        if given is None:
+            self.is_beyond = True
+            return
+        wish = Wish(request, line, given[0], given[1])
+        self.wishes.append(wish)
+        self.publisher.wishes.append(wish)
+
+    def _refuse(self, request: Request) -> None:
+        why, line, what = Reason(ReasonKind.NO_LOOKAHEAD), request.timeline, request.predicate
+        causes, number = (request.event,), request.number
+        event = self.trace.record(
+            EventKind.REFUSE, self.name, line, what, request.arguments, causes, request=number, reason=why
+        )
+        self.refusals_made.append(Refusal(request, event))
+        if request.is_mandatory:
+            self.refused_goals.append(OpenGoal(line, what, request.arguments, why, event))
+
+    def recall(self, number: int) -> None:
+        """Drop a request that has not started; what has started goes on to its own end."""
+        if self.general is not None:
+            self.general.recall(number)
+            return
+        self.inputs.note(self.trace.tick, False, number)
+        for wish in self.publisher.wishes:
+            if wish.request.number == number and wish.ended < 0:
+                wish.is_recalled = True
+                if wish.request.is_mandatory:
+                    request, why = wish.request, Reason(ReasonKind.RECALLED)
+                    self.refused_goals.append(OpenGoal(request.timeline, request.predicate, request.arguments, why))
+        self.wishes = [wish for wish in self.wishes if wish.request.number != number]
+
+    def refusals(self) -> list[Refusal]:
+        """Which of the requests made to it will not be met."""
+        found, self.refusals_made = self.refusals_made, []
+        return found if self.general is None else found + self.general.refusals()
+
+    def open_goals(self) -> list[OpenGoal]:
+        """Mandatory goals that were refused, or that have not run to their end by now."""
+        if self.general is not None:
+            return self.general.open_goals()
+        left = [wish.request for wish in self.publisher.wishes if wish.ended < 0 and not wish.is_recalled]
+        return self.refused_goals + [
+            OpenGoal(r.timeline, r.predicate, r.arguments, event=r.event) for r in left if r.is_mandatory
+        ]
+
+    def requests(self, tick: int) -> list[Request]:
+        """It asks nobody for anything."""
+        return [] if self.general is None else self.general.requests(tick)
+
+    def open_requests(self) -> list[int]:
+        """It has asked nobody for anything."""
+        return [] if self.general is None else self.general.open_requests()
+
+    def recalls(self) -> list[int]:
+        """It takes nothing back."""
+        return [] if self.general is None else self.general.recalls()
+
+    def refused(self, refusal: Refusal) -> None:
+        """It has asked nobody for anything."""
+        if self.general is not None:
+            self.general.refused(refusal)
+
+    # ---- the general reactor ----
+
+    def _hand_over(self, tick: int, is_settled: bool) -> PlanReactor:
+        """Become a general reactor that knows what came from outside; `is_settled`: the present of `tick` too."""
+        self.general = general = self._witness(tick, is_settled)
+        take_over(general, self.trace)
+        for name in self.internal:
+            general.by_name[name].event = self.publisher.events[self.numbers[name]]
+        return general
+
+    def _witness(self, tick: int, is_settled: bool) -> PlanReactor:
+        """A general reactor that has lived through the same."""
+        shadow = Trace()
+        general = self.make_general(shadow)
+        general.set_owners(self.windows, self.execution_latency)
+        catch_up(general, shadow, self.inputs, tick, is_settled)
+        return general
+
+    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
+        """What sets the end of a token that was published: asked of a general reactor, as this one has no causes."""
+        general = self.general or self._witness(self.tick, True)
+        row = (
+            self.machine.log.rows[5 * token : 5 * token + 2]
+            if 0 <= token < self.machine.log.row_count
+            else (NONE, NONE)
+        )
+        if row[0] == key:
+            line = general.by_name[self.program.model.lines[row[1]].name]
+            if line.current >= 0 and general.bench.started_at(line.current) == key:
+                return latest(general.bench, general.bench.end(line.current))
+        return general.why_it_lasts(token, key)

@@ -1,0 +1,19 @@
+"""Name the integers in the arrays of a determined reactor: sections of its state, columns of its log, answers."""
+
+NONE = -1
+FAR = 2**51  # later than any tick
+PAIRS = 64  # how many orders of ends can be kept
+
+# Sections of `state`, one number for each timeline.
+PREDICATE, START, SLOT, LEAST, MOST = 0, 1, 2, 3, 4
+FOLLOWER, OWNER = 5, 6  # the block of the token that is to follow, and the timeline after whose token
+ENDING, DUE = 7, 8  # during a tick: what ends now, and the block of what is due now
+WISH, WISH_FROM, WISH_UNTIL = 9, 10, 11  # the block of what somebody asked for, and when it may start
+WISH_END_FROM, WISH_END_UNTIL, WISH_LEAST, WISH_MOST = 12, 13, 14, 15
+BEFORE = 16  # the predicate of the token before
+SECTIONS = 17
+
+ROW = 5  # columns of the log: tick, timeline, predicate, block (started by another one: -1 - row of that), values
+WISHED = 1 << 40  # marks the block of a token that somebody asked for
+
+RUNS_ON, CHANGES, STOPS = 0, 1, 2  # why a machine came back

@@ -1,0 +1,133 @@
+"""Small missions without chance, each with what must come out of it: `cases/` holds one rule per folder."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from checker.mission import read_mission
+from checker.oracle import judge
+from compiler.lower import compile_model
+from nddl_lang.analysis import analyse_file
+from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.mission import MissionPrograms, run_mission
+from runtime.executive.outcome import Outcome
+from runtime.executive.rendering import event_data
+from runtime.solver.configuration.configuration import default_configuration
+
+HERE = Path(__file__).parent
+CASES = sorted(path.parent for path in HERE.glob("cases/*/expected.json"))
+Data = dict[str, Any]
+
+
+def loaded(folder: Path) -> tuple[AgentConfiguration, MissionPrograms]:
+    """A mission file and its models."""
+    mission, found = read_mission(folder / "mission.toml")
+    assert mission is not None, found
+    programs = tuple(compile_model(analyse_file(folder / reactor.model)) for reactor in mission.agent.reactors)
+    return mission.agent, MissionPrograms(programs, tuple(default_configuration() for _ in programs))
+
+
+def told(outcome: Outcome) -> list[Data]:
+    """The events as the trace has them."""
+    found: list[Data] = json.loads(json.dumps([event_data(event) for event in outcome.events]))
+    return found
+
+
+@pytest.mark.parametrize("folder", CASES, ids=lambda folder: folder.name)
+def test_what_must_come_out_does(folder: Path) -> None:
+    expected = json.loads((folder / "expected.json").read_text())
+    agent, programs = loaded(folder)
+    outcome = run_mission(agent, programs, 1)
+    judgement = judge(outcome)
+    codes = expected["code"] if isinstance(expected["code"], list) else [expected["code"]]
+    assert judgement.verdict.value == expected["verdict"]
+    assert (judgement.code or None) in codes
+    assert at(expected["last_tick"], outcome.last_tick)
+    events = told(outcome)
+    for timeline, wanted in expected["observations"].items():
+        got = [event for event in events if event["kind"] == "observation" and event["timeline"] == timeline]
+        if isinstance(wanted, dict):
+            got = [event for event in got if wanted["from"] <= event["tick"] <= wanted["to"]]
+            wanted = wanted["list"]
+        shown = [(event["tick"], event["predicate"], event["arguments"]) for event in got]
+        assert is_sequence(wanted, got), f"{timeline}: {shown}"
+    position = 0
+    for pattern in expected.get("events", ()):
+        found = [index for index in range(position, len(events)) if fits(pattern, events[index])]
+        assert found, pattern
+        position = found[0] + 1
+    for pattern in expected.get("unordered", ()):
+        assert any(fits(pattern, event) for event in events), pattern
+    for pattern in expected.get("counts", ()):
+        assert sum(fits(pattern, event) for event in events) == pattern["n"], pattern
+    for draw in expected.get("draws", ()):
+        check_draws(draw, events)
+
+
+@pytest.mark.parametrize("folder", CASES, ids=lambda folder: folder.name)
+def test_visiting_every_tick_changes_nothing(folder: Path) -> None:
+    agent, programs = loaded(folder)
+    one, other = (run_mission(agent, programs, 1, every_tick=every) for every in (False, True))
+    assert [brief(event) for event in told(one)] == [brief(event) for event in told(other)]
+
+
+def brief(event: Data) -> tuple[Any, ...]:
+    """An event without its reasons: a limit that is reached may be told in two ways."""
+    return tuple(event[key] for key in ("tick", "kind", "reactor", "timeline", "predicate", "arguments"))
+
+
+def at(wanted: Any, tick: int) -> bool:
+    """Whether a tick is the one wanted, or within bounds."""
+    return bool(wanted[0] <= tick <= wanted[1] if isinstance(wanted, list) else wanted == tick)
+
+
+def same(wanted: Any, got: Any) -> bool:
+    """Whether two values are equal, but for the rounding of numbers."""
+    if isinstance(wanted, bool) or isinstance(got, bool):
+        return wanted is got
+    if isinstance(wanted, int | float) and isinstance(got, int | float):
+        return math.isclose(wanted, got, rel_tol=1e-9, abs_tol=1e-9)
+    if isinstance(wanted, dict) and isinstance(got, dict):
+        return wanted.keys() == got.keys() and all(same(wanted[key], got[key]) for key in wanted)
+    if isinstance(wanted, list) and isinstance(got, list):
+        return len(wanted) == len(got) and all(map(same, wanted, got))
+    return bool(wanted == got)
+
+
+def fits(pattern: Data, event: Data) -> bool:
+    """Whether an event is as a pattern has it."""
+    for key, wanted in pattern.items():
+        if key == "tick" and not at(wanted, event["tick"]):
+            return False
+        if key == "arguments":
+            got = event["arguments"]
+            if not all(name in got and same(value, got[name]) for name, value in wanted.items()):
+                return False
+        elif key not in ("n", "tick") and event.get(key) != wanted:
+            return False
+    return True
+
+
+def is_sequence(wanted: list[Any], got: list[Data]) -> bool:
+    """Whether observations are those wanted, in order; those marked optional may be missing."""
+    if not wanted:
+        return not got
+    tick, predicate, arguments = wanted[0][:3]
+    if got and at(tick, got[0]["tick"]) and got[0]["predicate"] == predicate and same(arguments, got[0]["arguments"]):
+        return is_sequence(wanted[1:], got[1:])
+    return len(wanted[0]) > 3 and is_sequence(wanted[1:], got)
+
+
+def check_draws(draw: Data, events: list[Data]) -> None:
+    """One value for each period of `update` ticks, whoever shows it."""
+    values: dict[int, float] = {}
+    for event in events:
+        for timeline, name in draw["of"]:
+            if event["kind"] == "observation" and event["timeline"] == timeline and name in event["arguments"]:
+                value = event["arguments"][name]
+                assert any(same(one, value) for one in draw["values"])
+                assert same(values.setdefault(event["tick"] // draw["update"], value), value), event
+    assert values and (not draw.get("changes") or len(set(values.values())) > 1)

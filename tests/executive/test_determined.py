@@ -1,0 +1,151 @@
+"""Determined reactors: register code tells the same as the general engine, and hands over where it cannot."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from checker.flight import programs_of
+from checker.mission import read_mission
+from compiler.determined import code
+from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
+from runtime.executive.mission import register_program, run_mission
+from tests.executive.determined_models import Case, random_case, told
+from tests.executive.flying import simulator
+
+ROOT = Path(__file__).resolve().parents[2]
+MISSIONS = sorted([*(ROOT / "models").rglob("m*.toml"), *(ROOT / "tests").rglob("mission.toml")])
+
+STEPS = """
+float NOISE = [-1.0 1.0];
+class Helm extends AgentTimeline {
+  predicate Idle { }
+  predicate Run { float v; int n; }
+  Helm(Mode m) { super(m, "Idle"); }
+}
+class Mirror extends AgentTimeline { predicate Holds { float v; } Mirror(Mode m) { super(m, "Holds"); } }
+class Motion extends AgentTimeline { predicate Step { float x; float x1; } Motion(Mode m) { super(m, "Step"); } }
+class Tank extends AgentTimeline {
+  predicate Ready { int left; } predicate Firing { int left; } Tank(Mode m) { super(m, "Ready"); }
+}
+Helm::Idle { equals(Mirror.Holds s); s.v == 0.0; }
+Helm::Run { equals(Mirror.Holds s); s.v == v * 0.1; duration >= n; }
+Motion::Step {
+  duration == 1; contained_by(Mirror.Holds c); meets(object.Step next); next.x == x1;
+  float n; n == sampledParameter(NOISE); x1 == x + (n + c.v) * TICK_DURATION; x1 <= 50.0;
+}
+Tank::Ready { duration >= 4; }
+Tank::Firing {
+  met_by(object.Ready r0); meets(object.Ready r1); duration == 3; left == r0.left; r1.left == left - 2;
+}
+Helm helm = new Helm(Internal); Mirror mirror = new Mirror(Private); Motion motion = new Motion(Internal);
+Tank tank = new Tank(Internal);
+close();
+fact(motion.Step s0); s0.start == 0; eq(s0.x, 0.0);
+fact(tank.Ready r); r.start == 0; r.left == 10;
+"""
+
+
+def steps(*goals: GoalConfiguration, until: int = 40) -> Case:
+    """A simulator that makes a token a tick, with commands and bottles."""
+    noise = ParameterConfiguration("NOISE", -1.0, 1.0, mode="intra", update=3)
+    return Case((simulator("psim", STEPS, "helm mirror motion tank"),), goals, (noise,), until)
+
+
+def run(at: int, start: tuple[float, float], v: float, n: int = 1) -> GoalConfiguration:
+    """A command."""
+    return GoalConfiguration("helm", "Run", at, False, start, None, None, (("v", v), ("n", n)))
+
+
+def agree(case: Case, seed: int = 1) -> None:
+    """Fly a case both ways, and event-driven or not."""
+    assert case.is_compiled()
+    general = told(case.fly(seed, compiles=False))
+    assert told(case.fly(seed, compiles=True)) == general
+    assert told(case.fly(seed, compiles=True, every_tick=True)) == general
+
+
+@pytest.mark.parametrize("path", MISSIONS, ids=lambda path: path.relative_to(ROOT).parent.as_posix())
+def test_every_mission_of_the_project_flies_the_same(path: Path) -> None:
+    mission, _ = read_mission(path)
+    assert mission is not None
+    agent, programs = mission.agent, programs_of(mission.agent)
+    for seed in (1, 2):
+        general, compiled = (run_mission(agent, programs, seed, until=120, compiles=way) for way in (False, True))
+        assert told(compiled) == told(general)
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_random_determined_models_fly_the_same(seed: int) -> None:
+    agree(random_case(seed), seed)
+
+
+def test_the_missions_of_the_project_have_determined_reactors() -> None:
+    compiled = 0
+    for path in MISSIONS:
+        mission, _ = read_mission(path)
+        assert mission is not None
+        programs = programs_of(mission.agent)
+        numbers = range(len(mission.agent.reactors))
+        compiled += any(register_program(mission.agent, programs, number) is not None for number in numbers)
+    assert compiled > len(MISSIONS) // 2
+
+
+def test_a_step_a_tick_takes_commands() -> None:
+    agree(steps(run(3, (5, 9), 10.0), run(12, (14, 14), -3.0)))
+
+
+def test_a_command_waits_until_the_one_before_may_end() -> None:
+    agree(steps(run(3, (5, 9), 10.0, 8), run(6, (8, 30), 2.0)))
+
+
+def test_a_command_that_cannot_start_in_its_window_is_given_up() -> None:
+    agree(steps(run(3, (5, 9), 10.0, 20), run(6, (8, 12), 2.0)))
+
+
+def test_two_commands_for_one_time_are_planned_in_general() -> None:
+    agree(steps(run(2, (6, 20), 1.0), run(3, (6, 20), 2.0)))
+
+
+def test_state_that_is_carried_from_the_token_before() -> None:
+    fire = GoalConfiguration("tank", "Firing", 4, False, (8.0, 12.0))
+    agree(steps(fire, GoalConfiguration("tank", "Firing", 20, False, (24.0, 30.0))))
+
+
+def test_what_is_asked_with_a_range_is_left_to_the_general_engine() -> None:
+    goal = GoalConfiguration("helm", "Run", 3, False, (5.0, 9.0), None, None, (("v", (1.0, 2.0)), ("n", 2)))
+    agree(steps(goal))
+
+
+def test_a_request_that_its_owner_does_not_know_is_refused() -> None:
+    agree(steps(GoalConfiguration("helm", "Fly", 3, False, (5.0, 9.0))))
+
+
+def test_a_model_that_fails_in_flight_fails_the_same() -> None:
+    agree(steps(run(3, (5, 5), 200.0), until=20))
+
+
+COUNT = """
+class Count extends AgentTimeline { predicate At { int k; } Count(Mode m) { super(m, "At"); } }
+class Copy extends AgentTimeline { predicate None { } predicate Of { int k; } Copy(Mode m) { super(m, "None"); } }
+"""
+COUNTER = (
+    "Count::At { duration == 5; meets(object.At next); next.k == k + 1; } Count count = new Count(Internal); close();"
+)
+COUNTER += "fact(count.At first); first.start == 0; first.k == 0;"
+COPIER = (
+    "Count::At { equals(Copy.Of c); c.k == k * 2; } Count count = new Count(External); Copy copy = new Copy(Internal);"
+)
+
+
+def test_observations_are_inputs() -> None:
+    counter = simulator("counter", COUNT + COUNTER, "count")
+    copier = simulator("copier", COUNT + COPIER + "close();", "copy", "count")
+    agree(Case((counter, copier), until=23))
+
+
+def test_the_machine_has_the_numbers_of_the_compiler() -> None:
+    text = (ROOT / "runtime" / "determined" / "machine.py").read_text(encoding="utf-8")
+    found = {name: int(number) for number, name in re.findall(r"op == (\d+):  # ([A-Z_]+)", text)}
+    assert len(found) > 38
+    assert {name: getattr(code, name) for name in found} == found
