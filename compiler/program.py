@@ -1,7 +1,6 @@
 """The program: a model lowered to instructions that the runtime carries out, each with its span.
 
-Operands say where a variable is found; instructions say what happens to it. Rule bodies and the script (the
-top-level statements in order) use the same instructions. The runtime flattens bodies to arrays when it loads them.
+Operands say where a variable is found; instructions what happens to it. Bodies of rules and the script use the same.
 """
 
 from dataclasses import dataclass

@@ -12,7 +12,7 @@ from compiler.determined.codes import CHOICE_LEFT
 from compiler.determined.reasons import Reason
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
-from nddlc.inputs import Unusable, chosen_dialect, colours, readable
+from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
 from nddlc.one_mission import prepare
 from runtime.determined.building import find_out
 from runtime.determined.loading import RegisterProgram
@@ -21,6 +21,7 @@ from runtime.executive.mission import loaded_bench
 from runtime.executive.workbench import Workbench
 from runtime.loading import load
 from runtime.plan.database import PlanDatabase
+from runtime.user.library import library_of
 
 OWN, USED = ("Internal", "Private"), ("External", "Observe")
 
@@ -52,7 +53,7 @@ def command(
     elif reactor is not None:
         raise Unusable("`--reactor` names a reactor of a mission file, and this is a model")
     else:
-        loaded = load(file, directories, chosen_dialect(ctx, dialect), path)
+        loaded = load(file, directories, chosen_dialect(ctx, dialect), library_of(configured(file)), path)
         if loaded.is_refused or loaded.database is None or loaded.program is None:
             for each in loaded.diagnostics:
                 click.echo(render(each, colour=colours()), err=True)
