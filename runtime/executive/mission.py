@@ -17,6 +17,7 @@ from runtime.executive.outcome import Outcome
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
 from runtime.executive.reactor import Reactor
+from runtime.executive.record import MissionRecord
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import Environment, PlanDatabase
@@ -50,6 +51,19 @@ def run_mission(
     until: int | None = None,
     compiles: bool = True,
 ) -> Outcome:
+    """Carry out one mission, see `record_mission`, and forget its record."""
+    return record_mission(configuration, programs, seed, overrides, every_tick, until, compiles)[0]
+
+
+def record_mission(
+    configuration: AgentConfiguration,
+    programs: MissionPrograms,
+    seed: int,
+    overrides: Mapping[str, float] | None = None,
+    every_tick: bool = False,
+    until: int | None = None,
+    compiles: bool = True,
+) -> tuple[Outcome, MissionRecord]:
     """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
 
     Determined reactors are carried out as register code, unless `compiles` is false: events are the same.
@@ -88,7 +102,9 @@ def run_mission(
         kinds = goal_kinds(configuration, programs, goal)
         goals.append((goal.at, request_of(goal, -1 - number, kinds)))
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
-    return agent.run(until)
+    outcome = agent.run(until)
+    recorded = tuple(each.bench.recorder.close() for each in reactors if isinstance(each, PlanReactor))
+    return outcome, MissionRecord(recorded)
 
 
 def plan_reactor(
