@@ -1,6 +1,6 @@
 """What becomes of requests that owners refuse, give up or take up again."""
 
-from runtime.executive.configuration import GoalConfiguration
+from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.outcome import EventKind
 from tests.executive.flying import Flyer, fly, history, lines, open_goals, planner, simulator
 
@@ -61,3 +61,14 @@ def test_a_reactor_out_of_its_own_budget_is_f5() -> None:
     assert fly(flyer, until=30).abort is None
     outcome = fly(deep, until=30)
     assert outcome.abort is not None and outcome.abort.code == "F5" and outcome.abort.reason.limit == 2
+
+
+def test_a_model_that_what_was_drawn_contradicts_is_f9() -> None:
+    text = f"float D = [1.0 10.0]; {TASK} Task task = new Task(Internal); close(); "
+    text += "goal(Task.Do g); int k; float d; d == sampledParameter(D); k == ceil(d); g.n == k; g.n <= 5;"
+    parameters = (ParameterConfiguration("D", 1.0, 10.0),)
+    for value in (3.0, 8.0):
+        outcome = fly(planner("plan", text, "task"), until=5, parameters=parameters, overrides={"D": value})
+        assert (outcome.abort is None) == (value < 5)
+        if outcome.abort is not None:
+            assert (outcome.abort.code, outcome.abort.tick, outcome.last_tick) == ("F9", 0, 0)
