@@ -66,11 +66,11 @@ def record_mission(
     overrides: Mapping[str, float] | None = None,
     every_tick: bool = False,
     until: int | None = None,
-    compiles: bool = True,
+    compiles: bool = False,
 ) -> tuple[Outcome, MissionRecord]:
     """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
 
-    Determined reactors are carried out as register code, unless `compiles` is false: events are the same.
+    With `compiles` determined reactors are carried out as register code: events are the same, but they leave no record.
     It ends at the final tick, or at `until`. With `every_tick` reactors are woken at each tick, whether or not anything
     can happen; events are the same.
 

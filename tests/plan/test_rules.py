@@ -86,8 +86,8 @@ def test_rules_of_the_base_class_fire_first() -> None:
 def test_a_sampled_parameter_takes_what_the_environment_draws() -> None:
     text = "float RATE = [0.1 4.0]; class T extends Timeline { predicate p { float f; } }"
     text += "T::p { f == sampledParameter(RATE); } T t = new T(); close(); goal(t.p g); g.activate();"
-    assert domains(loaded(text, {"RATE": 2.5}.get))["g.f"] == "{2.5} float"
-    assert domains(loaded(text, {"OTHER": 2.5}.get))["g.f"] == "[0.1, 4.0] float"
+    assert domains(loaded(text, lambda name, _: {"RATE": 2.5}.get(name)))["g.f"] == "{2.5} float"
+    assert domains(loaded(text, lambda name, _: {"OTHER": 2.5}.get(name)))["g.f"] == "[0.1, 4.0] float"
 
 
 def test_a_merged_token_decides_for_the_one_that_stands_for_it() -> None:
