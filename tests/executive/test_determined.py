@@ -18,7 +18,9 @@ MISSIONS = sorted([*(ROOT / "models").rglob("m*.toml"), *(ROOT / "tests").rglob(
 
 STEPS = """
 float NOISE = [-1.0 1.0];
-class Helm extends AgentTimeline { predicate Idle { } predicate Run { float v; int n; } Helm(Mode m) { super(m, "Idle"); } }
+class Helm extends AgentTimeline {
+  predicate Idle { } predicate Run { float v; int n; } Helm(Mode m) { super(m, "Idle"); }
+}
 class Mirror extends AgentTimeline { predicate Holds { float v; } Mirror(Mode m) { super(m, "Holds"); } }
 class Motion extends AgentTimeline { predicate Step { float x; float x1; } Motion(Mode m) { super(m, "Step"); } }
 class Tank extends AgentTimeline {
@@ -125,18 +127,22 @@ COUNT = """
 class Count extends AgentTimeline { predicate At { int k; } Count(Mode m) { super(m, "At"); } }
 class Copy extends AgentTimeline { predicate None { } predicate Of { int k; } Copy(Mode m) { super(m, "None"); } }
 """
-COUNTER = (
-    "Count::At { duration == 5; meets(object.At next); next.k == k + 1; } Count count = new Count(Internal); close();"
-)
-COUNTER += "fact(count.At first); first.start == 0; first.k == 0;"
-COPIER = (
-    "Count::At { equals(Copy.Of c); c.k == k * 2; } Count count = new Count(External); Copy copy = new Copy(Internal);"
-)
+COUNTER = """
+Count::At { duration == 5; meets(object.At next); next.k == k + 1; }
+Count count = new Count(Internal);
+close();
+fact(count.At first); first.start == 0; first.k == 0;
+"""
+COPIER = """
+Count::At { equals(Copy.Of c); c.k == k * 2; }
+Count count = new Count(External); Copy copy = new Copy(Internal);
+close();
+"""
 
 
 def test_observations_are_inputs() -> None:
     counter = simulator("counter", COUNT + COUNTER, "count")
-    copier = simulator("copier", COUNT + COPIER + "close();", "copy", "count")
+    copier = simulator("copier", COUNT + COPIER, "copy", "count")
     agree(Case((counter, copier), until=23))
 
 
