@@ -261,6 +261,10 @@ class Elaboration:
     def _draw(self, target: Cell, parameter: str, context: Context, span: Span) -> None:
         number = self.layout.sample(parameter)
         self.draws.append(number)
+        if target.is_real:
+            way = Way((target.register,), (), ((code.DRAW, target.register, number),))
+            self.sheet.items.append(Item(context, span, span.text, (target.register,), (way,)))
+            return
         raw = Cell(self.layout.take(1), "float")
         self.sheet.items.append(
             Item(

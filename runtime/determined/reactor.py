@@ -49,8 +49,7 @@ class DeterminedReactor:
         trace: Trace,
     ) -> None:
         self.name = configuration.name
-        self.internal = configuration.internal
-        self.external = configuration.external
+        self.internal, self.external = configuration.internal, configuration.external
         self.latency, self.lookahead = configuration.latency, configuration.lookahead
         self.program = program
         self.drawn = drawn
