@@ -71,6 +71,13 @@ class RegisterProgram:
                 self.code[here + STRIDE * k + 6] = follower
         return number
 
+    def name_of(self, number: int) -> str:
+        """The text, enum value or object of a number."""
+        if number >= len(self.names):
+            symbols = self.layout.symbols
+            self.names[:] = sorted(symbols, key=lambda name: symbols[name])
+        return self.names[number]
+
     def machine(self, world: object) -> Machine:
         """A machine on which nothing has happened yet."""
         layout = self.layout

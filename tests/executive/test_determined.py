@@ -2,19 +2,26 @@
 
 import re
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 
 from checker.flight import programs_of
 from checker.mission import read_mission
 from compiler.determined import code
+from runtime.determined.reactor import DeterminedReactor
+from runtime.executive.agent import Agent
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
-from runtime.executive.mission import register_program, run_mission
+from runtime.executive.draws import World
+from runtime.executive.mission import register_program, request_of, run_mission
+from runtime.executive.outcome import EventKind
+from runtime.executive.trace import Trace
 from tests.executive.determined_models import Case, random_case, told
 from tests.executive.flying import simulator
 
 ROOT = Path(__file__).resolve().parents[2]
 MISSIONS = sorted([*(ROOT / "models").rglob("m*.toml"), *(ROOT / "tests").rglob("mission.toml")])
+KINDS = {"v": ("float", "float"), "n": ("int", "int")}
 
 STEPS = """
 float NOISE = [-1.0 1.0];
@@ -151,3 +158,39 @@ def test_the_machine_has_the_numbers_of_the_compiler() -> None:
     found = {name: int(number) for number, name in re.findall(r"op == (\d+):  # ([A-Z_]+)", text)}
     assert len(found) > 38
     assert {name: getattr(code, name) for name in found} == found
+
+
+def test_what_was_executed_is_on_record() -> None:
+    case = steps(run(3, (5, 9), 10.0), run(12, (14, 14), -3.0))
+    agent, programs = case.agent()
+    loaded = register_program(agent, programs, 0)
+    assert loaded is not None
+    trace = Trace()
+    world = World(agent, 1, {}, trace)
+    world.learn(programs.programs[0])
+    reactor = DeterminedReactor(agent.reactors[0], loaded, world.in_force, _never, 40, trace)
+    requests = [(goal.at, request_of(goal, -1 - n, KINDS)) for n, goal in enumerate(case.goals)]
+    outcome = Agent(agent, [reactor], requests, 1, trace).run()
+    record = reactor.executed()
+    by_key = {token.key: token for token in record}
+    assert len(by_key) == len(record)
+    published = sorted(
+        (event.tick, event.timeline, event.predicate) for event in outcome.events if event.kind is EventKind.OBSERVATION
+    )
+    active = [token for token in record if token.state == "active"]
+    assert sorted((token.start, token.object, token.predicate.rpartition(".")[2]) for token in active) == published
+    assert {token.origin for token in active} == {"fact", "request", "rule", "own"}
+    for token in record:
+        if token.state == "merged":
+            into = by_key[token.merged_into]
+            assert (into.state, into.object, into.start, into.end) == ("active", token.object, token.start, token.end)
+        for made in token.runs:
+            assert all(key in by_key for key in made.children)
+    second = [token for token in active if token.predicate == "Motion.Step"]
+    mirror, following = second[0].runs[0].children
+    assert by_key[mirror].predicate == "Mirror.Holds" and by_key[following] == second[1]
+    assert second[0].end == second[1].start == 1
+
+
+def _never(trace: Trace) -> NoReturn:
+    raise AssertionError("the machine does not stop")
