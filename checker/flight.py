@@ -9,47 +9,62 @@ from pathlib import Path
 from typing import overload
 
 from checker.batch.worker import Fly
+from checker.judge.judge import breaches, judge_mission
+from checker.judge.rendering import DisagreementError
 from checker.names import relative_name
 from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.read import read_source
-from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.mission import MissionPrograms, run_mission
+from runtime.executive.configuration import AgentConfiguration, CodeConfiguration
+from runtime.executive.mission import MissionPrograms, record_mission
 from runtime.executive.outcome import Conflict, Deadlock, Event, Outcome, SourcePlace
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.read import read_configuration
 from runtime.user.library import load_library
+from runtime.user.reactor import Reactor
+from runtime.user.reactor_library import load_reactor
 
 Reactors = tuple[tuple[str, str | None], ...]  # model and solver of each
 
 
 def load(agent: AgentConfiguration) -> Fly:
-    """Compile the models of `agent`; the result flies one mission per call."""
+    """Compile the models of `agent`; the result flies one mission per call, and has it judged.
+
+    It raises `DisagreementError` where the judge holds that the executive broke the model.
+    """
     root = Path(agent.root)
     reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    _load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
+    load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
     return partial(fly_once, agent)
 
 
 def fly_once(
     agent: AgentConfiguration, seed: int, values: Mapping[str, float] | None = None, until: int | None = None
 ) -> Outcome:
-    """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick."""
+    """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick.
+
+    It raises `DisagreementError` where the judge holds that the executive broke the model.
+    """
     root = Path(agent.root)
     reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    programs = _load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
+    programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
+    programs = replace(programs, code=_load_code(root, agent.coded))
     with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
-        return _relative(run_mission(agent, programs, seed, values, until=until), root)
+        outcome, record = record_mission(agent, programs, seed, values, until=until)
+        report = judge_mission(agent, programs.programs, outcome, record, programs.constraints, values)
+    if report.errors:
+        raise DisagreementError(report)
+    return _relative(replace(outcome, breaches=breaches(report)), root)
 
 
 def programs_of(agent: AgentConfiguration) -> MissionPrograms:
     """The compiled models of `agent`, and the flaw handling of its reactors."""
     reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    return _load_programs(Path(agent.root), reactors, agent.constraints, agent.constraint_seconds)
+    return load_programs(Path(agent.root), reactors, agent.constraints, agent.constraint_seconds)
 
 
 @lru_cache(maxsize=4)
-def _load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...], seconds: float) -> MissionPrograms:
+def load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...], seconds: float) -> MissionPrograms:
     """The compiled models and the flaw handling of some reactors; kept, for flights that differ in parameters only."""
     library = load_library(root, constraints, seconds=seconds)
     models = {
@@ -58,6 +73,12 @@ def _load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...],
     }
     solvers = tuple(_load_solver(root, solver) for _, solver in reactors)
     return MissionPrograms(tuple(models[model] for model, _ in reactors), solvers, library.constraints)
+
+
+@lru_cache(maxsize=4)
+def _load_code(root: Path, coded: tuple[CodeConfiguration, ...]) -> tuple[type[Reactor], ...]:
+    """The classes of the reactors that are written in Python."""
+    return tuple(load_reactor(root, each.file, each.class_name) for each in coded)
 
 
 def _load_solver(root: Path, path: str | None) -> Configuration:

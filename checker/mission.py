@@ -18,6 +18,7 @@ from nddl_lang.text.toml_places import find_places, split_error, toml_of
 from runtime.executive.configuration import (
     AgentConfiguration,
     Bounds,
+    CodeConfiguration,
     GoalConfiguration,
     Mode,
     OnFailure,
@@ -71,8 +72,8 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
     text = MissionText(source, find_places(source.text))
     top = Table(text, (), values, "a mission file")
     head = top.table("mission", "[mission]", needed=True)
-    reactors = _read_reactors(top.tables("reactor", needed=True), root)
-    goals = _read_goals(top.tables("goal"), reactors, text)
+    reactors, coded = _read_reactors(top.tables("reactor", needed=True), root)
+    goals = _read_goals(top.tables("goal"), (*reactors, *coded), text)
     constraints, seconds = _read_constraints(top.table("constraints", "[constraints]"), root)
     parameters, unranged = _read_parameters(top.table("parameters", "[parameters]"))
     agent = AgentConfiguration(
@@ -86,6 +87,7 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
         on_failure=cast("OnFailure", head.choice("on_failure", ("abort_agent", "kill_reactor"), "abort_agent")),
         constraints=constraints,
         constraint_seconds=seconds,
+        coded=coded,
     )
     check = _read_check(top.table("check", "[check]"))
     head.close()
@@ -127,28 +129,62 @@ def _read_constraints(table: Table, root: Path) -> tuple[tuple[str, ...], float]
     return modules, seconds
 
 
-def _read_reactors(tables: list[Table], root: Path) -> tuple[ReactorConfiguration, ...]:
+def _read_code(table: Table) -> CodeConfiguration:
+    """A reactor written in Python: `code = "file.py:Class"`, with its settings."""
+    file, _, class_name = table.string("code").rpartition(":")
+    settings = table.table("settings", "[reactor.settings]")
+    given = tuple((key, _setting(settings, key)) for key in settings.values)
+    return CodeConfiguration(
+        name=table.string("name"),
+        file=file,
+        class_name=class_name,
+        latency=table.whole("latency", 0, 0),
+        internal=table.strings("internal"),
+        external=table.strings("external"),
+        settings=given,
+    )
+
+
+def _setting(table: Table, key: str) -> Value:
+    value = table.values[key]
+    return value if isinstance(value, bool | int | float | str) else table.string(key)  # complains
+
+
+def _read_model(table: Table) -> ReactorConfiguration:
+    """A reactor with a model."""
     default = ReactorConfiguration("", "")
-    reactors: list[ReactorConfiguration] = []
+    return ReactorConfiguration(
+        name=table.string("name"),
+        model=table.string("model"),
+        latency=table.whole("latency", default.latency, 0),
+        lookahead=table.whole("lookahead", default.lookahead, 0),
+        internal=table.strings("internal"),
+        external=table.strings("external"),
+        solver=table.string("solver", "") or None,
+        early=table.strings("early"),
+        late=table.strings("late"),
+        max_steps=table.whole("max_steps", 0, 0) or None,
+        max_depth=table.whole("max_depth", 0, 0) or None,
+    )
+
+
+def _read_reactors(
+    tables: list[Table], root: Path
+) -> tuple[tuple[ReactorConfiguration, ...], tuple[CodeConfiguration, ...]]:
+    reactors: list[ReactorConfiguration | CodeConfiguration] = []
     owners: dict[str, tuple[str, Span]] = {}
     names: dict[str, Span] = {}
     for table in tables:
-        reactor = ReactorConfiguration(
-            name=table.string("name"),
-            model=table.string("model"),
-            latency=table.whole("latency", default.latency, 0),
-            lookahead=table.whole("lookahead", default.lookahead, 0),
-            internal=table.strings("internal"),
-            external=table.strings("external"),
-            solver=table.string("solver", "") or None,
-            early=table.strings("early"),
-            late=table.strings("late"),
-            max_steps=table.whole("max_steps", 0, 0) or None,
-            max_depth=table.whole("max_depth", 0, 0) or None,
-        )
+        is_code = table.has("code")
+        reactor: ReactorConfiguration | CodeConfiguration = _read_code(table) if is_code else _read_model(table)
         table.close()
         reactors.append(reactor)
-        for key, file in (("model", reactor.model), ("solver", reactor.solver)):
+        files = (
+            (("code", reactor.file),)
+            if isinstance(reactor, CodeConfiguration)
+            else (("model", reactor.model), ("solver", reactor.solver))
+        )
+        for key, file in files:
             if file and not (root / file).is_file():
                 span = table.text.value_span((*table.path, key))
                 table.text.diagnostics.append(NO_FILE.at(span, path=file, help=_suggest_file(root, file)))
@@ -170,11 +206,14 @@ def _read_reactors(tables: list[Table], root: Path) -> tuple[ReactorConfiguratio
     if cycle:
         span = tables[0].text.key_span(tables[0].path)
         tables[0].text.diagnostics.append(CYCLE.at(span, cycle=" → ".join(cycle)))
-    return tuple(reactors)
+    return (
+        tuple(one for one in reactors if isinstance(one, ReactorConfiguration)),
+        tuple(one for one in reactors if isinstance(one, CodeConfiguration)),
+    )
 
 
 def _read_goals(
-    tables: list[Table], reactors: tuple[ReactorConfiguration, ...], text: MissionText
+    tables: list[Table], reactors: tuple[ReactorConfiguration | CodeConfiguration, ...], text: MissionText
 ) -> tuple[GoalConfiguration, ...]:
     owners = {timeline: reactor for reactor in reactors for timeline in reactor.internal}
     goals: list[GoalConfiguration] = []
@@ -265,7 +304,7 @@ def _ill_distribution(table: Table, name: str, values: tuple[float, ...], weight
     return reasons
 
 
-def _find_cycle(reactors: list[ReactorConfiguration], owners: dict[str, str]) -> list[str]:
+def _find_cycle(reactors: list[ReactorConfiguration | CodeConfiguration], owners: dict[str, str]) -> list[str]:
     """The names of reactors on a cycle of use, the first repeated at the end; empty where there is none."""
     uses = {one.name: [owners[name] for name in one.external if name in owners] for one in reactors}
     waiting = {name: set(used) for name, used in uses.items()}

@@ -49,6 +49,7 @@ def load_models(mission: Mission) -> ModelSet:
         for analysis in analyses.values()
         for source in analysis.loaded.sources
     }
+    texts |= {each.file: (root / each.file).read_text(encoding="utf-8") for each in agent.coded if each.file}
     found: dict[tuple[str, int, str, str], Diagnostic] = {}
     for analysis in analyses.values():
         for one in analysis.diagnostics:

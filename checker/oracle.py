@@ -11,6 +11,7 @@ from runtime.executive.outcome import EventKind, Outcome, Reason, ReasonKind
 
 GOALS_OPEN = "F10"
 NO_RECORD = "F7"
+BROKEN = "F11"
 USER_CODE = "USER"  # of an ERROR: a constraint that the project wrote in Python failed
 
 CODE_NAMES = {
@@ -61,4 +62,6 @@ def judge(outcome: Outcome) -> Judgement:
         return Judgement(Verdict.FAIL, lost.code, lost.reason)
     if outcome.open_goals:
         return Judgement(Verdict.FAIL, GOALS_OPEN, Reason(ReasonKind.GOALS_OPEN))
+    if outcome.breaches:
+        return Judgement(Verdict.FAIL, BROKEN, outcome.breaches[0])
     return Judgement(Verdict.PASS)

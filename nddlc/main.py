@@ -30,11 +30,12 @@ COMMANDS = {
     "gold": ("nddlc.gold", "Compare a mission with how it was accepted to be."),
     "check": ("nddlc.check", "Fly the missions of a mission file, and say what fails and why."),
     "explain": ("nddlc.explain", "Explain why one mission of a run failed."),
+    "validate": ("nddlc.validate", "Judge a mission, a record, a trace or a plan against the model."),
     "lsp": ("nddlc.lsp", "Serve an editor over standard input and output."),
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 # What is slow where the engine is not compiled.
-PLANNING = ("load", "compile", "plan", "run", "replay", "gold", "check", "explain")
+PLANNING = ("load", "compile", "plan", "run", "replay", "gold", "check", "explain", "validate")
 UNUSABLE, BUG, INTERRUPTED = 2, 3, 130
 MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
 FORBIDDEN = (errno.EACCES, errno.EPERM, errno.ELOOP, errno.ENAMETOOLONG)

@@ -32,6 +32,20 @@ class ReactorConfiguration:
 
 
 @dataclass(frozen=True, slots=True)
+class CodeConfiguration:
+    """One reactor written in Python: a subclass of `runtime.user.reactor.Reactor` in a file of the project."""
+
+    name: str
+    file: str  # path relative to the agent's root; empty: one of nddlc's own
+    class_name: str
+    latency: int = 0
+    internal: tuple[str, ...] = ()
+    external: tuple[str, ...] = ()
+    settings: tuple[tuple[str, Value], ...] = ()
+    lookahead: Literal[0] = 0  # it takes no goals
+
+
+@dataclass(frozen=True, slots=True)
 class GoalConfiguration:
     """A rejectable goal, sent to the owner of `timeline` at tick `at`.
 
@@ -83,3 +97,4 @@ class AgentConfiguration:
     on_failure: OnFailure = "abort_agent"
     constraints: tuple[str, ...] = ()  # Python files with constraints that the models call, relative to the root
     constraint_seconds: float = 5.0  # that one call of these may take
+    coded: tuple[CodeConfiguration, ...] = ()  # reactors written in Python

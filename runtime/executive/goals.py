@@ -83,6 +83,7 @@ class Goals:
                 request, why = goal.request, Reason(ReasonKind.RECALLED)
                 self.given_up.append(OpenGoal(request.timeline, request.predicate, request.arguments, why))
             if self.bench.is_alive(goal.token, goal.token_key) and not self.bench.is_started(goal.token, tick):
+                self.bench.recorder.cut()
                 seen = hold_present(self.bench, self.timelines)
                 self.bench.remove([goal.token])
                 stand(self.bench, self.timelines, seen)

@@ -2,12 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 
 from compiler.program import DomainConstant, Program
 from runtime.determined.building import find_out, known
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.reactor import DeterminedReactor
 from runtime.executive.agent import Agent
+from runtime.executive.coded_reactor import CodedReactor
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, Value
 from runtime.executive.draws import Draws, World
 from runtime.executive.messages import Arguments, Request
@@ -15,11 +17,13 @@ from runtime.executive.outcome import Outcome
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
 from runtime.executive.reactor import Reactor
+from runtime.executive.record import MissionRecord
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import Environment, PlanDatabase
 from runtime.solver.configuration.configuration import Configuration
 from runtime.user.constraint import Constraint
+from runtime.user.reactor import Reactor as UserReactor
 
 INFINITY = 4503599627370495
 
@@ -35,6 +39,7 @@ class MissionPrograms:
     programs: tuple[Program, ...]
     solvers: tuple[Configuration, ...]
     constraints: tuple[Constraint, ...] = ()  # those of the project that the models call
+    code: tuple[type[UserReactor], ...] = ()  # the classes of the reactors written in Python
 
 
 def run_mission(
@@ -46,6 +51,19 @@ def run_mission(
     until: int | None = None,
     compiles: bool = True,
 ) -> Outcome:
+    """Carry out one mission, see `record_mission`, and forget its record."""
+    return record_mission(configuration, programs, seed, overrides, every_tick, until, compiles)[0]
+
+
+def record_mission(
+    configuration: AgentConfiguration,
+    programs: MissionPrograms,
+    seed: int,
+    overrides: Mapping[str, float] | None = None,
+    every_tick: bool = False,
+    until: int | None = None,
+    compiles: bool = True,
+) -> tuple[Outcome, MissionRecord]:
     """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
 
     Determined reactors are carried out as register code, unless `compiles` is false: events are the same.
@@ -59,6 +77,7 @@ def run_mission(
     world = World(configuration, seed, overrides or {}, trace)
     reactors: list[Reactor] = []
     users = {line for each in configuration.reactors for line in each.external}
+    users.update(line for each in configuration.coded for line in each.external)
     for number, (each, program) in enumerate(zip(configuration.reactors, programs.programs, strict=True)):
         world.learn(program)
         loaded = register_program(configuration, programs, number) if compiles else None
@@ -74,12 +93,18 @@ def run_mission(
         reactor = DeterminedReactor(each, loaded, world.in_force, general, configuration.final_tick, trace)
         reactor.watched = sum(1 << reactor.numbers[line] for line in each.internal if line in users)
         reactors.append(reactor)
+    kinds_of = partial(parameter_kinds, configuration, programs)
+    for coded, cls in zip(configuration.coded, programs.code, strict=True):
+        make = partial(cls, {**dict(coded.settings), "seed": seed})
+        reactors.append(CodedReactor(coded, make, kinds_of, trace))
     goals = []
     for number, goal in enumerate(configuration.goals):
         kinds = goal_kinds(configuration, programs, goal)
         goals.append((goal.at, request_of(goal, -1 - number, kinds)))
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
-    return agent.run(until)
+    outcome = agent.run(until)
+    recorded = tuple(each.bench.recorder.close() for each in reactors if isinstance(each, PlanReactor))
+    return outcome, MissionRecord(recorded)
 
 
 def plan_reactor(
@@ -128,17 +153,25 @@ def loaded_bench(
 
 def goal_kinds(
     configuration: AgentConfiguration, programs: MissionPrograms, goal: GoalConfiguration
-) -> dict[str, tuple[str, str]]:
+) -> Mapping[str, tuple[str, str]]:
     """Kind and type name of each parameter of a goal's predicate, in the model of the timeline's owner."""
-    for reactor, program in zip(configuration.reactors, programs.programs, strict=True):
-        if goal.timeline not in reactor.internal:
-            continue
+    return parameter_kinds(configuration, programs, goal.timeline, goal.predicate) or {}
+
+
+def parameter_kinds(
+    configuration: AgentConfiguration, programs: MissionPrograms, timeline: str, predicate: str
+) -> Mapping[str, tuple[str, str]] | None:
+    """Kind and type name of each parameter of a predicate, as the owner of its timeline, or else a user, has them."""
+    pairs = list(zip(configuration.reactors, programs.programs, strict=True))
+    owners = [program for reactor, program in pairs if timeline in reactor.internal]
+    users = [program for reactor, program in pairs if timeline in reactor.external]
+    for program in owners + users:
         classes = {name: code.type_name for name, code in program.globals}
-        wanted = f"{classes.get(goal.timeline, '')}.{goal.predicate}"
-        for predicate in program.predicates:
-            if predicate.name == wanted:
-                return {p.name: (p.type.kind, p.type.type_name) for p in predicate.parameters}
-    return {}
+        wanted = f"{classes.get(timeline, '')}.{predicate}"
+        for each in program.predicates:
+            if each.name == wanted:
+                return {p.name: (p.type.kind, p.type.type_name) for p in each.parameters}
+    return None
 
 
 def request_of(goal: GoalConfiguration, number: int, kinds: Mapping[str, tuple[str, str]]) -> Request:

@@ -160,6 +160,7 @@ class ReasonKind(StrEnum):
     # of the mission
     GOALS_OPEN = "goals open"
     NO_RECORD = "no record"
+    CUT_OFF = "cut off"
 
 
 @dataclass(frozen=True, slots=True)
@@ -311,6 +312,7 @@ class Outcome:
     draws: tuple[Draw, ...]
     events: tuple[Event, ...]
     open_goals: tuple[OpenGoal, ...]
+    breaches: tuple[Reason, ...] = ()  # what the judge found to break the model though nothing failed
 
     @property
     def ended_early(self) -> bool:

@@ -150,6 +150,7 @@ class PlanReactor:
                 self.goals.report_rejected()
                 if self.goals.close(tick):
                     self.goals.reopen()
+                self.bench.recorder.settled = tick
                 return None
             failures.append(failure)
             if attempt == 0:

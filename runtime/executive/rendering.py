@@ -50,6 +50,7 @@ _REASONS = {
     ReasonKind.RAISED: "its code failed: {message}",
     ReasonKind.GOALS_OPEN: "mandatory goals stayed open",
     ReasonKind.NO_RECORD: "ended at tick {tick} of {limit} without an abort record",
+    ReasonKind.CUT_OFF: "{predicate} on `{timeline}` counts as achieved, but was cut off by a repair",
 }
 
 

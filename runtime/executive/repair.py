@@ -11,6 +11,7 @@ def relax(bench: Workbench, timelines: list[TimelineState], goals: list[Goal], t
     What holds now is fact, observed or not, and stays. With `forget`, what is over is dropped, with what follows from
     it alone. Goals that are too late are removed. False if even that is inconsistent.
     """
+    bench.recorder.cut()
     seen = hold_present(bench, timelines)
     if forget:
         present = {token for line in timelines for token in (line.current, seen.get(line.name, NOTHING))}

@@ -12,6 +12,7 @@ from runtime.constraints.domains.tags import (
     SUPPORT_RESTRICTION,
 )
 from runtime.executive.messages import Arguments
+from runtime.executive.recorder import Recorder
 from runtime.executive.timelines import TimelineState
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.names import TokenName
@@ -62,6 +63,7 @@ class PlanView:
         self.external_objects: set[int] = set()
         self.internal_objects: set[int] = set()
         self.late_objects: set[int] = set()  # timelines on which what nobody asked for begins as late as it may
+        self.recorder = Recorder(database, name)
 
     # ---- names ----
 

@@ -181,7 +181,7 @@ class Workbench(PlanView):
                 kept.add(int(self.rows.link_before[LISTS * line.current + LIST_ORDER]))
         count = self.rows.token_count
         over = [t for t in range(count) if t not in kept and not self.is_freed(t) and self.is_over(t, tick)]
-        return archive(self.database.plan, over, tick) if over and self.database.settle() else 0
+        return archive(self.database.plan, over, tick, self.recorder.leave) if over and self.database.settle() else 0
 
     def tidy(self) -> None:
         """Forget limits of times that a later one of the same kind has made needless: they grow with every tick."""
@@ -201,6 +201,7 @@ class Workbench(PlanView):
 
     def detach(self, t: int) -> None:
         """Let a token stay when the one that asked for it goes."""
+        self.recorder.detach(t)
         detach(self.database.plan, t)
 
     def remove(self, tokens: list[int]) -> bool:

@@ -56,7 +56,7 @@ def test_defaults_fill_what_is_not_written() -> None:
     mission = read(HEAD)
     assert mission.agent.on_failure == "abort_agent"
     assert mission.agent.tick == 1.0
-    assert mission.agent.reactors[0].max_steps == 400
+    assert mission.agent.reactors[0].max_steps is None
     assert mission.check.missions == 200
 
 

@@ -3,7 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import NamedTuple
 
+from checker.judge.judge import judge_mission
+from checker.judge.rendering import disagreement_text
+from checker.judge.report import JudgeReport
 from compiler.lower import compile_model
 from compiler.program import Program
 from nddl_lang.analysis import analyse_text
@@ -16,8 +20,9 @@ from runtime.executive.configuration import (
     ParameterConfiguration,
     ReactorConfiguration,
 )
-from runtime.executive.mission import MissionPrograms, run_mission
+from runtime.executive.mission import MissionPrograms, record_mission
 from runtime.executive.outcome import Outcome
+from runtime.executive.record import MissionRecord
 from runtime.executive.rendering import event_text, goal_text
 from runtime.solver.configuration.configuration import default_configuration
 
@@ -70,7 +75,17 @@ def program(name: str, text: str) -> Program:
     return compile_model(analysis)
 
 
-def fly(
+class Flown(NamedTuple):
+    """A mission that was flown, and what it takes to judge it."""
+
+    agent: AgentConfiguration
+    programs: tuple[Program, ...]
+    outcome: Outcome
+    record: MissionRecord
+    report: JudgeReport
+
+
+def flown(
     *flyers: Flyer,
     until: int = 10,
     goals: tuple[GoalConfiguration, ...] = (),
@@ -79,8 +94,8 @@ def fly(
     seed: int = 1,
     overrides: Mapping[str, float] | None = None,
     every_tick: bool = False,
-) -> Outcome:
-    """Fly one mission."""
+) -> Flown:
+    """Fly one mission and judge it."""
     agent = AgentConfiguration(
         "toy",
         ".",
@@ -92,7 +107,36 @@ def fly(
     )
     programs = tuple(program(flyer.configuration.model, flyer.text) for flyer in flyers)
     solvers = tuple(default_configuration() for _ in flyers)
-    return run_mission(agent, MissionPrograms(programs, solvers), seed, overrides, every_tick)
+    outcome, record = record_mission(agent, MissionPrograms(programs, solvers), seed, overrides, every_tick)
+    report = judge_mission(agent, programs, outcome, record, overrides=overrides)
+    return Flown(agent, programs, outcome, record, report)
+
+
+def fly(
+    *flyers: Flyer,
+    until: int = 10,
+    goals: tuple[GoalConfiguration, ...] = (),
+    parameters: tuple[ParameterConfiguration, ...] = (),
+    on_failure: OnFailure = "abort_agent",
+    seed: int = 1,
+    overrides: Mapping[str, float] | None = None,
+    every_tick: bool = False,
+) -> Outcome:
+    """Fly one mission; the judge has to agree."""
+    mission = flown(
+        *flyers,
+        until=until,
+        goals=goals,
+        parameters=parameters,
+        on_failure=on_failure,
+        seed=seed,
+        overrides=overrides,
+        every_tick=every_tick,
+    )
+    # A parameter that changes within a mission is drawn when its token is planned, not when it begins.
+    wrong = [one for one in mission.report.disagreements if one.kind != "draw"]
+    assert not wrong, [disagreement_text(one) for one in wrong]
+    return mission.outcome
 
 
 def lines(outcome: Outcome, *kinds: str) -> list[str]:

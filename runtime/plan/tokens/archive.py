@@ -6,6 +6,8 @@ begun goes with its master, however long the other lasts. What went told others 
 span of the edge or constraint which said so, so explanations name the same lines.
 """
 
+from collections.abc import Callable
+
 from runtime.constraints.domains.tags import (
     FLAG_FROZEN,
     KIND_FLOAT,
@@ -31,11 +33,13 @@ from runtime.plan.tags import (
 from runtime.plan.tokens.retraction import remove_tokens, scopes_of
 
 
-def archive(plan: Plan, tokens: list[int], tick: int) -> int:
-    """Take out those of `tokens`, which are over at `tick`, that may go; how many went."""
+def archive(plan: Plan, tokens: list[int], tick: int, record: Callable[[list[int], int], None] | None = None) -> int:
+    """Take out those of `tokens`, which are over at `tick`, that may go, `record` them before; how many went."""
     doomed = removable(plan, tokens, tick)
     if not doomed:
         return 0
+    if record is not None:
+        record(list(doomed), tick)
     frozen = freeze(plan, doomed)
     for t in doomed:
         orphan(plan, t, doomed)

@@ -1,0 +1,94 @@
+"""Find out what a rule may have meant where nobody recorded its run: children among the tokens of the plan, branches.
+
+A plan written by hand, and a trace, say which tokens there were, not which of them answered which rule. Each child is
+tried among the tokens that fit by predicate, object and relation; the first choice under which all holds is taken.
+"""
+
+from math import inf
+
+from checker.judge.bench import Bench, Tok
+from checker.judge.operands import Frame, Names
+from checker.judge.relations import Demand
+from checker.judge.values import difference, hull, may_be_equal
+from compiler.program import END, OBJECT, START, Child
+from runtime.executive.record import NOBODY, Value
+
+MOST_TRIES = 2000
+
+
+class Choosing:
+    """The choices of one run of a rule: the n-th child takes candidate number `taken[n]`."""
+
+    def __init__(self) -> None:
+        self.taken: list[int] = []
+        self.counts: list[int] = []
+        self.known: set[int] = set()  # slots of locals whose values were inferred
+
+    def begin(self) -> None:
+        """Run the rule again from its start."""
+        self.counts = []
+
+    def pick(self, frame: Frame, child: Child, pairs: tuple[Demand, ...], holder: Value | None, names: Names) -> int:
+        """The key of the token that this child is taken to be; NOBODY for none of the plan."""
+        n = len(self.counts)
+        found = candidates(frame, child, pairs, holder, names)
+        if may_be_outside(frame.bench, child, pairs, frame.tokens[child.origin]):
+            found.append(NOBODY)
+        self.counts.append(len(found))
+        if n == len(self.taken):
+            self.taken.append(0)
+        return found[self.taken[n]] if found else NOBODY
+
+    def advance(self) -> bool:
+        """Go on to the next choices; False if there are none."""
+        del self.taken[len(self.counts) :]
+        while self.taken:
+            self.taken[-1] += 1
+            if self.taken[-1] < self.counts[len(self.taken) - 1]:
+                return True
+            self.taken.pop()
+        return False
+
+
+def candidates(frame: Frame, child: Child, pairs: tuple[Demand, ...], holder: Value | None, names: Names) -> list[int]:
+    """The tokens of a plan that may be what a rule asks for."""
+    origin = frame.tokens[child.origin]
+    wanted_class, _, suffix = child.predicate.rpartition(".")
+    found = []
+    for key, tok in frame.bench.tokens.items():
+        class_name, _, name = tok.record.predicate.rpartition(".")
+        if name != suffix or tok.record.state != "active" or not names.is_kind_of(class_name, wanted_class):
+            continue
+        if holder is not None and not may_be_equal(tok.values[OBJECT], holder):
+            continue
+        if origin is None or is_related(pairs, origin, tok):
+            found.append(key)
+    return found
+
+
+def is_related(pairs: tuple[Demand, ...], origin: Tok, target: Tok) -> bool:
+    """Whether two tokens may be in a relation."""
+    times = (origin.values[START], origin.values[END], target.values[START], target.values[END])
+    for first, second, lower, upper in pairs:
+        gap = hull(difference(times[second], times[first])) or (-inf, inf)
+        if gap[0] > upper or gap[1] < lower:
+            return False
+    return True
+
+
+def may_be_outside(bench: Bench, child: Child, pairs: tuple[Demand, ...], origin: Tok | None) -> bool:
+    """Whether a missing child may lie after the end of what is known, or on a timeline that nobody told of."""
+    class_name = child.predicate.rpartition(".")[0]
+    if bench.told is not None and class_name not in bench.told:
+        return True
+    if origin is None:
+        return True
+    for first, second, lower, upper in pairs:
+        known = origin.values[START + first] if first < 2 else origin.values[START + second]
+        ends = hull(known)
+        if ends is None:
+            return True
+        latest = ends[1] + upper if first < 2 <= second else ends[1] - lower if second < 2 <= first else inf
+        if latest <= bench.last_tick:
+            return False
+    return True

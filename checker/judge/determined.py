@@ -1,0 +1,67 @@
+"""Tell what a constraint determines: a value that it leaves no choice for must have been fixed in an executed plan."""
+
+from checker.judge.functions import COMPUTED
+from checker.judge.operands import Frame, Names
+from checker.judge.solving import solver
+from checker.judge.values import UNKNOWN, is_open
+from compiler.program import Constant, GlobalVariable, LocalVariable, Operand, Post, TokenVariable
+from runtime.executive.record import Value
+
+OWN, CHILD, OTHER = range(3)
+EQUALITIES = ("eq", "concurrent")
+
+
+class Determined:
+    """Which argument of one constraint the others determine."""
+
+    def __init__(self, post: Post, names: Names) -> None:
+        self.owners = [owner(operand, names) for operand in post.operands]
+        self.tokens = [operand.token if isinstance(operand, TokenVariable) else 0 for operand in post.operands]
+        self.slots = [operand.slot if isinstance(operand, LocalVariable) else -1 for operand in post.operands]
+        self.solvers = [solver(post.name, k, len(post.operands)) for k in range(len(post.operands))]
+        self.is_equality = post.name in EQUALITIES
+        self.place = -1
+        if post.name in COMPUTED:
+            self.place = 0 if COMPUTED[post.name][0] == 0 else len(post.operands) - 1
+
+    def infer(self, frame: Frame, values: list[Value]) -> None:
+        """Give a local variable that nobody knows the value that the others determine."""
+        unfixed = [k for k, value in enumerate(values) if value == UNKNOWN]
+        if len(unfixed) != 1 or self.slots[unfixed[0]] < 0:
+            return
+        solve = self.solvers[unfixed[0]]
+        if solve is not None:
+            value = solve(*[each for k, each in enumerate(values) if k != unfixed[0]])
+            if not is_open(value):
+                frame.slots[self.slots[unfixed[0]]] = value
+                frame.choosing.known.add(self.slots[unfixed[0]])
+
+    def is_left_open(self, frame: Frame, values: list[Value]) -> bool:
+        """Whether the value that the others determine was never fixed.
+
+        A token may leave the plan before the children that its rule speaks of are decided; so an open variable of its
+        own counts only where all others are its own too.
+        """
+        unfixed = [k for k, value in enumerate(values) if is_open(value)]
+        if len(unfixed) != 1 or (unfixed[0] != self.place and not self.is_equality):
+            return False
+        k = unfixed[0]
+        if self.owners[k] == CHILD:
+            tok = frame.tokens[self.tokens[k]]
+            return tok is not None and not tok.is_cut
+        return self.owners[k] == OWN and CHILD not in self.owners
+
+
+def owner(operand: Operand, names: Names) -> int:
+    """Whose variable an operand is."""
+    match operand:
+        case TokenVariable(token=token):
+            return CHILD if token else OWN
+        case GlobalVariable(index=index):
+            return OTHER if index == names.clock else OWN
+        case LocalVariable():
+            return OWN
+        case Constant(domain=domain) if domain.values is not None and len(domain.values) == 1:
+            return OWN
+        case _:
+            return OTHER

@@ -1,0 +1,51 @@
+"""Judge goals: what counts as achieved was executed from beginning to end, as it was asked for."""
+
+from checker.judge.bench import Bench, Tok
+from checker.judge.tokens import ProgramJudge
+from checker.judge.values import lies_within, may_be_equal
+from compiler.program import END, FIRST_PARAMETER, START
+from runtime.executive.configuration import AgentConfiguration, GoalConfiguration
+from runtime.executive.outcome import Outcome
+from runtime.executive.record import Interval, Value
+
+
+def judge_goals(agent: AgentConfiguration, outcome: Outcome, desks: dict[str, tuple[ProgramJudge, Bench]]) -> None:
+    """Judge the mandatory goals of a mission that came to its end; of those that stayed open nothing is claimed."""
+    if outcome.ended_early:
+        return
+    left = [(goal.timeline, goal.predicate) for goal in outcome.open_goals]
+    for goal in agent.goals:
+        if not goal.mandatory or (goal.timeline, goal.predicate) in left:
+            continue
+        owner = next((one for one in agent.reactors if goal.timeline in one.internal), None)
+        if owner is not None and owner.name in desks:
+            judge_goal(*desks[owner.name], goal)
+
+
+def judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration) -> None:
+    """Judge one goal that counts as achieved."""
+    bench.judged += 1
+    fitting = [tok for tok in bench.tokens.values() if is_answer(judge, bench, goal, tok)]
+    if any(not tok.is_cut for tok in fitting):
+        return
+    values: tuple[tuple[str, Value], ...] = (("timeline", goal.timeline), ("asked from", goal.at))
+    is_cut = bool(fitting)
+    found = "cut off by a repair" if is_cut else "never executed as asked"
+    bench.report("goal", goal.predicate, tuple(fitting[:1]), values, "achieved", found, None, is_cut)
+
+
+def is_answer(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, tok: Tok) -> bool:
+    """Whether a token is what a goal asks for, executed to its end."""
+    if not tok.is_planned or tok.record.predicate.rpartition(".")[2] != goal.predicate:
+        return False
+    if not may_be_equal(tok.record.object, goal.timeline) or not bench.is_over(tok):
+        return False
+    spans = ((START, goal.start), (END, goal.end))
+    if any(given is not None and not lies_within(tok.values[place], *given) for place, given in spans):
+        return False
+    names = [parameter.name for parameter in judge.predicates[tok.record.predicate].code.parameters]
+    for name, given in goal.parameters:
+        wanted: Value = Interval(*given) if isinstance(given, tuple) else given
+        if name in names and not may_be_equal(tok.values[FIRST_PARAMETER + names.index(name)], wanted):
+            return False
+    return True

@@ -1,0 +1,148 @@
+"""Judge a mission: programs, outcome and record in, a report with every disagreement out.
+
+The judge evaluates the model over what was executed, in straight code; it asks no propagator, no plan and no solver.
+Programs are compiled once and kept.
+"""
+
+from collections.abc import Mapping, Sequence
+
+from checker.judge.bench import Bench, Tok
+from checker.judge.draws import Chance
+from checker.judge.goals import judge_goals
+from checker.judge.operands import Frame
+from checker.judge.report import JudgeReport
+from checker.judge.resources import judge_resources
+from checker.judge.steps import Written
+from checker.judge.timelines import History, Published, judge_timelines
+from checker.judge.tokens import ProgramJudge, compile_program, judge_tokens
+from checker.judge.values import UNKNOWN
+from checker.judge.written import meanings_of
+from compiler.program import Program
+from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.outcome import EventKind, Outcome, Phase, Reason, ReasonKind
+from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, Value
+from runtime.user.constraint import Constraint
+
+_KNOWN: dict[int, tuple[Program, tuple[Constraint, ...], ProgramJudge]] = {}
+
+
+def judge_of(program: Program, constraints: Sequence[Constraint] = ()) -> ProgramJudge:
+    """The program ready to be judged, compiled when first asked for."""
+    known = _KNOWN.get(id(program))
+    if known is None or known[0] is not program or known[1] != tuple(constraints):
+        if len(_KNOWN) >= 64:
+            _KNOWN.clear()
+        written: Written = meanings_of(constraints)
+        known = _KNOWN[id(program)] = (program, tuple(constraints), compile_program(program, written))
+    return known[2]
+
+
+def judge_mission(
+    agent: AgentConfiguration,
+    programs: Sequence[Program],
+    outcome: Outcome,
+    record: MissionRecord,
+    constraints: Sequence[Constraint] = (),
+    overrides: Mapping[str, float] | None = None,
+) -> JudgeReport:
+    """Judge everything that the models say of an executed mission; programs are in the order of the reactors."""
+    chance = Chance(agent, tuple(programs), outcome.seed, overrides or {})
+    by_name = {each.reactor: each for each in record.reactors}
+    failed = {event.reactor for event in outcome.events if event.kind in (EventKind.KILL, EventKind.ABORT)}
+    desks: dict[str, tuple[ProgramJudge, Bench]] = {}
+    for place, program in zip(agent.reactors, programs, strict=True):
+        written = by_name.get(place.name)
+        if written is None:
+            continue
+        judge = judge_of(program, constraints)
+        bench = Bench(written, outcome.final_tick, chance.draw, place.name in failed)
+        desks[place.name] = (judge, bench)
+        judge_model(judge, bench)
+        judge_timelines(judge, bench, published(outcome, place.name), place.internal, place.external)
+    judge_goals(agent, outcome, desks)
+    return summary([bench for _, bench in desks.values()])
+
+
+def breaches(report: JudgeReport) -> tuple[Reason, ...]:
+    """What was executed against the model though nothing failed (F11)."""
+    found = []
+    for one in report.breaches:
+        timeline = next((str(value) for name, value in one.values if name == "timeline"), "")
+        found.append(Reason(ReasonKind.CUT_OFF, predicate=one.name, timeline=timeline))
+    return tuple(found)
+
+
+def judge_plan(
+    program: Program,
+    record: ReactorRecord,
+    constraints: Sequence[Constraint] = (),
+    told: frozenset[str] | None = None,
+) -> JudgeReport:
+    """Judge a plan by itself: no owner and no draws; runs that are not on record are found out.
+
+    `told` names the classes of whose objects all tokens are known; without it the plan has all tokens.
+    """
+    judge = judge_of(program, constraints)
+    bench = Bench(record, record.last_tick, _undrawn)
+    bench.infers = True
+    bench.told = told
+    judge_model(judge, bench)
+    judge_timelines(judge, bench, {}, (), ())
+    return summary([bench])
+
+
+def _undrawn(parameter: str, tick: int) -> Value:
+    return UNKNOWN
+
+
+def judge_model(judge: ProgramJudge, bench: Bench) -> None:
+    """Judge the script, the tokens with their rules, and the resources of one reactor."""
+    judge_script(judge, bench)
+    judge_tokens(judge, bench)
+    judge_resources(judge, bench)
+
+
+def judge_script(judge: ProgramJudge, bench: Bench) -> None:
+    """Judge global variables and the constraints of the script."""
+    for k, name, test in judge.globals:
+        value = bench.globals[k]
+        if not bench.weigh(test(bench, value)):
+            bench.report("domain", name, (), ((name, value),), "its value", "outside of its declaration")
+    program = judge.program
+    tokens: list[Tok | None] = [None if key == NOBODY else bench.tokens.get(key) for key in bench.record.script_tokens]
+    tokens += [None] * (program.script_tokens - len(tokens))
+    slots: list[Value] = [UNKNOWN] * program.script_slots
+    frame = Frame(bench, None, slots, tokens)
+    for step in judge.script:
+        step(frame)
+
+
+def published(outcome: Outcome, reactor: str) -> History:
+    """What was published, as `reactor` came to see it: news of a late death come with the next tick."""
+    found: dict[str, dict[int, Published]] = {}
+    deaths = {(e.tick, e.reactor) for e in outcome.events if e.kind is EventKind.KILL}
+    for event in outcome.events:
+        if event.kind is not EventKind.OBSERVATION:
+            continue
+        tick = event.tick
+        if (tick, event.reactor) in deaths and event.predicate == "Failed":
+            if event.reactor == reactor:
+                continue
+            tick += 1 if event.phase is Phase.DELIBERATE else 0
+        one = Published(tick, event.reactor, event.predicate, event.arguments)
+        found.setdefault(event.timeline, {})[tick] = one
+    return {timeline: list(ticks.values()) for timeline, ticks in found.items()}
+
+
+def summary(benches: Sequence[Bench]) -> JudgeReport:
+    """The report of some reactors together."""
+    skipped: dict[str, int] = {}
+    for bench in benches:
+        for reason, count in bench.skipped.items():
+            skipped[reason] = skipped.get(reason, 0) + count
+    return JudgeReport(
+        tuple(one for bench in benches for one in bench.found),
+        sum(bench.judged for bench in benches),
+        sum(bench.open for bench in benches),
+        tuple(sorted(skipped.items())),
+    )

@@ -1,0 +1,201 @@
+"""Operands of a program as functions that read a value from the frame of one run."""
+
+from collections.abc import Callable, Iterator
+from math import inf
+from typing import Any, assert_never
+
+from checker.judge.bench import Bench, Tok, clock, lasting
+from checker.judge.values import UNKNOWN, hull, is_open
+from compiler.program import (
+    DURATION,
+    END,
+    FIRST_PARAMETER,
+    OBJECT,
+    START,
+    STATE,
+    Constant,
+    DomainConstant,
+    Field,
+    GlobalVariable,
+    LocalVariable,
+    Operand,
+    Program,
+    TokenVariable,
+    UnionOf,
+)
+from runtime.executive.record import Choice, GuardRun, Interval, Run, Value
+
+BUILT_IN = {STATE: "state", OBJECT: "object", DURATION: "duration", START: "start", END: "end"}
+ENDLESS = 2**51
+
+
+class Frame:
+    """One run of a body: the values in its slots, its tokens, and what the record says of the run."""
+
+    __slots__ = ("bench", "children", "choosing", "guards", "locals", "slots", "tok", "tokens")
+
+    def __init__(self, bench: Bench, tok: Tok | None, slots: list[Value], tokens: list[Tok | None]) -> None:
+        self.bench = bench
+        self.tok = tok
+        self.slots = slots
+        self.tokens = tokens
+        self.choosing: Any = None  # finds children and branches where no run is on record
+        self.locals: Iterator[Value] = iter(())
+        self.children: Iterator[int] = iter(())
+        self.guards: Iterator[GuardRun] = iter(())
+
+    def follow(self, run: Run) -> None:
+        """Read what comes next from `run`."""
+        self.locals = iter(run.locals)
+        self.children = iter(run.children)
+        self.guards = iter(run.guards)
+
+
+Read = Callable[[Frame], Value]
+
+
+class Names:
+    """How the variables of a body are called: for reports, and to tell the type of a token's parameter."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self.predicates = {code.name: code for code in program.predicates}
+        self.classes = {code.name: code for code in program.classes}
+        self.clock = next((k for k, (name, _) in enumerate(program.globals) if name == "AGENT_CLOCK"), -1)
+        self.locals: dict[int, str] = {}
+        self.tokens: dict[int, tuple[str, str]] = {}  # slot -> label and predicate
+
+    def of(self, operand: Operand) -> str:
+        """The name of an operand as the modeler wrote it; empty for constants and parts of expressions."""
+        match operand:
+            case GlobalVariable(index=index):
+                return self.program.globals[index][0]
+            case LocalVariable(slot=slot):
+                return self.locals.get(slot, "")
+            case TokenVariable(token=token, variable=variable):
+                label, predicate = self.tokens.get(token, ("", ""))
+                name = BUILT_IN.get(variable) or self._parameter(predicate, variable - FIRST_PARAMETER)
+                return f"{label}.{name}" if label else name
+            case Field(base=base, members=members):
+                return ".".join(([self.of(base)] if base is not None else []) + list(members))
+            case _:
+                return ""
+
+    def _parameter(self, predicate: str, number: int) -> str:
+        code = self.predicates.get(predicate)
+        return code.parameters[number].name if code is not None and number < len(code.parameters) else ""
+
+    def is_kind_of(self, class_name: str, other: str) -> bool:
+        """Whether a class is, or extends, another."""
+        found: str | None = class_name
+        while found is not None and found in self.classes:
+            if found == other:
+                return True
+            found = self.classes[found].base
+        return found == other
+
+
+def domain_value(domain: DomainConstant) -> Value:
+    """The value, or the values, of a constant."""
+    if domain.values is not None:
+        values = tuple(float(each) if domain.kind == "float" else each for each in domain.values)
+        return values[0] if len(values) == 1 else Choice(values)
+    assert domain.interval is not None
+    lower, upper = domain.interval
+    if lower == upper:
+        return float(lower) if domain.kind == "float" else lower
+    return Interval(-inf if lower <= -ENDLESS else lower, inf if upper >= ENDLESS else upper)
+
+
+def reader(operand: Operand, names: Names) -> Read:
+    """The function that reads `operand`."""
+    match operand:
+        case Constant(domain=domain):
+            constant = domain_value(domain)
+            return lambda frame: constant
+        case GlobalVariable(index=index):
+            if index == names.clock:
+                return _read_clock
+            return lambda frame: frame.bench.globals[index]
+        case LocalVariable(slot=slot):
+            return lambda frame: frame.slots[slot]
+        case TokenVariable(token=token, variable=variable):
+            return _token_reader(token, variable)
+        case Field(base=base, members=members):
+            return _field_reader(None if base is None else reader(base, names), members, names)
+        case UnionOf(operands=operands):
+            parts = [reader(each, names) for each in operands]
+            return lambda frame: united([part(frame) for part in parts])
+        case _:
+            assert_never(operand)
+
+
+def _read_clock(frame: Frame) -> Value:
+    return UNKNOWN if frame.tok is None else clock(frame.bench, frame.tok)
+
+
+def _token_reader(token: int, variable: int) -> Read:
+    def read(frame: Frame) -> Value:
+        tok = frame.tokens[token]
+        if tok is None:
+            return UNKNOWN
+        if variable == DURATION:
+            return lasting(tok)
+        if variable == STATE:
+            return tok.record.state.upper()
+        return tok.values[variable]
+
+    return read
+
+
+def _field_reader(base: Read | None, members: tuple[str, ...], names: Names) -> Read:
+    def read(frame: Frame) -> Value:
+        if base is None:
+            return UNKNOWN
+        value = base(frame)
+        for name in members:
+            value = member(frame.bench, names, value, name)
+        return value
+
+    return read
+
+
+def member(bench: Bench, names: Names, thing: Value, name: str) -> Value:
+    """The member called `name` of an object, or of each that it may be."""
+    if isinstance(thing, Interval):
+        return UNKNOWN
+    found: list[Value] = []
+    for each in thing.values if isinstance(thing, Choice) else (thing,):
+        known = bench.members.get(str(each))
+        if known is None:
+            return UNKNOWN
+        class_name, values = known
+        places = [k for k, one in enumerate(names.classes[class_name].members) if one.name == name]
+        if not places:
+            return UNKNOWN
+        found.append(values[places[0]])
+    return united(found)
+
+
+def united(values: list[Value]) -> Value:
+    """A value that may be any of `values`."""
+    if len(values) == 1 or (values and all(each == values[0] for each in values)):
+        return values[0]
+    scalars: list[float | int | bool | str] = []
+    for each in values:
+        if isinstance(each, Choice):
+            scalars += each.values
+        elif isinstance(each, Interval):
+            break
+        else:
+            scalars.append(each)
+    else:
+        return Choice(tuple(dict.fromkeys(scalars)))
+    hulls = [hull(each) for each in values]
+    known = [each for each in hulls if each is not None]
+    return Interval(min(a for a, _ in known), max(b for _, b in known)) if len(known) == len(values) else UNKNOWN
+
+
+def is_range(operand: Operand) -> bool:
+    """Whether an operand is a constant with several values: any of them will do."""
+    return isinstance(operand, UnionOf) or (isinstance(operand, Constant) and is_open(domain_value(operand.domain)))

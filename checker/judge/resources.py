@@ -1,0 +1,144 @@
+"""Judge resources: the level over time from the uses that were executed, at every instant up to the last tick."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import inf
+
+from checker.judge.bench import Bench, Tok
+from checker.judge.tokens import ProgramJudge
+from checker.judge.values import TOLERANCE
+from compiler.program import END, FIRST_PARAMETER, START, Call
+from nddl_lang.text.source import Span
+from runtime.executive.record import Interval, Value
+
+RESOURCES = frozenset({"Reservoir", "Reusable", "CBReusable", "Unary"})
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """Something that changes a level: `amount` is added at `start` and, if it is given back, taken away at `end`."""
+
+    start: int
+    end: int | None
+    amount: float
+    tok: Tok | None
+    span: Span | None
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What the level of a resource and its flows must keep to."""
+
+    initial: float
+    least: float
+    most: float
+    consumption_rate: float = inf
+    consumption: float = inf
+    production_rate: float = inf
+    production: float = inf
+
+
+def judge_resources(judge: ProgramJudge, bench: Bench) -> None:
+    """Judge the level of each resource of a reactor."""
+    kinds = {code.name: code.native for code in judge.program.classes if code.native in RESOURCES}
+    if not kinds:
+        return
+    if any(isinstance(step, Call) and step.method in ("set_capacity", "set_limit") for step in judge.program.script):
+        bench.skip("resources whose limits the script changes")
+        return
+    for thing in bench.record.objects:
+        if thing.class_name not in kinds:
+            continue
+        members = [member.name for member in judge.names.classes[thing.class_name].members]
+        limits = limits_of(str(kinds[thing.class_name]), dict(zip(members, thing.members, strict=True)))
+        if limits is None:
+            bench.skip("a resource whose limits were never fixed")
+        else:
+            judge_level(bench, thing.name, limits, list(uses_of(bench, thing.name)))
+
+
+def limits_of(kind: str, members: dict[str, Value]) -> Limits | None:
+    """The limits of a resource; None if one of them was never fixed."""
+    found: dict[str, float] = {}
+    for name, value in members.items():
+        if isinstance(value, (int, float)):
+            found[name] = float(value)
+        elif isinstance(value, Interval):
+            return None
+    if kind == "Unary":
+        return Limits(1.0, 0.0, inf, consumption=found.get("consumptionMax", inf))
+    flows = (found.get("consumptionRateMax", inf), found.get("consumptionMax", inf))
+    if kind == "Reservoir":
+        levels = (found["initialCapacity"], found["levelLimitMin"], found["levelLimitMax"])
+        return Limits(*levels, *flows, found.get("productionRateMax", inf), found.get("productionMax", inf))
+    return Limits(found["capacity"], found["levelLimitMin"], inf, *flows)
+
+
+def uses_of(bench: Bench, resource: str) -> Iterator[Use]:
+    """What was executed on a resource, by tokens of its own and by `uses` in rules."""
+    for tok in bench.tokens.values():
+        record = tok.record
+        kind = record.predicate.rpartition(".")[2]
+        if record.state != "active" or record.object != resource or kind not in ("produce", "consume", "uses", "use"):
+            continue
+        quantity: Value = tok.values[FIRST_PARAMETER] if record.arguments else 1.0
+        yield from _use(bench, kind, quantity, tok.values[START], tok.values[END], tok, None)
+    for holder, quantity, start, end, user, span in bench.uses:
+        if holder == resource:
+            yield from _use(bench, "uses", quantity, start, end, user, span)
+
+
+def _use(
+    bench: Bench, kind: str, quantity: Value, start: Value, end: Value, tok: Tok | None, span: Span | None
+) -> Iterator[Use]:
+    if not isinstance(start, int):
+        bench.skip("a use whose start was never fixed")
+    elif start > bench.last_tick:
+        return
+    elif isinstance(quantity, (tuple, str)):
+        bench.skip("a use whose quantity was never fixed")
+    elif kind in ("produce", "consume"):
+        yield Use(start, None, float(quantity) if kind == "produce" else -float(quantity), tok, span)
+    else:
+        yield Use(start, end if isinstance(end, int) else bench.last_tick + 1, -float(quantity), tok, span)
+
+
+def judge_level(bench: Bench, resource: str, limits: Limits, uses: list[Use]) -> None:
+    """Judge the level at each instant at which it changes, and the flows."""
+    changes: dict[int, float] = {}
+    drawn: dict[int, float] = {}
+    made: dict[int, float] = {}
+    for use in uses:
+        changes[use.start] = changes.get(use.start, 0.0) + use.amount
+        flow = drawn if use.amount < 0 else made
+        flow[use.start] = flow.get(use.start, 0.0) + abs(use.amount)
+        if use.end is not None:
+            changes[use.end] = changes.get(use.end, 0.0) - use.amount
+    level = limits.initial
+    for tick in sorted(changes):
+        level += changes[tick]
+        if tick > bench.last_tick:
+            break
+        bench.judged += 1
+        if not limits.least - TOLERANCE <= level <= limits.most + TOLERANCE:
+            _exceeded(bench, resource, "level", level, limits.least, limits.most, tick, uses)
+            return
+    for name, flow, rate, total in (
+        ("consumption", drawn, limits.consumption_rate, limits.consumption),
+        ("production", made, limits.production_rate, limits.production),
+    ):
+        for tick, amount in sorted(flow.items()):
+            if amount > rate + TOLERANCE:
+                _exceeded(bench, resource, f"{name} at once", amount, 0.0, rate, tick, uses)
+                return
+        if sum(flow.values()) > total + TOLERANCE:
+            _exceeded(bench, resource, f"{name} altogether", sum(flow.values()), 0.0, total, bench.last_tick, uses)
+
+
+def _exceeded(
+    bench: Bench, resource: str, what: str, amount: float, least: float, most: float, tick: int, uses: list[Use]
+) -> None:
+    users = tuple(use.tok for use in uses if use.tok is not None and use.start <= tick)[-4:]
+    span = next((use.span for use in reversed(uses) if use.span is not None and use.start <= tick), None)
+    values: tuple[tuple[str, Value], ...] = ((what, amount), ("least", least), ("most", most), ("tick", tick))
+    bench.report("level", resource, users, values, "within its limits", "beyond them", span)

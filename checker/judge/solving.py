@@ -1,0 +1,61 @@
+"""What a part of an expression is worth: the argument that a constraint determines, from the others."""
+
+import math
+from collections.abc import Callable
+
+from checker.judge.functions import COMPUTED, has_open, reach, sum_of
+from checker.judge.meanings import TESTS, negation
+from runtime.executive.record import Interval, Value
+
+
+def evaluate(function: Callable[..., float], inputs: tuple[Value, ...], monotone: bool) -> Value:
+    """The value of a function; an interval where an input is open."""
+    if not has_open(inputs):
+        return function(*inputs)
+    if not monotone:
+        return Interval(-math.inf, math.inf)
+    lowest, highest = reach(function, inputs)
+    if lowest is None or highest is None:
+        return Interval(-math.inf, math.inf)
+    return Interval(lowest, highest)
+
+
+def solver(name: str, place: int, count: int) -> Callable[..., Value] | None:
+    """The function that gives argument `place` of constraint `name` from the other arguments; None if there is none."""
+    if name in TESTS and place == 0:
+        test = TESTS[name]
+        return lambda *rest: _truth(test(*rest))
+    if name in COMPUTED and place == (COMPUTED[name][0] if COMPUTED[name][0] == 0 else count - 1):
+        _, function, monotone = COMPUTED[name]
+        return lambda *rest: evaluate(function, rest, monotone)
+    match name, place:
+        case "addEq", _:  # of sum and the other term
+            return lambda other, total: evaluate(lambda a, b: b - a, (other, total), True)
+        case "divEq", 2:
+            return lambda a, b: evaluate(_divide, (a, b), False)
+        case "neg", 0:
+            return lambda x: evaluate(lambda a: -a, (x,), True)
+        case (("eq" | "concurrent"), _) if count == 2:
+            return lambda x: x
+        case "neq", 0:
+            return lambda x: _truth(negation(x))
+        case "temporalDistance", 1:
+            return lambda earlier, later: evaluate(lambda a, b: b - a, (earlier, later), True)
+        case "temporalDistance", 2:
+            return lambda earlier, gap: evaluate(sum_of, (earlier, gap), True)
+        case "temporalDistance", 0:
+            return lambda gap, later: evaluate(lambda a, b: b - a, (gap, later), True)
+        case _:
+            return None
+
+
+def _truth(answer: bool | None) -> Value:
+    return Interval(0, 1) if answer is None else answer
+
+
+def _divide(a: float, b: float) -> float:
+    if not b:
+        return math.nan
+    if isinstance(a, int) and isinstance(b, int) and a % b == 0:
+        return a // b
+    return a / b

@@ -1,0 +1,162 @@
+"""Judge timelines: one token at a time, nothing left out, and what the owner published is what its users hold."""
+
+from dataclasses import dataclass
+
+from checker.judge.bench import Bench, Tok
+from checker.judge.operands import domain_value
+from checker.judge.tokens import ProgramJudge
+from checker.judge.values import hull, may_be_equal
+from compiler.program import END, FIRST_PARAMETER, START
+from runtime.executive.messages import Arguments
+from runtime.executive.record import Value
+
+UNDEFINED = "undefined"
+GAPLESS = "something holds at every tick"
+
+
+@dataclass(frozen=True, slots=True)
+class Published:
+    """What an owner published: from `tick` on the timeline holds the predicate with these arguments."""
+
+    tick: int
+    owner: str
+    predicate: str
+    arguments: Arguments
+
+
+History = dict[str, list[Published]]  # by timeline; of several in one tick the last
+
+
+def sequences(judge: ProgramJudge, bench: Bench) -> dict[str, list[Tok]]:
+    """The tokens that have begun on each timeline, in order."""
+    found: dict[str, list[Tok]] = {}
+    for tok in bench.tokens.values():
+        start, thing = tok.record.start, tok.record.object
+        if tok.record.state != "active" or not isinstance(start, int) or start > bench.last_tick:
+            continue
+        if isinstance(thing, str) and bench.members.get(thing, ("",))[0] in judge.timelines:
+            found.setdefault(thing, []).append(tok)
+    for timeline, tokens in found.items():
+        # What a repair took away may have been put back as another token.
+        lasting = {tok.record.start for tok in tokens if not tok.is_cut}
+        found[timeline] = [tok for tok in tokens if not tok.is_cut or tok.record.start not in lasting]
+        found[timeline].sort(key=_place)
+    return found
+
+
+def _place(tok: Tok) -> tuple[int, float, int]:
+    start, last = tok.record.start, tok.record.end
+    assert isinstance(start, int)
+    if isinstance(last, int):
+        return start, last, tok.key
+    end = hull(last)
+    return start, end[1] if end is not None else start, tok.key
+
+
+def judge_timelines(
+    judge: ProgramJudge, bench: Bench, history: History, internal: tuple[str, ...], external: tuple[str, ...]
+) -> None:
+    """Judge all timelines of a reactor."""
+    found = sequences(judge, bench)
+    for timeline, tokens in found.items():
+        judge_order(bench, timeline, tokens, timeline in internal or timeline in external)
+    for timeline in (*internal, *external):
+        published = [one for one in history.get(timeline, ()) if one.tick <= bench.last_tick]
+        judge_observations(judge, bench, timeline, found.get(timeline, []), published, timeline in internal)
+
+
+def judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool) -> None:
+    """Tokens of a timeline follow each other; on a shared one without a gap."""
+    before: Tok | None = None
+    for tok in tokens:
+        bench.judged += 1
+        if before is not None and not is_cut_short(before):
+            start = tok.values[START]
+            if before.values[END] == start:
+                before = tok
+                continue
+            ends = hull(before.values[END])
+            assert isinstance(start, int)
+            if ends is not None:
+                values = ((f"{before.name}.end", before.values[END]), (f"{tok.name}.start", start))
+                if ends[0] > start:
+                    bench.report("overlap", timeline, (before, tok), values, "one after the other", "both at once")
+                elif is_shared and ends[1] < start:
+                    bench.report("gap", timeline, (before, tok), values, GAPLESS, "nothing does")
+        before = tok
+    if before is not None and is_shared and not is_cut_short(before):
+        ends = hull(before.values[END])
+        if ends is not None and ends[1] <= bench.last_tick:
+            values = ((f"{before.name}.end", before.values[END]), ("last tick", bench.last_tick))
+            bench.report("gap", timeline, (before,), values, GAPLESS, "nothing does")
+
+
+def is_cut_short(tok: Tok) -> bool:
+    """Whether a repair took a token away before its end, which then is not known."""
+    end = tok.record.end
+    return tok.is_cut and not (isinstance(end, int) and end <= tok.record.tick)
+
+
+def judge_observations(
+    judge: ProgramJudge, bench: Bench, timeline: str, tokens: list[Tok], published: list[Published], is_own: bool
+) -> None:
+    """Every token begins with a publication, and every publication begins a token with what was published."""
+    begun: dict[int, Tok] = {}
+    for tok in tokens:
+        start = tok.record.start
+        assert isinstance(start, int)
+        if not tok.is_cut or start not in begun:
+            begun[start] = tok
+    told = {one.tick: one for one in published}
+    seen = told if is_own else observed(bench, timeline)
+    for tick, one in told.items():
+        bench.judged += 1
+        held = begun.get(tick)
+        if held is None:
+            values: tuple[tuple[str, Value], ...] = (("tick", tick), ("published", one.predicate))
+            bench.report("observation", timeline, (), values, "nothing begins", f"{one.owner} published it")
+        elif not agrees(judge, held, one, is_own):
+            values = (("tick", tick), ("published", one.predicate), *_told(one))
+            bench.report("observation", timeline, (held,), values, held.record.predicate, one.predicate)
+        elif tick not in seen:
+            values = (("tick", tick), ("published", one.predicate))
+            bench.report("observation", timeline, (held,), values, "it begins", "nobody observed it here")
+    for tick, tok in begun.items():
+        if tick not in told:
+            bench.report("observation", timeline, (tok,), (("tick", tick),), "it begins", "nobody published it")
+
+
+def observed(bench: Bench, timeline: str) -> set[int]:
+    """The ticks at which a reactor took note of something on a timeline of another."""
+    return {
+        tok.record.start
+        for tok in bench.tokens.values()
+        if tok.record.origin == "observation" and tok.is_planned and tok.record.object == timeline
+        if isinstance(tok.record.start, int)
+    }
+
+
+def agrees(judge: ProgramJudge, tok: Tok, one: Published, is_own: bool) -> bool:
+    """Whether a token holds what was published; what a user's model has no place for is `undefined` there."""
+    held = tok.record.predicate.rpartition(".")[2]
+    if held != one.predicate:
+        return held == UNDEFINED and not is_own and not fits(judge, tok, one)
+    if not one.arguments:
+        return True
+    parameters = judge.predicates[tok.record.predicate].code.parameters
+    places = {parameter.name: k for k, parameter in enumerate(parameters)}
+    return all(
+        name not in places or may_be_equal(tok.values[FIRST_PARAMETER + places[name]], domain_value(domain))
+        for name, domain in one.arguments
+    )
+
+
+def fits(judge: ProgramJudge, tok: Tok, one: Published) -> bool:
+    """Whether the user's model certainly has a place for what was published."""
+    class_name = tok.record.predicate.rpartition(".")[0]
+    known = judge.predicates.get(f"{class_name}.{one.predicate}")
+    return known is not None and not one.arguments
+
+
+def _told(one: Published) -> tuple[tuple[str, Value], ...]:
+    return tuple((name, domain_value(domain)) for name, domain in one.arguments)

@@ -1,0 +1,146 @@
+"""`nddlc validate`: judge a mission, a recorded one, a trace or a plan written by hand against the model."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+
+from checker.flight import load_programs
+from checker.judge.document import DocumentError, plan_of_trace, read_plan, read_record, record_data
+from checker.judge.judge import judge_mission, judge_plan
+from checker.judge.rendering import report_data, report_text
+from checker.judge.report import JudgeReport
+from checker.mission import read_mission
+from checker.models import load_models
+from compiler.lower import compile_model
+from compiler.program import Program
+from nddl_lang.analysis import analyse_file
+from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.render import render
+from nddlc.inputs import Unusable
+from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.mission import MissionPrograms, UnusableModelError, record_mission
+from runtime.executive.record import MissionRecord, ReactorRecord
+from runtime.executive.recorder import Recorder
+from runtime.plan.database import PlanDatabase
+
+
+@click.command()
+@click.argument("plan", metavar="PLAN", type=click.Path(path_type=Path, exists=True, dir_okay=False))
+@click.option("--mission", "mission_path", type=click.Path(path_type=Path, exists=True), help="Whose trace or record.")
+@click.option("--seed", type=int, default=0, help="Of a mission that is flown here.")
+@click.option("--record", "target", type=click.Path(path_type=Path), help="Write the record of what was flown.")
+@click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+def command(plan: Path, mission_path: Path | None, seed: int, target: Path | None, style: str) -> int:
+    """Judge PLAN against its model, by code that shares nothing with the planner.
+
+    PLAN is a mission file (.toml), which is flown; a record or a plan (.json); or a trace (.jsonl), which needs
+    --mission. docs/validate.md describes the documents. The exit code is 1 where something breaks the model.
+    """
+    try:
+        match plan.suffix:
+            case ".toml":
+                report = _flown(plan, seed, target)
+            case ".jsonl":
+                if mission_path is None:
+                    raise Unusable("a trace does not say whose it is", "name the mission file with --mission")
+                report = _traced(plan, mission_path)
+            case _:
+                report = _documented(plan, mission_path)
+    except DocumentError as problem:
+        raise Unusable(f"`{plan}`: {problem}", "docs/validate.md describes the form") from None
+    except UnusableModelError as problem:
+        raise Unusable(str(problem)) from None
+    click.echo(report_text(report) if style == "text" else json.dumps(report_data(report), indent=1))
+    return 0 if report.holds else 1
+
+
+def _flown(path: Path, seed: int, target: Path | None) -> JudgeReport:
+    agent, programs = _loaded(path)
+    outcome, record = record_mission(agent, programs, seed)
+    if target is not None:
+        text = json.dumps({"mission": str(path), "seed": seed, **record_data(record)}, indent=1)
+        draft = target.with_name(target.name + ".part")
+        draft.write_text(text + "\n", encoding="utf-8")
+        draft.replace(target)
+    return judge_mission(agent, programs.programs, outcome, record, programs.constraints)
+
+
+def _loaded(path: Path) -> tuple[AgentConfiguration, MissionPrograms]:
+    mission, found = read_mission(path)
+    _refuse(found)
+    assert mission is not None
+    models = load_models(mission)
+    _refuse(models.diagnostics)
+    reactors = tuple((reactor.model, reactor.solver) for reactor in models.agent.reactors)
+    root = Path(models.agent.root)
+    return models.agent, load_programs(root, reactors, models.agent.constraints, models.agent.constraint_seconds)
+
+
+def _refuse(found: tuple[Diagnostic, ...]) -> None:
+    errors = [one for one in found if one.severity is Severity.ERROR]
+    if errors:
+        click.echo("\n".join(render(one) for one in errors), err=True)
+        raise Unusable("the model has errors")
+
+
+def _traced(path: Path, mission_path: Path) -> JudgeReport:
+    agent, programs = _loaded(mission_path)
+    lines = path.read_text(encoding="utf-8").splitlines()
+    reports = []
+    for place, program in zip(agent.reactors, programs.programs, strict=True):
+        timelines = (*place.internal, *place.external)
+        plan = plan_of_trace(lines, timelines, _base(program, place.name, programs), program)
+        told = frozenset(each.class_name for each in plan.objects if each.name in timelines)
+        reports.append(judge_plan(program, plan, programs.constraints, told))
+    return JudgeReport(
+        tuple(one for report in reports for one in report.disagreements),
+        sum(report.judged for report in reports),
+        sum(report.open for report in reports),
+        tuple(row for report in reports for row in report.skipped),
+    )
+
+
+def _documented(path: Path, mission_path: Path | None) -> JudgeReport:
+    try:
+        data: Any = json.loads(path.read_text(encoding="utf-8"))
+    except (json.JSONDecodeError, UnicodeDecodeError) as problem:
+        raise DocumentError(f"it is no JSON: {problem}") from None
+    if not isinstance(data, dict):
+        raise DocumentError("it is no object")
+    if "reactors" in data:
+        return _recorded(path, data, mission_path)
+    if not isinstance(data.get("model"), str):
+        raise DocumentError("it names no `model`")
+    model = path.parent / data["model"]
+    if not model.is_file():
+        raise DocumentError(f"there is no model `{model}`")
+    analysis = analyse_file(model)
+    _refuse(analysis.diagnostics)
+    program = compile_model(analysis)
+    return judge_plan(program, read_plan(data, _base(program, "plan"), program))
+
+
+def _recorded(path: Path, data: dict[str, Any], mission_path: Path | None) -> JudgeReport:
+    named = mission_path or (path.parent / data["mission"] if isinstance(data.get("mission"), str) else None)
+    if named is None or not named.is_file():
+        raise DocumentError("the mission that it names is not there; say where with --mission")
+    agent, programs = _loaded(named)
+    places = zip(agent.reactors, programs.programs, strict=True)
+    models = {place.name: program for place, program in places}
+    bases = {name: _base(program, name, programs) for name, program in models.items()}
+    record: MissionRecord = read_record(data, bases, models)
+    seed = data.get("seed", 0)
+    # What was published is what the mission publishes when it is flown again.
+    outcome, _ = record_mission(agent, programs, seed if isinstance(seed, int) else 0)
+    return judge_mission(agent, programs.programs, outcome, record, programs.constraints)
+
+
+def _base(program: Program, name: str, programs: MissionPrograms | None = None) -> ReactorRecord:
+    """The model as it is loaded: its objects and global variables."""
+    database = PlanDatabase(program, None, programs.constraints if programs is not None else ())
+    fault = database.run_script()
+    if fault is not None:
+        raise UnusableModelError(f"{fault.span.source.name}:{fault.span.line}: {fault.message}")
+    return Recorder(database, name).close()._replace(script_tokens=(), tokens=())

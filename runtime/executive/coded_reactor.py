@@ -1,0 +1,275 @@
+"""A reactor written in Python, among the others: what it does wrong ends it, and nothing else (F7, F9)."""
+
+from collections.abc import Callable, Mapping
+from math import isnan
+
+from compiler.program import DomainConstant
+from runtime.executive.configuration import CodeConfiguration
+from runtime.executive.messages import Arguments, Observation, Request
+from runtime.executive.outcome import Conflict, EventKind, OpenGoal, Reason, ReasonKind, TimeBounds
+from runtime.executive.reactor import Failure, Refusal
+from runtime.executive.trace import Trace
+from runtime.plan.readout.names import VariableName
+from runtime.user.fault import failed
+from runtime.user.limit import watched
+from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen, Ticks
+
+INFINITY = 4503599627370495
+NEVER = 2**62
+Kinds = Callable[[str, str], Mapping[str, tuple[str, str]] | None]  # timeline, predicate: parameters; None: unknown
+
+
+class CodedReactor:
+    """Calls a user's reactor, and speaks for it."""
+
+    runs_ahead = False
+
+    def __init__(
+        self, configuration: CodeConfiguration, make: Callable[[], Reactor], kinds: Kinds, trace: Trace
+    ) -> None:
+        self.name = configuration.name
+        self.internal = configuration.internal
+        self.external = configuration.external
+        self.latency = configuration.latency
+        self.lookahead = 0
+        self.due = 0
+        self.files = (configuration.file,)
+        self.make = make
+        self.kinds = kinds
+        self.trace = trace
+        self.code: Reactor | None = None
+        self.seen: dict[str, Seen] = {}
+        self.events: dict[str, int] = {}
+        self.news: dict[str, Observation] = {}
+        self.refused_numbers: list[int] = []
+        self.wakes_at = 0
+        self.published: list[Published] = []
+        self.asked: list[Asked] = []
+        self.recalled: list[int] = []
+        self.numbers: dict[int, int] = {}  # of what was asked for, as the code and as the agent counts
+        self.count = 0
+        self.given_up: list[Refusal] = []
+
+    def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
+        """Nothing that it does depends on the windows of owners."""
+
+    def pass_over(self, tick: int) -> None:
+        """It never runs ahead."""
+
+    def start_tick(self, tick: int) -> None:
+        """Nothing is kept from the tick before."""
+
+    def next_tick(self, tick: int) -> int:
+        """When the code wants to be called."""
+        return tick + 1 if self.refused_numbers else max(tick + 1, min(self.wakes_at, NEVER))
+
+    def notify(self, observation: Observation) -> None:
+        """Take note of what an owner published."""
+        self.news[observation.timeline] = observation
+        self.due = observation.tick
+
+    def synchronise(self, tick: int) -> Failure | None:
+        """Let the code speak, if there is anything new."""
+        if not self.news and not self.refused_numbers and tick < self.wakes_at:
+            return None
+        for timeline, observation in self.news.items():
+            arguments = {name: _shown(domain) for name, domain in observation.arguments}
+            self.seen[timeline] = Seen(observation.predicate, arguments, observation.tick)
+            self.events[timeline] = observation.event
+        now = Now(tick, dict(self.seen), frozenset(self.news), frozenset(self.refused_numbers), self.count)
+        self.news.clear()
+        self.refused_numbers = []
+        self.wakes_at = NEVER
+        try:
+            with watched(f"the reactor `{self.name}`", self.files):
+                if self.code is None:
+                    self.code = self.make()
+                self.code.tick(now)
+        except KeyboardInterrupt:
+            raise
+        except BaseException as problem:
+            said = str(failed(f"the reactor `{self.name}`", problem, self.files))
+            return Failure("F7", Reason(ReasonKind.RAISED, tick=tick, message=said), self.internal, None, 0)
+        try:
+            self._take(now)
+        except (AttributeError, KeyError, LookupError, TypeError, ValueError) as problem:
+            what = Reason(ReasonKind.RAISED, tick=tick, message=str(problem))
+            return Failure("F9", what, self.internal, None, 0)
+        return None
+
+    def _take(self, now: Now) -> None:
+        """Check what the code has said; raises ValueError and its like for what makes no sense."""
+        for one in now.published:
+            if one.timeline not in self.internal:
+                raise ValueError(f"it published on `{one.timeline}`, which it does not own")
+            self._arguments(one.timeline, one.predicate, one.arguments)
+        for asked in now.asked:
+            if asked.timeline not in self.external:
+                raise ValueError(f"it asked for a token on `{asked.timeline}`, which it does not use")
+            self._arguments(asked.timeline, asked.predicate, asked.arguments)
+            _bounds(asked.start), _bounds(asked.end), _bounds(asked.duration)
+        for number in now.recalled:
+            if number not in self.numbers and number not in [asked.number for asked in now.asked]:
+                raise ValueError(f"it took back request {number!r}, which it never made")
+        if now.wakes_at is not None:
+            if not isinstance(now.wakes_at, int) or now.wakes_at <= now.tick:
+                raise ValueError(f"it wants to be woken at {now.wakes_at!r}, which is not later than {now.tick}")
+            self.wakes_at = now.wakes_at
+        self.published, self.recalled = now.published, now.recalled
+        self.asked = now.asked
+        self.count += len(now.asked)
+
+    def observations(self, tick: int) -> list[Observation]:
+        """What the code has published."""
+        found = []
+        causes = tuple(sorted(set(self.events.values())))[-3:]
+        for one in {each.timeline: each for each in self.published}.values():
+            arguments = self._arguments(one.timeline, one.predicate, one.arguments)
+            event = self.trace.record(EventKind.OBSERVATION, self.name, one.timeline, one.predicate, arguments, causes)
+            found.append(Observation(tick, one.timeline, one.predicate, arguments, event, self.name))
+        self.published = []
+        return found
+
+    def _arguments(self, timeline: str, predicate: str, given: Mapping[str, Argument]) -> Arguments:
+        kinds = self.kinds(timeline, predicate) or {}
+        return tuple((name, _domain(name, value, kinds.get(name))) for name, value in given.items())
+
+    # ---- planning: there is none ----
+
+    def urgency(self, tick: int) -> float:
+        """It has nothing to decide."""
+        return 0.0
+
+    def step(self, tick: int) -> bool:
+        """It has nothing to decide."""
+        return False
+
+    def failure(self) -> Failure | None:
+        """What goes wrong shows when it synchronises."""
+        return None
+
+    def requests(self, tick: int) -> list[Request]:
+        """What the code has asked for in this tick."""
+        found = []
+        for one in self.asked:
+            arguments = self._arguments(one.timeline, one.predicate, one.arguments)
+            bounds = TimeBounds(_bounds(one.start), _bounds(one.end), _bounds(one.duration))
+            number = len(self.trace.events)
+            event = self.trace.record(
+                EventKind.REQUEST, self.name, one.timeline, one.predicate, arguments, request=number, bounds=bounds
+            )
+            self.numbers[one.number] = number
+            found.append(
+                Request(
+                    number,
+                    one.timeline,
+                    one.predicate,
+                    arguments,
+                    bounds.start,
+                    bounds.end,
+                    bounds.duration,
+                    self.name,
+                    event,
+                )
+            )
+        self.asked = []
+        return found
+
+    def open_requests(self) -> list[int]:
+        """Numbers of the requests that were made and not taken back."""
+        return list(self.numbers.values())
+
+    def recalls(self) -> list[int]:
+        """Numbers of the requests that the code takes back."""
+        found = []
+        for own in self.recalled:
+            number = self.numbers.pop(own, None)
+            if number is not None:
+                request = self.trace.events[number]
+                self.trace.record(
+                    EventKind.RECALL, self.name, request.timeline, request.predicate, request.arguments, request=number
+                )
+                found.append(number)
+        self.recalled = []
+        return found
+
+    def refusals(self) -> list[Refusal]:
+        """What it was asked for and does not do, which is all."""
+        found, self.given_up = self.given_up, []
+        return found
+
+    def refused(self, refusal: Refusal) -> None:
+        """Tell the code at the next tick."""
+        for own, number in self.numbers.items():
+            if number == refusal.request.number:
+                self.refused_numbers.append(own)
+                self.due = self.trace.tick + 1
+
+    def accept(self, request: Request) -> None:
+        """It does not look ahead and takes no goals."""
+        event = self.trace.record(
+            EventKind.REFUSE,
+            self.name,
+            request.timeline,
+            request.predicate,
+            request.arguments,
+            (request.event,),
+            request=request.number,
+            reason=Reason(ReasonKind.NO_LOOKAHEAD),
+        )
+        self.given_up.append(Refusal(request, event))
+
+    def recall(self, number: int) -> None:
+        """It has taken no goals."""
+
+    def open_goals(self) -> list[OpenGoal]:
+        """It has taken no goals."""
+        return []
+
+    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
+        """Only the code knows."""
+        return None
+
+
+def _shown(domain: DomainConstant) -> Argument:
+    """A domain as users read it: a value, two bounds, or a set."""
+    if domain.interval is not None:
+        lower, upper = domain.interval
+        return lower if lower == upper else (lower, upper)
+    values = domain.values or ()
+    return values[0] if len(values) == 1 else frozenset(values)
+
+
+def _domain(name: str, value: object, kind: tuple[str, str] | None) -> DomainConstant:
+    """What users say of an argument, as a domain."""
+    if isinstance(value, tuple) and len(value) == 2:
+        lower, upper = _number(name, value[0]), _number(name, value[1])
+        if lower > upper:
+            raise ValueError(f"`{name}` is between {value!r}")
+        return DomainConstant(*(kind or ("float", "float")), (lower, upper), None)
+    if isinstance(value, bool):
+        return DomainConstant("bool", "bool", None, (value,))
+    if isinstance(value, frozenset) and value:
+        return DomainConstant(*(kind or ("symbol", "symbol")), None, tuple(sorted(value, key=repr)))
+    if isinstance(value, str):
+        return DomainConstant(*(kind or ("symbol", "symbol")), None, (value,))
+    number = _number(name, value)
+    whole = kind[0] != "float" if kind is not None else isinstance(value, int)
+    exact: int | float = int(number) if whole and number == int(number) else number
+    return DomainConstant(*(kind or (("int", "int") if whole else ("float", "float"))), (exact, exact), None)
+
+
+def _number(name: str, value: object) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or isnan(value):
+        raise ValueError(f"`{name}` is {value!r}, which is no value of a parameter")
+    return float(max(-INFINITY, min(value, INFINITY)))
+
+
+def _bounds(given: Ticks) -> tuple[int, int]:
+    """Bounds of a time; raises ValueError or TypeError for what are none."""
+    if given is None:
+        return (-INFINITY, INFINITY)
+    lower, upper = (given, given) if isinstance(given, int) else given
+    if not isinstance(lower, int) or not isinstance(upper, int) or lower > upper:
+        raise ValueError(f"{given!r} are no ticks")
+    return (lower, upper)

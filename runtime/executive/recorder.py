@@ -1,0 +1,347 @@
+"""Read tokens out of a plan database into the record of the mission, before they leave it and when it ends.
+
+A body is read by its outline: which slots of a frame hold named locals and children, and which guards it reaches, in
+the order of execution. A body with a loop fills slots anew; there the variables and children that its scope made count.
+"""
+
+from math import isinf
+from typing import NamedTuple
+
+from compiler.program import (
+    FIRST_PARAMETER,
+    OBJECT,
+    START,
+    Child,
+    Foreach,
+    Guard,
+    Instruction,
+    NewVariable,
+    Program,
+)
+from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT, KIND_OBJECT, KIND_STRING, KIND_SYMBOL
+from runtime.executive.record import (
+    NOBODY,
+    Choice,
+    GuardRun,
+    Interval,
+    ObjectRecord,
+    ReactorRecord,
+    Run,
+    TokenRecord,
+    Value,
+)
+from runtime.plan.database import PlanDatabase
+from runtime.plan.tags import (
+    ACTIVE,
+    BRANCH_THEN,
+    BRANCH_WAITING,
+    FLAG_FACT,
+    FLAG_GOAL,
+    FREED,
+    HOLDS_VARIABLES,
+    MERGED,
+    ROLE_LOCAL,
+    SCOPE_BRANCH,
+    SCOPE_GUARD,
+    SCOPE_RULE,
+    STATE_NAMES,
+)
+
+STATES = tuple(name.lower() for name in STATE_NAMES)
+INT, FLOAT, BOOL, SYMBOL, STRING, THING = range(6)
+SHAPES = {"int": INT, "float": FLOAT, "bool": BOOL, "string": STRING, "object": THING}
+OF_KIND = {
+    KIND_BOOL: BOOL,
+    KIND_INT: INT,
+    KIND_FLOAT: FLOAT,
+    KIND_SYMBOL: SYMBOL,
+    KIND_OBJECT: THING,
+    KIND_STRING: STRING,
+}
+LEAST_ENDLESS = 2.0**51  # integers from here on stand for infinity
+
+
+class Outline(NamedTuple):
+    """What a body leaves in a frame: (slot, shape) of named locals, slots of children, the branches of its guards."""
+
+    locals: tuple[tuple[int, int], ...]
+    children: tuple[int, ...]
+    guards: tuple[tuple["Outline", "Outline"], ...]
+    has_loop: bool
+
+
+LOOSE = Outline((), (), (), True)  # of what stands in or beside a loop
+
+
+def outline(body: tuple[Instruction, ...]) -> Outline:
+    """The outline of a rule's body or of a branch."""
+    named: list[tuple[int, int]] = []
+    children: list[int] = []
+    guards: list[tuple[Outline, Outline]] = []
+    for step in body:
+        match step:
+            case NewVariable(name=str(), slot=slot, type=type_):
+                named.append((slot, SHAPES.get(type_.kind, SYMBOL)))
+            case Child(slot=slot):
+                children.append(slot)
+            case Guard(then=then, otherwise=otherwise):
+                guards.append((outline(then), outline(otherwise)))
+            case Foreach():
+                return LOOSE
+            case _:
+                pass
+    return Outline(tuple(named), tuple(children), tuple(guards), False)
+
+
+class Forms(NamedTuple):
+    """What is the same for all tokens of a program: outlines of its rules, shapes of parameters, globals, members."""
+
+    program: Program
+    rules: tuple[Outline, ...]
+    parameters: tuple[tuple[int, ...], ...]
+    globals: tuple[int, ...]
+    members: tuple[tuple[int, ...], ...]
+
+
+_FORMS: dict[int, Forms] = {}
+
+
+def forms_of(program: Program) -> Forms:
+    """The forms of `program`, kept as long as the program is."""
+    known = _FORMS.get(id(program))
+    if known is None or known.program is not program:
+        if len(_FORMS) > 64:
+            _FORMS.clear()
+        known = _FORMS[id(program)] = Forms(
+            program,
+            tuple(outline(rule.body) for rule in program.rules),
+            tuple(tuple(SHAPES.get(p.type.kind, SYMBOL) for p in code.parameters) for code in program.predicates),
+            tuple(SHAPES.get(type_.kind, SYMBOL) for _, type_ in program.globals),
+            tuple(tuple(SHAPES.get(m.type.kind, SYMBOL) for m in code.members) for code in program.classes),
+        )
+    return known
+
+
+class Recorder:
+    """The record of one reactor while its mission is flown."""
+
+    def __init__(self, database: PlanDatabase, name: str) -> None:
+        self.database = database
+        self.name = name
+        self.rows = database.plan.rows
+        self.engine = database.engine
+        self.forms = forms_of(database.program)
+        self.tokens: dict[int, TokenRecord] = {}
+        self.requests: dict[int, int] = {}  # token -> key; shared with the workbench
+        self.settled = NOBODY  # the last tick at which the plan agreed with the present
+        self.gone: dict[tuple[int, int], int] = {}  # (key of a parent, row of a child that left before it) -> its key
+        self.script_tokens = self._script_tokens()
+
+    # ---- when ----
+
+    def leave(self, tokens: list[int], tick: int) -> None:
+        """Record tokens that are over and leave the plan."""
+        rows = self.rows
+        leaving = set(tokens)
+        for t in tokens:
+            parent = rows.master[t]
+            if parent >= 0 and parent not in leaving:
+                self.gone[rows.key[parent], t] = rows.key[t]
+            self.tokens[rows.key[t]] = self._token(t, "over", tick)
+
+    def detach(self, t: int) -> None:
+        """Note a child that is to stand by itself from now on."""
+        parent = self.rows.master[t]
+        if parent >= 0:
+            self.gone[self.rows.key[parent], t] = self.rows.key[t]
+
+    def cut(self) -> None:
+        """Record what has begun before a repair or a recall takes things away; what stays is recorded again later."""
+        rows, engine = self.rows, self.engine
+        for t in range(rows.token_count):
+            if rows.status[t] in (ACTIVE, MERGED) and engine.upper(rows.var0[t] + START) <= self.settled:
+                self.tokens[rows.key[t]] = self._token(t, "cut", self.settled)
+
+    def close(self) -> ReactorRecord:
+        """Record what the plan holds when the mission has ended."""
+        rows, tick = self.rows, self.settled
+        for t in range(rows.token_count):
+            if rows.status[t] != FREED:
+                self.tokens[rows.key[t]] = self._token(t, "end", tick)
+        plan, forms, program = self.database.plan, self.forms, self.database.program
+        things = []
+        for o, name in enumerate(self.database.objects.names):
+            number, first = plan.object_class[o], plan.object_var0[o]
+            members = tuple(self.value(first + k, shape) for k, shape in enumerate(forms.members[number]))
+            things.append(ObjectRecord(name, program.classes[number].name, members))
+        worlds = tuple(self.value(plan.globals[k], shape) for k, shape in enumerate(forms.globals))
+        tokens = tuple(self.tokens[key] for key in sorted(self.tokens))
+        return ReactorRecord(self.name, tick, worlds, tuple(things), self.script_tokens, tokens)
+
+    # ---- what ----
+
+    def _script_tokens(self) -> tuple[int, ...]:
+        """The keys of the tokens of the script, by slot."""
+        rows, program = self.rows, self.database.program
+        first = rows.scope_frame[self.database.script.scope] + program.script_slots
+        found = [int(rows.cells[first + slot]) for slot in range(program.script_tokens)]
+        return tuple(NOBODY if t < 0 else int(rows.key[t]) for t in found)
+
+    def _token(self, t: int, fate: str, tick: int) -> TokenRecord:
+        rows, value = self.rows, self.value
+        first = rows.var0[t]
+        number = rows.predicate[t]
+        status = rows.status[t]
+        shapes = self.forms.parameters[number]
+        runs: tuple[Run, ...] = ()
+        if status == ACTIVE and rows.scopes[t] >= 0:
+            runs = self._runs(t, rows.key[t])
+        return TokenRecord(
+            rows.key[t],
+            self.database.program.predicates[number].name,
+            value(first + OBJECT, THING),
+            STATES[status],
+            value(first + OBJECT + 1, INT),
+            value(first + START, INT),
+            value(first + START + 1, INT),
+            tuple([value(first + FIRST_PARAMETER + k, shape) for k, shape in enumerate(shapes)]) if shapes else (),
+            rows.key[rows.merged_into[t]] if status == MERGED else NOBODY,
+            self._origin(t),
+            fate,
+            tick,
+            runs,
+        )
+
+    def _origin(self, t: int) -> str:
+        rows = self.rows
+        flags = rows.flags[t]
+        if rows.master[t] >= 0:
+            return "rule"
+        is_written = rows.span[t] >= 0
+        if flags & FLAG_FACT:
+            return "fact" if is_written else "observation"
+        if flags & FLAG_GOAL:
+            return "goal" if is_written else "request"
+        return "rule" if is_written else "own"
+
+    def _runs(self, t: int, key: int) -> tuple[Run, ...]:
+        """The runs of the rules of `t`, in the order in which they fired."""
+        rows = self.rows
+        scopes: list[int] = []
+        s = rows.scopes[t]
+        while s >= 0:
+            scopes.append(s)
+            s = rows.scope_next[s]
+        scopes.reverse()  # the latest stands first
+        inner: dict[int, list[int]] = {}
+        tops: list[int] = []
+        for s in scopes:
+            kind = rows.scope_kind[s]
+            if kind == SCOPE_RULE:
+                tops.append(s)
+            elif kind in (SCOPE_GUARD, SCOPE_BRANCH):
+                inner.setdefault(rows.scope_parent[s], []).append(s)
+        return tuple([self._run(s, key, self.forms.rules[rows.scope_rule[s]], inner) for s in tops])
+
+    def _run(self, s: int, key: int, form: Outline, inner: dict[int, list[int]]) -> Run:
+        rows = self.rows
+        named: tuple[Value, ...] = ()
+        children: tuple[int, ...] = ()
+        if form.has_loop:
+            named = self._made_locals(s)
+            children = self._made_children(s)
+        else:
+            frame, cells = rows.scope_frame[s], rows.cells
+            if form.locals:
+                named = tuple([self.value(cells[frame + slot], shape) for slot, shape in form.locals])
+            if form.children:
+                first = frame + rows.scope_slots[s]
+                children = tuple([self._child(cells[first + slot], rows.scope_token[s], key) for slot in form.children])
+        guards: tuple[GuardRun, ...] = ()
+        if s in inner:
+            guards = tuple([self._guard(g, key, form, k, inner) for k, g in enumerate(inner[s])])
+        return Run(rows.scope_rule[s], named, children, guards)
+
+    def _guard(self, g: int, key: int, form: Outline, k: int, inner: dict[int, list[int]]) -> GuardRun:
+        branch = self.rows.scope_branch[g]
+        if branch == BRANCH_WAITING:
+            return GuardRun("waiting", self._is_decided(g), None)
+        sides = (LOOSE, LOOSE) if form.has_loop else form.guards[k]
+        ran = [self._run(b, key, sides[0 if branch == BRANCH_THEN else 1], inner) for b in inner.get(g, ())]
+        return GuardRun("then" if branch == BRANCH_THEN else "else", True, ran[-1] if ran else None)
+
+    def _is_decided(self, g: int) -> bool:
+        """Whether everything that decides a guard is given."""
+        rows, engine = self.rows, self.engine
+        inputs = rows.scope_inputs[g]
+        return all(engine.is_decided(rows.cells[i]) for i in range(inputs + 2, inputs + 2 + rows.cells[inputs]))
+
+    def _child(self, t: int, parent: int, key: int) -> int:
+        if t >= 0 and self.rows.master[t] == parent:
+            return int(self.rows.key[t])
+        return self.gone.get((key, t), NOBODY)
+
+    def _made_locals(self, s: int) -> tuple[Value, ...]:
+        """The named variables that a scope holds, in the order of their making."""
+        rows, plan = self.rows, self.database.plan
+        found: list[Value] = []
+        h = rows.scope_holds[s]
+        while h >= 0:
+            v = rows.hold_id[h]
+            if rows.hold_kind[h] == HOLDS_VARIABLES and plan.variable_role[v] == ROLE_LOCAL:
+                found.append(self.value(v, self._shape(v)))
+            h = rows.hold_next[h]
+        return tuple(reversed(found))
+
+    def _shape(self, v: int) -> int:
+        """The shape of a local variable."""
+        return OF_KIND[self.engine.kind[v]]
+
+    def _made_children(self, s: int) -> tuple[int, ...]:
+        """The children that a scope made, in that order; those that left before their parent are missing."""
+        rows = self.rows
+        found = []
+        child = rows.children[rows.scope_token[s]]
+        while child >= 0:
+            if rows.creator[child] == s:
+                found.append(int(rows.key[child]))
+            child = rows.sibling[child]
+        return tuple(sorted(found))
+
+    def value(self, v: int, shape: int) -> Value:
+        """What is known of a variable."""
+        engine = self.engine
+        lower, upper = engine.lower(v), engine.upper(v)
+        if lower == upper:
+            return self._scalar(lower, shape)
+        if shape == FLOAT:
+            if engine.is_singleton(v):
+                return lower + (upper - lower) * 0.5
+            return Interval(lower, upper)
+        if shape == INT:
+            return Interval(_bound(lower), _bound(upper))
+        if not engine.is_finite(v) and (isinf(lower) or isinf(upper)):
+            return Interval(lower, upper)
+        return Choice(tuple([self._scalar(each, shape) for each in engine.values_of(v)]))
+
+    def _scalar(self, number: float, shape: int) -> float | int | bool | str:
+        if shape == FLOAT:
+            return number
+        if isinf(number):
+            return number
+        whole = int(number)
+        if shape == INT:
+            return whole
+        if shape == BOOL:
+            return bool(whole)
+        if shape == THING:
+            return self.database.objects.names[whole]
+        names = self.database.prototypes.texts if shape == STRING else self.database.prototypes.symbols
+        return str(names.text(whole))
+
+
+def _bound(number: float) -> float:
+    """A bound of whole numbers; NDDL's infinity is infinite."""
+    if number >= LEAST_ENDLESS:
+        return float("inf")
+    return float("-inf") if number <= -LEAST_ENDLESS else number

@@ -1,0 +1,96 @@
+"""Reactors that users write in Python: subclass `Reactor`, and say in `tick` what holds and what is asked for."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+Value = int | float | bool | str
+Argument = Value | tuple[float, float] | frozenset[Value]
+Ticks = int | tuple[int, int] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """What holds on a timeline since tick `since`; of an argument that is not known, its two bounds or its values."""
+
+    predicate: str
+    arguments: Mapping[str, Argument]
+    since: int
+
+
+@dataclass(frozen=True, slots=True)
+class Published:
+    """A value that begins to hold."""
+
+    timeline: str
+    predicate: str
+    arguments: Mapping[str, Argument]
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A token that the owner of a timeline is asked for; bounds of its times in ticks."""
+
+    number: int
+    timeline: str
+    predicate: str
+    arguments: Mapping[str, Argument]
+    start: Ticks = None
+    end: Ticks = None
+    duration: Ticks = None
+
+
+@dataclass(slots=True)
+class Now:
+    """One tick, as a reactor sees it and speaks in it."""
+
+    tick: int
+    seen: Mapping[str, Seen]  # by timeline, of those that it uses
+    news: frozenset[str]  # timelines that have begun to hold something at this tick
+    refused: frozenset[int]  # numbers of what owners will not do
+    first_number: int = 0
+    published: list[Published] = field(default_factory=list)
+    asked: list[Asked] = field(default_factory=list)
+    recalled: list[int] = field(default_factory=list)
+    wakes_at: int | None = None
+
+    def publish(self, timeline: str, predicate: str, /, **arguments: Argument) -> None:
+        """Have an own timeline hold a value from this tick on."""
+        self.published.append(Published(timeline, predicate, arguments))
+
+    def ask(
+        self,
+        timeline: str,
+        predicate: str,
+        /,
+        start: Ticks = None,
+        end: Ticks = None,
+        duration: Ticks = None,
+        **arguments: Argument,
+    ) -> int:
+        """Post a goal on a timeline that this reactor uses; its number, for `recall`."""
+        number = self.first_number + len(self.asked)
+        self.asked.append(Asked(number, timeline, predicate, arguments, start, end, duration))
+        return number
+
+    def recall(self, number: int) -> None:
+        """Take back what was asked for, begun or not."""
+        self.recalled.append(number)
+
+    def wake(self, tick: int) -> None:
+        """Have `tick` called at a later tick even if nothing is new then; the earliest of several counts."""
+        self.wakes_at = tick if self.wakes_at is None else min(self.wakes_at, tick)
+
+
+class Reactor:
+    """A controller written in Python; one object flies one mission.
+
+    `tick` is called at tick 0, whenever a timeline that it uses has begun to hold something, when something that it
+    asked for is refused, and when it wanted to be woken. What it does must follow from what it was told: no clock, no
+    random numbers but those it makes from its settings, or missions cannot be flown again.
+    """
+
+    def __init__(self, settings: Mapping[str, Value]) -> None:
+        self.settings = settings
+
+    def tick(self, now: Now) -> None:
+        """Look at what holds, and publish, ask or recall."""

@@ -1,0 +1,109 @@
+"""`nddlc validate`: missions, records, traces and plans written by hand."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from nddlc.main import run
+from runtime.executive.rendering import event_data
+from tests.checker.judge.missions import surveying
+
+ROOT = Path(__file__).resolve().parents[3]
+MISSION = str(ROOT / "models/gps/mission.toml")
+MODEL = ROOT / "models/gps/navigator.nddl"
+PLAN: dict[str, Any] = {
+    "model": str(MODEL),
+    "last_tick": 150,
+    "tokens": [
+        {"predicate": "Nav.Hold", "object": "nav", "start": 0, "end": 5},
+        {"predicate": "Nav.Transit", "object": "nav", "start": 5, "end": 100, "arguments": {"distance": 240.0}},
+        {"predicate": "Nav.Surface", "object": "nav", "start": 100, "end": 150, "arguments": {"minHits": 10}},
+        {"predicate": "Helm.Run", "object": "helm", "start": 6, "end": 100, "arguments": {"distance": 240.0}},
+        {"predicate": "Helm.Ascend", "object": "helm", "start": 101, "end": 126},
+        {"predicate": "Gps.Active", "object": "gps", "start": 130, "end": 150, "arguments": {"minHits": 10}},
+    ],
+}
+
+
+def written(folder: Path, data: dict[str, Any]) -> str:
+    """A document in a file."""
+    path = folder / "plan.json"
+    path.write_text(json.dumps(data), encoding="utf-8")
+    return str(path)
+
+
+def changed(token: int, **fields: Any) -> dict[str, Any]:
+    """The plan with a token changed."""
+    tokens = [{**each, **fields} if k == token else each for k, each in enumerate(PLAN["tokens"])]
+    return {**PLAN, "tokens": tokens}
+
+
+def test_a_plan_by_hand_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["validate", written(tmp_path, PLAN)]) == 0
+    assert "0 disagreements" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("plan", "line"),
+    [
+        (changed(5, start=120), "`up before fix;` does not hold"),
+        (changed(5, arguments={"minHits": 9}), "`fix.minHits == minHits` does not hold"),
+        (changed(3, end=99), "`run.end == end` does not hold"),
+        (changed(0, end=6), "overlap on `nav`"),
+        (changed(4, predicate="Helm.Run", arguments={"distance": 1.0}), "no token of the plan fits"),
+        (changed(5, start={"between": [127, 128]}, end=160), "no token of the plan fits"),
+        (changed(5, arguments={"minHits": {"one_of": [8, 9]}}), "`fix.minHits == minHits` does not hold"),
+    ],
+)
+def test_a_broken_plan_is_told_by_its_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], plan: dict[str, Any], line: str
+) -> None:
+    assert run(["validate", written(tmp_path, plan)]) == 1
+    assert line in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("plan", "complaint"),
+    [
+        ({"tokens": []}, "it names no `model`"),
+        ({**PLAN, "model": "nowhere.nddl"}, "there is no model"),
+        (changed(0, predicate="Nav.Fly"), "no predicate `Nav.Fly`"),
+        (changed(1, arguments={"speed": 1.0}), "no parameter `speed`"),
+        (changed(1, start=[1, 2]), "is no value"),
+        (changed(1, state="asleep"), "`state` is one of"),
+        ({**PLAN, "globals": {"SURFACE": 1}}, "no global variable `SURFACE`"),
+    ],
+)
+def test_a_document_of_another_form_is_unusable(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], plan: dict[str, Any], complaint: str
+) -> None:
+    assert run(["validate", written(tmp_path, plan)]) == 2
+    assert complaint in capsys.readouterr().err
+
+
+def test_a_record_is_written_and_judged_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "record.json"
+    assert run(["validate", MISSION, "--seed", "3", "--record", str(path)]) == 0
+    assert run(["validate", str(path), "--mission", MISSION]) == 0
+    data = json.loads(path.read_text(encoding="utf-8"))
+    data["reactors"][1]["tokens"][3]["arguments"] = [230.0]
+    path.write_text(json.dumps(data), encoding="utf-8")
+    capsys.readouterr()
+    assert run(["validate", str(path), "--mission", MISSION, "--format", "json"]) == 1
+    report = json.loads(capsys.readouterr().out)
+    assert {one["kind"] for one in report["disagreements"]} >= {"constraint", "observation"}
+
+
+def test_a_trace_is_judged(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    events = [event_data(event) for event in surveying(0).outcome.events]
+    path = tmp_path / "trace.jsonl"
+    path.write_text("\n".join(json.dumps(event) for event in events), encoding="utf-8")
+    assert run(["validate", str(path), "--mission", MISSION]) == 0
+    late = next(event for event in events if event["predicate"] == "Ascend" and event["kind"] == "observation")
+    late["tick"] += 7
+    path.write_text("\n".join(json.dumps(event) for event in events), encoding="utf-8")
+    assert run(["validate", str(path), "--mission", MISSION]) == 1
+    assert "does not hold" in capsys.readouterr().out
+    assert run(["validate", str(path)]) == 2

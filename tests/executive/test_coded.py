@@ -1,0 +1,147 @@
+"""Reactors written in Python: what they publish and ask for, and that what they do wrong ends them alone."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from checker.flight import fly_once
+from checker.mission import read_mission
+from checker.models import load_models
+from checker.one_flight import Settings, first_departure, fly, read_trace, trace_text
+from checker.oracle import judge
+from runtime.executive.outcome import EventKind, Outcome
+from tests.executive.flying import history, lines
+
+CLASSES = """#include "TREX.nddl"
+class Lamp extends AgentTimeline { predicate Off { } predicate On { int n; } Lamp(Mode m) { super(m, "Off"); } }
+class Eye extends AgentTimeline { predicate Dark { } predicate Bright { float p; } Eye(Mode m) { super(m, "Dark"); } }
+"""
+OWNER = f"{CLASSES}Lamp::On {{ duration == 5; }} Lamp lamp = new Lamp(Internal); close();"
+USER = f"{CLASSES}Eye eye = new Eye(Observe); close();"
+MISSION = """
+[mission]
+name = "eye"
+final_tick = 20
+on_failure = "{on_failure}"
+[[reactor]]
+name = "sim"
+model = "sim.nddl"
+lookahead = 10
+internal = ["lamp"]
+[[reactor]]
+name = "eye"
+code = "{code}"
+internal = ["eye"]
+external = ["lamp"]
+[reactor.settings]
+level = 0.75
+[[reactor]]
+name = "user"
+model = "user.nddl"
+lookahead = 10
+external = ["eye"]
+"""
+CODE = """
+from runtime.user.reactor import Reactor
+
+class Eye(Reactor):
+    def tick(self, now):
+        if now.tick == 0:
+            now.publish("eye", "Dark")
+            now.ask("lamp", "On", start=(3, 8), n=4)
+            self.late = now.ask("lamp", "On", start=(15, 18), n=5)
+        elif "lamp" in now.news and now.seen["lamp"].predicate == "On":
+            now.publish("eye", "Bright", p=self.settings["level"] * now.seen["lamp"].arguments["n"])
+            now.recall(self.late)
+
+class Raises(Reactor):
+    def tick(self, now):
+        now.wake(4 if now.tick < 4 else now.tick + 1)
+        if now.tick == 4:
+            return 1 // 0
+
+class Foreign(Reactor):
+    def tick(self, now):
+        now.publish("lamp", "On", n=1)
+
+class Odd(Reactor):
+    def tick(self, now):
+        now.publish("eye", "Bright", p=object())
+
+class Hangs(Reactor):
+    def tick(self, now):
+        while now.tick == 0:
+            pass
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A folder with the models and the code."""
+    (tmp_path / "sim.nddl").write_text(OWNER)
+    (tmp_path / "user.nddl").write_text(USER)
+    (tmp_path / "code.py").write_text(CODE)
+    return tmp_path
+
+
+def flown(folder: Path, code: str, on_failure: str = "abort_agent", seconds: float = 5.0) -> Outcome:
+    """Fly the mission with one of the classes."""
+    path = folder / "mission.toml"
+    path.write_text(MISSION.format(code=code, on_failure=on_failure))
+    mission, found = read_mission(path)
+    assert mission is not None, found
+    models = load_models(mission)
+    assert not models.has_errors
+    return fly_once(replace(models.agent, constraint_seconds=seconds), 1)
+
+
+def test_it_publishes_asks_and_takes_back(folder: Path) -> None:
+    outcome = flown(folder, "code.py:Eye")
+    assert judge(outcome).code == ""
+    assert history(outcome, "lamp") == ["0 Off", "3 On(n=4)", "8 Off"]
+    assert history(outcome, "eye") == ["0 Dark", "3 Bright(p=3.0)"]
+    assert lines(outcome, "request", "recall") == [
+        "0 request eye lamp On(n=4)",
+        "0 request eye lamp On(n=5)",
+        "3 recall eye lamp On(n=5)",
+    ]
+
+
+@pytest.mark.parametrize(("name", "code", "tick"), [("Raises", "F7", 4), ("Foreign", "F9", 0), ("Odd", "F9", 0)])
+def test_what_it_does_wrong_ends_it(folder: Path, name: str, code: str, tick: int) -> None:
+    outcome = flown(folder, f"code.py:{name}")
+    assert outcome.abort is not None
+    assert (outcome.abort.code, outcome.abort.tick, outcome.abort.reactor) == (code, tick, "eye")
+    assert outcome.abort.reason.message
+
+
+def test_the_others_go_on(folder: Path) -> None:
+    outcome = flown(folder, "code.py:Raises", "kill_reactor")
+    assert outcome.last_tick == 20 and judge(outcome).code == "F7"
+    assert history(outcome, "eye") == ["4 Failed"]
+    assert [event.reactor for event in outcome.events if event.kind is EventKind.KILL] == ["eye"]
+
+
+def test_what_does_not_come_back_is_stopped(folder: Path) -> None:
+    outcome = flown(folder, "code.py:Hangs", seconds=0.2)
+    assert outcome.abort is not None and outcome.abort.code == "F7"
+    assert "did not come back" in outcome.abort.reason.message
+
+
+def test_a_log_player_does_what_was_done(folder: Path) -> None:
+    path = folder / "mission.toml"
+    path.write_text(MISSION.format(code="code.py:Eye", on_failure="abort_agent"))
+    mission, _ = read_mission(path)
+    assert mission is not None
+    flight = fly(mission, load_models(mission), Settings(1, {}))
+    trace = folder / "trace.jsonl"
+    trace.write_text(trace_text(flight, path, trace))
+    assert first_departure(read_trace(trace), flight) is None
+    played = MISSION.format(code=":LogPlayer", on_failure="abort_agent")
+    path.write_text(played.replace("level = 0.75", f'trace = "{trace.as_posix()}"\nreactor = "eye"'))
+    again, found = read_mission(path)
+    assert again is not None, found
+    replayed = fly_once(load_models(again).agent, 1)
+    shown = ("observation", "request", "recall")
+    assert lines(replayed, *shown) == lines(flight.outcome, *shown)
