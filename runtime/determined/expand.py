@@ -15,7 +15,7 @@ from runtime.determined.asking import Ask, Asked, ask, ask_instead
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
 from runtime.determined.tags import FAR, LEAST, MOST, NONE, ROW, SLOT, WISHED
-from runtime.executive.record import NOBODY, GuardRun, Interval, Run, TokenRecord, Value
+from runtime.executive.record import NOBODY, GuardRun, Interval, ReactorRecord, Run, TokenRecord, Value
 
 
 @dataclass(eq=False, slots=True)
@@ -276,3 +276,11 @@ def expand(
             ask_instead(machine, waiting.pop(0))
         tick = due
     return expansion.finish(until)
+
+
+def record_of(frame: ReactorRecord, name: str, tokens: tuple[TokenRecord, ...], tick: int) -> ReactorRecord:
+    """The record of a reactor; `frame` is that of its script, whose facts are found again by their timelines."""
+    facts = {str(token.object): token.key for token in tokens if token.origin == "fact"}
+    lines = {token.key: str(token.object) for token in frame.tokens}
+    script = tuple(facts.get(lines.get(key, ""), NOBODY) for key in frame.script_tokens)
+    return frame._replace(reactor=name, last_tick=tick, script_tokens=script, tokens=tokens)

@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from runtime.determined.arguments import given_block
 from runtime.determined.asking import Ask, Asked, ask, ask_instead
-from runtime.determined.expand import expand
+from runtime.determined.expand import expand, record_of
 from runtime.determined.inputs import Inputs, catch_up, take_over
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
@@ -19,7 +19,7 @@ from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, Draw, EventKind, OpenGoal, Reason, ReasonKind
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.reactor import Failure, Refusal
-from runtime.executive.record import TokenRecord
+from runtime.executive.record import ReactorRecord
 from runtime.executive.story import latest
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import VariableName
@@ -146,9 +146,13 @@ class DeterminedReactor:
         for k in range(len(machine.sample_until)):
             machine.sample_until[k] = NONE
 
-    def executed(self) -> tuple[TokenRecord, ...]:
-        """All tokens that were executed, with their children and runs of rules, while it was no general reactor."""
-        return expand(self.program, self.program.machine(self), self.asked, self.machine.present.reach, self.tick)
+    def record(self) -> ReactorRecord:
+        """All tokens that were executed, with their children and runs of rules."""
+        if self.general is not None:
+            return self.general.bench.recorder.close()
+        machine = self.program.machine(self)
+        tokens = expand(self.program, machine, self.asked, self.machine.present.reach, self.tick)
+        return record_of(self.program.frame, self.name, tokens, self.tick)
 
     def draw(self, machine: Machine, parameter: int, tick: int) -> bool:
         """Give a machine the value of a parameter that is in force at `tick`; false if the mission has none."""

@@ -7,13 +7,14 @@ from typing import NoReturn
 import pytest
 
 from checker.flight import programs_of
+from checker.judge.judge import judge_mission
 from checker.mission import read_mission
 from compiler.determined import code
 from runtime.determined.reactor import DeterminedReactor
 from runtime.executive.agent import Agent
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.draws import World
-from runtime.executive.mission import register_program, request_of, run_mission
+from runtime.executive.mission import record_mission, register_program, request_of, run_mission
 from runtime.executive.outcome import EventKind
 from runtime.executive.trace import Trace
 from tests.executive.determined_models import Case, random_case, told
@@ -171,7 +172,7 @@ def test_what_was_executed_is_on_record() -> None:
     reactor = DeterminedReactor(agent.reactors[0], loaded, world.in_force, _never, 40, trace)
     requests = [(goal.at, request_of(goal, -1 - n, KINDS)) for n, goal in enumerate(case.goals)]
     outcome = Agent(agent, [reactor], requests, 1, trace).run()
-    record = reactor.executed()
+    record = reactor.record().tokens
     by_key = {token.key: token for token in record}
     assert len(by_key) == len(record)
     published = sorted(
@@ -194,3 +195,24 @@ def test_what_was_executed_is_on_record() -> None:
 
 def _never(trace: Trace) -> NoReturn:
     raise AssertionError("the machine does not stop")
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_judge_agrees_with_what_was_executed(seed: int) -> None:
+    agent, programs = random_case(seed).agent()
+    outcome, record = record_mission(agent, programs, seed)
+    assert len(record.reactors[0].tokens) > 4
+    assert judge_mission(agent, programs.programs, outcome, record).breaches == ()
+
+
+def test_the_judge_sees_a_value_that_was_not_computed() -> None:
+    agent, programs = steps(run(3, (5, 9), 10.0)).agent()
+    outcome, record = record_mission(agent, programs, 1)
+    assert judge_mission(agent, programs.programs, outcome, record).breaches == ()
+    (reactor,) = record.reactors
+    place = next(k for k, token in enumerate(reactor.tokens) if token.predicate == "Motion.Step" and token.start == 3)
+    step = reactor.tokens[place]
+    wrong = step._replace(arguments=(step.arguments[0], 40.0))
+    tokens = (*reactor.tokens[:place], wrong, *reactor.tokens[place + 1 :])
+    altered = record._replace(reactors=(reactor._replace(tokens=tokens),))
+    assert judge_mission(agent, programs.programs, outcome, altered).breaches
