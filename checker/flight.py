@@ -50,7 +50,7 @@ def fly_once(
     programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
     programs = replace(programs, code=_load_code(root, agent.coded))
     with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
-        outcome, record = record_mission(agent, programs, seed, values, until=until, compiles=True)
+        outcome, record = record_mission(agent, programs, seed, values, until=until)
         report = judge_mission(agent, programs.programs, outcome, record, programs.constraints, values)
     if report.errors:
         raise DisagreementError(report)

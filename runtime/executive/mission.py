@@ -66,11 +66,11 @@ def record_mission(
     overrides: Mapping[str, float] | None = None,
     every_tick: bool = False,
     until: int | None = None,
-    compiles: bool = False,
+    compiles: bool = True,
 ) -> tuple[Outcome, MissionRecord]:
     """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
 
-    With `compiles` determined reactors are carried out as register code: events are the same, but they leave no record.
+    Determined reactors are carried out as register code, unless `compiles` is false: events are the same.
     It ends at the final tick, or at `until`. With `every_tick` reactors are woken at each tick, whether or not anything
     can happen; events are the same.
 
@@ -89,7 +89,7 @@ def record_mission(
         goals.append((goal.at, request_of(goal, -1 - number, kinds)))
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
     outcome = agent.run(until)
-    recorded = tuple(each.bench.recorder.close() for each in reactors if isinstance(each, PlanReactor))
+    recorded = tuple(each.record() for each in reactors if isinstance(each, PlanReactor | DeterminedReactor))
     return outcome, MissionRecord(recorded)
 
 
