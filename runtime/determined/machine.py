@@ -61,6 +61,7 @@ class Machine:
         self.previous = array("q", bytes(8 * lines))
         self.remembers = array("q", bytes(8 * lines))
         self.starts = array("q", bytes(8 * lines))
+        self.is_trial = False  # a start is tried out: nothing else is about to end
         self.is_planned = False  # what starts was asked for or followed, it is not the default
         self.width = array("q", bytes(8 * lines))
         self.default_block = array("q", bytes(8 * lines))
@@ -143,7 +144,10 @@ class Machine:
             present.state[ENDING * n + j] = 1
             present.state[DUE * n + j] = NONE
         present.state[WISH_FROM * n + i] = tick
-        return self.settle(i, tick)
+        self.is_trial = True
+        can = self.settle(i, tick)
+        self.is_trial = False
+        return can
 
     def settle(self, i: int, tick: int) -> bool:
         """Start what takes the place of what has ended on a timeline."""
@@ -332,10 +336,8 @@ class Machine:
             self.log.note(present.now, line, a, -1 - self.root_row)
             return True
         if op == 33:  # MERGE
-            return bool(
-                present.state[PREDICATE * n + line] == a
-                and (present.changed >> line & 1 or not present.state[ENDING * n + line])
-            )
+            holds = self.is_trial or present.changed >> line & 1 or not present.state[ENDING * n + line]
+            return bool(holds and present.state[PREDICATE * n + line] == a)
         if op == 34:  # PREVIOUS
             return bool(present.state[present.before + line] == a)
         if op == 35:  # FOLLOW

@@ -55,8 +55,8 @@ def run_mission(
     until: int | None = None,
     compiles: bool = True,
 ) -> Outcome:
-    """Carry out one mission, see `record_mission`, and forget its record."""
-    return record_mission(configuration, programs, seed, overrides, every_tick, until, compiles)[0]
+    """Carry out one mission, see `record_mission`, without a record: that of determined reactors is work."""
+    return _flown(configuration, programs, seed, overrides, every_tick, until, compiles)[0]
 
 
 def record_mission(
@@ -77,20 +77,33 @@ def record_mission(
     A model that does not load, be it for what was drawn, ends the mission before it begins (F9). Raises `ValueError`
     (of `workbench` and `agent`) for timelines that do not exist or have no single owner.
     """
+    outcome, reactors = _flown(configuration, programs, seed, overrides, every_tick, until, compiles)
+    recorded = tuple(each.record() for each in reactors if isinstance(each, (PlanReactor, DeterminedReactor)))
+    return outcome, MissionRecord(recorded)
+
+
+def _flown(
+    configuration: AgentConfiguration,
+    programs: MissionPrograms,
+    seed: int,
+    overrides: Mapping[str, float] | None,
+    every_tick: bool,
+    until: int | None,
+    compiles: bool,
+) -> tuple[Outcome, list[Reactor]]:
+    """A mission, and its reactors as it left them."""
     trace = Trace()
     world = World(configuration, seed, overrides or {}, trace)
     try:
         reactors = make_reactors(configuration, programs, world, compiles)
     except UnusableModelError as problem:
-        return unloaded(configuration, problem, world), MissionRecord(())
+        return unloaded(configuration, problem, world), []
     goals = []
     for number, goal in enumerate(configuration.goals):
         kinds = goal_kinds(configuration, programs, goal)
         goals.append((goal.at, request_of(goal, -1 - number, kinds)))
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
-    outcome = agent.run(until)
-    recorded = tuple(each.record() for each in reactors if isinstance(each, PlanReactor | DeterminedReactor))
-    return outcome, MissionRecord(recorded)
+    return agent.run(until), reactors
 
 
 def unloaded(configuration: AgentConfiguration, problem: UnusableModelError, world: World) -> Outcome:
