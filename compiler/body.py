@@ -30,7 +30,7 @@ from nddl_lang.semantics.types import reference_type
 from nddl_lang.syntax.nodes import Expr
 from nddl_lang.text.source import Span
 
-BUILT_IN = {"state": STATE, "object": OBJECT, "duration": DURATION, "start": START, "end": END, "time": START}
+_BUILT_IN = {"state": STATE, "object": OBJECT, "duration": DURATION, "start": START, "end": END, "time": START}
 
 
 @dataclass(eq=False, slots=True)
@@ -151,7 +151,7 @@ def _variable_number(predicate: Predicate, name: str) -> int:
     for position, parameter in enumerate(predicate.parameters):
         if parameter.name == name:
             return FIRST_PARAMETER + position
-    return BUILT_IN[name]
+    return _BUILT_IN[name]
 
 
 def _moved(operand: Operand, token: int) -> Operand:

@@ -29,7 +29,7 @@ from nddl_lang.syntax.nodes import (
     UnaryExpr,
 )
 
-TOKEN_STATES = "TokenStates"  # the enum behind the built-in variable `state`
+_TOKEN_STATES = "TokenStates"  # the enum behind the built-in variable `state`
 TRUE = DomainConstant("bool", "bool", None, (True,))
 FALSE = DomainConstant("bool", "bool", None, (False,))
 
@@ -37,7 +37,7 @@ FALSE = DomainConstant("bool", "bool", None, (False,))
 def type_code(type_: Type) -> TypeCode:
     """`type_` as the program writes it."""
     kind, name = type_.kind.value, type_.base
-    if name == TOKEN_STATES:
+    if name == _TOKEN_STATES:
         kind, name = "symbol", "symbol"
     code = TypeCode(kind, name, None)
     if type_.restriction is None:
@@ -122,7 +122,7 @@ def _of_domain(domain: Domain, code: TypeCode) -> DomainConstant:
 
 def enum_value(value: EnumValue) -> DomainConstant:
     """The value of an enum, or one of the states of a token."""
-    if value.enum == TOKEN_STATES:
+    if value.enum == _TOKEN_STATES:
         return DomainConstant("symbol", "symbol", None, (value.value,))
     return DomainConstant("enum", value.enum, None, (value.value,))
 

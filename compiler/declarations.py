@@ -33,7 +33,7 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 
-NATIVE = ("Timeline", *sorted(SELF_ACTIVATING))
+_NATIVE = ("Timeline", *sorted(SELF_ACTIVATING))
 
 
 # ---- classes ----
@@ -48,7 +48,7 @@ def class_code(class_: Class, model: Model) -> ClassCode:
         for member in model.schema.classes[name].members.values()
     )
     constructors = tuple(_constructor_code(constructor, class_, model) for constructor in class_.constructors)
-    native = next((name for name in ancestry if name in NATIVE), None)
+    native = next((name for name in ancestry if name in _NATIVE), None)
     return ClassCode(class_.name, class_.base, members, constructors, native, class_.span)
 
 

@@ -26,9 +26,9 @@ from nddl_lang.syntax.nodes import (
 from nddl_lang.text.source import Span
 
 SAMPLED = "sampledParameter"
-COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
-OPPOSITE = {"==": "!=", "!=": "==", "<": ">=", "<=": ">", ">": "<=", ">=": "<"}
-BOOL = constants.basic(Kind.BOOL)
+_COMPARISONS = ("==", "!=", "<", "<=", ">", ">=")
+_OPPOSITE = {"==": "!=", "!=": "==", "<": ">=", "<=": ">", ">": "<=", ">=": "<"}
+_BOOL = constants.basic(Kind.BOOL)
 
 
 # ---- enforcing position ----
@@ -43,10 +43,10 @@ def enforce(expr: Expr, message: str | None, body: Body) -> None:
         case BinaryExpr(op="||"):
             operands = tuple(value(side, body) for side in _alternatives(expr))
             body.emit(Post("or", operands, message, expr.span))
-        case BinaryExpr(op=op, left=left, right=right) if op in COMPARISONS:
+        case BinaryExpr(op=op, left=left, right=right) if op in _COMPARISONS:
             _compare(op, left, right, message, expr.span, body)
-        case UnaryExpr(op="!", operand=BinaryExpr(op=op, left=left, right=right)) if op in COMPARISONS:
-            _compare(OPPOSITE[op], left, right, message, expr.span, body)
+        case UnaryExpr(op="!", operand=BinaryExpr(op=op, left=left, right=right)) if op in _COMPARISONS:
+            _compare(_OPPOSITE[op], left, right, message, expr.span, body)
         case UnaryExpr(op="!", operand=operand):
             body.emit(Post("eq", (value(operand, body), Constant(constants.FALSE)), message, expr.span))
         case _:
@@ -80,11 +80,11 @@ def _compare(op: str, left: Expr, right: Expr, message: str | None, span: Span, 
         return
     first, second = value(left, body), value(right, body)
     timed = temporal.is_integer(left, body) and temporal.is_integer(right, body)
-    name = temporal.comparison(op, first, second) if timed else PLAIN[op]
+    name = temporal.comparison(op, first, second) if timed else _PLAIN[op]
     body.emit(Post(name, (first, second), message, span))
 
 
-PLAIN = {"==": "eq", "!=": "neq", "<": "lt", "<=": "leq"}
+_PLAIN = {"==": "eq", "!=": "neq", "<": "lt", "<=": "leq"}
 
 
 def _sample(left: Expr, right: Expr, body: Body) -> bool:
@@ -121,7 +121,7 @@ def _is_truth(expr: Expr, body: Body) -> bool:
     """Whether a constraint computes a truth value for `expr`."""
     match expr:
         case BinaryExpr(op=op):
-            return op in COMPARISONS or op in ("&&", "||")
+            return op in _COMPARISONS or op in ("&&", "||")
         case UnaryExpr(op=op):
             return op == "!"
         case CallExpr(function=function):
@@ -165,7 +165,7 @@ def union(items: tuple[Expr, ...], body: Body) -> UnionOf:
 def _result_type(expr: BinaryExpr | UnaryExpr | CallExpr, body: Body) -> TypeCode:
     """The type of an intermediate result; a typedef among the operands does not restrict it."""
     if _is_truth(expr, body):
-        return BOOL
+        return _BOOL
     found: Type = body.model.type_of(expr)
     return TypeCode(found.kind.value, found.base, None)
 

@@ -38,7 +38,7 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 
-ACTIVE = "ACTIVE"
+_ACTIVE = "ACTIVE"
 
 
 def execute(node: Statement, body: Body) -> None:
@@ -87,7 +87,7 @@ def _global(declarator: Declarator, body: Body) -> None:
 def _assignment(node: Assignment, body: Body) -> None:
     target = body.operand(body.model.tables.references[node.target])
     domain = body.model.constant(node.value)
-    if isinstance(target, TokenVariable) and target.variable == STATE and constants.single(domain) == ACTIVE:
+    if isinstance(target, TokenVariable) and target.variable == STATE and constants.single(domain) == _ACTIVE:
         body.emit(Call("activate", target.token, None, None, (), path_name(node.target), node.span))
         return
     assign(node, target, constants.type_code(body.model.type_of(node.target)), body)

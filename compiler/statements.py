@@ -42,8 +42,8 @@ from nddl_lang.syntax.nodes import (
 )
 from nddl_lang.text.source import Span
 
-USES = "uses"
-CHARGED = ((1, Kind.FLOAT), (2, Kind.INT), (3, Kind.INT))  # quantity, start, end
+_USES = "uses"
+_CHARGED = ((1, Kind.FLOAT), (2, Kind.INT), (3, Kind.INT))  # quantity, start, end
 
 
 def statement(node: RuleStatement, body: Body) -> None:
@@ -78,7 +78,7 @@ def constraint(node: CallConstraint | ExprConstraint, body: Body) -> None:
         case CallConstraint(name=name, arguments=arguments, span=span):
             operands = tuple(value(argument, body) for argument in arguments)
             row = body.model.callables.constraints[name.name]
-            if row.name == USES:
+            if row.name == _USES:
                 operands = _charge(node, operands, message, body)
             body.emit(Post(row.alias_of or row.name, operands, message, span))
         case ExprConstraint(expression=expression):
@@ -92,7 +92,7 @@ def _charge(
 ) -> tuple[Operand, ...]:
     """The operands of `uses` with a real quantity and whole times: a number of the other type is equated with one."""
     charged = list(operands)
-    for place, kind in CHARGED:
+    for place, kind in _CHARGED:
         argument = node.arguments[place]
         type_ = constants.basic(kind)
         if (domain := body.model.constant(argument)) is not None and kind is Kind.FLOAT:

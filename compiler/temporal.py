@@ -11,7 +11,7 @@ from nddl_lang.text.source import Span
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class _Difference:
     """`later - earlier + offset + sign * distance`, with a distance that is a variable or missing."""
 
     later: Expr
@@ -109,7 +109,7 @@ def _terms(expr: Expr, sign: int, body: Body) -> list[tuple[int, Expr]] | None:
 
 def _difference(
     left: list[tuple[int, Expr]] | None, right: list[tuple[int, Expr]] | None, body: Body
-) -> Difference | None:
+) -> _Difference | None:
     if left is None or right is None:
         return None
     plus: list[Expr] = []
@@ -127,8 +127,8 @@ def _difference(
     if len(plus) != 1 or len(minus) != 1 or len(others) > 1 or abs(offset) >= INFINITY:
         return None
     if not others:
-        return Difference(plus[0], minus[0], offset, None, 0)
-    return Difference(plus[0], minus[0], offset, others[0][1], others[0][0])
+        return _Difference(plus[0], minus[0], offset, None, 0)
+    return _Difference(plus[0], minus[0], offset, others[0][1], others[0][0])
 
 
 def _operand(expr: Expr, body: Body) -> Operand:

@@ -21,7 +21,7 @@ _RULE = re.compile(r"([A-Za-z_$][\w$]*)\s*::\s*([A-Za-z_$][\w$]*)\s*\{")
 # Nobody names more in front of a dot.
 _LONGEST_PATH = 400
 
-Items = Iterator[CompletionItem]
+_Items = Iterator[CompletionItem]
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,7 @@ def _place(analysis: Analysis, parse: Parse, offset: int) -> _Place:
     return _Place(analysis, variables, labels, predicate)
 
 
-def _names(place: _Place) -> Items:
+def _names(place: _Place) -> _Items:
     schema = place.schema
     for label in place.labels.values():
         yield _item(label.name, CompletionItemKind.Variable, label.predicate.full_name)
@@ -108,7 +108,7 @@ def _names(place: _Place) -> Items:
         yield _item(word, CompletionItemKind.Keyword, None)
 
 
-def _members(place: _Place, path: list[str]) -> Items:
+def _members(place: _Place, path: list[str]) -> _Items:
     """What may follow the dot after `path`."""
     schema, (head, *rest) = place.schema, path
     label = place.labels.get(head) or schema.goals.get(head)
@@ -152,7 +152,7 @@ def _type_in(predicate: Predicate, name: str) -> Type | None:
     return found or builtin_type(name, predicate)
 
 
-def _predicates(schema: Schema, class_name: str) -> Items:
+def _predicates(schema: Schema, class_name: str) -> _Items:
     owner = schema.classes.get(class_name)
     if owner is not None:
         for predicate in (*owner.predicates.values(), *owner.inherited.values()):
@@ -160,7 +160,7 @@ def _predicates(schema: Schema, class_name: str) -> Items:
             yield _item(predicate.name, CompletionItemKind.Method, f"{predicate.full_name}({parameters})")
 
 
-def _token_variables(predicate: Predicate) -> Items:
+def _token_variables(predicate: Predicate) -> _Items:
     for parameter in predicate.parameters:
         yield _variable(parameter)
     for name in builtin_names(predicate.is_event):

@@ -24,9 +24,9 @@ from nddl_lang.semantics.schema import (
 )
 from nddl_lang.text.source import Span
 
-Link = Callable[[Span], str]
+_Link = Callable[[Span], str]
 # A list that is longer is cut, with the number of what is left out.
-MOST = 12
+_MOST = 12
 _BASIC = {
     Kind.INT: "Whole numbers.",
     Kind.FLOAT: "Real numbers.",
@@ -39,7 +39,7 @@ _BASIC = {
 class Describer:
     """Describes what one analysis knows; `link` writes a place as a Markdown link."""
 
-    def __init__(self, analysis: Analysis, link: Link) -> None:
+    def __init__(self, analysis: Analysis, link: _Link) -> None:
         self._analysis = analysis
         self._link = link
 
@@ -224,7 +224,7 @@ def _predicate_text(predicate: Predicate) -> str:
 
 
 def _enum_text(enum: Enumeration) -> str:
-    values = ", ".join(enum.values[:MOST]) + (", ..." if len(enum.values) > MOST else "")
+    values = ", ".join(enum.values[:_MOST]) + (", ..." if len(enum.values) > _MOST else "")
     return f"enum {enum.name} {{ {values} }}"
 
 
@@ -238,5 +238,5 @@ def _listed(title: str, items: Iterable[str]) -> Iterator[str]:
     lines = list(items)
     if not lines:
         return
-    more = [f"- and {len(lines) - MOST} more"] if len(lines) > MOST else []
-    yield "\n".join([f"**{title}**", "", *(f"- {line}" for line in lines[:MOST]), *more])
+    more = [f"- and {len(lines) - _MOST} more"] if len(lines) > _MOST else []
+    yield "\n".join([f"**{title}**", "", *(f"- {line}" for line in lines[:_MOST]), *more])

@@ -33,7 +33,7 @@ _TAGS = {
         for code in (FORMER_WORD, FORMER_RELATION, FORMER_SIGNATURE, FORMER_CONSTRAINT)
     },
 }
-SOURCE = "nddlc"
+_SOURCE = "nddlc"
 
 
 class Conversion:
@@ -90,7 +90,7 @@ class Conversion:
             _SEVERITIES[diagnostic.severity],
             code,
             CodeDescription(page) if page is not None else None,
-            SOURCE,
+            _SOURCE,
             _TAGS.get(code),
             related or None,
         )

@@ -23,7 +23,7 @@ from lsp.symbols import outline
 _logger = logging.getLogger(__name__)
 
 
-class Protocol(LanguageServerProtocol):
+class _Protocol(LanguageServerProtocol):
     """The protocol, but that texts are kept by `Documents`, and that a request always gets an answer."""
 
     # pygls would keep the texts a second time, and cuts lines in more places than the protocol does.
@@ -41,11 +41,11 @@ class Protocol(LanguageServerProtocol):
             raise
 
 
-class Server(LanguageServer):
+class _Server(LanguageServer):
     """The server, with the documents that it speaks about."""
 
     def __init__(self, settings: ServerSettings) -> None:
-        super().__init__("nddlc", _version(), protocol_cls=Protocol, converter_factory=default_converter)
+        super().__init__("nddlc", _version(), protocol_cls=_Protocol, converter_factory=default_converter)
         self.settings = settings
         self.documents = Documents(settings)
         self.is_dismissed = False
@@ -71,9 +71,9 @@ def _version() -> str:
         return "unknown"
 
 
-def _make_server(settings: ServerSettings) -> Server:
+def _make_server(settings: ServerSettings) -> _Server:
     """A server that knows what to answer."""
-    server = Server(settings)
+    server = _Server(settings)
     _answer_lifecycle(server)
     _answer_edits(server)
     _answer_questions(server)
@@ -87,7 +87,7 @@ def serve(settings: ServerSettings) -> bool:
     return server.is_dismissed
 
 
-def _answer_lifecycle(server: Server) -> None:
+def _answer_lifecycle(server: _Server) -> None:
     @server.feature(types.INITIALIZE)
     def initialize(params: types.InitializeParams) -> None:
         encoding = Encoding(server.workspace.position_encoding)
@@ -107,7 +107,7 @@ def _settings(given: ServerSettings, options: Any) -> ServerSettings:
     return ServerSettings(given.dialect, (*given.directories, *added))
 
 
-def _answer_edits(server: Server) -> None:
+def _answer_edits(server: _Server) -> None:
     @server.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def did_open(params: types.DidOpenTextDocumentParams) -> None:
         document = params.text_document
@@ -132,7 +132,7 @@ def _answer_edits(server: Server) -> None:
         server.publish(server.documents.refresh())
 
 
-def _answer_questions(server: Server) -> None:
+def _answer_questions(server: _Server) -> None:
     @server.feature(types.TEXT_DOCUMENT_HOVER)
     def hover(params: types.HoverParams) -> types.Hover | None:
         view = server.documents.view(params.text_document.uri)

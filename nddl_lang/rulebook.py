@@ -14,7 +14,7 @@ _FOUND = {**syntax_pages.PAGES, **semantic_pages.PAGES, **lint_pages.PAGES}
 _FOUND |= {page.code.id: page for page in SETTINGS_PAGES}
 PAGES: dict[str, RulePage] = {name: _FOUND[name] for name in sorted(_FOUND)}
 
-GROUPS = {
+_GROUPS = {
     "1": "Syntax and includes",
     "2": "Names",
     "3": "Types",
@@ -23,7 +23,7 @@ GROUPS = {
     "6": "Running the script",
     "7": "Missions and solvers",
 }
-MARK = "<!-- Made by `make rules`; edit the page beside the pass instead. -->"
+_MARK = "<!-- Made by `make rules`; edit the page beside the pass instead. -->"
 
 
 def readable(code: Code) -> str:
@@ -49,7 +49,7 @@ def markdown(page: RulePage) -> str:
     """The page of one code."""
     code = page.code
     parts = [
-        MARK,
+        _MARK,
         f"# {code.id}: {readable(code)}",
         f"*{code.severity.value} · {code.kind}*",
         page.what,
@@ -67,9 +67,9 @@ def markdown(page: RulePage) -> str:
 def index(pages: Iterable[RulePage]) -> str:
     """The list of `pages`, which come in the order of their codes."""
     known = list(pages)
-    lines = [MARK, "", "# Codes", "", "What each code means; `nddlc rule CODE` shows the same."]
+    lines = [_MARK, "", "# Codes", "", "What each code means; `nddlc rule CODE` shows the same."]
     lines += ["", "How the catalogue of known traps maps to codes stands in [catalogue.md](catalogue.md)."]
-    for digit, caption in GROUPS.items():
+    for digit, caption in _GROUPS.items():
         lines += ["", f"## {caption}", "", "| code | weight | message |", "| --- | --- | --- |"]
         for page in known:
             name = page.code.id

@@ -23,7 +23,7 @@ from runtime.loading import load
 from runtime.plan.database import PlanDatabase
 from runtime.user.library import library_of
 
-OWN, USED = ("Internal", "Private"), ("External", "Observe")
+_OWN, _USED = ("Internal", "Private"), ("External", "Observe")
 
 
 @click.command()
@@ -64,10 +64,10 @@ def command(
     return int(any(program is None and configuration.lookahead <= 1 for configuration, program, _ in found))
 
 
-Found = tuple[ReactorConfiguration, RegisterProgram | None, tuple[ChoiceReason, ...]]
+_Found = tuple[ReactorConfiguration, RegisterProgram | None, tuple[ChoiceReason, ...]]
 
 
-def _of_mission(mission: Mission, name: str | None) -> Iterator[Found]:
+def _of_mission(mission: Mission, name: str | None) -> Iterator[_Found]:
     """The reactors of a mission, or the one that is asked for."""
     agent = mission.agent
     names = [each.name for each in agent.reactors]
@@ -84,15 +84,15 @@ def _of_mission(mission: Mission, name: str | None) -> Iterator[Found]:
             yield configuration, *found
 
 
-def _of_model(path: str, database: PlanDatabase) -> Found:
+def _of_model(path: str, database: PlanDatabase) -> _Found:
     """A model by itself: its timelines play the part that their mode says."""
     bench = Workbench(database, path)
     bench.set_global("TICK_DURATION", 1.0)
     bench.set_global("MISSION_START", 0)
     bench.set_global("MISSION_END", 2**40)
     modes = {name: bench.mode(o) for o, name in enumerate(database.objects.names) if database.plan.object_timeline[o]}
-    internal = tuple(name for name, mode in modes.items() if mode in OWN or not mode)
-    external = tuple(name for name, mode in modes.items() if mode in USED)
+    internal = tuple(name for name, mode in modes.items() if mode in _OWN or not mode)
+    external = tuple(name for name, mode in modes.items() if mode in _USED)
     configuration = ReactorConfiguration(path, path, internal=internal, external=external)
     return configuration, *find_out(bench, database.program, configuration, 1.0, 2**40)
 

@@ -12,7 +12,7 @@ from nddl_lang.text.diagnostic import Severity
 from nddl_lang.text.render import render
 from nddlc.inputs import Unusable, chosen_dialect, colours, readable, write_text
 
-STDIN = "-"
+_STDIN = "-"
 
 
 @click.command()
@@ -43,16 +43,16 @@ def command(ctx: click.Context, files: tuple[str, ...], dialect: str | None, onl
                 click.echo(_difference(name, before, formatted.text), nl=False)
             elif only_check:
                 click.echo(f"would format {name}")
-            elif name != STDIN:
+            elif name != _STDIN:
                 write_text(Path(name), formatted.text)
                 click.echo(f"formatted {name}")
-        if name == STDIN and not dry:
+        if name == _STDIN and not dry:
             sys.stdout.buffer.write(formatted.text.encode("utf-8"))
     return int(broken > 0 or (dry and changed > 0))
 
 
 def _read(name: str) -> str:
-    if name == STDIN:
+    if name == _STDIN:
         content, name = sys.stdin.buffer.read(), "the standard input"
     else:
         (path,) = readable((name,), ())

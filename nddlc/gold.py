@@ -13,8 +13,8 @@ from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable
 from nddlc.one_mission import prepare, values_of
 
-SAME, DIFFERENT = 0, 1
-MOST = 200  # differences that are printed
+_SAME, _DIFFERENT = 0, 1
+_MOST = 200  # differences that are printed
 
 
 @click.command()
@@ -43,27 +43,27 @@ def command(action: str, path: str, seed: int | None, given: tuple[str, ...], by
         except OSError as problem:
             raise Unusable(f"cannot write `{place}`: {problem.strerror}") from None
         click.echo(f"accepted: {len(lines)} events, in `{place}`")
-        return SAME
+        return _SAME
     gold = _accepted(place)
     if action == "show":
         click.echo(f"accepted by {gold.by} at {gold.at}, models {gold.models[:12]}, seed {gold.seed}")
         for line in gold.lines:
             click.echo(line)
-        return SAME
+        return _SAME
     flight = fly(mission, models, FlightSettings(gold.seed, gold.values))
     found = differences(gold.lines, gold_lines(flight.outcome))
     if flight.models != gold.models:
         click.echo(f"the models have changed since {gold.by} accepted them at {gold.at}")
-    for change in found[:MOST]:
+    for change in found[:_MOST]:
         click.echo(f"tick {change.tick}{f', {change.timeline}' if change.timeline else ''}")
         for line in change.accepted:
             click.echo(f"  - {line}")
         for line in change.flown:
             click.echo(f"  + {line}")
-    if len(found) > MOST:
-        click.echo(f"and {len(found) - MOST} more")
+    if len(found) > _MOST:
+        click.echo(f"and {len(found) - _MOST} more")
     click.echo("nothing differs" if not found else f"{len(found)} places differ")
-    return DIFFERENT if found else SAME
+    return _DIFFERENT if found else _SAME
 
 
 def _user() -> str:

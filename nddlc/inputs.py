@@ -19,7 +19,7 @@ from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
 from nddl_lang.text.write import write_whole
 
-LARGEST = 64 * 2**20  # bytes of a file
+_LARGEST = 64 * 2**20  # bytes of a file
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -153,8 +153,8 @@ def _check_kind(name: str, file: int) -> None:
     kind = os.fstat(file)
     if stat.S_ISBLK(kind.st_mode) or (stat.S_ISCHR(kind.st_mode) and not os.isatty(file) and name != os.devnull):
         raise Unusable(f"`{name}` is a device")
-    if kind.st_size > LARGEST:
-        raise Unusable(f"`{name}` is too large: {kind.st_size / 2**20:.0f} MiB, and {LARGEST / 2**20:.0f} are read")
+    if kind.st_size > _LARGEST:
+        raise Unusable(f"`{name}` is too large: {kind.st_size / 2**20:.0f} MiB, and {_LARGEST / 2**20:.0f} are read")
 
 
 def _alike(path: Path) -> str | None:

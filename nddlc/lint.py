@@ -23,9 +23,9 @@ from nddl_lang.text.sarif import sarif_of
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, parts_in, write_text
 from nddlc.main import named
 
-WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
-LEVELS = [severity.value for severity in Severity]
-STYLES = ["text", "json", "sarif", "github", "junit"]
+_WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
+_LEVELS = [severity.value for severity in Severity]
+_STYLES = ["text", "json", "sarif", "github", "junit"]
 
 
 @click.command()
@@ -35,10 +35,10 @@ STYLES = ["text", "json", "sarif", "github", "junit"]
 @click.option("--fix", is_flag=True, help="Mend what can be mended without a change of meaning.")
 @click.option("--unsafe-fixes", is_flag=True, help="Mend also where the meaning must be looked at.")
 @click.option("--diff", "only_show", is_flag=True, help="Show what --fix would change; change nothing.")
-@click.option("--level", type=click.Choice(LEVELS), default="info", help="The least that is reported (info).")
-@click.option("--fail-on", type=click.Choice([*LEVELS, "never"]), help="The least that makes it end with 1 (warning).")
+@click.option("--level", type=click.Choice(_LEVELS), default="info", help="The least that is reported (info).")
+@click.option("--fail-on", type=click.Choice([*_LEVELS, "never"]), help="The least that makes it end with 1 (warning).")
 @click.option("--statistics", is_flag=True, help="Tell how often each code was found.")
-@click.option("--format", "style", type=click.Choice(STYLES), default="text", help="How to print findings.")
+@click.option("--format", "style", type=click.Choice(_STYLES), default="text", help="How to print findings.")
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -163,7 +163,7 @@ def _tell(found: list[Diagnostic], files: list[str], style: str, mended: int, st
 def _summary(found: Sequence[Diagnostic], files: int) -> str:
     """How many findings of each weight there are, in one line."""
     counts = Counter(each.severity for each in found)
-    words = [_counted(counts[severity], WORDS[severity]) for severity in Severity if counts[severity]]
+    words = [_counted(counts[severity], _WORDS[severity]) for severity in Severity if counts[severity]]
     return f"{', '.join(words) or 'nothing wrong'} in {_counted(files, 'file')}"
 
 

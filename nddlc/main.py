@@ -35,13 +35,13 @@ COMMANDS = {
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 # What is slow where the engine is not compiled.
-PLANNING = ("load", "compile", "plan", "run", "replay", "gold", "check", "explain", "validate")
-UNUSABLE, BUG, INTERRUPTED = 2, 3, 130
-MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
-FORBIDDEN = (errno.EACCES, errno.EPERM, errno.ELOOP, errno.ENAMETOOLONG)
+_PLANNING = ("load", "compile", "plan", "run", "replay", "gold", "check", "explain", "validate")
+_UNUSABLE, _BUG, _INTERRUPTED = 2, 3, 130
+_MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
+_FORBIDDEN = (errno.EACCES, errno.EPERM, errno.ELOOP, errno.ENAMETOOLONG)
 
 
-class Subcommands(click.Group):
+class _Subcommands(click.Group):
     """A group that knows the names of its commands, but imports only the one that is called."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
@@ -83,7 +83,7 @@ def _show_version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
         ctx.exit()
 
 
-@click.command(cls=Subcommands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.command(cls=_Subcommands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.option("--dialect", type=click.Choice(["nddl3", "nddlc"]), help="How texts are read, whatever they declare.")
 @click.option("--version", is_flag=True, is_eager=True, expose_value=False, callback=_show_version, help="Show it.")
 @click.pass_context
@@ -93,7 +93,7 @@ def nddlc(ctx: click.Context, dialect: str | None) -> None:
     nddl3 is the language that EUROPA accepts; nddlc, the default, adds to it.
     """
     ctx.obj = dialect
-    if ctx.invoked_subcommand in PLANNING and (notice := runtime.build_form.uncompiled_notice()) is not None:
+    if ctx.invoked_subcommand in _PLANNING and (notice := runtime.build_form.uncompiled_notice()) is not None:
         click.echo(f"nddlc: {notice}", err=True)
 
 
@@ -107,22 +107,22 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except click.ClickException as mistake:
         with suppress(OSError):
             mistake.show()
-        return UNUSABLE
+        return _UNUSABLE
     except UserCodeError as mistake:
         _complain(f"nddlc: {mistake}\n  help: {mistake.advice}")
-        return UNUSABLE
+        return _UNUSABLE
     except (click.Abort, KeyboardInterrupt):
         _complain("nddlc: interrupted")
-        return INTERRUPTED
+        return _INTERRUPTED
     except OSError as problem:
-        if problem.errno in MACHINE:
+        if problem.errno in _MACHINE:
             where = "the output" if problem.filename is None else f"`{problem.filename}`"
             _complain(f"nddlc: cannot write {where}: {problem.strerror}")
-        elif problem.errno in FORBIDDEN and problem.filename is not None:
+        elif problem.errno in _FORBIDDEN and problem.filename is not None:
             _complain(f"nddlc: cannot use `{problem.filename}`: {problem.strerror}")
         else:
             return _report(problem, arguments)
-        return UNUSABLE
+        return _UNUSABLE
     except Exception as bug:  # the one place where our own mistakes are caught: to tell the user whose they are
         return _report(bug, arguments)
     return code if isinstance(code, int) else 0
@@ -130,7 +130,7 @@ def run(arguments: Sequence[str] | None = None) -> int:
 
 def _report(bug: Exception, arguments: Sequence[str] | None) -> int:
     named("nddlc.crash:report")(bug, sys.argv[1:] if arguments is None else list(arguments))
-    return BUG
+    return _BUG
 
 
 def _complain(text: str) -> None:

@@ -33,7 +33,7 @@ from runtime.view.drawing import drawing
 from runtime.view.picture import page, svg
 from runtime.view.plan_text import INTERRUPTED, PlanReport, found_values, lines, verdict
 
-DEFAULT_HORIZON = (0, 1000)
+_DEFAULT_HORIZON = (0, 1000)
 
 
 def _tick(text: str) -> int:
@@ -180,7 +180,7 @@ def _configuration(name: str | None) -> Configuration:
 
 def _limits(database: PlanDatabase, horizon: tuple[int, int] | None, steps: int | None, depth: int | None) -> Limits:
     """What the command line says, else what the model says, else the default."""
-    own = model_limits(database) or Limits(*DEFAULT_HORIZON)
+    own = model_limits(database) or Limits(*_DEFAULT_HORIZON)
     start, end = horizon or (own.start, own.end)
     return Limits(start, end, own.steps if steps is None else steps, own.depth if depth is None else depth)
 

@@ -9,7 +9,7 @@ from checker.one_flight import first_departure, fly, read_trace
 from nddlc.inputs import Unusable, readable
 from nddlc.one_mission import prepare
 
-SAME, DEPARTS = 0, 1
+_SAME, _DEPARTS = 0, 1
 
 
 @click.command()
@@ -31,14 +31,14 @@ def command(path: str, mission: str | None) -> int:
     found = first_departure(recorded, flight)
     if found is None:
         click.echo(f"the same: {len(recorded.lines)} events, to tick {flight.outcome.last_tick}")
-        return SAME
+        return _SAME
     number, old, new = found
     if recorded.models != flight.models:
         click.echo("the models are not those of the trace")
     click.echo(f"departs at line {number}:")
     click.echo(f"  in the trace: {_shown(old)}")
     click.echo(f"  flown now:    {_shown(new)}")
-    return DEPARTS
+    return _DEPARTS
 
 
 def _shown(line: str) -> str:

@@ -11,7 +11,7 @@ from nddl_lang.text.nearest import nearest
 from nddl_lang.text.page import RulePage
 from nddlc.inputs import Unusable
 
-WIDTH = 100
+_WIDTH = 100
 
 
 @click.command()
@@ -35,7 +35,7 @@ def _page(page: RulePage) -> Iterator[str]:
     yield f"{code.id} ({code.severity.value}): {readable(code)}"
     for paragraph in (page.what, page.why):
         yield ""
-        yield from textwrap.wrap(paragraph, WIDTH)
+        yield from textwrap.wrap(paragraph, _WIDTH)
     for caption, example in (("Instead of", page.bad), ("write", page.good)):
         yield ""
         yield caption
@@ -43,4 +43,4 @@ def _page(page: RulePage) -> Iterator[str]:
         yield textwrap.indent(example.rstrip("\n"), "    ")
     for paragraph in configuration(code):
         yield ""
-        yield from textwrap.wrap(paragraph, WIDTH)
+        yield from textwrap.wrap(paragraph, _WIDTH)

@@ -15,8 +15,8 @@ from nddlc.one_mission import prepare, values_of
 from runtime.executive.outcome import EventKind
 from runtime.executive.rendering import event_text, goal_text, reason_text
 
-PASS, FAIL = 0, 1
-TOLD = (EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL, EventKind.RELAX, EventKind.KILL, EventKind.ABORT)
+_PASS, _FAIL = 0, 1
+_TOLD = (EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL, EventKind.RELAX, EventKind.KILL, EventKind.ABORT)
 
 
 @click.command()
@@ -42,7 +42,7 @@ def command(path: str, seed: int | None, given: tuple[str, ...], until: int | No
         except OSError as problem:
             raise Unusable(f"cannot write the trace to `{trace}`: {problem.strerror}") from None
     click.echo(_report(mission.agent.name, flight), nl=False)
-    return PASS if flight.judgement.verdict is Verdict.PASS else FAIL
+    return _PASS if flight.judgement.verdict is Verdict.PASS else _FAIL
 
 
 def _progress(text: str) -> None:
@@ -55,7 +55,7 @@ def _report(name: str, flight: Flight) -> str:
     outcome, judgement = flight.outcome, flight.judgement
     lines = [gantt(outcome)]
     for event in outcome.events:
-        if event.kind in TOLD:
+        if event.kind in _TOLD:
             who = " ".join(filter(None, (event.reactor, event.kind.value, event.timeline)))
             lines.append(f"{event.tick:>7}  {who}: {event_text(event)}\n")
     counts = {kind: sum(event.kind is kind for event in outcome.events) for kind in EventKind}

@@ -7,12 +7,12 @@ from importlib.machinery import SOURCE_SUFFIXES, ExtensionFileLoader, FileFinder
 from pathlib import Path
 from typing import Literal
 
-FOLDER = Path(__file__).resolve().parent
+_FOLDER = Path(__file__).resolve().parent
 
 
 def build_form() -> Literal["compiled", "interpreted"]:
     """Tell in which form this process loads the engine."""
-    loaders = [_loader(name) for name in engine_modules()]
+    loaders = [_loader(name) for name in _engine_modules()]
     compiled = bool(loaders) and all(isinstance(loader, ExtensionFileLoader) for loader in loaders)
     return "compiled" if compiled else "interpreted"
 
@@ -27,10 +27,10 @@ def uncompiled_notice() -> str | None:
     )
 
 
-def engine_modules() -> list[str]:
+def _engine_modules() -> list[str]:
     """Name the modules that a complete build compiles: those with a `.pxd` beside them."""
-    declared = sorted(FOLDER.rglob("*.pxd"))
-    return [".".join((__package__, *path.relative_to(FOLDER).with_suffix("").parts)) for path in declared]
+    declared = sorted(_FOLDER.rglob("*.pxd"))
+    return [".".join((__package__, *path.relative_to(_FOLDER).with_suffix("").parts)) for path in declared]
 
 
 def interpreting_is_asked() -> bool:
@@ -40,7 +40,9 @@ def interpreting_is_asked() -> bool:
 
 def load_interpreted() -> None:
     """From here on, find only sources in the folders of the engine; what is loaded already must not be compiled."""
-    late = [name for name in engine_modules() if name in sys.modules and isinstance(_loader(name), ExtensionFileLoader)]
+    late = [
+        name for name in _engine_modules() if name in sys.modules and isinstance(_loader(name), ExtensionFileLoader)
+    ]
     if late:
         raise RuntimeError(f"`runtime.build_form` must be imported before {', '.join(late)}")
     sys.path_hooks.insert(0, _find_sources)
@@ -56,7 +58,7 @@ def _find_sources(path: str) -> FileFinder:
 
 
 def _is_ours(path: str) -> bool:
-    return Path(path).resolve().is_relative_to(FOLDER)
+    return Path(path).resolve().is_relative_to(_FOLDER)
 
 
 def _loader(name: str) -> object:

@@ -7,7 +7,7 @@ from checker.judge.values import difference, hull
 from nddl_lang.text.source import Span
 from runtime.executive.record import NOBODY, ReactorRecord, TokenRecord, Value, ValueRange
 
-Draw = Callable[[str, int], Value]  # parameter and tick in, value out; UNKNOWN where nothing is drawn
+_Draw = Callable[[str, int], Value]  # parameter and tick in, value out; UNKNOWN where nothing is drawn
 
 
 class Tok:
@@ -43,7 +43,7 @@ class Tok:
 class Bench:
     """Everything that is judged of one reactor."""
 
-    def __init__(self, record: ReactorRecord, final_tick: int, draw: Draw, has_failed: bool = False) -> None:
+    def __init__(self, record: ReactorRecord, final_tick: int, draw: _Draw, has_failed: bool = False) -> None:
         self.reactor = record.reactor
         self.record = record
         self.last_tick = record.last_tick

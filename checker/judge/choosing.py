@@ -33,7 +33,7 @@ class Choosing:
     ) -> int:
         """The key of the token that this child is taken to be; NOBODY for none of the plan."""
         n = len(self.counts)
-        found = candidates(frame, child, pairs, holder, names)
+        found = _candidates(frame, child, pairs, holder, names)
         if may_be_outside(frame.bench, child, pairs, frame.tokens[child.origin]):
             found.append(NOBODY)
         self.counts.append(len(found))
@@ -52,7 +52,7 @@ class Choosing:
         return False
 
 
-def candidates(
+def _candidates(
     frame: BodyFrame, child: Child, pairs: tuple[Demand, ...], holder: Value | None, names: VariableNames
 ) -> list[int]:
     """The tokens of a plan that may be what a rule asks for."""
@@ -65,12 +65,12 @@ def candidates(
             continue
         if holder is not None and not may_be_equal(tok.values[OBJECT], holder):
             continue
-        if origin is None or is_related(pairs, origin, tok):
+        if origin is None or _is_related(pairs, origin, tok):
             found.append(key)
     return found
 
 
-def is_related(pairs: tuple[Demand, ...], origin: Tok, target: Tok) -> bool:
+def _is_related(pairs: tuple[Demand, ...], origin: Tok, target: Tok) -> bool:
     """Whether two tokens may be in a relation."""
     times = (origin.values[START], origin.values[END], target.values[START], target.values[END])
     for first, second, lower, upper in pairs:

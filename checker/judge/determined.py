@@ -7,19 +7,19 @@ from checker.judge.values import UNKNOWN, is_open
 from compiler.program import Constant, GlobalVariable, LocalVariable, Operand, Post, TokenVariable
 from runtime.executive.record import Value
 
-OWN, CHILD, OTHER = range(3)
-EQUALITIES = ("eq", "concurrent")
+_OWN, _CHILD, _OTHER = range(3)
+_EQUALITIES = ("eq", "concurrent")
 
 
 class Determined:
     """Which argument of one constraint the others determine."""
 
     def __init__(self, post: Post, names: VariableNames) -> None:
-        self.owners = [owner(operand, names) for operand in post.operands]
+        self.owners = [_owner(operand, names) for operand in post.operands]
         self.tokens = [operand.token if isinstance(operand, TokenVariable) else 0 for operand in post.operands]
         self.slots = [operand.slot if isinstance(operand, LocalVariable) else -1 for operand in post.operands]
         self.solvers = [solver(post.name, k, len(post.operands)) for k in range(len(post.operands))]
-        self.is_equality = post.name in EQUALITIES
+        self.is_equality = post.name in _EQUALITIES
         self.place = -1
         if post.name in COMPUTED:
             self.place = 0 if COMPUTED[post.name][0] == 0 else len(post.operands) - 1
@@ -46,22 +46,22 @@ class Determined:
         if len(unfixed) != 1 or (unfixed[0] != self.place and not self.is_equality):
             return False
         k = unfixed[0]
-        if self.owners[k] == CHILD:
+        if self.owners[k] == _CHILD:
             tok = frame.tokens[self.tokens[k]]
             return tok is not None and not tok.is_cut
-        return self.owners[k] == OWN and CHILD not in self.owners
+        return self.owners[k] == _OWN and _CHILD not in self.owners
 
 
-def owner(operand: Operand, names: VariableNames) -> int:
+def _owner(operand: Operand, names: VariableNames) -> int:
     """Whose variable an operand is."""
     match operand:
         case TokenVariable(token=token):
-            return CHILD if token else OWN
+            return _CHILD if token else _OWN
         case GlobalVariable(index=index):
-            return OTHER if index == names.clock else OWN
+            return _OTHER if index == names.clock else _OWN
         case LocalVariable():
-            return OWN
+            return _OWN
         case Constant(domain=domain) if domain.values is not None and len(domain.values) == 1:
-            return OWN
+            return _OWN
         case _:
-            return OTHER
+            return _OTHER

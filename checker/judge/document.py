@@ -17,9 +17,9 @@ from runtime.executive.record import (
     ValueRange,
 )
 
-STATES = ("active", "merged", "inactive", "rejected")
-ANY = {"between": [None, None]}
-BRANCHES = ("waiting", "then", "else")
+_STATES = ("active", "merged", "inactive", "rejected")
+_ANY = {"between": [None, None]}
+_BRANCHES = ("waiting", "then", "else")
 
 
 class DocumentError(ValueError):
@@ -38,7 +38,7 @@ def value_data(value: Value) -> Any:
     return value
 
 
-def read_value(data: Any, where: str) -> Value:
+def _read_value(data: Any, where: str) -> Value:
     """The value that `value_data` wrote."""
     match data:
         case bool() | int() | float() | str():
@@ -115,17 +115,17 @@ def read_plan(data: Any, base: ReactorRecord, program: Program) -> ReactorRecord
     given = data.get("globals", {})
     names = [name for name, _ in program.globals]
     if isinstance(given, list):
-        worlds = [read_value(each, "a global variable") for each in given]
+        worlds = [_read_value(each, "a global variable") for each in given]
         if len(worlds) != len(names):
             raise DocumentError(f"the model has {len(names)} global variables, not {len(worlds)}")
     else:
         for name, value in given.items():
             if name not in names:
                 raise DocumentError(f"the model has no global variable `{name}`")
-            worlds[names.index(name)] = read_value(value, f"`{name}`")
+            worlds[names.index(name)] = _read_value(value, f"`{name}`")
     members = data.get("members", {})
     things = tuple(
-        each._replace(members=tuple(read_value(value, f"a member of `{each.name}`") for value in members[each.name]))
+        each._replace(members=tuple(_read_value(value, f"a member of `{each.name}`") for value in members[each.name]))
         if each.name in members
         else each
         for each in base.objects
@@ -148,10 +148,10 @@ def _read_token(data: Any, number: int, program: Program) -> TokenRecord:
     code = next((each for each in program.predicates if each.name == predicate), None)
     if code is None:
         raise DocumentError(f"{where}: the model has no predicate `{predicate}`")
-    start = read_value(data.get("start", ANY), f"{where}: start")
-    end = read_value(data.get("end", ANY), f"{where}: end")
+    start = _read_value(data.get("start", _ANY), f"{where}: start")
+    end = _read_value(data.get("end", _ANY), f"{where}: end")
     length: Value = end - start if isinstance(start, int) and isinstance(end, int) else ValueRange(0, inf)
-    duration = read_value(data["duration"], f"{where}: duration") if "duration" in data else length
+    duration = _read_value(data["duration"], f"{where}: duration") if "duration" in data else length
     given = data.get("arguments", {})
     arguments: list[Value] = [ValueRange(-inf, inf)] * len(code.parameters)
     names = [parameter.name for parameter in code.parameters]
@@ -160,14 +160,14 @@ def _read_token(data: Any, number: int, program: Program) -> TokenRecord:
     for name, value in given.items():
         if name not in names:
             raise DocumentError(f"{where}: `{predicate}` has no parameter `{name}`")
-        arguments[names.index(name)] = read_value(value, f"{where}: `{name}`")
+        arguments[names.index(name)] = _read_value(value, f"{where}: `{name}`")
     state = data.get("state", "active")
-    if state not in STATES:
-        raise DocumentError(f"{where}: `state` is one of {', '.join(STATES)}")
+    if state not in _STATES:
+        raise DocumentError(f"{where}: `state` is one of {', '.join(_STATES)}")
     return TokenRecord(
         key,
         predicate,
-        read_value(_field(data, "object", (str, dict), where), f"{where}: object"),
+        _read_value(_field(data, "object", (str, dict), where), f"{where}: object"),
         state,
         duration,
         start,
@@ -187,11 +187,11 @@ def _read_run(data: Any, where: str, rules: int) -> BodyRun:
         raise DocumentError(f"{where}: the model has no rule {number}")
     guards = []
     for guard in data.get("guards", ()):
-        if guard.get("branch") not in BRANCHES:
-            raise DocumentError(f"{where}: `branch` is one of {', '.join(BRANCHES)}")
+        if guard.get("branch") not in _BRANCHES:
+            raise DocumentError(f"{where}: `branch` is one of {', '.join(_BRANCHES)}")
         run = None if guard.get("run") is None else _read_run(guard["run"], where, rules)
         guards.append(GuardRun(guard["branch"], bool(guard.get("is_decided", True)), run))
-    named = tuple(read_value(each, f"{where}: a local") for each in data.get("locals", ()))
+    named = tuple(_read_value(each, f"{where}: a local") for each in data.get("locals", ()))
     return BodyRun(number, named, tuple(data.get("children", ())), tuple(guards))
 
 

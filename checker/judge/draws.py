@@ -14,31 +14,31 @@ from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.record import Value
 
-WORD = 2**64
-STEP = 0x9E3779B97F4A7C15
-STANDARD = NormalDist()
+_WORD = 2**64
+_STEP = 0x9E3779B97F4A7C15
+_STANDARD = NormalDist()
 
 
 def _stir(word: int) -> int:
-    word = (word ^ word >> 30) * 0xBF58476D1CE4E5B9 % WORD
-    word = (word ^ word >> 27) * 0x94D049BB133111EB % WORD
+    word = (word ^ word >> 30) * 0xBF58476D1CE4E5B9 % _WORD
+    word = (word ^ word >> 27) * 0x94D049BB133111EB % _WORD
     return word ^ word >> 31
 
 
 @lru_cache(maxsize=4096)
-def share(seed: int, name: str, index: int) -> float:
+def _share(seed: int, name: str, index: int) -> float:
     """The number in [0, 1) that the stream of `name` has at `index`."""
     digest = 0xCBF29CE484222325
     for byte in name.encode():
-        digest = (digest ^ byte) * 0x100000001B3 % WORD
-    start = _stir((_stir((seed + STEP) % WORD) + digest) % WORD)
-    return (_stir((start + (index + 1) * STEP) % WORD) >> 11) / 2**53
+        digest = (digest ^ byte) * 0x100000001B3 % _WORD
+    start = _stir((_stir((seed + _STEP) % _WORD) + digest) % _WORD)
+    return (_stir((start + (index + 1) * _STEP) % _WORD) >> 11) / 2**53
 
 
 def drawn(parameter: ParameterConfiguration, seed: int, tick: int) -> Value:
     """The value of a parameter for a token that begins at `tick`; unknown for a distribution that the judge lacks."""
     index = 0 if parameter.mode == "inter" else max(tick, 0) // parameter.update
-    part = share(seed, parameter.name, index)
+    part = _share(seed, parameter.name, index)
     lower, width = parameter.lower, parameter.upper - parameter.lower
     inner = (floor(part * 2**52) + 0.5) / 2**52
     match parameter.distribution:
@@ -47,10 +47,10 @@ def drawn(parameter: ParameterConfiguration, seed: int, tick: int) -> Value:
         case "uniform":
             value = lower + part * width
         case "normal":
-            value = lower + width / 2 + width / 12**0.5 * STANDARD.inv_cdf(inner)
+            value = lower + width / 2 + width / 12**0.5 * _STANDARD.inv_cdf(inner)
         case "truncated_normal":
-            outside = STANDARD.cdf(-(3**0.5))
-            value = lower + width / 2 + width / 12**0.5 * STANDARD.inv_cdf(outside + inner * (1 - 2 * outside))
+            outside = _STANDARD.cdf(-(3**0.5))
+            value = lower + width / 2 + width / 12**0.5 * _STANDARD.inv_cdf(outside + inner * (1 - 2 * outside))
             value = min(max(value, lower), parameter.upper)
         case "discrete":
             value = _picked(parameter, part)

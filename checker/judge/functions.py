@@ -18,22 +18,22 @@ def product_of(*factors: float) -> float:
     return math.prod(factors)
 
 
-def sine(angle: float) -> float:
+def _sine(angle: float) -> float:
     """The sine of an angle in degrees."""
     return math.sin(math.radians(angle))
 
 
-def cosine(angle: float) -> float:
+def _cosine(angle: float) -> float:
     """The cosine of an angle in degrees."""
     return math.cos(math.radians(angle))
 
 
-def root(x: float) -> float:
+def _root(x: float) -> float:
     """The square root; what is below 0 within the tolerance counts as 0."""
     return math.sqrt(max(x, 0.0)) if x > -1e-4 else math.nan
 
 
-def power(a: float, b: float) -> float:
+def _power(a: float, b: float) -> float:
     """A power; not a number where there is none."""
     try:
         return math.pow(a, b)
@@ -41,22 +41,22 @@ def power(a: float, b: float) -> float:
         return math.nan
 
 
-def rest(a: float, b: float) -> float:
+def _rest(a: float, b: float) -> float:
     """The rest of a division, with the sign of the dividend."""
     return math.fmod(a, b) if b else math.nan
 
 
-def logarithm(x: float) -> float:
+def _logarithm(x: float) -> float:
     """The natural logarithm."""
     return math.log(x) if x > 0 else math.nan
 
 
-def exponential(x: float) -> float:
+def _exponential(x: float) -> float:
     """e to the power of x."""
     return math.exp(x) if x < 709 else math.inf
 
 
-def travel_ticks(xa: float, ya: float, xb: float, yb: float, speed: float) -> float:
+def _travel_ticks(xa: float, ya: float, xb: float, yb: float, speed: float) -> float:
     """How long it takes from one point to another, in whole ticks, at least 1."""
     way = math.hypot(xb - xa, yb - ya)
     if speed <= 0:
@@ -78,26 +78,26 @@ COMPUTED: dict[str, tuple[int, Callable[..., float], bool]] = {
     "abs": (0, abs, False),
     "absf": (0, abs, False),
     "neg": (-1, lambda x: -x, True),
-    "sqrt": (0, root, True),
-    "sqrtf": (0, root, True),
+    "sqrt": (0, _root, True),
+    "sqrtf": (0, _root, True),
     "floor": (0, math.floor, True),
     "floorf": (0, math.floor, True),
     "ceil": (0, math.ceil, True),
     "ceilf": (0, math.ceil, True),
     "maxf": (0, max, True),
     "minf": (0, min, True),
-    "pow": (0, power, False),
-    "mod": (0, rest, False),
-    "sin": (0, sine, False),
-    "sinf": (0, sine, False),
-    "cosf": (0, cosine, False),
-    "expf": (0, exponential, True),
-    "logf": (0, logarithm, True),
+    "pow": (0, _power, False),
+    "mod": (0, _rest, False),
+    "sin": (0, _sine, False),
+    "sinf": (0, _sine, False),
+    "cosf": (0, _cosine, False),
+    "expf": (0, _exponential, True),
+    "logf": (0, _logarithm, True),
     "deg_to_rad": (0, math.radians, True),
     "calcDistance": (0, lambda xa, ya, xb, yb: math.hypot(xb - xa, yb - ya), False),
-    "distanceSquares": (-1, lambda a, b: root(a + b), True),
+    "distanceSquares": (-1, lambda a, b: _root(a + b), True),
     "diffSquare": (-1, lambda a, b: (a - b) ** 2, False),
-    "travelTime": (0, travel_ticks, False),
+    "travelTime": (0, _travel_ticks, False),
 }
 
 

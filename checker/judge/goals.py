@@ -19,13 +19,13 @@ def judge_goals(agent: AgentConfiguration, outcome: Outcome, desks: dict[str, tu
             continue
         owner = next((one for one in agent.reactors if goal.timeline in one.internal), None)
         if owner is not None and owner.name in desks:
-            judge_goal(*desks[owner.name], goal)
+            _judge_goal(*desks[owner.name], goal)
 
 
-def judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration) -> None:
+def _judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration) -> None:
     """Judge one goal that counts as achieved."""
     bench.judged += 1
-    fitting = [tok for tok in bench.tokens.values() if is_answer(judge, bench, goal, tok)]
+    fitting = [tok for tok in bench.tokens.values() if _is_answer(judge, bench, goal, tok)]
     if any(not tok.is_cut for tok in fitting):
         return
     values: tuple[tuple[str, Value], ...] = (("timeline", goal.timeline), ("asked from", goal.at))
@@ -34,7 +34,7 @@ def judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration) -> No
     bench.report("goal", goal.predicate, tuple(fitting[:1]), values, "achieved", found, None, is_cut)
 
 
-def is_answer(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, tok: Tok) -> bool:
+def _is_answer(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, tok: Tok) -> bool:
     """Whether a token is what a goal asks for, executed to its end."""
     if not tok.is_planned or tok.record.predicate.rpartition(".")[2] != goal.predicate:
         return False

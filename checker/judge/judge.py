@@ -26,7 +26,7 @@ from runtime.user.constraint import Constraint
 _KNOWN: dict[int, tuple[Program, tuple[Constraint, ...], ProgramJudge]] = {}
 
 
-def judge_of(program: Program, constraints: Sequence[Constraint] = ()) -> ProgramJudge:
+def _judge_of(program: Program, constraints: Sequence[Constraint] = ()) -> ProgramJudge:
     """The program ready to be judged, compiled when first asked for."""
     known = _KNOWN.get(id(program))
     if known is None or known[0] is not program or known[1] != tuple(constraints):
@@ -54,13 +54,13 @@ def judge_mission(
         written = by_name.get(place.name)
         if written is None:
             continue
-        judge = judge_of(program, constraints)
+        judge = _judge_of(program, constraints)
         bench = Bench(written, outcome.final_tick, chance.draw, place.name in failed)
         desks[place.name] = (judge, bench)
-        judge_model(judge, bench)
-        judge_timelines(judge, bench, published(outcome, place.name), place.internal, place.external)
+        _judge_model(judge, bench)
+        judge_timelines(judge, bench, _published(outcome, place.name), place.internal, place.external)
     judge_goals(agent, outcome, desks)
-    return summary([bench for _, bench in desks.values()])
+    return _summary([bench for _, bench in desks.values()])
 
 
 def breaches(report: JudgeReport) -> tuple[Reason, ...]:
@@ -82,27 +82,27 @@ def judge_plan(
 
     `told` names the classes of whose objects all tokens are known; without it the plan has all tokens.
     """
-    judge = judge_of(program, constraints)
+    judge = _judge_of(program, constraints)
     bench = Bench(record, record.last_tick, _undrawn)
     bench.infers = True
     bench.told = told
-    judge_model(judge, bench)
+    _judge_model(judge, bench)
     judge_timelines(judge, bench, {}, (), ())
-    return summary([bench])
+    return _summary([bench])
 
 
 def _undrawn(parameter: str, tick: int) -> Value:
     return UNKNOWN
 
 
-def judge_model(judge: ProgramJudge, bench: Bench) -> None:
+def _judge_model(judge: ProgramJudge, bench: Bench) -> None:
     """Judge the script, the tokens with their rules, and the resources of one reactor."""
-    judge_script(judge, bench)
+    _judge_script(judge, bench)
     judge_tokens(judge, bench)
     judge_resources(judge, bench)
 
 
-def judge_script(judge: ProgramJudge, bench: Bench) -> None:
+def _judge_script(judge: ProgramJudge, bench: Bench) -> None:
     """Judge global variables and the constraints of the script."""
     for k, name, test in judge.globals:
         value = bench.globals[k]
@@ -117,7 +117,7 @@ def judge_script(judge: ProgramJudge, bench: Bench) -> None:
         step(frame)
 
 
-def published(outcome: Outcome, reactor: str) -> History:
+def _published(outcome: Outcome, reactor: str) -> History:
     """What was published, as `reactor` came to see it: news of a late death come with the next tick."""
     found: dict[str, dict[int, PublishedValue]] = {}
     deaths = {(e.tick, e.reactor) for e in outcome.events if e.kind is EventKind.KILL}
@@ -134,7 +134,7 @@ def published(outcome: Outcome, reactor: str) -> History:
     return {timeline: list(ticks.values()) for timeline, ticks in found.items()}
 
 
-def summary(benches: Sequence[Bench]) -> JudgeReport:
+def _summary(benches: Sequence[Bench]) -> JudgeReport:
     """The report of some reactors together."""
     skipped: dict[str, int] = {}
     for bench in benches:

@@ -27,7 +27,7 @@ def equal(a: Value, b: Value) -> bool | None:
     return is_near(a, b)
 
 
-def differ(a: Value, b: Value) -> bool | None:
+def _differ(a: Value, b: Value) -> bool | None:
     """Whether `a` differs from `b`; reals that are near may do either."""
     if isinstance(a, tuple) or isinstance(b, tuple):
         return None if may_be_equal(a, b) else True
@@ -38,7 +38,7 @@ def differ(a: Value, b: Value) -> bool | None:
     return None if is_near(a, b) else True
 
 
-def at_most(a: Value, b: Value) -> bool | None:
+def _at_most(a: Value, b: Value) -> bool | None:
     """Whether `a <= b`."""
     if not isinstance(a, (tuple, str)) and not isinstance(b, (tuple, str)):
         if a <= b:
@@ -52,7 +52,7 @@ def at_most(a: Value, b: Value) -> bool | None:
     return True if ours[1] <= theirs[0] else None
 
 
-def below(a: Value, b: Value) -> bool | None:
+def _below(a: Value, b: Value) -> bool | None:
     """Whether `a < b`."""
     if not isinstance(a, (tuple, str)) and not isinstance(b, (tuple, str)):
         if a < b:
@@ -76,55 +76,55 @@ def is_true(value: Value) -> bool | None:
 # ---- logic ----
 
 
-def all_of(answers: list[bool | None]) -> bool | None:
+def _all_of(answers: list[bool | None]) -> bool | None:
     """Conjunction."""
     if False in answers:
         return False
     return None if None in answers else True
 
 
-def any_of(answers: list[bool | None]) -> bool | None:
+def _any_of(answers: list[bool | None]) -> bool | None:
     """Disjunction."""
     if True in answers:
         return True
     return None if None in answers else False
 
 
-def equals(*values: Value) -> bool | None:
+def _equals(*values: Value) -> bool | None:
     """All are equal."""
     if len(values) == 2:
         return equal(values[0], values[1])
-    return all_of([equal(values[0], each) for each in values[1:]])
+    return _all_of([equal(values[0], each) for each in values[1:]])
 
 
-def all_differ(*values: Value) -> bool | None:
+def _all_differ(*values: Value) -> bool | None:
     """No two are equal."""
-    return all_of([differ(a, b) for k, a in enumerate(values) for b in values[k + 1 :]])
+    return _all_of([_differ(a, b) for k, a in enumerate(values) for b in values[k + 1 :]])
 
 
-def disjunction(*values: Value) -> bool | None:
+def _disjunction(*values: Value) -> bool | None:
     """At least one is true."""
-    return any_of([is_true(each) for each in values])
+    return _any_of([is_true(each) for each in values])
 
 
-def tells(truth: Value, answer: bool | None) -> bool | None:
+def _tells(truth: Value, answer: bool | None) -> bool | None:
     """Whether `truth` is the answer."""
     said = is_true(truth)
     return None if said is None or answer is None else said == answer
 
 
-def reified(meaning: Meaning) -> Meaning:
+def _reified(meaning: Meaning) -> Meaning:
     """The constraint whose first argument tells whether the rest satisfy `meaning`."""
 
     def check(truth: Value, *rest: Value) -> bool | None:
-        return tells(truth, meaning(*rest))
+        return _tells(truth, meaning(*rest))
 
     return check
 
 
-def both(a: Value, b: Value) -> bool | None:
+def _both(a: Value, b: Value) -> bool | None:
     """Conjunction of two truth values."""
-    return all_of([is_true(a), is_true(b)])
+    return _all_of([is_true(a), is_true(b)])
 
 
 def negation(a: Value) -> bool | None:
@@ -133,7 +133,7 @@ def negation(a: Value) -> bool | None:
     return None if said is None else not said
 
 
-def counted(number: Value, answers: list[bool | None]) -> bool | None:
+def _counted(number: Value, answers: list[bool | None]) -> bool | None:
     """Whether `number` of the answers are true."""
     least, most = answers.count(True), len(answers) - answers.count(False)
     if not lies_within(number, least, most):
@@ -141,85 +141,85 @@ def counted(number: Value, answers: list[bool | None]) -> bool | None:
     return True if least == most and not is_open(number) else None
 
 
-def count_zeroes(number: Value, *values: Value) -> bool | None:
+def _count_zeroes(number: Value, *values: Value) -> bool | None:
     """`number` of the rest are 0."""
-    return counted(number, [negation(each) for each in values])
+    return _counted(number, [negation(each) for each in values])
 
 
-def count_others(number: Value, *values: Value) -> bool | None:
+def _count_others(number: Value, *values: Value) -> bool | None:
     """`number` of the rest are not 0."""
-    return counted(number, [is_true(each) for each in values])
+    return _counted(number, [is_true(each) for each in values])
 
 
 # ---- times ----
 
 
-def distance(earlier: Value, gap: Value, later: Value) -> bool | None:
+def _distance(earlier: Value, gap: Value, later: Value) -> bool | None:
     """`later - earlier` lies in `gap`."""
     return conforms(later, sum_of, (earlier, gap))
 
 
-def within_bounds(x: Value, lower: Value, upper: Value) -> bool | None:
+def _within_bounds(x: Value, lower: Value, upper: Value) -> bool | None:
     """The least of `lower` <= x <= the greatest of `upper`."""
     ends = hull(lower), hull(upper)
     return None if ends[0] is None or ends[1] is None else lies_within(x, ends[0][0], ends[1][1]) or False
 
 
-def computed(place: int, function: Callable[..., float], monotone: bool) -> Meaning:
+def _computed(place: int, function: Callable[..., float], monotone: bool) -> Meaning:
     """The constraint that the argument at `place` is the function of the others."""
     if place == 0:
         return lambda result, *inputs: conforms(result, function, inputs, monotone)
     return lambda *values: conforms(values[-1], function, values[:-1], monotone)
 
 
-def quotient(a: Value, b: Value, result: Value) -> bool | None:
+def _quotient(a: Value, b: Value, result: Value) -> bool | None:
     """`a ÷ b` without rest."""
     return False if b == 0 else conforms(a, product_of, (b, result))
 
 
-def random_number(result: Value) -> bool | None:
+def _random_number(result: Value) -> bool | None:
     """A whole number of 16 bits."""
     return lies_within(result, 0, 32767) or False
 
 
-def listed(x: Value, y: Value) -> bool | None:
+def _listed(x: Value, y: Value) -> bool | None:
     """x takes only values that y may take."""
     return None if may_be_equal(x, y) else False
 
 
-def sane(latitude: Value, longitude: Value, *_: Value) -> bool | None:
+def _sane(latitude: Value, longitude: Value, *_: Value) -> bool | None:
     """A position on the earth."""
     return lies_within(latitude, -90, 90) and lies_within(longitude, -360, 360)
 
 
 MEANINGS: dict[str, Meaning] = {
-    **{name: computed(*row) for name, row in COMPUTED.items()},
-    "eq": equals,
+    **{name: _computed(*row) for name, row in COMPUTED.items()},
+    "eq": _equals,
     "concurrent": equal,
-    "neq": differ,
-    "leq": at_most,
-    "precedes": at_most,
-    "lt": below,
-    "strictlyPrecedes": below,
-    "temporalDistance": distance,
-    "divEq": quotient,
-    "rand": random_number,
-    "withinBounds": within_bounds,
-    "allDiff": all_differ,
-    "or": disjunction,
-    "countZeroes": count_zeroes,
-    "countNonZeroes": count_others,
-    "subsetOf": listed,
-    "testEq": reified(equal),
-    "testNeq": reified(differ),
-    "testLeq": reified(at_most),
-    "testLessThan": reified(below),
-    "testAnd": reified(both),
-    "testOr": reified(disjunction),
-    "testNot": reified(negation),
-    "condAllDiff": reified(all_differ),
-    "condEq": reified(equals),
-    "sane_pos": sane,
+    "neq": _differ,
+    "leq": _at_most,
+    "precedes": _at_most,
+    "lt": _below,
+    "strictlyPrecedes": _below,
+    "temporalDistance": _distance,
+    "divEq": _quotient,
+    "rand": _random_number,
+    "withinBounds": _within_bounds,
+    "allDiff": _all_differ,
+    "or": _disjunction,
+    "countZeroes": _count_zeroes,
+    "countNonZeroes": _count_others,
+    "subsetOf": _listed,
+    "testEq": _reified(equal),
+    "testNeq": _reified(_differ),
+    "testLeq": _reified(_at_most),
+    "testLessThan": _reified(_below),
+    "testAnd": _reified(_both),
+    "testOr": _reified(_disjunction),
+    "testNot": _reified(negation),
+    "condAllDiff": _reified(_all_differ),
+    "condEq": _reified(_equals),
+    "sane_pos": _sane,
 }
 
 # Constraints that say nothing about values.
@@ -227,12 +227,12 @@ SILENT = frozenset({"isExternal", "isInternal", "ll_offset", "is_empty", "car", 
 
 TESTS: dict[str, Meaning] = {
     "testEq": equal,
-    "testNeq": differ,
-    "testLeq": at_most,
-    "testLessThan": below,
-    "testAnd": both,
-    "testOr": disjunction,
+    "testNeq": _differ,
+    "testLeq": _at_most,
+    "testLessThan": _below,
+    "testAnd": _both,
+    "testOr": _disjunction,
     "testNot": negation,
-    "condAllDiff": all_differ,
-    "condEq": equals,
+    "condAllDiff": _all_differ,
+    "condEq": _equals,
 }

@@ -26,7 +26,7 @@ from compiler.program import (
 from runtime.executive.record import BodyRun, GuardRun, OpenValues, Value, ValueRange
 
 BUILT_IN = {STATE: "state", OBJECT: "object", DURATION: "duration", START: "start", END: "end"}
-ENDLESS = 2**51
+_ENDLESS = 2**51
 
 
 class BodyFrame:
@@ -104,7 +104,7 @@ def domain_value(domain: DomainConstant) -> Value:
     lower, upper = domain.interval
     if lower == upper:
         return float(lower) if domain.kind == "float" else lower
-    return ValueRange(-inf if lower <= -ENDLESS else lower, inf if upper >= ENDLESS else upper)
+    return ValueRange(-inf if lower <= -_ENDLESS else lower, inf if upper >= _ENDLESS else upper)
 
 
 def reader(operand: Operand, names: VariableNames) -> Read:
@@ -125,7 +125,7 @@ def reader(operand: Operand, names: VariableNames) -> Read:
             return _field_reader(None if base is None else reader(base, names), members, names)
         case UnionOf(operands=operands):
             parts = [reader(each, names) for each in operands]
-            return lambda frame: united([part(frame) for part in parts])
+            return lambda frame: _united([part(frame) for part in parts])
         case _:
             assert_never(operand)
 
@@ -154,13 +154,13 @@ def _field_reader(base: Read | None, members: tuple[str, ...], names: VariableNa
             return UNKNOWN
         value = base(frame)
         for name in members:
-            value = member(frame.bench, names, value, name)
+            value = _member(frame.bench, names, value, name)
         return value
 
     return read
 
 
-def member(bench: Bench, names: VariableNames, thing: Value, name: str) -> Value:
+def _member(bench: Bench, names: VariableNames, thing: Value, name: str) -> Value:
     """The member called `name` of an object, or of each that it may be."""
     if isinstance(thing, ValueRange):
         return UNKNOWN
@@ -174,10 +174,10 @@ def member(bench: Bench, names: VariableNames, thing: Value, name: str) -> Value
         if not places:
             return UNKNOWN
         found.append(values[places[0]])
-    return united(found)
+    return _united(found)
 
 
-def united(values: list[Value]) -> Value:
+def _united(values: list[Value]) -> Value:
     """A value that may be any of `values`."""
     if len(values) == 1 or (values and all(each == values[0] for each in values)):
         return values[0]

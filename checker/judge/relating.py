@@ -64,15 +64,15 @@ def child_step(child: Child, names: VariableNames) -> Step:
         if tok.is_cut or first.is_cut:
             bench.skip("a token that was cut off by a repair")
             return
-        if not tok.is_planned and is_due(bench, first, tok, pairs):
+        if not tok.is_planned and _is_due(bench, first, tok, pairs):
             bench.report("child", label, (parent, tok), (), tok.record.state, "was due and never came", child.span)
             return
-        relate(frame, child.relation, pairs, first, tok, child.span)
+        _relate(frame, child.relation, pairs, first, tok, child.span)
 
     return step
 
 
-def is_due(bench: Bench, origin: Tok, tok: Tok, pairs: tuple[tuple[int, int, float, float], ...]) -> bool:
+def _is_due(bench: Bench, origin: Tok, tok: Tok, pairs: tuple[tuple[int, int, float, float], ...]) -> bool:
     """Whether a relation to a token in the plan leaves no time after the last tick for `tok` to begin or end."""
     if not origin.is_planned or bench.has_failed:
         return False
@@ -92,7 +92,7 @@ def is_due(bench: Bench, origin: Tok, tok: Tok, pairs: tuple[tuple[int, int, flo
     return False
 
 
-def relate(
+def _relate(
     frame: BodyFrame, name: str, pairs: tuple[tuple[int, int, float, float], ...], origin: Tok, target: Tok, span: Span
 ) -> None:
     """Judge a relation between two tokens."""
@@ -131,6 +131,6 @@ def relate_step(given: Relate) -> Step:
         elif origin.is_cut or target.is_cut:
             frame.bench.skip("a token that was cut off by a repair")
         else:
-            relate(frame, given.relation, pairs, origin, target, given.span)
+            _relate(frame, given.relation, pairs, origin, target, given.span)
 
     return step

@@ -3,7 +3,7 @@
 from math import inf
 
 # Times of the origin and of the target; a demand is: lower <= second - first <= upper.
-OS, OE, TS, TE = range(4)
+OS, OE, _TS, TE = range(4)
 Demand = tuple[int, int, float, float]
 
 
@@ -21,30 +21,30 @@ def _earlier(first: int, second: int) -> Demand:
 
 DEMANDS: dict[str, tuple[Demand, ...]] = {
     "any": (),
-    "before": (_not_after(OE, TS),),
+    "before": (_not_after(OE, _TS),),
     "after": (_not_after(TE, OS),),
-    "meets": (_same(OE, TS),),
+    "meets": (_same(OE, _TS),),
     "met_by": (_same(TE, OS),),
-    "starts": (_same(OS, TS),),
+    "starts": (_same(OS, _TS),),
     "ends": (_same(OE, TE),),
-    "equals": (_same(OS, TS), _same(OE, TE)),
-    "contains": (_not_after(OS, TS), _not_after(TE, OE)),
-    "contained_by": (_not_after(TS, OS), _not_after(OE, TE)),
-    "parallels": (_not_after(OS, TS), _not_after(OE, TE)),
-    "paralleled_by": (_not_after(TS, OS), _not_after(TE, OE)),
-    "starts_before": (_earlier(OS, TS),),
-    "starts_after": (_earlier(TS, OS),),
+    "equals": (_same(OS, _TS), _same(OE, TE)),
+    "contains": (_not_after(OS, _TS), _not_after(TE, OE)),
+    "contained_by": (_not_after(_TS, OS), _not_after(OE, TE)),
+    "parallels": (_not_after(OS, _TS), _not_after(OE, TE)),
+    "paralleled_by": (_not_after(_TS, OS), _not_after(TE, OE)),
+    "starts_before": (_earlier(OS, _TS),),
+    "starts_after": (_earlier(_TS, OS),),
     "starts_before_end": (_earlier(OS, TE),),
-    "starts_during": (_not_after(TS, OS), _earlier(OS, TE)),
+    "starts_during": (_not_after(_TS, OS), _earlier(OS, TE)),
     "ends_before": (_earlier(OE, TE),),
     "ends_after": (_earlier(TE, OE),),
-    "ends_after_start": (_earlier(TS, OE),),
-    "ends_during": (_earlier(TS, OE), _not_after(OE, TE)),
-    "contains_start": (_not_after(OS, TS), _earlier(TS, OE)),
+    "ends_after_start": (_earlier(_TS, OE),),
+    "ends_during": (_earlier(_TS, OE), _not_after(OE, TE)),
+    "contains_start": (_not_after(OS, _TS), _earlier(_TS, OE)),
     "contains_end": (_earlier(OS, TE), _not_after(TE, OE)),
 }
 
-ENDLESS = 2**51  # bounds from here on are none
+_ENDLESS = 2**51  # bounds from here on are none
 
 
 def demands(relation: str, bounds: tuple[tuple[int, int], ...]) -> tuple[Demand, ...]:
@@ -53,5 +53,5 @@ def demands(relation: str, bounds: tuple[tuple[int, int], ...]) -> tuple[Demand,
     for k, (first, second, lower, upper) in enumerate(DEMANDS[relation]):
         if k < len(bounds):
             lower, upper = bounds[k]
-        found.append((first, second, -inf if lower <= -ENDLESS else lower, inf if upper >= ENDLESS else upper))
+        found.append((first, second, -inf if lower <= -_ENDLESS else lower, inf if upper >= _ENDLESS else upper))
     return tuple(found)

@@ -19,12 +19,12 @@ class DisagreementError(Exception):
         super().__init__(disagreement_text(report.errors[0]) + others)
 
 
-def value_text(value: Value) -> str:
+def _value_text(value: Value) -> str:
     """A value as reports print it: `[lo hi]` and `{a, b}` for what was never fixed."""
     if isinstance(value, ValueRange):
         return f"[{_bound(value.lower)} {_bound(value.upper)}]"
     if isinstance(value, OpenValues):
-        return "{" + ", ".join(value_text(each) for each in value.values) + "}"
+        return "{" + ", ".join(_value_text(each) for each in value.values) + "}"
     if isinstance(value, bool):
         return "true" if value else "false"
     return value if isinstance(value, str) else repr(value)
@@ -36,21 +36,21 @@ def _bound(number: float) -> str:
     return repr(int(number)) if number == int(number) else repr(number)
 
 
-def place_text(span: Span) -> str:
+def _place_text(span: Span) -> str:
     """File and line of a stretch of a model."""
     return f"{PurePath(span.source.name).name}:{span.line}"
 
 
 def disagreement_text(one: Disagreement) -> str:
     """One disagreement in one line."""
-    where = f"{place_text(one.span)}: " if one.span is not None else ""
+    where = f"{_place_text(one.span)}: " if one.span is not None else ""
     who = f" ({', '.join(one.tokens)})" if one.tokens else ""
-    values = ", ".join(f"{name} = {value_text(value)}" if name else value_text(value) for name, value in one.values)
+    values = ", ".join(f"{name} = {_value_text(value)}" if name else _value_text(value) for name, value in one.values)
     return f"{one.reactor}: {where}{_claim(one)}{who}{f': {values}' if values else ''}"
 
 
 def _claim(one: Disagreement) -> str:
-    line = f"`{first_line(one.span.text)}`" if one.span is not None else f"`{one.name}`"
+    line = f"`{_first_line(one.span.text)}`" if one.span is not None else f"`{one.name}`"
     match one.kind:
         case "constraint" | "relation":
             left_open = "fixes a value that was left open"
@@ -67,7 +67,7 @@ def _claim(one: Disagreement) -> str:
             return f"{one.kind} `{one.name}`: {one.held}, but {one.found}"
 
 
-def disagreement_data(one: Disagreement) -> dict[str, Any]:
+def _disagreement_data(one: Disagreement) -> dict[str, Any]:
     """One disagreement as JSON."""
     data: dict[str, Any] = {
         "kind": one.kind,
@@ -87,14 +87,14 @@ def report_data(report: JudgeReport) -> dict[str, Any]:
     """A judgement as JSON."""
     return {
         "holds": report.holds,
-        "disagreements": [disagreement_data(one) for one in report.disagreements],
+        "disagreements": [_disagreement_data(one) for one in report.disagreements],
         "judged": report.judged,
         "open": report.open,
         "skipped": [{"reason": reason, "count": count} for reason, count in report.skipped],
     }
 
 
-def first_line(text: str) -> str:
+def _first_line(text: str) -> str:
     """The first line of a piece of a model, without its block."""
     return text.partition("\n")[0].rstrip("{ ").strip()
 

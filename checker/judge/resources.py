@@ -11,7 +11,7 @@ from compiler.program import END, FIRST_PARAMETER, START, Call
 from nddl_lang.text.source import Span
 from runtime.executive.record import Value, ValueRange
 
-RESOURCES = frozenset({"Reservoir", "Reusable", "CBReusable", "Unary"})
+_RESOURCES = frozenset({"Reservoir", "Reusable", "CBReusable", "Unary"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class ResourceLimits:
 
 def judge_resources(judge: ProgramJudge, bench: Bench) -> None:
     """Judge the level of each resource of a reactor."""
-    kinds = {code.name: code.native for code in judge.program.classes if code.native in RESOURCES}
+    kinds = {code.name: code.native for code in judge.program.classes if code.native in _RESOURCES}
     if not kinds:
         return
     if any(isinstance(step, Call) and step.method in ("set_capacity", "set_limit") for step in judge.program.script):
@@ -50,14 +50,14 @@ def judge_resources(judge: ProgramJudge, bench: Bench) -> None:
         if thing.class_name not in kinds:
             continue
         members = [member.name for member in judge.names.classes[thing.class_name].members]
-        limits = limits_of(str(kinds[thing.class_name]), dict(zip(members, thing.members, strict=True)))
+        limits = _limits_of(str(kinds[thing.class_name]), dict(zip(members, thing.members, strict=True)))
         if limits is None:
             bench.skip("a resource whose limits were never fixed")
         else:
-            judge_level(bench, thing.name, limits, list(uses_of(bench, thing.name)))
+            _judge_level(bench, thing.name, limits, list(_uses_of(bench, thing.name)))
 
 
-def limits_of(kind: str, members: dict[str, Value]) -> ResourceLimits | None:
+def _limits_of(kind: str, members: dict[str, Value]) -> ResourceLimits | None:
     """The limits of a resource; None if one of them was never fixed."""
     found: dict[str, float] = {}
     for name, value in members.items():
@@ -74,7 +74,7 @@ def limits_of(kind: str, members: dict[str, Value]) -> ResourceLimits | None:
     return ResourceLimits(found["capacity"], found["levelLimitMin"], inf, *flows)
 
 
-def uses_of(bench: Bench, resource: str) -> Iterator[ResourceUse]:
+def _uses_of(bench: Bench, resource: str) -> Iterator[ResourceUse]:
     """What was executed on a resource, by tokens of its own and by `uses` in rules."""
     for tok in bench.tokens.values():
         record = tok.record
@@ -103,7 +103,7 @@ def _use(
         yield ResourceUse(start, end if isinstance(end, int) else bench.last_tick + 1, -float(quantity), tok, span)
 
 
-def judge_level(bench: Bench, resource: str, limits: ResourceLimits, uses: list[ResourceUse]) -> None:
+def _judge_level(bench: Bench, resource: str, limits: ResourceLimits, uses: list[ResourceUse]) -> None:
     """Judge the level at each instant at which it changes, and the flows."""
     changes: dict[int, float] = {}
     drawn: dict[int, float] = {}

@@ -8,7 +8,7 @@ from checker.judge.meanings import TESTS, negation
 from runtime.executive.record import Value, ValueRange
 
 
-def evaluate(function: Callable[..., float], inputs: tuple[Value, ...], monotone: bool) -> Value:
+def _evaluate(function: Callable[..., float], inputs: tuple[Value, ...], monotone: bool) -> Value:
     """The value of a function; an interval where an input is open."""
     if not has_open(inputs):
         return function(*inputs)
@@ -27,24 +27,24 @@ def solver(name: str, place: int, count: int) -> Callable[..., Value] | None:
         return lambda *rest: _truth(test(*rest))
     if name in COMPUTED and place == (COMPUTED[name][0] if COMPUTED[name][0] == 0 else count - 1):
         _, function, monotone = COMPUTED[name]
-        return lambda *rest: evaluate(function, rest, monotone)
+        return lambda *rest: _evaluate(function, rest, monotone)
     match name, place:
         case "addEq", _:  # of sum and the other term
-            return lambda other, total: evaluate(lambda a, b: b - a, (other, total), True)
+            return lambda other, total: _evaluate(lambda a, b: b - a, (other, total), True)
         case "divEq", 2:
-            return lambda a, b: evaluate(_divide, (a, b), False)
+            return lambda a, b: _evaluate(_divide, (a, b), False)
         case "neg", 0:
-            return lambda x: evaluate(lambda a: -a, (x,), True)
+            return lambda x: _evaluate(lambda a: -a, (x,), True)
         case (("eq" | "concurrent"), _) if count == 2:
             return lambda x: x
         case "neq", 0:
             return lambda x: _truth(negation(x))
         case "temporalDistance", 1:
-            return lambda earlier, later: evaluate(lambda a, b: b - a, (earlier, later), True)
+            return lambda earlier, later: _evaluate(lambda a, b: b - a, (earlier, later), True)
         case "temporalDistance", 2:
-            return lambda earlier, gap: evaluate(sum_of, (earlier, gap), True)
+            return lambda earlier, gap: _evaluate(sum_of, (earlier, gap), True)
         case "temporalDistance", 0:
-            return lambda gap, later: evaluate(lambda a, b: b - a, (gap, later), True)
+            return lambda gap, later: _evaluate(lambda a, b: b - a, (gap, later), True)
         case _:
             return None
 

@@ -95,14 +95,14 @@ def domain_test(type_: TypeCode, domain: DomainConstant | None, names: VariableN
 
     def test(bench: Bench, value: Value) -> bool | None:
         for limit in limits:
-            if not within(value, limit):
+            if not _within(value, limit):
                 return False
         return None if is_open(value) else True
 
     return test
 
 
-def within(value: Value, limit: Value) -> bool:
+def _within(value: Value, limit: Value) -> bool:
     """Whether a value may lie in a set of values."""
     if isinstance(limit, ValueRange):
         return lies_within(value, limit.lower, limit.upper)
@@ -161,7 +161,7 @@ def _assign(given: Assign, names: VariableNames) -> Step:
 
     def step(frame: BodyFrame) -> None:
         value = target(frame)
-        if limit is not None and not frame.bench.weigh(within(value, limit)):
+        if limit is not None and not frame.bench.weigh(_within(value, limit)):
             _note(frame, "domain", name, ((name, value),), "assigned", "another value", given.span)
         if source is not None and may_be_equal(value, source(frame)):
             frame.bench.judged += 1
@@ -355,7 +355,7 @@ def _loop(loop: ObjectLoop, names: VariableNames, written: Written, undefined: s
         if isinstance(things, ValueRange):
             frame.bench.skip("a loop over objects that are not on record")
             return
-        for each in in_order(frame.bench, things):
+        for each in _in_order(frame.bench, things):
             frame.slots[loop.slot] = each
             for inner in body:
                 inner(frame)
@@ -363,7 +363,7 @@ def _loop(loop: ObjectLoop, names: VariableNames, written: Written, undefined: s
     return step
 
 
-def in_order(bench: Bench, things: Value) -> list[str]:
+def _in_order(bench: Bench, things: Value) -> list[str]:
     """Objects in the order of their making."""
     wanted = {str(each) for each in things.values} if isinstance(things, OpenValues) else {str(things)}
     return [name for name in bench.members if name in wanted]

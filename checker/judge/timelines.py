@@ -10,8 +10,8 @@ from compiler.program import END, FIRST_PARAMETER, START
 from runtime.executive.messages import Arguments
 from runtime.executive.record import Value
 
-UNDEFINED = "undefined"
-GAPLESS = "something holds at every tick"
+_UNDEFINED = "undefined"
+_GAPLESS = "something holds at every tick"
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +27,7 @@ class PublishedValue:
 History = dict[str, list[PublishedValue]]  # by timeline; of several in one tick the last
 
 
-def sequences(judge: ProgramJudge, bench: Bench) -> dict[str, list[Tok]]:
+def _sequences(judge: ProgramJudge, bench: Bench) -> dict[str, list[Tok]]:
     """The tokens that have begun on each timeline, in order."""
     found: dict[str, list[Tok]] = {}
     for tok in bench.tokens.values():
@@ -57,20 +57,20 @@ def judge_timelines(
     judge: ProgramJudge, bench: Bench, history: History, internal: tuple[str, ...], external: tuple[str, ...]
 ) -> None:
     """Judge all timelines of a reactor."""
-    found = sequences(judge, bench)
+    found = _sequences(judge, bench)
     for timeline, tokens in found.items():
-        judge_order(bench, timeline, tokens, timeline in internal or timeline in external)
+        _judge_order(bench, timeline, tokens, timeline in internal or timeline in external)
     for timeline in (*internal, *external):
         published = [one for one in history.get(timeline, ()) if one.tick <= bench.last_tick]
-        judge_observations(judge, bench, timeline, found.get(timeline, []), published, timeline in internal)
+        _judge_observations(judge, bench, timeline, found.get(timeline, []), published, timeline in internal)
 
 
-def judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool) -> None:
+def _judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool) -> None:
     """Tokens of a timeline follow each other; on a shared one without a gap."""
     before: Tok | None = None
     for tok in tokens:
         bench.judged += 1
-        if before is not None and not is_cut_short(before):
+        if before is not None and not _is_cut_short(before):
             start = tok.values[START]
             if before.values[END] == start:
                 before = tok
@@ -82,22 +82,22 @@ def judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool)
                 if ends[0] > start:
                     bench.report("overlap", timeline, (before, tok), values, "one after the other", "both at once")
                 elif is_shared and ends[1] < start:
-                    bench.report("gap", timeline, (before, tok), values, GAPLESS, "nothing does")
+                    bench.report("gap", timeline, (before, tok), values, _GAPLESS, "nothing does")
         before = tok
-    if before is not None and is_shared and not is_cut_short(before):
+    if before is not None and is_shared and not _is_cut_short(before):
         ends = hull(before.values[END])
         if ends is not None and ends[1] <= bench.last_tick:
             values = ((f"{before.name}.end", before.values[END]), ("last tick", bench.last_tick))
-            bench.report("gap", timeline, (before,), values, GAPLESS, "nothing does")
+            bench.report("gap", timeline, (before,), values, _GAPLESS, "nothing does")
 
 
-def is_cut_short(tok: Tok) -> bool:
+def _is_cut_short(tok: Tok) -> bool:
     """Whether a repair took a token away before its end, which then is not known."""
     end = tok.record.end
     return tok.is_cut and not (isinstance(end, int) and end <= tok.record.tick)
 
 
-def judge_observations(
+def _judge_observations(
     judge: ProgramJudge, bench: Bench, timeline: str, tokens: list[Tok], published: list[PublishedValue], is_own: bool
 ) -> None:
     """Every token begins with a publication, and every publication begins a token with what was published."""
@@ -108,14 +108,14 @@ def judge_observations(
         if not tok.is_cut or start not in begun:
             begun[start] = tok
     told = {one.tick: one for one in published}
-    seen = told if is_own else observed(bench, timeline)
+    seen = told if is_own else _observed(bench, timeline)
     for tick, one in told.items():
         bench.judged += 1
         held = begun.get(tick)
         if held is None:
             values: tuple[tuple[str, Value], ...] = (("tick", tick), ("published", one.predicate))
             bench.report("observation", timeline, (), values, "nothing begins", f"{one.owner} published it")
-        elif not agrees(judge, held, one, is_own):
+        elif not _agrees(judge, held, one, is_own):
             values = (("tick", tick), ("published", one.predicate), *_told(one))
             bench.report("observation", timeline, (held,), values, held.record.predicate, one.predicate)
         elif tick not in seen:
@@ -126,7 +126,7 @@ def judge_observations(
             bench.report("observation", timeline, (tok,), (("tick", tick),), "it begins", "nobody published it")
 
 
-def observed(bench: Bench, timeline: str) -> set[int]:
+def _observed(bench: Bench, timeline: str) -> set[int]:
     """The ticks at which a reactor took note of something on a timeline of another."""
     return {
         tok.record.start
@@ -136,11 +136,11 @@ def observed(bench: Bench, timeline: str) -> set[int]:
     }
 
 
-def agrees(judge: ProgramJudge, tok: Tok, one: PublishedValue, is_own: bool) -> bool:
+def _agrees(judge: ProgramJudge, tok: Tok, one: PublishedValue, is_own: bool) -> bool:
     """Whether a token holds what was published; what a user's model has no place for is `undefined` there."""
     held = tok.record.predicate.rpartition(".")[2]
     if held != one.predicate:
-        return held == UNDEFINED and not is_own and not fits(judge, tok, one)
+        return held == _UNDEFINED and not is_own and not _fits(judge, tok, one)
     if not one.arguments:
         return True
     parameters = judge.predicates[tok.record.predicate].code.parameters
@@ -151,7 +151,7 @@ def agrees(judge: ProgramJudge, tok: Tok, one: PublishedValue, is_own: bool) -> 
     )
 
 
-def fits(judge: ProgramJudge, tok: Tok, one: PublishedValue) -> bool:
+def _fits(judge: ProgramJudge, tok: Tok, one: PublishedValue) -> bool:
     """Whether the user's model certainly has a place for what was published."""
     class_name = tok.record.predicate.rpartition(".")[0]
     known = judge.predicates.get(f"{class_name}.{one.predicate}")

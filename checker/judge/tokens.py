@@ -14,7 +14,7 @@ from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode,
 from nddl_lang.text.source import Span
 from runtime.executive.record import BodyRun, Value
 
-LONGEST = float("inf")
+_LONGEST = float("inf")
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -126,7 +126,7 @@ def _judge_token(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
         return
     if bench.infers and not record.runs:
         for number in known.rules:
-            find_run(bench, tok, judge.rules[number])
+            _find_run(bench, tok, judge.rules[number])
         return
     if not _has_fired(bench, tok, known, record.runs):
         return
@@ -138,7 +138,7 @@ def _judge_token(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
             step(frame)
 
 
-def find_run(bench: Bench, tok: Tok, rule: RuleJudge) -> None:
+def _find_run(bench: Bench, tok: Tok, rule: RuleJudge) -> None:
     """Judge a rule whose run nobody recorded: under some choice of its children all of it must hold."""
     choosing = Choosing()
     before = len(bench.found)
@@ -191,7 +191,7 @@ def _judge_times(bench: Bench, tok: Tok, least: int, span: Span | None) -> None:
             return
     length = lasting(tok)
     is_known = isinstance(record.duration, int) or not isinstance(length, int)
-    if not (is_known and lies_within(length, least, LONGEST) and may_be_equal(record.duration, length)):
+    if not (is_known and lies_within(length, least, _LONGEST) and may_be_equal(record.duration, length)):
         values = (("start", record.start), ("duration", record.duration), ("end", record.end))
         bench.report("duration", "duration", (tok,), values, "start + duration = end", "it is not", span)
 
@@ -219,7 +219,7 @@ def _judge_merged(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
     ours: tuple[tuple[int, Any], ...] = ((OBJECT, mine.object), (START, mine.start), (END, mine.end))
     ours += tuple((FIRST_PARAMETER + k, value) for k, value in enumerate(mine.arguments))
     for place, value in ours:
-        if place < len(other.values) and not are_one(value, other.values[place], is_strict):
+        if place < len(other.values) and not _are_one(value, other.values[place], is_strict):
             name = BUILT_IN.get(place) or judge.predicates[mine.predicate].code.parameters[place - FIRST_PARAMETER].name
             pair: tuple[tuple[str, Value], ...] = (
                 (f"{tok.name}.{name}", value),
@@ -228,6 +228,6 @@ def _judge_merged(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
             bench.report("merge", name, (tok, other), pair, "they are one", "they differ")
 
 
-def are_one(mine: Value, theirs: Value, is_strict: bool) -> bool:
+def _are_one(mine: Value, theirs: Value, is_strict: bool) -> bool:
     """Whether a variable of a merged token and that of the other half agree; strictly, if they are of one moment."""
     return may_be_equal(mine, theirs) and not (is_strict and is_open(mine) != is_open(theirs))

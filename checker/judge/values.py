@@ -9,7 +9,7 @@ from math import inf, isinf
 from runtime.executive.record import OpenValues, Value, ValueRange
 
 TOLERANCE = 1e-5
-RELATIVE = 1e-9  # what sums and products of doubles may lose
+_RELATIVE = 1e-9  # what sums and products of doubles may lose
 
 Scalar = float | int | bool | str
 Hull = tuple[float, float]
@@ -18,7 +18,7 @@ UNKNOWN = ValueRange(-inf, inf)  # what the record does not tell
 
 def slack(value: float) -> float:
     """How far a real may be from what is written."""
-    return TOLERANCE + RELATIVE * abs(value)
+    return TOLERANCE + _RELATIVE * abs(value)
 
 
 def is_near(a: float, b: float) -> bool:
@@ -56,7 +56,7 @@ def ends_of(value: Value) -> Hull:
     return hull(value) or (-inf, inf)
 
 
-def names(value: Value) -> frozenset[Scalar] | None:
+def _names(value: Value) -> frozenset[Scalar] | None:
     """The names that `value` may stand for; None if it may be any, or is a number."""
     if isinstance(value, OpenValues):
         return frozenset(value.values)
@@ -69,7 +69,7 @@ def may_be_equal(a: Value, b: Value) -> bool:
         if isinstance(a, str) or isinstance(b, str):
             return a == b
         return is_near(a, b)
-    ours, theirs = names(a), names(b)
+    ours, theirs = _names(a), _names(b)
     if ours is not None and theirs is not None:
         if not any(isinstance(each, str) for each in ours | theirs):
             return any(may_be_equal(x, y) for x in ours for y in theirs)

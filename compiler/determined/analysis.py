@@ -9,7 +9,7 @@ from compiler.determined.reasons import ChoiceReason, FreeChoice, UndeterminedEr
 from compiler.determined.relations import FOLLOWING, MERGED, TOGETHER
 from compiler.program import Call, NewToken, PredicateCode, Program, Relate
 
-MOST_PARAMETERS = 62  # as many bits has the mask of what is given
+_MOST_PARAMETERS = 62  # as many bits has the mask of what is given
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,7 @@ def analyse(program: Program, lines: tuple[Line, ...], lookahead: int) -> Determ
         for predicate in model.predicates_of(number):
             if predicate.span is None or predicate.is_action or predicate.is_event:
                 continue
-            if len(predicate.parameters) > MOST_PARAMETERS:
+            if len(predicate.parameters) > _MOST_PARAMETERS:
                 reasons[ChoiceReason(FreeChoice.FUNCTION, predicate.name, predicate.span)] = None
                 continue
             try:
@@ -65,7 +65,7 @@ def analyse(program: Program, lines: tuple[Line, ...], lookahead: int) -> Determ
                 reasons[obstacle.reason] = None
     order: tuple[int, ...] = ()
     try:
-        order = order_of(model, blocks)
+        order = _order_of(model, blocks)
     except UndeterminedError as obstacle:
         reasons[obstacle.reason] = None
     return DeterminismAnalysis(model, layout, order, tuple(blocks), tuple(reasons))
@@ -75,7 +75,7 @@ def _everything(predicate: PredicateCode) -> int:
     return (1 << len(predicate.parameters)) - 1
 
 
-def order_of(model: ReactorModel, blocks: list[RegisterBlock]) -> tuple[int, ...]:
+def _order_of(model: ReactorModel, blocks: list[RegisterBlock]) -> tuple[int, ...]:
     """Timelines in the order in which they are settled.
 
     Who starts a token on another one, or lets one follow there, comes before it; who reads what holds there, after it.

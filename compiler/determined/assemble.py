@@ -9,7 +9,7 @@ from compiler.determined.relations import FOLLOWING, ROOT, TOGETHER
 from compiler.determined.schedule import AGAIN, Placed, Sequence, schedule
 from compiler.program import PredicateCode
 
-WITHOUT_RESULT: frozenset[int] = frozenset(
+_WITHOUT_RESULT: frozenset[int] = frozenset(
     {
         *(code.NEED, code.HOLD, code.CLEAR, code.BEGIN, code.MERGE, code.PREVIOUS, code.FOLLOW, code.LAST_EXACTLY),
         *(code.LAST_LEAST, code.LAST_MOST, code.TIE, code.WITHIN, code.MEMBER, code.ORDER, code.PLANNED),
@@ -29,7 +29,7 @@ def compile_block(
         line,
         predicate,
         mask,
-        tuple(_padded(each) for each in linear(placed)),
+        tuple(_padded(each) for each in _linear(placed)),
         tuple(work.tokens),
         tuple(work.guards),
         tuple(work.locals),
@@ -37,7 +37,7 @@ def compile_block(
     )
 
 
-def linear(placed: list[Placed]) -> list[Instruction]:
+def _linear(placed: list[Placed]) -> list[Instruction]:
     """Instructions with jumps over the branches that are not taken."""
     done: list[list[int]] = []
     open_branches: list[tuple[tuple[int, bool], int]] = []
@@ -79,7 +79,7 @@ def _compared(sequence: Sequence, layout: RegisterLayout) -> list[Placed]:
     placed: list[Placed] = []
     for context, instruction in sequence.placed:
         operation = instruction[0]
-        if operation in WITHOUT_RESULT or operation == code.UNIFY:
+        if operation in _WITHOUT_RESULT or operation == code.UNIFY:
             placed.append((context, instruction))
             continue
         is_again = instruction[-1] == AGAIN

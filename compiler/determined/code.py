@@ -13,7 +13,7 @@ UNIFY, NEED, HOLD, CLEAR, WHEN_FALSE, WHEN_TRUE, DRAW = range(25, 32)
 BEGIN, MERGE, PREVIOUS, FOLLOW, LAST_EXACTLY, LAST_LEAST, LAST_MOST, TIE, WITHIN, MEMBER, ORDER, PLANNED = range(32, 44)
 STRIDE = 8  # numbers of an instruction: operation, result, up to six operands
 
-FLOAT_TOLERANCE = 1e-5  # that of the engine
+_FLOAT_TOLERANCE = 1e-5  # that of the engine
 LARGEST = 2.0**51  # what is larger counts as infinite
 
 

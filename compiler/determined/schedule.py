@@ -14,11 +14,11 @@ from compiler.determined.reasons import FreeChoice, UndeterminedError
 
 Placed = tuple[Context, Instruction]
 AGAIN = -1  # at the end of an instruction: its result is known, and must come out the same
-NOWHERE: Context = ((-1, True),)  # where no instruction stands
+_NOWHERE: Context = ((-1, True),)  # where no instruction stands
 
 
 @dataclass(eq=False, slots=True)
-class Knowledge:
+class _Knowledge:
     """Where each register is known: the contexts that compute it; `closed` ones may be read anywhere, with a look."""
 
     known: dict[int, list[Context]] = field(default_factory=dict)
@@ -32,9 +32,9 @@ class Knowledge:
         """Whether a register may be read in a context."""
         return self.is_sure(register, context) or (register in self.closed and register in self.known)
 
-    def copy(self) -> "Knowledge":
+    def copy(self) -> "_Knowledge":
         """The same, to be tried out."""
-        return Knowledge({register: list(places) for register, places in self.known.items()}, set(self.closed))
+        return _Knowledge({register: list(places) for register, places in self.known.items()}, set(self.closed))
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,9 +49,9 @@ class Sequence:
 
 def schedule(sheet: Worksheet) -> Sequence:
     """All items as instructions, each under its context; raises `UndeterminedError` where something stays unknown."""
-    knowledge = Knowledge({register: [()] for register in sheet.given})
+    knowledge = _Knowledge({register: [()] for register in sheet.given})
     for register in sheet.doubtful - sheet.given:
-        knowledge.known[register] = [NOWHERE]
+        knowledge.known[register] = [_NOWHERE]
         knowledge.closed.add(register)
     waiting = [item for item in sheet.items if item.rank < 1]
     placed: list[Placed] = []
@@ -99,7 +99,7 @@ def schedule(sheet: Worksheet) -> Sequence:
 def _advance(
     waiting: list[Item],
     checks: list[Item],
-    knowledge: Knowledge,
+    knowledge: _Knowledge,
     placed: list[Placed],
     looked: dict[int, list[Context]],
     writers: dict[int, int],
@@ -133,17 +133,17 @@ def _before(context: Context, register: int) -> Context:
     return context[: [each for each, _ in context].index(register)]
 
 
-def _is_ready(item: Item, knowledge: Knowledge) -> bool:
+def _is_ready(item: Item, knowledge: _Knowledge) -> bool:
     if not all(knowledge.is_readable(register, _before(item.context, register)) for register, _ in item.context):
         return False
     return item.rank < 0 or _way(item, knowledge) is not None or _all_known(item, knowledge)
 
 
-def _all_known(item: Item, knowledge: Knowledge) -> bool:
+def _all_known(item: Item, knowledge: _Knowledge) -> bool:
     return all(knowledge.is_readable(register, item.context) for register in item.needs)
 
 
-def _way(item: Item, knowledge: Knowledge) -> Way | None:
+def _way(item: Item, knowledge: _Knowledge) -> Way | None:
     """A way to compute what an item can tell and nobody told yet."""
     for way in item.ways:
         if any(knowledge.is_readable(register, item.context) for register in way.outputs):
@@ -153,7 +153,7 @@ def _way(item: Item, knowledge: Knowledge) -> Way | None:
     return None
 
 
-def _is_complete(register: int, candidates: list[int], waiting: list[Item], knowledge: Knowledge) -> bool:
+def _is_complete(register: int, candidates: list[int], waiting: list[Item], knowledge: _Knowledge) -> bool:
     """Whether nothing else that waits could still compute `register`, were all other candidates known."""
     trial = knowledge.copy()
     trial.closed |= set(candidates) - {register}
@@ -169,7 +169,7 @@ def _is_complete(register: int, candidates: list[int], waiting: list[Item], know
             trial.known.setdefault(output, []).append(item.context)
 
 
-def _check(item: Item, knowledge: Knowledge, placed: list[Placed], looked: dict[int, list[Context]]) -> None:
+def _check(item: Item, knowledge: _Knowledge, placed: list[Placed], looked: dict[int, list[Context]]) -> None:
     """Place what must hold once everything is known."""
     for register in item.needs:
         _look(register, item.context, knowledge, placed, looked)
@@ -187,7 +187,7 @@ def _check(item: Item, knowledge: Knowledge, placed: list[Placed], looked: dict[
 
 
 def _look(
-    register: int, context: Context, knowledge: Knowledge, placed: list[Placed], looked: dict[int, list[Context]]
+    register: int, context: Context, knowledge: _Knowledge, placed: list[Placed], looked: dict[int, list[Context]]
 ) -> None:
     """Have the machine stop if a register that only some branches compute has no value here."""
     if knowledge.is_sure(register, context):
@@ -202,7 +202,7 @@ def _is_named(register: int, sheet: Worksheet) -> bool:
     return any(register in item.needs for item in sheet.items)
 
 
-def _stuck(waiting: list[Item], knowledge: Knowledge, sheet: Worksheet) -> UndeterminedError:
+def _stuck(waiting: list[Item], knowledge: _Knowledge, sheet: Worksheet) -> UndeterminedError:
     """The value that is missing, with the constraint that waits for it."""
     for item in waiting:
         for register in (*(each for each, _ in item.context), *item.needs):

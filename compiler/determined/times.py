@@ -30,7 +30,7 @@ class Act:
 
 Operands = Sequence["Cell | Time | DomainConstant"]
 LineOf = Callable[[Time], int]
-SWAPPED = {code.LAST_LEAST: code.LAST_MOST, code.LAST_MOST: code.LAST_LEAST, code.LAST_EXACTLY: code.LAST_EXACTLY}
+_SWAPPED = {code.LAST_LEAST: code.LAST_MOST, code.LAST_MOST: code.LAST_LEAST, code.LAST_EXACTLY: code.LAST_EXACTLY}
 
 
 def is_time_constraint(operands: Operands) -> bool:
@@ -68,7 +68,7 @@ def _pair(
         tie = code.TIE if relation == code.LAST_EXACTLY else code.WITHIN
         return [Act((), ((tie, line_of(a), line_of(b)),))]
     if isinstance(b, Time):
-        a, b, relation, step = b, a, SWAPPED[relation], -step
+        a, b, relation, step = b, a, _SWAPPED[relation], -step
     assert isinstance(a, Time)
     if isinstance(b, DomainConstant):
         return _bounds(layout, relation, a, b, step, line_of, span)

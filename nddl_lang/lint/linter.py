@@ -27,7 +27,7 @@ from nddl_lang.semantics.schema import SideTables
 from nddl_lang.text.diagnostic import Diagnostic
 
 # What can be told from one statement; the findings are kept while the statement and all that it uses stay the same.
-PART_LINTS: tuple[PartLint, ...] = (
+_PART_LINTS: tuple[PartLint, ...] = (
     lint_unused_locals,
     lint_unused_labels,
     lint_hidden_names,
@@ -45,7 +45,7 @@ PART_LINTS: tuple[PartLint, ...] = (
     lint_filters,
     lint_portability,
 )
-WHOLE_LINTS: tuple[Callable[[Whole], Iterable[Diagnostic]], ...] = (
+_WHOLE_LINTS: tuple[Callable[[Whole], Iterable[Diagnostic]], ...] = (
     lint_declarations,
     lint_structure,
     lint_script,
@@ -103,7 +103,7 @@ class Linter:
 
 
 def _lint_statement(part: Part) -> _Known:
-    findings = [finding for lint in PART_LINTS for finding in lint(part)]
+    findings = [finding for lint in _PART_LINTS for finding in lint(part)]
     return _Known(part, findings, gist(part))
 
 
@@ -114,7 +114,7 @@ def _findings(whole: Whole, order: list[_Known]) -> Iterator[Diagnostic]:
         for conditional in each.conditional:
             if (finding := conditional(facts)) is not None:
                 yield finding
-    for lint in WHOLE_LINTS:
+    for lint in _WHOLE_LINTS:
         yield from lint(whole)
 
 

@@ -11,7 +11,7 @@ from nddl_lang.syntax.nodes import BinaryExpr, BoolLiteral, Expr, PathExpr, Unar
 _SWAPPED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "==", "!=": "!="}
 _NEGATED = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}
 _Value = float | int | bool | str
-DEEPEST = 50  # conditions nested deeper are not judged
+_DEEPEST = 50  # conditions nested deeper are not judged
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +28,7 @@ class Known:
 
 def truth(part: Part, condition: Expr, known: Known, depth: int = 0) -> bool | None:
     """Whether the condition holds for all values (True) or for none (False) of those that are known."""
-    if depth > DEEPEST:
+    if depth > _DEEPEST:
         return None
     match condition:
         case BoolLiteral(value=value):
@@ -117,7 +117,7 @@ def _domain(part: Part, expression: Expr, known: Known) -> Domain | None:
 
 def assume(part: Part, condition: Expr, holds: bool, known: Known, depth: int = 0) -> Known:
     """What is known where `condition` holds, or where it does not."""
-    if depth > DEEPEST:
+    if depth > _DEEPEST:
         return known
     match condition:
         case UnaryExpr(op="!", operand=operand):

@@ -32,7 +32,7 @@ from nddl_lang.syntax.nodes import (
     VariableDecl,
 )
 
-BOOLEANS = Values((False, True))
+_BOOLEANS = Values((False, True))
 
 
 def _written(expression: Expr, kind: Kind) -> Domain | None:
@@ -63,7 +63,7 @@ def declared(variable: Variable) -> Domain | None:
     """What the declaration of a variable leaves of its type; a superset of what it ever holds, None where unknown."""
     known = variable.type.restriction
     if known is None and variable.type.kind is Kind.BOOL:
-        known = BOOLEANS
+        known = _BOOLEANS
     given = _written(variable.initialiser, variable.type.kind) if variable.initialiser is not None else None
     if given is None or known is None:
         return given if known is None else known

@@ -15,7 +15,7 @@ from nddl_lang.text.source import Span
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class DrawSite:
+class _DrawSite:
     """One place where a sampled parameter is drawn; `receiver` is what takes the value, where it is a variable."""
 
     parameter: Reference
@@ -26,7 +26,7 @@ class DrawSite:
     domain: Domain | None
 
 
-def _draws(part: Part) -> Iterator[DrawSite]:
+def _draws(part: Part) -> Iterator[_DrawSite]:
     """The draws of a statement."""
     tables = part.tables
     if not tables.sampled:
@@ -42,10 +42,10 @@ def _draws(part: Part) -> Iterator[DrawSite]:
             yield _draw(part, tables.sampled[statement], statement.arguments[-1], statement.arguments[0])
 
 
-def _draw(part: Part, parameter: Reference, argument: Expr, receiver: Expr) -> DrawSite:
+def _draw(part: Part, parameter: Reference, argument: Expr, receiver: Expr) -> _DrawSite:
     key = key_of(part.reference(receiver)) if isinstance(receiver, PathExpr) else None
     domain = domain_of(part, receiver) if key is not None else None
-    return DrawSite(parameter, argument.span.text, argument.span, key, receiver.span.text, domain)
+    return _DrawSite(parameter, argument.span.text, argument.span, key, receiver.span.text, domain)
 
 
 def lint_draws(part: Part) -> Iterator[Finding]:
@@ -66,7 +66,7 @@ def lint_draws(part: Part) -> Iterator[Finding]:
         yield _fitting(draw)
 
 
-def _fitting(draw: DrawSite) -> Finding:
+def _fitting(draw: _DrawSite) -> Finding:
     def finding(facts: Facts) -> Diagnostic | None:
         parameter = draw.parameter
         if not isinstance(parameter, GlobalReference):
@@ -98,7 +98,7 @@ def _fitting(draw: DrawSite) -> Finding:
 
 def compare_draws(parts: list[Part]) -> Iterator[Diagnostic]:
     """A parameter without a range of its own that is drawn into variables with different ranges."""
-    first: dict[object, DrawSite] = {}
+    first: dict[object, _DrawSite] = {}
     for part in parts:
         for draw in _draws(part):
             if isinstance(draw.parameter, GlobalReference) and declared(draw.parameter.variable) is not None:

@@ -174,7 +174,7 @@ def _is_parameter(part: Part, declaration: VariableDecl) -> bool:
 # ---- resources ----
 
 
-Limits = list[float | int | None]
+_Limits = list[float | int | None]
 
 
 def lint_capacity(whole: Whole) -> Iterator[Diagnostic]:
@@ -238,12 +238,12 @@ def _capacities(whole: Whole) -> dict[Variable, float]:
     return found
 
 
-def _native(whole: Whole, class_name: str, values: Limits) -> tuple[str, Limits]:
+def _native(whole: Whole, class_name: str, values: _Limits) -> tuple[str, _Limits]:
     """The native class that an object is built on, and what the constructors on the way hand to it."""
     owner = whole.analysis.schema.classes.get(class_name)
     while owner is not None and not owner.is_native and owner.base is not None:
         fitting = [each for each in owner.constructors if len(each.parameters) == len(values)]
-        given: Limits = []
+        given: _Limits = []
         if len(fitting) == 1 and fitting[0].node is not None:
             names = {parameter.name: value for parameter, value in zip(fitting[0].parameters, values, strict=True)}
             for statement in fitting[0].node.body:
@@ -257,7 +257,7 @@ def _native(whole: Whole, class_name: str, values: Limits) -> tuple[str, Limits]
     return (owner.name if owner is not None else class_name), values
 
 
-def _capacity(class_name: str, limits: Limits) -> float | None:
+def _capacity(class_name: str, limits: _Limits) -> float | None:
     match class_name, limits:
         case ("Reusable" | "CBReusable", [float() | int() as capacity, float() | int() as least, *_]):
             return capacity - least

@@ -39,10 +39,10 @@ class ChildRequest:
     is_other: bool  # whether it certainly differs from the one that asks, so that they cannot be merged
 
 
-Followers = dict[str, list[tuple[str, ChildRequest]]]
+_Followers = dict[str, list[tuple[str, ChildRequest]]]
 
 
-class Graph:
+class _Graph:
     """Which tokens ask for which: rules by the full name of their predicate, in the order of the text."""
 
     def __init__(self, whole: Whole) -> None:
@@ -126,7 +126,7 @@ def lint_structure(whole: Whole) -> Iterator[Diagnostic]:
     """What the graph of the subgoals shows."""
     if not whole.is_whole:
         return
-    graph = Graph(whole)
+    graph = _Graph(whole)
     roots = [
         predicate
         for part in whole.parts
@@ -143,7 +143,7 @@ def lint_structure(whole: Whole) -> Iterator[Diagnostic]:
         yield NO_EFFECT.at(node.name.span, help=help_, name=predicate.full_name)
 
 
-def _unreachable(graph: Graph, roots: list[Predicate], idle: set[str]) -> Iterator[Diagnostic]:
+def _unreachable(graph: _Graph, roots: list[Predicate], idle: set[str]) -> Iterator[Diagnostic]:
     """What no goal leads to, but for the `idle`: of these it is said why."""
     whole, schema = graph.whole, graph.schema
     for owner in schema.classes.values():
@@ -179,21 +179,21 @@ def _unreachable(graph: Graph, roots: list[Predicate], idle: set[str]) -> Iterat
                 yield NEVER_FIRES.at(part.node.predicate.span, help=help_, name=predicate.full_name)
 
 
-def _declared(graph: Graph, part: Part, node: PredicateDecl) -> Predicate | None:
+def _declared(graph: _Graph, part: Part, node: PredicateDecl) -> Predicate | None:
     name = getattr(getattr(part.node, "name", None), "name", None)
     owner = graph.schema.classes.get(name) if name is not None else None
     return owner.predicates.get(node.name.name) if owner is not None else None
 
 
-def _is_reached(graph: Graph, predicate: Predicate, names: dict[str, set[str]]) -> bool:
+def _is_reached(graph: _Graph, predicate: Predicate, names: dict[str, set[str]]) -> bool:
     owners = names.get(predicate.name, set())
     return any(graph.schema.is_subclass(owner, predicate.class_name) for owner in owners)
 
 
-def _endless(graph: Graph) -> Iterator[Diagnostic]:
+def _endless(graph: _Graph) -> Iterator[Diagnostic]:
     """Predicates that in any case ask for another token of the same predicate, at first or second hand."""
-    later: Followers = {}
-    same: Followers = {}
+    later: _Followers = {}
+    same: _Followers = {}
     for part, requests in graph.requests.items():
         assert isinstance(part.node, RuleDecl)
         own = part.tables.predicates[part.node]
@@ -209,7 +209,7 @@ def _endless(graph: Graph) -> Iterator[Diagnostic]:
     yield from _cycles(graph, later, CHAIN)
 
 
-def _cycles(graph: Graph, followers: Followers, code: Code) -> Iterator[Diagnostic]:
+def _cycles(graph: _Graph, followers: _Followers, code: Code) -> Iterator[Diagnostic]:
     _prune(followers)
     told: set[str] = set()
     for name in followers:
@@ -229,7 +229,7 @@ def _cycles(graph: Graph, followers: Followers, code: Code) -> Iterator[Diagnost
         yield code.at(cycle[0][1].relation.span, notes=notes, name=word)
 
 
-def _prune(followers: Followers) -> None:
+def _prune(followers: _Followers) -> None:
     """Leave out what leads to no cycle."""
     before: dict[str, list[str]] = {}
     count = {name: len(requests) for name, requests in followers.items()}
@@ -245,9 +245,9 @@ def _prune(followers: Followers) -> None:
                 pending.append(name)
 
 
-def _cycle(name: str, followers: Followers) -> list[tuple[str, ChildRequest]]:
+def _cycle(name: str, followers: _Followers) -> list[tuple[str, ChildRequest]]:
     """The shortest way from a predicate back to itself."""
-    ways: Followers = {}
+    ways: _Followers = {}
     frontier: list[str] = [name]
     while frontier:
         following: list[str] = []
@@ -263,7 +263,7 @@ def _cycle(name: str, followers: Followers) -> list[tuple[str, ChildRequest]]:
     return []
 
 
-def _without_effect(graph: Graph) -> Iterator[tuple[PredicateDecl, Predicate]]:
+def _without_effect(graph: _Graph) -> Iterator[tuple[PredicateDecl, Predicate]]:
     whole = graph.whole
     for part in whole.parts:
         for node in part.all(PredicateDecl):

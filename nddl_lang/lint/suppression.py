@@ -20,7 +20,7 @@ _CODE = re.compile(r"NDDL\d{0,3}\Z")
 
 
 @dataclass(eq=False, slots=True)
-class Suppression:
+class _Suppression:
     """One comment; `line` is the line that it holds for, None for the whole file."""
 
     span: Span
@@ -42,7 +42,7 @@ class Suppression:
 
 def suppress(analysis: Analysis, findings: tuple[Diagnostic, ...], *, is_linted: bool) -> tuple[Diagnostic, ...]:
     """The findings that no comment takes back, and complaints about comments that take nothing back."""
-    asked: dict[Source, list[Suppression]] = {}
+    asked: dict[Source, list[_Suppression]] = {}
     complaints: list[Diagnostic] = []
     for parse in analysis.loaded.parses:
         source = parse.source
@@ -62,7 +62,7 @@ def suppress(analysis: Analysis, findings: tuple[Diagnostic, ...], *, is_linted:
     return tuple(kept)
 
 
-def _read(span: Span, complaints: list[Diagnostic]) -> Suppression | None:
+def _read(span: Span, complaints: list[Diagnostic]) -> _Suppression | None:
     text = span.text
     match = _COMMENT.search(text)
     if match is None or text[: match.start()].strip(" \t/*"):
@@ -83,17 +83,17 @@ def _read(span: Span, complaints: list[Diagnostic]) -> Suppression | None:
         line, column = source.locate(span.begin)
         if not source.line(line)[: column - 1].strip():
             line = source.locate(span.finish)[0] + 1
-    return Suppression(span, line, tuple(codes), set())
+    return _Suppression(span, line, tuple(codes), set())
 
 
-def _is_taken_back(finding: Diagnostic, asked: dict[Source, list[Suppression]]) -> bool:
+def _is_taken_back(finding: Diagnostic, asked: dict[Source, list[_Suppression]]) -> bool:
     if finding.severity is Severity.ERROR:
         return False
     matching = [each for each in asked.get(finding.span.source, ()) if each.matches(finding)]
     return bool(matching)
 
 
-def _unused(suppressions: list[Suppression]) -> Iterator[Diagnostic]:
+def _unused(suppressions: list[_Suppression]) -> Iterator[Diagnostic]:
     for each in suppressions:
         left = [code for code in each.codes if code not in each.used]
         if UNUSED_SUPPRESSION.id in each.codes:

@@ -16,7 +16,7 @@ from nddl_lang.semantics.types import FLOAT, INT, STATE, TOKEN_STATES, object_ty
 
 ROOT_CLASS = "Object"
 TIMELINE = "Timeline"
-STATES = ("INACTIVE", "ACTIVE", "MERGED", "REJECTED")
+_STATES = ("INACTIVE", "ACTIVE", "MERGED", "REJECTED")
 
 _STEP_TYPES: dict[str, Type] = {"state": STATE, "duration": INT}
 _TOKEN_TYPES: dict[str, Type] = {**_STEP_TYPES, "start": INT, "end": INT}
@@ -91,8 +91,8 @@ def _native_classes() -> dict[str, Class]:
 
 
 NATIVE_CLASSES = _native_classes()
-NATIVE_ENUM = Enumeration(TOKEN_STATES, STATES, None, None)
-NATIVE_ENUM_VALUES = {value: EnumValue(TOKEN_STATES, value) for value in STATES}
+NATIVE_ENUM = Enumeration(TOKEN_STATES, _STATES, None, None)
+NATIVE_ENUM_VALUES = {value: EnumValue(TOKEN_STATES, value) for value in _STATES}
 
 # Tokens of these classes are active from the moment they are made.
 SELF_ACTIVATING = frozenset({"Reservoir", "Reusable", "CBReusable", "Unary"})

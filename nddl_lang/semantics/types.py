@@ -19,8 +19,8 @@ INT = Type(Kind.INT, "int", "int")
 FLOAT = Type(Kind.FLOAT, "float", "float")
 BOOL = Type(Kind.BOOL, "bool", "bool")
 STRING = Type(Kind.STRING, "string", "string")
-SYMBOL = Type(Kind.SYMBOL, "symbol", "symbol")
-BASIC_TYPES: dict[str, Type] = {type_.name: type_ for type_ in (INT, FLOAT, BOOL, STRING, SYMBOL)}
+_SYMBOL = Type(Kind.SYMBOL, "symbol", "symbol")
+BASIC_TYPES: dict[str, Type] = {type_.name: type_ for type_ in (INT, FLOAT, BOOL, STRING, _SYMBOL)}
 
 TOKEN_STATES = "TokenStates"
 STATE = Type(Kind.ENUM, TOKEN_STATES, TOKEN_STATES)

@@ -97,7 +97,7 @@ class Builder:
 Maker = Callable[[Builder, list[Any]], Any]
 
 
-def is_plain(value: Expr) -> bool:
+def _is_plain(value: Expr) -> bool:
     """Whether `value` is a value in nddl3: a literal, a domain or a path, without parentheses."""
     match value:
         case IntervalExpr() | SetExpr():
@@ -112,7 +112,7 @@ def plain_values(b: Builder, values: Iterable[Expr], code: Code, **words: str) -
     """Report by `code` each of `values` that is no plain value, where nddl3 wants one."""
     if b.is_strict:
         for value in values:
-            if not is_plain(value) and type(value) is not NewExpr:
+            if not _is_plain(value) and type(value) is not NewExpr:
                 # The wider complaint says it all.
                 for narrower in (GLUED_SIGN, UNARY_OPERATOR, DIVISION):
                     b.piece.forget(narrower, value.span)
@@ -213,7 +213,7 @@ def interval(b: Builder, v: list[Any]) -> IntervalExpr:
         if isinstance(bound, IntLiteral | FloatLiteral):
             continue
         if isinstance(bound, BoolLiteral | StringLiteral | SetExpr | IntervalExpr):
-            b.report(MISPLACED_VALUE, bound.span, what=describe(bound), where="as a bound", help="write a number")
+            b.report(MISPLACED_VALUE, bound.span, what=_describe(bound), where="as a bound", help="write a number")
         elif b.is_strict:
             b.piece.forget(UNARY_OPERATOR, bound.span)
             b.report(VARIABLE_BOUND, bound.span, help="state the bounds as constraints: `a >= low; a <= high;`")
@@ -227,13 +227,13 @@ def interval(b: Builder, v: list[Any]) -> IntervalExpr:
 def set_literal(b: Builder, v: list[Any]) -> SetExpr:
     for item in v[1]:
         if isinstance(item, IntervalExpr | SetExpr):
-            b.report(MISPLACED_VALUE, item.span, what=describe(item), where="in a set", help="write single values")
+            b.report(MISPLACED_VALUE, item.span, what=_describe(item), where="in a set", help="write single values")
     items = [item for item in v[1] if not isinstance(item, IntervalExpr | SetExpr)]
     plain_values(b, items, EXPRESSION_VALUE, where="an item of a set")
     return SetExpr(tuple(v[1]), b.span(v[0], v[2]))
 
 
-def describe(value: Expr) -> str:
+def _describe(value: Expr) -> str:
     """What kind of value `value` is, with an article."""
     match value:
         case IntLiteral() | FloatLiteral():

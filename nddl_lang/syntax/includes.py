@@ -16,7 +16,7 @@ from nddl_lang.text.source import Anchor, Source, Span
 # The files that come with the package.
 LIBRARY = Path(__file__).parent.parent / "library"
 
-DEPTH_LIMIT = 100
+_DEPTH_LIMIT = 100
 
 OpenText = Callable[[Path], str | None]
 ParseText = Callable[[Path, Source, Dialect, bool], Parse]
@@ -168,8 +168,8 @@ class _Loader:
                 code = INCLUDE_AGAIN if self._dialect is Dialect.NDDL3 else INCLUDE_CYCLE
                 self._report(code.at(include.span, path=name, help="remove this include"))
             return []
-        if len(self._chain) > DEPTH_LIMIT:
-            self._report(TOO_DEEP.at(include.span, limit=DEPTH_LIMIT))
+        if len(self._chain) > _DEPTH_LIMIT:
+            self._report(TOO_DEEP.at(include.span, limit=_DEPTH_LIMIT))
             return []
         return self.load(Source(str(path), text), path, is_in_class, include)
 

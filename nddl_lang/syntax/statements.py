@@ -82,10 +82,10 @@ def block(b: Builder, v: list[Any]) -> Block:
 
 
 def include(b: Builder, v: list[Any]) -> Include:
-    return Include(string(b, v[1]), b.span(v[0], v[1]))
+    return Include(_string(b, v[1]), b.span(v[0], v[1]))
 
 
-def string(b: Builder, index: int) -> StringLiteral:
+def _string(b: Builder, index: int) -> StringLiteral:
     """The lexeme `index` as a string."""
     text = b.texts[index]
     return StringLiteral(text[1:-1] if len(text) > 1 and text[-1] == text[0] else text[1:], b.at(index))
@@ -150,14 +150,14 @@ def forward_class(b: Builder, v: list[Any]) -> ClassDecl:
 
 
 def root_class(b: Builder, v: list[Any]) -> ClassDecl:
-    return ClassDecl(b.name(v[1]), None, members_of(b, v[2]), _doc(b, v[0]), b.span(v[0], v[2]))
+    return ClassDecl(b.name(v[1]), None, _members_of(b, v[2]), _doc(b, v[0]), b.span(v[0], v[2]))
 
 
 def derived_class(b: Builder, v: list[Any]) -> ClassDecl:
-    return ClassDecl(b.name(v[1]), b.name(v[3]), members_of(b, v[4]), _doc(b, v[0]), b.span(v[0], v[4]))
+    return ClassDecl(b.name(v[1]), b.name(v[3]), _members_of(b, v[4]), _doc(b, v[0]), b.span(v[0], v[4]))
 
 
-def members_of(b: Builder, body: Block) -> tuple[Any, ...]:
+def _members_of(b: Builder, body: Block) -> tuple[Any, ...]:
     """The members in `body`."""
     members = statements_of(b, body, CLASS)
     if b.is_strict:
@@ -212,7 +212,7 @@ def assignment(b: Builder, v: list[Any]) -> Assignment:
 
 def constraint(b: Builder, v: list[Any]) -> Statement:
     value: Expr = v[0]
-    message = string(b, v[2]) if len(v) == 4 else None
+    message = _string(b, v[2]) if len(v) == 4 else None
     span = b.span(value, v[-1])
     if type(value) is CallExpr:
         method = b.methods.get(value)
@@ -231,7 +231,7 @@ def constraint(b: Builder, v: list[Any]) -> Statement:
 
 
 def enforced_constraint(b: Builder, v: list[Any]) -> Statement:
-    return _expression(b, v[1], True, string(b, v[3]) if len(v) == 5 else None, b.span(v[0], v[-1]))
+    return _expression(b, v[1], True, _string(b, v[3]) if len(v) == 5 else None, b.span(v[0], v[-1]))
 
 
 def _expression(

@@ -5,11 +5,11 @@ from unicodedata import category, east_asian_width
 
 from nddl_lang.text.source import Source, Span
 
-TAB = 4
+_TAB = 4
 # A line longer than this is shown around the stretch only.
-LONGEST = 140
+_LONGEST = 140
 # A stretch of more lines than this is shown by its first and last ones.
-MOST_LINES = 6
+_MOST_LINES = 6
 _EDGE = 2
 
 
@@ -30,7 +30,7 @@ def shown(line: str) -> tuple[str, list[int]]:
     for letter in line:
         columns.append(column)
         if letter == "\t":
-            advance = TAB - column % TAB
+            advance = _TAB - column % _TAB
             letters.append(" " * advance)
         elif letter.isprintable() or _width(letter) == 0:
             advance = _width(letter)
@@ -60,7 +60,7 @@ def excerpt(span: Span, mark: str = "^") -> Iterator[tuple[int | None, str, str]
         yield _single(span.source, first, start, end, mark)
         return
     numbers = list(range(first, last + 1))
-    if len(numbers) > MOST_LINES:
+    if len(numbers) > _MOST_LINES:
         numbers = [*numbers[:_EDGE], 0, *numbers[-_EDGE:]]
     for number in numbers:
         if number == 0:
@@ -83,13 +83,13 @@ def _single(source: Source, number: int, start: int, end: int, mark: str) -> tup
     left = columns[min(start - 1, len(line))]
     right = columns[min(end - 1, len(line))]
     size = max(1, right - left)
-    if len(text) > LONGEST:
-        cut = max(0, left - LONGEST // 2)
-        text = ("..." if cut else "") + text[cut : cut + LONGEST] + ("..." if cut + LONGEST < len(text) else "")
+    if len(text) > _LONGEST:
+        cut = max(0, left - _LONGEST // 2)
+        text = ("..." if cut else "") + text[cut : cut + _LONGEST] + ("..." if cut + _LONGEST < len(text) else "")
         left += (3 if cut else 0) - cut
         size = max(1, min(size, len(text) - left))
     return number, text, " " * left + mark * size
 
 
 def _cropped(text: str) -> str:
-    return text if len(text) <= LONGEST else text[:LONGEST] + "..."
+    return text if len(text) <= _LONGEST else text[:_LONGEST] + "..."

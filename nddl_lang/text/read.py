@@ -4,9 +4,9 @@ from pathlib import Path
 
 from nddl_lang.text.source import Source
 
-LOOKED_AT = 4096
-MOST_ODD = 0.02  # of the characters of a text may be control characters
-MOST_UNREADABLE = 0.6  # and bytes that are not UTF-8: comments in another encoding may be long
+_LOOKED_AT = 4096
+_MOST_ODD = 0.02  # of the characters of a text may be control characters
+_MOST_UNREADABLE = 0.6  # and bytes that are not UTF-8: comments in another encoding may be long
 
 
 def decode(content: bytes) -> str:
@@ -19,9 +19,9 @@ def decode(content: bytes) -> str:
 
 def is_text(text: str) -> bool:
     """Whether what was decoded is a text at all, with odd characters at most: looked at are the first ones."""
-    head = text[:LOOKED_AT]
+    head = text[:_LOOKED_AT]
     odd = sum(sign < " " and sign not in "\t\n\v\f\r\x1b" for sign in head)
-    return odd <= MOST_ODD * len(head) + 1 and head.count("\ufffd") <= MOST_UNREADABLE * len(head)
+    return odd <= _MOST_ODD * len(head) + 1 and head.count("\ufffd") <= _MOST_UNREADABLE * len(head)
 
 
 def read_text(path: Path) -> str | None:

@@ -7,7 +7,7 @@ from typing import Any
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Severity
 from nddl_lang.text.source import Span
 
-SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
+_SCHEMA = "https://json.schemastore.org/sarif-2.1.0.json"
 _LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note", Severity.HINT: "note"}
 
 
@@ -15,7 +15,7 @@ def sarif_log(rules: list[dict[str, Any]], results: list[dict[str, Any]]) -> str
     """One run of nddlc as SARIF text."""
     driver = {"name": "nddlc", "rules": rules}
     run = {"tool": {"driver": driver}, "columnKind": "unicodeCodePoints", "results": results}
-    document = {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
+    document = {"$schema": _SCHEMA, "version": "2.1.0", "runs": [run]}
     return json.dumps(document, ensure_ascii=False, indent=1) + "\n"
 
 

@@ -8,7 +8,7 @@ from runtime.determined.loading import RegisterProgram, is_open, number_of
 from runtime.determined.machine import Machine
 from runtime.executive.messages import Arguments
 
-INFINITY = 4503599627370495
+_INFINITY = 4503599627370495
 
 
 def given_block(
@@ -18,7 +18,7 @@ def given_block(
     predicate = program.model.predicate(line, short)
     if predicate is None or predicate.is_action or predicate.is_event:
         return None
-    values = values_of(program, predicate, arguments)
+    values = _values_of(program, predicate, arguments)
     if values is None:
         return None
     try:
@@ -29,7 +29,7 @@ def given_block(
     return block, values
 
 
-def values_of(program: RegisterProgram, predicate: PredicateCode, arguments: Arguments) -> dict[int, float] | None:
+def _values_of(program: RegisterProgram, predicate: PredicateCode, arguments: Arguments) -> dict[int, float] | None:
     """The parameters that are given a value, as numbers; None where one is given a choice, or is not known."""
     numbers = {parameter.name: k for k, parameter in enumerate(predicate.parameters)}
     values: dict[int, float] = {}
@@ -52,14 +52,14 @@ def arguments_of(program: RegisterProgram, predicate: PredicateCode, value_of: C
     """Parameters as others read them."""
     told = []
     for k, parameter in enumerate(predicate.parameters):
-        told.append((parameter.name, domain_of(program, parameter.type.kind, parameter.type.type_name, value_of(k))))
+        told.append((parameter.name, _domain_of(program, parameter.type.kind, parameter.type.type_name, value_of(k))))
     return tuple(told)
 
 
-def domain_of(program: RegisterProgram, kind: str, type_name: str, value: float) -> DomainConstant:
+def _domain_of(program: RegisterProgram, kind: str, type_name: str, value: float) -> DomainConstant:
     """What a register says of a variable; NaN leaves it open."""
     if value != value:
-        return DomainConstant(kind, type_name, (-INFINITY, INFINITY), None)
+        return DomainConstant(kind, type_name, (-_INFINITY, _INFINITY), None)
     if kind == "float":
         return DomainConstant(kind, type_name, (value + 0.0, value + 0.0), None)  # no negative zero
     if kind == "int":

@@ -17,7 +17,7 @@ from runtime.determined.tags import (
 )
 
 Bounds = tuple[int, int]
-SECTIONS = ((WISH_FROM, WISH_UNTIL), (WISH_END_FROM, WISH_END_UNTIL), (WISH_LEAST, WISH_MOST))
+_SECTIONS = ((WISH_FROM, WISH_UNTIL), (WISH_END_FROM, WISH_END_UNTIL), (WISH_LEAST, WISH_MOST))
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +52,7 @@ def ask(machine: Machine, wanted: Ask) -> None:
     """Have a machine start a token as soon as it may."""
     state, n, line = machine.present.state, machine.lines, wanted.line
     state[WISH * n + line] = wanted.block
-    for (first, last), (lower, upper) in zip(SECTIONS, (wanted.start, wanted.end, wanted.duration), strict=True):
+    for (first, last), (lower, upper) in zip(_SECTIONS, (wanted.start, wanted.end, wanted.duration), strict=True):
         state[first * n + line] = max(lower, 0)
         state[last * n + line] = min(upper, FAR)
     for k, value in wanted.values.items():

@@ -10,7 +10,7 @@ Found = tuple[RegisterProgram | None, tuple[ChoiceReason, ...]]
 
 # By the identity of the program, which is kept: models are loaded once and flown often.
 _KNOWN: dict[tuple[int, ReactorConfiguration, float, int], tuple[Program, Found]] = {}
-MOST = 64
+_MOST = 64
 
 
 def known(program: Program, configuration: ReactorConfiguration, tick: float, final_tick: int) -> Found | None:
@@ -26,7 +26,7 @@ def find_out(
     found = _obstacles(configuration) or load_determined(
         bench, program, configuration.internal, configuration.external, configuration.lookahead
     )
-    while len(_KNOWN) >= MOST:
+    while len(_KNOWN) >= _MOST:
         _KNOWN.pop(next(iter(_KNOWN)))
     _KNOWN[id(program), configuration, tick, final_tick] = (program, found)
     return found

@@ -19,7 +19,7 @@ from runtime.executive.record import NOBODY, BodyRun, GuardRun, ReactorRecord, T
 
 
 @dataclass(eq=False, slots=True)
-class Held:
+class _Held:
     """A token under way: what is known of it when it starts; `shares` are the children that are merged into it."""
 
     key: int
@@ -32,15 +32,15 @@ class Held:
     shares: list[tuple[int, str]] = field(default_factory=list)
 
 
-class Expansion:
+class _Expansion:
     """The tokens of one reactor; `see` is called after each tick that the machine has carried out."""
 
     def __init__(self, program: RegisterProgram, machine: Machine) -> None:
         self.program = program
         self.machine = machine
         self.tokens: list[TokenRecord] = []
-        self.current: dict[int, Held] = {}
-        self.before: dict[int, Held] = {}
+        self.current: dict[int, _Held] = {}
+        self.before: dict[int, _Held] = {}
         self.awaited: dict[int, tuple[int, PredicateCode]] = {}  # the key of what is to follow on a timeline
         self.newest = NOBODY
         self.row = 0
@@ -64,7 +64,7 @@ class Expansion:
                 self._close(self.current[line], tick, "over")
                 self.before[line] = self.current[line]
             arguments = self._arguments(predicate, self.machine.current[line])
-            self.current[line] = Held(key, predicate, line, tick, arguments, origin)
+            self.current[line] = _Held(key, predicate, line, tick, arguments, origin)
         for row in rows:
             number = int(log.rows[ROW * row + 3])
             block = self.program.blocks[number & (WISHED - 1)] if number >= 0 else None
@@ -151,12 +151,12 @@ class Expansion:
 
     # ---- the ends ----
 
-    def _close(self, held: Held, end: int, fate: str) -> None:
+    def _close(self, held: _Held, end: int, fate: str) -> None:
         """Record a token that ended at a tick, with what is merged into it."""
         self.tokens.append(self._record(held, end, end - held.start, fate, end))
         self._close_shares(held, end)
 
-    def _close_shares(self, held: Held, tick: int) -> None:
+    def _close_shares(self, held: _Held, tick: int) -> None:
         line = self.program.model.lines[held.line].name
         end: Value = tick
         for key, name in held.shares:
@@ -179,7 +179,7 @@ class Expansion:
             )
         held.shares.clear()
 
-    def _record(self, held: Held, end: Value, duration: Value, fate: str, tick: int) -> TokenRecord:
+    def _record(self, held: _Held, end: Value, duration: Value, fate: str, tick: int) -> TokenRecord:
         line = self.program.model.lines[held.line].name
         return TokenRecord(
             held.key,
@@ -258,7 +258,7 @@ def expand(
     machine.present.reach = reach
     for fact in program.first:
         ask(machine, Ask(fact.line, fact.block, fact.values, (0, 0), fact.end, (1, FAR), "fact"))
-    expansion = Expansion(program, machine)
+    expansion = _Expansion(program, machine)
     origins = dict.fromkeys((fact.line for fact in program.first), "fact")
     waiting = list(asked)
     tick = NONE

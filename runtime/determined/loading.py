@@ -17,7 +17,7 @@ from runtime.executive.record import ReactorRecord
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_FACT
 
-FIRST_TICK = 0
+_FIRST_TICK = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,7 +130,7 @@ def load_determined(
     bench: Workbench, program: Program, internal: tuple[str, ...], external: tuple[str, ...], lookahead: int
 ) -> tuple[RegisterProgram | None, tuple[ChoiceReason, ...]]:
     """The register code of a reactor whose script has been run in `bench`, or the choices that are in the way."""
-    lines = lines_of(bench, internal, external)
+    lines = _lines_of(bench, internal, external)
     analysis = analyse(program, lines, lookahead)
     if analysis.reasons:
         return None, analysis.reasons
@@ -144,7 +144,7 @@ def load_determined(
     return (None, tuple(reasons)) if reasons else (loaded, ())
 
 
-def lines_of(bench: Workbench, internal: tuple[str, ...], external: tuple[str, ...]) -> tuple[Line, ...]:
+def _lines_of(bench: Workbench, internal: tuple[str, ...], external: tuple[str, ...]) -> tuple[Line, ...]:
     """The timelines of the model: those of the reactor first, in the order of the configuration."""
     objects = bench.database.objects.names
     found = []
@@ -176,7 +176,7 @@ def _load_facts(loaded: RegisterProgram, bench: Workbench, reasons: dict[ChoiceR
         if line < 0 or loaded.model.lines[line].role != "own":
             reasons[ChoiceReason(FreeChoice.NO_TIMELINE, predicate.name, predicate.span)] = None
             continue
-        if line in taken or bench.started_at(t) != FIRST_TICK:
+        if line in taken or bench.started_at(t) != _FIRST_TICK:
             reasons[ChoiceReason(FreeChoice.LATER_FACT, predicate.name, predicate.span)] = None
             continue
         taken.add(line)
@@ -195,7 +195,7 @@ def _load_facts(loaded: RegisterProgram, bench: Workbench, reasons: dict[ChoiceR
             reasons[obstacle.reason] = None
             continue
         end = bench.end(t)
-        bounds = (int(max(bench.lower(end), FIRST_TICK + 1)), int(min(bench.upper(end), FAR)))
+        bounds = (int(max(bench.lower(end), _FIRST_TICK + 1)), int(min(bench.upper(end), FAR)))
         loaded.first.append(FirstToken(line, block, values, bounds))
 
 
@@ -230,7 +230,7 @@ def _load_constants(loaded: RegisterProgram, bench: Workbench, reasons: dict[Cho
         v = bench.database.plan.globals[index]
         _load_constant(loaded, bench, v, type_.kind, type_.type_name, register, name, reasons)
     for (name, path), register in loaded.layout.members.items():
-        found = member(bench, name, path)
+        found = _member(bench, name, path)
         if found is None:
             reasons[ChoiceReason(FreeChoice.UNKNOWN_VALUE, f"{name}.{'.'.join(path)}", None)] = None
         else:
@@ -255,7 +255,7 @@ def _load_constant(
         loaded.constants[register] = value
 
 
-def member(bench: Workbench, name: str, path: tuple[str, ...]) -> tuple[int, str, str] | None:
+def _member(bench: Workbench, name: str, path: tuple[str, ...]) -> tuple[int, str, str] | None:
     """The variable, kind and type of a member of an object, through members that are objects."""
     plan, program = bench.database.plan, bench.database.program
     objects = bench.database.objects.names

@@ -39,9 +39,9 @@ from runtime.determined.tags import (
     WISHED,
 )
 
-NAN = math.nan
-TOLERANCE = 1e-5  # that of the engine's floats
-LARGEST = 2.0**51  # what is larger counts as infinite
+_NAN = math.nan
+_TOLERANCE = 1e-5  # that of the engine's floats
+_LARGEST = 2.0**51  # what is larger counts as infinite
 
 
 class Machine:
@@ -196,7 +196,7 @@ class Machine:
             first = self.current[line]
             for j in range(self.width[line]):
                 value = self.registers[first + j]
-                if value >= LARGEST or value <= -LARGEST:
+                if value >= _LARGEST or value <= -_LARGEST:
                     return False  # as good as infinite
                 log.values[at + j] = value
         return True
@@ -210,7 +210,7 @@ class Machine:
             for j in range(self.width[i]):
                 self.registers[self.previous[i] + j] = self.registers[first + j]
         for j in range(self.width[i]):
-            self.registers[first + j] = NAN
+            self.registers[first + j] = _NAN
         return 0
 
     def carry_out(self, at: int) -> bool:
@@ -250,23 +250,23 @@ class Machine:
                     return False
                 r[out] = math.sqrt(r[a])
             elif op == 11:  # FLOOR
-                r[out] = math.floor(r[a] + TOLERANCE)
+                r[out] = math.floor(r[a] + _TOLERANCE)
             elif op == 12:  # CEIL
-                r[out] = math.ceil(r[a] - TOLERANCE)
+                r[out] = math.ceil(r[a] - _TOLERANCE)
             elif op == 13:  # MOD
                 if r[b] == 0.0:
                     return False
                 r[out] = math.fmod(r[a], r[b])
             elif op == 14:  # WHOLE
-                r[out] = math.ceil(r[a] - TOLERANCE)
-                if r[out] != math.floor(r[a] + TOLERANCE):
+                r[out] = math.ceil(r[a] - _TOLERANCE)
+                if r[out] != math.floor(r[a] + _TOLERANCE):
                     return False
             elif op == 15:  # LEQ
-                r[out] = 1.0 if r[a] <= r[b] + TOLERANCE else 0.0
+                r[out] = 1.0 if r[a] <= r[b] + _TOLERANCE else 0.0
             elif op == 16:  # LESS
-                r[out] = 1.0 if r[a] + TOLERANCE <= r[b] else 0.0
+                r[out] = 1.0 if r[a] + _TOLERANCE <= r[b] else 0.0
             elif op == 17:  # EQUAL
-                r[out] = 1.0 if r[a] <= r[b] + TOLERANCE and r[b] <= r[a] + TOLERANCE else 0.0
+                r[out] = 1.0 if r[a] <= r[b] + _TOLERANCE and r[b] <= r[a] + _TOLERANCE else 0.0
             elif op == 18:  # SAME
                 r[out] = 1.0 if r[a] == r[b] else 0.0
             elif op == 19:  # NOT
@@ -298,14 +298,14 @@ class Machine:
                 elif r[out] != r[a]:
                     return False
             elif op == 26:  # NEED
-                if not -LARGEST < r[out] < LARGEST:
+                if not -_LARGEST < r[out] < _LARGEST:
                     return False
             elif op == 27:  # HOLD
                 if r[out] == 0.0:
                     return False
             elif op == 28:  # CLEAR
                 for j in range(a):
-                    r[out + j] = NAN
+                    r[out + j] = _NAN
             elif op == 29:  # WHEN_FALSE
                 if r[out] == 0.0:
                     at = 8 * a
@@ -364,7 +364,7 @@ class Machine:
         if op == 43:  # PLANNED
             return self.is_planned
         value = self.registers[a]
-        if not -LARGEST < value < LARGEST or value != math.floor(value):
+        if not -_LARGEST < value < _LARGEST or value != math.floor(value):
             return False
         bound = present.state[START * n + line] + int(value)
         slot = present.state[SLOT * n + line]

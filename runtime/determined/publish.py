@@ -11,7 +11,7 @@ from runtime.executive.outcome import Draw, EventKind, Phase
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import TokenName
 
-NOTHING = -1
+_NOTHING = -1
 
 
 @dataclass(eq=False, slots=True)
@@ -22,8 +22,8 @@ class Wish:
     line: int
     block: int
     values: dict[int, float]
-    started: int = NOTHING
-    ended: int = NOTHING
+    started: int = _NOTHING
+    ended: int = _NOTHING
     is_recalled: bool = False
 
 
@@ -37,7 +37,7 @@ class Publisher:
         self.told = 0  # the tick up to which the log has been told
         self.row = 0
         self.draw_row = 0
-        self.events = [NOTHING] * len(program.layout.lines)  # the latest event of each timeline
+        self.events = [_NOTHING] * len(program.layout.lines)  # the latest event of each timeline
         self.draws: dict[tuple[int, int], Draw] = {}
         self.wishes: list[Wish] = []
         self.asked: dict[int, Wish] = {}  # what the machine is to start on each timeline

@@ -24,7 +24,7 @@ from runtime.executive.story import latest
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import VariableName
 
-AHEAD = 256  # ticks that are carried out before anybody asks for them
+_AHEAD = 256  # ticks that are carried out before anybody asks for them
 
 
 class DeterminedReactor:
@@ -195,7 +195,7 @@ class DeterminedReactor:
             self.machine.keep()
             self.base = tick
             watched = self.watched
-            limit = min(tick + AHEAD, self.final_tick)
+            limit = min(tick + _AHEAD, self.final_tick)
             for wish in self.wishes:
                 watched |= 1 << wish.line
                 limit = min(limit, max(self.final_tick - 1, tick + 1))

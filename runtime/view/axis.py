@@ -2,7 +2,7 @@
 
 from math import ceil, floor, inf, log10
 
-FACTORS = (1, 2, 5)
+_FACTORS = (1, 2, 5)
 
 
 def _round_step(least: float) -> float:
@@ -10,7 +10,7 @@ def _round_step(least: float) -> float:
     if not 0.0 < least < inf:
         return 1.0
     power = 10.0 ** floor(log10(least))
-    return next((factor * power for factor in FACTORS if factor * power >= least * 0.999), 10.0 * power)
+    return next((factor * power for factor in _FACTORS if factor * power >= least * 0.999), 10.0 * power)
 
 
 def whole_ticks(first: int, last: int, least: float) -> range:

@@ -7,8 +7,8 @@ from math import inf
 from runtime.plan.readout.level_profile import LevelProfile
 from runtime.plan.readout.state import Interval, PlanState, TokenExtent, TokenState, bound_text
 
-MOST_IDLE = 10  # timelines without tokens that are shown
-FAR = 10**9  # a horizon beyond is not drawn to its ends
+_MOST_IDLE = 10  # timelines without tokens that are shown
+_FAR = 10**9  # a horizon beyond is not drawn to its ends
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ def drawing(plan: PlanState, horizon: tuple[int, int], profiles: Mapping[str, Le
     tokens = [(token, token.extent) for token in plan.tokens if token.state == "ACTIVE" and token.extent is not None]
     extents = [extent for _, extent in tokens]
     known = [int(bound) for own in extents for bound in (*own.start, *own.end) if abs(bound) < inf]
-    first = min([*(known or [horizon[0]]), horizon[0]]) if horizon[0] > -FAR else min(known or [0])
+    first = min([*(known or [horizon[0]]), horizon[0]]) if horizon[0] > -_FAR else min(known or [0])
     if known and min(known) - horizon[0] > 2 * (max(known) - min(known)):
         first = min(known)  # far from where the horizon begins
     earliest = [int(bound) for own in extents for bound in (own.start[0], own.end[0]) if abs(bound) < inf]
@@ -54,7 +54,7 @@ def drawing(plan: PlanState, horizon: tuple[int, int], profiles: Mapping[str, Le
         bar = _bar(token, extent, first)
         found.setdefault(bar.row, []).append(bar)
     idle = [name for name, own in found.items() if not own]
-    if len(idle) > MOST_IDLE:
+    if len(idle) > _MOST_IDLE:
         found = {name: own for name, own in found.items() if own}
     used = {name: profile for name, profile in profiles.items() if len(profile.steps) > 1 or found.get(name)}
     bars = {

@@ -7,10 +7,10 @@ from runtime.view.axis import whole_ticks
 from runtime.view.drawing import Bar, Drawing, lanes, level_text
 from runtime.view.table import shortened
 
-WIDEST = 160  # columns of the drawing
-LEAST = 16
-MARGIN = 20  # columns between numbers on the scale
-SEVERAL = "#"
+_WIDEST = 160  # columns of the drawing
+_LEAST = 16
+_MARGIN = 20  # columns between numbers on the scale
+_SEVERAL = "#"
 
 
 def chart(drawn: Drawing, width: int) -> Iterator[str]:
@@ -19,7 +19,7 @@ def chart(drawn: Drawing, width: int) -> Iterator[str]:
         return
     first, last = drawn.first, drawn.last
     margin = min(max(len(row) for row in drawn.rows), 30, max(width // 3, 4)) + 2
-    columns = max(min(width - margin, WIDEST), LEAST)
+    columns = max(min(width - margin, _WIDEST), _LEAST)
     scale = min((columns - 1) / (last - first), 4.0)
     columns = min(columns, int((last - first) * scale) + 2)
     signs: set[str] = set()
@@ -45,8 +45,8 @@ def _legend(drawn: Drawing, signs: set[str], width: int) -> Iterator[str]:
         said.append("`>` may last longer")
     if drawn.profiles:
         said.append("`-` level of a resource")
-    if SEVERAL in signs:
-        said.append(f"`{SEVERAL}` several tokens")
+    if _SEVERAL in signs:
+        said.append(f"`{_SEVERAL}` several tokens")
     line = ""
     for each in said:
         if line and len(line) + len(each) + 2 > width:
@@ -65,7 +65,7 @@ def _lane_line(lane: list[Bar], columns: int, first: int, scale: float) -> str:
         start = int((bar.start - first) * scale)
         _draw(line, start, int((bar.end - first) * scale), bar.predicate, "=")
         if start in begun:
-            line[start] = SEVERAL
+            line[start] = _SEVERAL
         begun.add(start)
         if bar.is_open and (stop := max(int((bar.end - first) * scale), start + 1)) < len(line):
             line[stop] = ">"
@@ -91,7 +91,7 @@ def _draw(line: list[str], start: int, end: int, name: str, fill: str, *, is_who
 def _ruler(first: int, last: int, scale: float, columns: int) -> str:
     """Numbers under the drawing."""
     line = [" "] * (columns + 2)
-    for moment in whole_ticks(first, last, max(MARGIN, len(str(last)) + 2) / scale):
+    for moment in whole_ticks(first, last, max(_MARGIN, len(str(last)) + 2) / scale):
         at = int((moment - first) * scale)
         text = str(moment)
         if at + len(text) <= len(line):

@@ -11,23 +11,23 @@ from runtime.view.plan_text import HEAD as COLUMNS
 from runtime.view.plan_text import VARIABLES, PlanReport, token_cells
 from runtime.view.table import shortened
 
-NARROW, WIDE = 900, 12000  # pixels for the time that is drawn
-ROOMY = 60  # pixels that a token is given where that is possible
-LINE = 26
-TALL = 56  # the height of a level's row
-HEAD = 30
-LETTER = 7  # pixels, as wide as most are
-MOST_TICKS = 12  # where the picture is narrow
-LONGEST = 32  # letters of an object's name
-PALETTE = ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#997700", "#555555")
-LIGHT = {"#ee6677", "#ccbb44", "#66ccee"}  # dark letters are read better on these
-STYLE = (
+_NARROW, _WIDE = 900, 12000  # pixels for the time that is drawn
+_ROOMY = 60  # pixels that a token is given where that is possible
+_LINE = 26
+_TALL = 56  # the height of a level's row
+_HEAD = 30
+_LETTER = 7  # pixels, as wide as most are
+_MOST_TICKS = 12  # where the picture is narrow
+_LONGEST = 32  # letters of an object's name
+_PALETTE = ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377", "#997700", "#555555")
+_LIGHT = {"#ee6677", "#ccbb44", "#66ccee"}  # dark letters are read better on these
+_STYLE = (
     "text{font:12px sans-serif;fill:#222}.t{font-size:11px}.w{fill:#fff}.a{stroke:#ccc}.r{stroke:#eee}"
     ".m{stroke:#222}.l{fill:#4477aa;fill-opacity:.25;stroke:#4477aa}.s{font-size:10px}"
     ".b{stroke:#cc3311;stroke-dasharray:5 3}"
     "@media(prefers-color-scheme:dark){text{fill:#ddd}.k{fill:#222}.a{stroke:#444}.r{stroke:#333}.m{stroke:#ddd}}"
 )
-LOOK = (
+_LOOK = (
     ":root{color-scheme:light dark}body{font:14px sans-serif;margin:2em}.p{overflow-x:auto}"
     "table{border-collapse:collapse;margin-top:1em}"
     "td,th{padding:2px 10px;text-align:left;white-space:nowrap;border-bottom:1px solid #8884;max-width:40em;"
@@ -37,39 +37,39 @@ LOOK = (
 
 def svg(drawn: Drawing) -> str:
     """The plan as one SVG element; bars that may move have a dashed outline."""
-    margin = 20 + LETTER * max([min(len(row), LONGEST) for row in drawn.rows], default=0)
+    margin = 20 + _LETTER * max([min(len(row), _LONGEST) for row in drawn.rows], default=0)
     most = max([len(own) for own in drawn.bars.values()], default=0)
-    width = min(max(NARROW, ROOMY * most), WIDE)
+    width = min(max(_NARROW, _ROOMY * most), _WIDE)
     scale = width / (drawn.last - drawn.first)
     names = dict.fromkeys(bar.predicate for row in drawn.rows for bar in drawn.bars.get(row, ()))
-    colours = {name: PALETTE[n % len(PALETTE)] for n, name in enumerate(names)}
+    colours = {name: _PALETTE[n % len(_PALETTE)] for n, name in enumerate(names)}
     body: list[str] = []
-    y = HEAD
+    y = _HEAD
     for row in drawn.rows:
-        caption = f"<title>{escape(row)}</title>" if len(row) > LONGEST else ""
-        body.append(f'<text x="4" y="{y + 17}">{escape(shortened(row, LONGEST))}{caption}</text>')
+        caption = f"<title>{escape(row)}</title>" if len(row) > _LONGEST else ""
+        body.append(f'<text x="4" y="{y + 17}">{escape(shortened(row, _LONGEST))}{caption}</text>')
         if row in drawn.profiles:
             body += _level(row, drawn.profiles[row], drawn, margin, y, scale)
-            y += TALL
+            y += _TALL
         else:
             own = lanes(drawn.bars[row])
             for lane in own:
                 for bar in lane:
                     start = margin + (bar.start - drawn.first) * scale
                     body += _bar(bar, start, (bar.end - bar.start) * scale, y, colours)
-                y += LINE
-            y += 0 if own else LINE
+                y += _LINE
+            y += 0 if own else _LINE
         body.append(f'<line class="r" x1="0" y1="{y}" x2="{margin + width + 20}" y2="{y}"/>')
     axis: list[str] = []
-    apart = (drawn.last - drawn.first) * NARROW / width * max(1.0, len(str(drawn.last)) / 7) / MOST_TICKS
+    apart = (drawn.last - drawn.first) * _NARROW / width * max(1.0, len(str(drawn.last)) / 7) / _MOST_TICKS
     for moment in whole_ticks(drawn.first, drawn.last, apart):
         x = margin + (moment - drawn.first) * scale
-        axis.append(f'<line class="a" x1="{x:.1f}" y1="{HEAD - 8}" x2="{x:.1f}" y2="{y}"/>')
-        axis.append(f'<text x="{x:.1f}" y="{HEAD - 12}" text-anchor="middle">{moment}</text>')
+        axis.append(f'<line class="a" x1="{x:.1f}" y1="{_HEAD - 8}" x2="{x:.1f}" y2="{y}"/>')
+        axis.append(f'<text x="{x:.1f}" y="{_HEAD - 12}" text-anchor="middle">{moment}</text>')
     size = f'width="{margin + width + 30}" height="{y + 10}"'
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" {size} role="img" aria-label="plan">'
-        f"<style>{STYLE}</style>{''.join(axis)}{''.join(body)}</svg>\n"
+        f"<style>{_STYLE}</style>{''.join(axis)}{''.join(body)}</svg>\n"
     )
 
 
@@ -77,7 +77,9 @@ def _bar(bar: Bar, x: float, width: float, y: int, colours: dict[str, str]) -> I
     """One token: a box with its name and, for the pointer, all that is known of it."""
     wide = max(width, 3.0)
     outline = "" if bar.is_fixed else ' class="m" stroke-dasharray="3 2"'
-    box = f'<rect x="{x:.1f}" y="{y + 3}" width="{wide:.1f}" height="{LINE - 6}" rx="3" fill="{colours[bar.predicate]}"'
+    box = (
+        f'<rect x="{x:.1f}" y="{y + 3}" width="{wide:.1f}" height="{_LINE - 6}" rx="3" fill="{colours[bar.predicate]}"'
+    )
     yield f"<g><title>{escape(bar.tip)}</title>{box}{outline}/>"
     if bar.is_open:
         end = x + wide
@@ -85,7 +87,7 @@ def _bar(bar: Bar, x: float, width: float, y: int, colours: dict[str, str]) -> I
     room = int((wide - 6) / 6.5)
     if room >= 2:
         name = bar.predicate if len(bar.predicate) <= room else bar.predicate[: room - 1] + "…"
-        letters = "t k" if colours[bar.predicate] in LIGHT else "t w"
+        letters = "t k" if colours[bar.predicate] in _LIGHT else "t w"
         yield f'<text class="{letters}" x="{x + 4:.1f}" y="{y + 17}">{escape(name)}</text>'
     yield "</g>"
 
@@ -95,10 +97,10 @@ def _level(name: str, profile: LevelProfile, drawn: Drawing, margin: int, y: int
     limits = [each for each in (profile.lower, profile.upper) if abs(each) < inf]
     seen = [*limits, *(level for step in profile.steps for level in step[1:] if abs(level) < inf)]
     low, high = min(seen, default=0.0), max(seen, default=1.0)
-    tall = (TALL - 14) / ((high - low) or 1.0)
+    tall = (_TALL - 14) / ((high - low) or 1.0)
 
     def height(level: float) -> float:
-        return y + TALL - 7 - (min(max(level, low), high) - low) * tall
+        return y + _TALL - 7 - (min(max(level, low), high) - low) * tall
 
     def across(at: int) -> float:
         return margin + (max(at, drawn.first) - drawn.first) * scale
@@ -113,7 +115,7 @@ def _level(name: str, profile: LevelProfile, drawn: Drawing, margin: int, y: int
         yield f'<rect class="l" x="{x:.1f}" y="{top:.1f}" {size}/>'
         if least != most:
             yield f'<line class="m" x1="{x:.1f}" y1="{height(least):.1f}" x2="{end:.1f}" y2="{height(least):.1f}"/>'
-        if end - x > LETTER * len(level_text(least, most)):
+        if end - x > _LETTER * len(level_text(least, most)):
             base = top - 3 if top > y + 16 else top + 10
             yield f'<text class="s" x="{x + 3:.1f}" y="{base:.1f}">{level_text(least, most)}</text>'
         yield "</g>"
@@ -130,7 +132,7 @@ def page(report: PlanReport, drawn: Drawing, title: str, said: Sequence[str]) ->
     hidden = f"<p>{escape(hidden)}</p>" if (hidden := report.hidden_text()) else ""
     return (
         f'<!doctype html><html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
-        f"<style>{LOOK}</style></head><body><h1>{escape(title)}</h1><pre>{escape(chr(10).join(said))}</pre>"
+        f"<style>{_LOOK}</style></head><body><h1>{escape(title)}</h1><pre>{escape(chr(10).join(said))}</pre>"
         f"{picture}{tables}{hidden}</body></html>\n"
     )
 

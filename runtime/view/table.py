@@ -2,14 +2,14 @@
 
 from collections.abc import Iterable, Iterator
 
-LEAST = 6  # characters of a cell that are shown in any case
+_LEAST = 6  # characters of a cell that are shown in any case
 
 
 def table(head: tuple[str, ...], rows: Iterable[tuple[str, ...]], room: int | None = None) -> Iterator[str]:
     """Rows under a head, in columns as wide as they need to be, or as `room` lets them be: the widest give way."""
     lines = [head, *rows]
     widths = [max(len(line[column]) for line in lines) for column in range(len(head))]
-    least = [min(width, LEAST) for width in widths]
+    least = [min(width, _LEAST) for width in widths]
     while room is not None and sum(widths) + 2 * (len(head) - 1) > room and widths != least:
         widest = max(range(len(head)), key=lambda column: widths[column] - least[column])
         widths[widest] -= 1

@@ -5,7 +5,7 @@ from array import array
 from typing import Any, Literal, TypeVar, cast, overload
 
 _IS_LAZY = hasattr(mmap, "MAP_PRIVATE")  # can the system give pages that cost nothing until they are written?
-Number = TypeVar("Number", int, float)
+_Number = TypeVar("_Number", int, float)
 
 _LARGE = 2**22  # bytes from which an array lives in such pages
 
@@ -19,7 +19,7 @@ def blank(length: int, code: str = "q") -> "array[Any]":
     return array(code, bytes(array(code).itemsize * length))
 
 
-def grown(old: "array[Number]", length: int, fill: float = 0) -> "array[Number]":
+def grown(old: "array[_Number]", length: int, fill: float = 0) -> "array[_Number]":
     """Longer copy of `old`: `length` cells, the new ones hold `fill`."""
     view = memoryview(old)
     code = view.format

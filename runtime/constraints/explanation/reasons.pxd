@@ -11,22 +11,22 @@ cdef const short[:] READS, READS_OWN
 @cython.locals(c="long long", first="long long", k="long long", kind="long long", last="long long", reads="long long")
 cpdef void collect_reasons(Store s, long long support, long long v, long long side) except *
 
-cpdef void add_reason(Store s, long long v, long long side) except *
+cpdef void _add_reason(Store s, long long v, long long side) except *
 
-cpdef int collect_edge(Store s, long long e, long long v, long long side) except -1
+cpdef int _collect_edge(Store s, long long e, long long v, long long side) except -1
 
 @cython.locals(c="long long")
-cpdef int collect_weight(Store s, long long e) except -1
+cpdef int _collect_weight(Store s, long long e) except -1
 
 @cython.locals(is_term=bint, k="long long")
-cpdef int collect_sum(
+cpdef int _collect_sum(
     Store s, long long v, long long side, long long total, long long first, long long last
 ) except -1
 
 @cython.locals(first="long long", k="long long", u="long long")
-cpdef int collect_all(Store s, long long c, long long v, long long side) except -1
+cpdef int _collect_all(Store s, long long c, long long v, long long side) except -1
 
-cpdef bint reads_itself(Store s, long long op, long long v, long long side) except -1
+cpdef bint _reads_itself(Store s, long long op, long long v, long long side) except -1
 
 cpdef bint is_carried(Store s, long long c) except -1
 

@@ -34,28 +34,28 @@ def collect_reasons(s: Store, support: int, v: int, side: int) -> None:
     if support < 0 or kind > SUPPORT_CONSTRAINT:
         return
     if kind == SUPPORT_EDGE:
-        collect_edge(s, support >> 2, v, side)
+        _collect_edge(s, support >> 2, v, side)
         return
     c = support >> 2
     first = s.first[c]
     last = first + s.arity[c]
     reads = READS[s.op[c]]
     if reads == READS_DISTANCE:
-        add_reason(s, s.slot_variable[first + 2], side)
-        add_reason(s, s.slot_variable[first], 1 - side)
+        _add_reason(s, s.slot_variable[first + 2], side)
+        _add_reason(s, s.slot_variable[first], 1 - side)
     elif reads == READS_ALL or side == SIDE_HOLES:
-        collect_all(s, c, v, side)
+        _collect_all(s, c, v, side)
     elif reads == READS_SAME_SIDE:
         for k in range(first, last):
             if s.slot_variable[k] != v:
-                add_reason(s, s.slot_variable[k], side)
+                _add_reason(s, s.slot_variable[k], side)
     elif reads == READS_SUM_LAST:
-        collect_sum(s, v, side, s.slot_variable[last - 1], first, last - 1)
+        _collect_sum(s, v, side, s.slot_variable[last - 1], first, last - 1)
     else:
-        collect_sum(s, v, side, s.slot_variable[first], first + 1, last)
+        _collect_sum(s, v, side, s.slot_variable[first], first + 1, last)
 
 
-def add_reason(s: Store, v: int, side: int) -> None:
+def _add_reason(s: Store, v: int, side: int) -> None:
     """Put one bound among the reasons; constants need none."""
     if s.constant[v]:
         return
@@ -65,65 +65,65 @@ def add_reason(s: Store, v: int, side: int) -> None:
     s.reason_count += 1
 
 
-def collect_edge(s: Store, e: int, v: int, side: int) -> None:
+def _collect_edge(s: Store, e: int, v: int, side: int) -> None:
     """Put the bound at the other end of an edge, and the bound that its weight follows."""
     if side == SIDE_UPPER:
-        add_reason(s, s.edge_source[e], SIDE_UPPER)
+        _add_reason(s, s.edge_source[e], SIDE_UPPER)
     else:
-        add_reason(s, s.edge_target[e], SIDE_LOWER)
-    collect_weight(s, e)
+        _add_reason(s, s.edge_target[e], SIDE_LOWER)
+    _collect_weight(s, e)
 
 
 def collect_weight_reasons(s: Store, e: int) -> None:
     """Put into `reasons`, alone, the bound that the weight of an edge follows, if it does."""
     s.reason_count = 0
-    collect_weight(s, e)
+    _collect_weight(s, e)
 
 
 def collect_all_reasons(s: Store, c: int) -> None:
     """Put into `reasons`, alone, every bound of all arguments of a constraint."""
     s.reason_count = 0
-    collect_all(s, c, -1, SIDE_HOLES)
+    _collect_all(s, c, -1, SIDE_HOLES)
 
 
-def collect_weight(s: Store, e: int) -> None:
+def _collect_weight(s: Store, e: int) -> None:
     """Put the bound of the distance that the weight of an edge follows, if it does."""
     c = s.edge_link[e]
     if c >= 0 and s.mode[c] == MODE_DISTANCE:
-        add_reason(s, s.slot_variable[s.first[c] + 1], SIDE_UPPER if e == s.link_a[c] else SIDE_LOWER)
+        _add_reason(s, s.slot_variable[s.first[c] + 1], SIDE_UPPER if e == s.link_a[c] else SIDE_LOWER)
 
 
-def collect_sum(s: Store, v: int, side: int, total: int, first: int, last: int) -> None:
+def _collect_sum(s: Store, v: int, side: int, total: int, first: int, last: int) -> None:
     """Put what a sum read for its total, or for one of its terms; a variable may stand on both sides."""
     is_term = False
     for k in range(first, last):
         if s.slot_variable[k] == v:
             is_term = True
         if v == total:
-            add_reason(s, s.slot_variable[k], side)
+            _add_reason(s, s.slot_variable[k], side)
     if is_term:
-        add_reason(s, total, side)
+        _add_reason(s, total, side)
         for k in range(first, last):
             if s.slot_variable[k] != v:
-                add_reason(s, s.slot_variable[k], 1 - side)
+                _add_reason(s, s.slot_variable[k], 1 - side)
 
 
-def collect_all(s: Store, c: int, v: int, side: int) -> None:
+def _collect_all(s: Store, c: int, v: int, side: int) -> None:
     """Put every bound of all arguments but `v`, which may be -1, and those of `v` where the operation reads them."""
     first = s.first[c]
     for k in range(first, first + s.arity[c]):
         u = s.slot_variable[k]
         if u != v:
-            add_reason(s, u, SIDE_LOWER)
-            add_reason(s, u, SIDE_UPPER)
+            _add_reason(s, u, SIDE_LOWER)
+            _add_reason(s, u, SIDE_UPPER)
             if s.word[u] >= 0:
-                add_reason(s, u, SIDE_HOLES)
-    if v >= 0 and reads_itself(s, s.op[c], v, side):
-        add_reason(s, v, SIDE_LOWER)
-        add_reason(s, v, SIDE_UPPER)
+                _add_reason(s, u, SIDE_HOLES)
+    if v >= 0 and _reads_itself(s, s.op[c], v, side):
+        _add_reason(s, v, SIDE_LOWER)
+        _add_reason(s, v, SIDE_UPPER)
 
 
-def reads_itself(s: Store, op: int, v: int, side: int) -> bool:
+def _reads_itself(s: Store, op: int, v: int, side: int) -> bool:
     """Tell whether an operation narrows `v` from where it stands: a value at the end is taken, a branch is chosen."""
     if s.kind[v] == KIND_BOOL:
         return False
