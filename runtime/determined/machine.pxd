@@ -11,7 +11,7 @@ cdef double LARGEST, NAN, TOLERANCE
 
 cdef class Machine:
     cdef public long long lines, root_row, why
-    cdef public bint is_planned
+    cdef public bint is_planned, is_trial
     cdef public object world
     cdef public Present present
     cdef public Log log
@@ -35,11 +35,11 @@ cdef class Machine:
 
     @cython.locals(
         n="long long", j="long long", first="long long", into="long long", block="long long", mask="long long",
-        row="long long", line="long long", at="long long", is_wish="bint", present="Present", log="Log"
+        row="long long", line="long long", at="long long", is_wish="bint", value="double", present="Present", log="Log"
     )
     cpdef bint settle(self, long long i, long long tick) except -1
 
-    @cython.locals(n="long long", j="long long", present="Present")
+    @cython.locals(n="long long", j="long long", can="bint", present="Present")
     cpdef bint can_start(self, long long i, long long tick) except -1
 
     @cython.locals(j="long long", first="long long")
@@ -52,7 +52,7 @@ cdef class Machine:
     cpdef bint carry_out(self, long long at) except -1
 
     @cython.locals(
-        n="long long", j="long long", block="long long", bound="long long", slot="long long", value="double",
+        n="long long", j="long long", block="long long", bound="long long", slot="long long", holds="bint", value="double",
         present="Present"
     )
     cpdef bint arrange(self, long long op, long long line, long long a, long long b, long long at) except -1

@@ -1,3 +1,4 @@
+# cython: boundscheck=False
 """Register machine: ticks go in, tokens that start come out; no plan database, no propagation.
 
 At a tick the machine finds what must end (its latest end is now, or something that was asked for may start) and runs
@@ -60,6 +61,7 @@ class Machine:
         self.previous = array("q", bytes(8 * lines))
         self.remembers = array("q", bytes(8 * lines))
         self.starts = array("q", bytes(8 * lines))
+        self.is_trial = False  # a start is tried out: nothing else is about to end
         self.is_planned = False  # what starts was asked for or followed, it is not the default
         self.width = array("q", bytes(8 * lines))
         self.default_block = array("q", bytes(8 * lines))
@@ -117,6 +119,8 @@ class Machine:
             if present.state[FOLLOWER * n + i] >= 0 and present.state[ENDING * n + present.state[OWNER * n + i]]:
                 present.state[DUE * n + i] = present.state[FOLLOWER * n + i]
                 present.state[FOLLOWER * n + i] = NONE
+                if present.state[OWNER * n + i] == i:
+                    continue
                 first = self.following[i]
                 into = self.incoming[i]
                 for j in range(self.width[i]):
@@ -140,7 +144,10 @@ class Machine:
             present.state[ENDING * n + j] = 1
             present.state[DUE * n + j] = NONE
         present.state[WISH_FROM * n + i] = tick
-        return self.settle(i, tick)
+        self.is_trial = True
+        can = self.settle(i, tick)
+        self.is_trial = False
+        return can
 
     def settle(self, i: int, tick: int) -> bool:
         """Start what takes the place of what has ended on a timeline."""
@@ -166,6 +173,8 @@ class Machine:
         self.start(i, self.block_predicate[block])
         mask = self.block_mask[block]
         first = self.wished[i] if is_wish else self.incoming[i]
+        if present.state[DUE * n + i] >= 0 and present.state[OWNER * n + i] == i:
+            first = self.following[i]
         into = self.current[i]
         for j in range(self.width[i]):
             if mask >> j & 1:
@@ -186,7 +195,10 @@ class Machine:
             at = log.take(row, self.width[line])
             first = self.current[line]
             for j in range(self.width[line]):
-                log.values[at + j] = self.registers[first + j]
+                value = self.registers[first + j]
+                if value >= LARGEST or value <= -LARGEST:
+                    return False  # as good as infinite
+                log.values[at + j] = value
         return True
 
     def start(self, i: int, predicate: int) -> int:
@@ -324,16 +336,16 @@ class Machine:
             self.log.note(present.now, line, a, -1 - self.root_row)
             return True
         if op == 33:  # MERGE
-            return bool(
-                present.state[PREDICATE * n + line] == a
-                and (present.changed >> line & 1 or not present.state[ENDING * n + line])
-            )
+            holds = self.is_trial or present.changed >> line & 1 or not present.state[ENDING * n + line]
+            return bool(holds and present.state[PREDICATE * n + line] == a)
         if op == 34:  # PREVIOUS
             return bool(present.state[present.before + line] == a)
         if op == 35:  # FOLLOW
             block = self.code[at - 2]
             if present.state[FOLLOWER * n + line] >= 0 or block <= 0:
                 return False
+            if present.state[DUE * n + line] >= 0 and not present.changed >> line & 1:
+                return False  # what is due there has not been taken yet
             present.state[FOLLOWER * n + line] = block
             present.state[OWNER * n + line] = a
             return True

@@ -8,6 +8,7 @@ from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.planning import Planner
 from runtime.executive.reactor import Failure, Refusal, Watched
+from runtime.executive.record import ReactorRecord
 from runtime.executive.repair import relax
 from runtime.executive.story import conflict_of, latest
 from runtime.executive.synchronise import Unsettled, settle
@@ -148,7 +149,7 @@ class PlanReactor:
             failure = self._prepare(tick) or self._settle(tick)
             if failure is None:
                 self.goals.report_rejected()
-                if self.goals.close(tick):
+                if self.goals.close(tick, self.dispatch.is_cut_off):
                     self.goals.reopen()
                 self.bench.recorder.settled = tick
                 return None
@@ -158,7 +159,8 @@ class PlanReactor:
         first = failures[0]
         repairs = _distinct(first.conflict, failures[1:])
         lines = first.timelines or tuple(line.name for line in self.timelines if line.is_internal)
-        causes = self.dispatch.refusal_of(first.reason.token) or causes or events[:1]
+        refusals = self.dispatch.refusals() if first.code == "F6" else ()
+        causes = refusals or causes or events[:1]
         return Failure(first.code, first.reason, lines, first.conflict, self.relaxes, repairs, causes, watched)
 
     def _prepare(self, tick: int) -> Unsettled | None:
@@ -225,6 +227,10 @@ class PlanReactor:
                     Observation(tick, line.name, predicate, arguments, line.event, self.name, line.current, token.key)
                 )
         return published
+
+    def record(self) -> ReactorRecord:
+        """What its plan held over the mission."""
+        return self.bench.recorder.close()
 
     # ---- planning ----
 

@@ -61,9 +61,9 @@ class PlanView:
         self.requested: dict[int, int] = {}  # token -> key
         self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
         self.external_objects: set[int] = set()
-        self.recorder = Recorder(database, name)
         self.internal_objects: set[int] = set()
         self.late_objects: set[int] = set()  # timelines on which what nobody asked for begins as late as it may
+        self.recorder = Recorder(database, name)
 
     # ---- names ----
 
@@ -238,6 +238,10 @@ class PlanView:
     def remember_request(self, t: int) -> None:
         """Note that somebody asked for `t`."""
         self.requested[t] = int(self.rows.key[t])
+
+    def master(self, t: int) -> int:
+        """The token whose rule asked for `t`; NONE where there is none."""
+        return int(self.rows.parent[t])
 
     def stands_for(self, t: int) -> int:
         """The token of the plan that `t` is, or is merged into."""
