@@ -19,7 +19,7 @@ HEAD = "mission"  # the kind of the first line of a trace
 
 
 @dataclass(frozen=True, slots=True)
-class Settings:
+class FlightSettings:
     """What decides a flight, beside the mission file: the seed, values given to parameters, where it stops."""
 
     seed: int
@@ -31,13 +31,13 @@ class Settings:
 class Flight:
     """A flight that is over."""
 
-    settings: Settings
+    settings: FlightSettings
     models: str  # digest
     outcome: Outcome
     judgement: Judgement
 
 
-def fly(mission: Mission, models: ModelSet, settings: Settings) -> Flight:
+def fly(mission: Mission, models: ModelSet, settings: FlightSettings) -> Flight:
     """Fly the mission once, with the models as they are now."""
     load_programs.cache_clear()
     outcome = fly_once(models.agent, settings.seed, dict(settings.values), settings.until)
@@ -67,7 +67,7 @@ class Recorded:
 
     mission: Path
     models: str
-    settings: Settings
+    settings: FlightSettings
     lines: tuple[str, ...]
 
 
@@ -79,7 +79,7 @@ def read_trace(path: Path) -> Recorded:
         raise ValueError("its first line does not say which mission it is of")
     try:
         values = {str(name): float(value) for name, value in head["values"].items()}
-        settings = Settings(int(head["seed"]), values, None if head["until"] is None else int(head["until"]))
+        settings = FlightSettings(int(head["seed"]), values, None if head["until"] is None else int(head["until"]))
         return Recorded(path.parent / str(head["mission"]), str(head["models"]), settings, tuple(lines[1:]))
     except (KeyError, TypeError, AttributeError) as problem:
         raise ValueError("its first line lacks what decides the flight") from problem

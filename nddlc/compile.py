@@ -9,7 +9,7 @@ import click
 from checker.flight import programs_of
 from checker.mission import Mission
 from compiler.determined.codes import CHOICE_LEFT
-from compiler.determined.reasons import Reason
+from compiler.determined.reasons import ChoiceReason
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
@@ -64,7 +64,7 @@ def command(
     return int(any(program is None and configuration.lookahead <= 1 for configuration, program, _ in found))
 
 
-Found = tuple[ReactorConfiguration, RegisterProgram | None, tuple[Reason, ...]]
+Found = tuple[ReactorConfiguration, RegisterProgram | None, tuple[ChoiceReason, ...]]
 
 
 def _of_mission(mission: Mission, name: str | None) -> Iterator[Found]:
@@ -98,7 +98,10 @@ def _of_model(path: str, database: PlanDatabase) -> Found:
 
 
 def _page(
-    configuration: ReactorConfiguration, program: RegisterProgram | None, reasons: tuple[Reason, ...], explain: bool
+    configuration: ReactorConfiguration,
+    program: RegisterProgram | None,
+    reasons: tuple[ChoiceReason, ...],
+    explain: bool,
 ) -> Iterator[str]:
     if program is not None:
         blocks = [block for block in program.blocks if block is not None]

@@ -8,7 +8,7 @@ import click
 
 from checker.gold import Gold, differences, gold_lines, gold_path, gold_text, read_gold
 from checker.mission import LARGEST_SEED
-from checker.one_flight import Settings, fly
+from checker.one_flight import FlightSettings, fly
 from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable
 from nddlc.one_mission import prepare, values_of
@@ -33,7 +33,7 @@ def command(action: str, path: str, seed: int | None, given: tuple[str, ...], by
     number = mission.check.seed if seed is None else seed
     place = gold_path(file, number)
     if action == "accept":
-        settings = Settings(number, values_of(given, models))
+        settings = FlightSettings(number, values_of(given, models))
         flight = fly(mission, models, settings)
         now = datetime.now(UTC).isoformat(timespec="seconds")
         lines = gold_lines(flight.outcome)
@@ -50,7 +50,7 @@ def command(action: str, path: str, seed: int | None, given: tuple[str, ...], by
         for line in gold.lines:
             click.echo(line)
         return SAME
-    flight = fly(mission, models, Settings(gold.seed, gold.values))
+    flight = fly(mission, models, FlightSettings(gold.seed, gold.values))
     found = differences(gold.lines, gold_lines(flight.outcome))
     if flight.models != gold.models:
         click.echo(f"the models have changed since {gold.by} accepted them at {gold.at}")

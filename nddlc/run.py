@@ -7,7 +7,7 @@ import click
 
 from checker.happened import gantt
 from checker.mission import LARGEST_SEED
-from checker.one_flight import Flight, Settings, fly, trace_text
+from checker.one_flight import Flight, FlightSettings, fly, trace_text
 from checker.oracle import Verdict
 from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable
@@ -32,7 +32,7 @@ def command(path: str, seed: int | None, given: tuple[str, ...], until: int | No
     flown.
     """
     file, mission, models = prepare(path)
-    settings = Settings(mission.check.seed if seed is None else seed, values_of(given, models), until)
+    settings = FlightSettings(mission.check.seed if seed is None else seed, values_of(given, models), until)
     _progress(f"flying {mission.agent.name} ...")
     flight = fly(mission, models, settings)
     _progress("")

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from checker.judge.report import Disagreement, Kind
 from checker.judge.values import difference, hull
 from nddl_lang.text.source import Span
-from runtime.executive.record import NOBODY, Interval, ReactorRecord, TokenRecord, Value
+from runtime.executive.record import NOBODY, ReactorRecord, TokenRecord, Value, ValueRange
 
 Draw = Callable[[str, int], Value]  # parameter and tick in, value out; UNKNOWN where nothing is drawn
 
@@ -123,4 +123,4 @@ def lasting(tok: Tok) -> Value:
 
 def clock(bench: Bench, tok: Tok) -> Value:
     """What AGENT_CLOCK reads: now or later."""
-    return Interval(tok.record.tick, bench.final_tick) if bench.final_tick > tok.record.tick else bench.final_tick
+    return ValueRange(tok.record.tick, bench.final_tick) if bench.final_tick > tok.record.tick else bench.final_tick

@@ -7,7 +7,7 @@ tried among the tokens that fit by predicate, object and relation; the first cho
 from math import inf
 
 from checker.judge.bench import Bench, Tok
-from checker.judge.operands import Frame, Names
+from checker.judge.operands import BodyFrame, VariableNames
 from checker.judge.relations import Demand
 from checker.judge.values import difference, hull, may_be_equal
 from compiler.program import END, OBJECT, START, Child
@@ -28,7 +28,9 @@ class Choosing:
         """Run the rule again from its start."""
         self.counts = []
 
-    def pick(self, frame: Frame, child: Child, pairs: tuple[Demand, ...], holder: Value | None, names: Names) -> int:
+    def pick(
+        self, frame: BodyFrame, child: Child, pairs: tuple[Demand, ...], holder: Value | None, names: VariableNames
+    ) -> int:
         """The key of the token that this child is taken to be; NOBODY for none of the plan."""
         n = len(self.counts)
         found = candidates(frame, child, pairs, holder, names)
@@ -50,7 +52,9 @@ class Choosing:
         return False
 
 
-def candidates(frame: Frame, child: Child, pairs: tuple[Demand, ...], holder: Value | None, names: Names) -> list[int]:
+def candidates(
+    frame: BodyFrame, child: Child, pairs: tuple[Demand, ...], holder: Value | None, names: VariableNames
+) -> list[int]:
     """The tokens of a plan that may be what a rule asks for."""
     origin = frame.tokens[child.origin]
     wanted_class, _, suffix = child.predicate.rpartition(".")

@@ -1,7 +1,7 @@
 """Tell what a constraint determines: a value that it leaves no choice for must have been fixed in an executed plan."""
 
 from checker.judge.functions import COMPUTED
-from checker.judge.operands import Frame, Names
+from checker.judge.operands import BodyFrame, VariableNames
 from checker.judge.solving import solver
 from checker.judge.values import UNKNOWN, is_open
 from compiler.program import Constant, GlobalVariable, LocalVariable, Operand, Post, TokenVariable
@@ -14,7 +14,7 @@ EQUALITIES = ("eq", "concurrent")
 class Determined:
     """Which argument of one constraint the others determine."""
 
-    def __init__(self, post: Post, names: Names) -> None:
+    def __init__(self, post: Post, names: VariableNames) -> None:
         self.owners = [owner(operand, names) for operand in post.operands]
         self.tokens = [operand.token if isinstance(operand, TokenVariable) else 0 for operand in post.operands]
         self.slots = [operand.slot if isinstance(operand, LocalVariable) else -1 for operand in post.operands]
@@ -24,7 +24,7 @@ class Determined:
         if post.name in COMPUTED:
             self.place = 0 if COMPUTED[post.name][0] == 0 else len(post.operands) - 1
 
-    def infer(self, frame: Frame, values: list[Value]) -> None:
+    def infer(self, frame: BodyFrame, values: list[Value]) -> None:
         """Give a local variable that nobody knows the value that the others determine."""
         unfixed = [k for k, value in enumerate(values) if value == UNKNOWN]
         if len(unfixed) != 1 or self.slots[unfixed[0]] < 0:
@@ -36,7 +36,7 @@ class Determined:
                 frame.slots[self.slots[unfixed[0]]] = value
                 frame.choosing.known.add(self.slots[unfixed[0]])
 
-    def is_left_open(self, frame: Frame, values: list[Value]) -> bool:
+    def is_left_open(self, frame: BodyFrame, values: list[Value]) -> bool:
         """Whether the value that the others determine was never fixed.
 
         A token may leave the plan before the children that its rule speaks of are decided; so an open variable of its
@@ -52,7 +52,7 @@ class Determined:
         return self.owners[k] == OWN and CHILD not in self.owners
 
 
-def owner(operand: Operand, names: Names) -> int:
+def owner(operand: Operand, names: VariableNames) -> int:
     """Whose variable an operand is."""
     match operand:
         case TokenVariable(token=token):

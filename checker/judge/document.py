@@ -7,14 +7,14 @@ from typing import Any
 from compiler.program import Program
 from runtime.executive.record import (
     NOBODY,
-    Choice,
+    BodyRun,
     GuardRun,
-    Interval,
     MissionRecord,
+    OpenValues,
     ReactorRecord,
-    Run,
     TokenRecord,
     Value,
+    ValueRange,
 )
 
 STATES = ("active", "merged", "inactive", "rejected")
@@ -31,9 +31,9 @@ class DocumentError(ValueError):
 
 def value_data(value: Value) -> Any:
     """A value as JSON: itself, `{"between": [lower, upper]}` (null: no bound) or `{"one_of": [...]}`."""
-    if isinstance(value, Interval):
+    if isinstance(value, ValueRange):
         return {"between": [None if isinf(end) else end for end in value]}
-    if isinstance(value, Choice):
+    if isinstance(value, OpenValues):
         return {"one_of": list(value.values)}
     return value
 
@@ -44,9 +44,9 @@ def read_value(data: Any, where: str) -> Value:
         case bool() | int() | float() | str():
             return data
         case {"between": [lower, upper]}:
-            return Interval(-inf if lower is None else lower, inf if upper is None else upper)
+            return ValueRange(-inf if lower is None else lower, inf if upper is None else upper)
         case {"one_of": [*values]}:
-            return Choice(tuple(values))
+            return OpenValues(tuple(values))
         case _:
             raise DocumentError(f"{where} is no value: {json.dumps(data)}")
 
@@ -82,7 +82,7 @@ def _token_data(token: TokenRecord) -> dict[str, Any]:
     }
 
 
-def _run_data(run: Run) -> dict[str, Any]:
+def _run_data(run: BodyRun) -> dict[str, Any]:
     return {
         "rule": run.rule,
         "locals": [value_data(each) for each in run.locals],
@@ -150,10 +150,10 @@ def _read_token(data: Any, number: int, program: Program) -> TokenRecord:
         raise DocumentError(f"{where}: the model has no predicate `{predicate}`")
     start = read_value(data.get("start", ANY), f"{where}: start")
     end = read_value(data.get("end", ANY), f"{where}: end")
-    length: Value = end - start if isinstance(start, int) and isinstance(end, int) else Interval(0, inf)
+    length: Value = end - start if isinstance(start, int) and isinstance(end, int) else ValueRange(0, inf)
     duration = read_value(data["duration"], f"{where}: duration") if "duration" in data else length
     given = data.get("arguments", {})
-    arguments: list[Value] = [Interval(-inf, inf)] * len(code.parameters)
+    arguments: list[Value] = [ValueRange(-inf, inf)] * len(code.parameters)
     names = [parameter.name for parameter in code.parameters]
     if isinstance(given, list):
         given = dict(zip(names, given, strict=False))
@@ -181,7 +181,7 @@ def _read_token(data: Any, number: int, program: Program) -> TokenRecord:
     )
 
 
-def _read_run(data: Any, where: str, rules: int) -> Run:
+def _read_run(data: Any, where: str, rules: int) -> BodyRun:
     number = _field(data, "rule", int, where)
     if not 0 <= number < rules:
         raise DocumentError(f"{where}: the model has no rule {number}")
@@ -192,7 +192,7 @@ def _read_run(data: Any, where: str, rules: int) -> Run:
         run = None if guard.get("run") is None else _read_run(guard["run"], where, rules)
         guards.append(GuardRun(guard["branch"], bool(guard.get("is_decided", True)), run))
     named = tuple(read_value(each, f"{where}: a local") for each in data.get("locals", ()))
-    return Run(number, named, tuple(data.get("children", ())), tuple(guards))
+    return BodyRun(number, named, tuple(data.get("children", ())), tuple(guards))
 
 
 def _field(data: Any, name: str, kind: Any, where: str) -> Any:

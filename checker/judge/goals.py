@@ -6,7 +6,7 @@ from checker.judge.values import lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, START
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration
 from runtime.executive.outcome import Outcome
-from runtime.executive.record import Interval, Value
+from runtime.executive.record import Value, ValueRange
 
 
 def judge_goals(agent: AgentConfiguration, outcome: Outcome, desks: dict[str, tuple[ProgramJudge, Bench]]) -> None:
@@ -45,7 +45,7 @@ def is_answer(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, tok: T
         return False
     names = [parameter.name for parameter in judge.predicates[tok.record.predicate].code.parameters]
     for name, given in goal.parameters:
-        wanted: Value = Interval(*given) if isinstance(given, tuple) else given
+        wanted: Value = ValueRange(*given) if isinstance(given, tuple) else given
         if name in names and not may_be_equal(tok.values[FIRST_PARAMETER + names.index(name)], wanted):
             return False
     return True

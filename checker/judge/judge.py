@@ -9,11 +9,11 @@ from collections.abc import Mapping, Sequence
 from checker.judge.bench import Bench, Tok
 from checker.judge.draws import Chance
 from checker.judge.goals import judge_goals
-from checker.judge.operands import Frame
+from checker.judge.operands import BodyFrame
 from checker.judge.report import JudgeReport
 from checker.judge.resources import judge_resources
 from checker.judge.steps import Written
-from checker.judge.timelines import History, Published, judge_timelines
+from checker.judge.timelines import History, PublishedValue, judge_timelines
 from checker.judge.tokens import ProgramJudge, compile_program, judge_tokens
 from checker.judge.values import UNKNOWN
 from checker.judge.written import meanings_of
@@ -112,14 +112,14 @@ def judge_script(judge: ProgramJudge, bench: Bench) -> None:
     tokens: list[Tok | None] = [None if key == NOBODY else bench.tokens.get(key) for key in bench.record.script_tokens]
     tokens += [None] * (program.script_tokens - len(tokens))
     slots: list[Value] = [UNKNOWN] * program.script_slots
-    frame = Frame(bench, None, slots, tokens)
+    frame = BodyFrame(bench, None, slots, tokens)
     for step in judge.script:
         step(frame)
 
 
 def published(outcome: Outcome, reactor: str) -> History:
     """What was published, as `reactor` came to see it: news of a late death come with the next tick."""
-    found: dict[str, dict[int, Published]] = {}
+    found: dict[str, dict[int, PublishedValue]] = {}
     deaths = {(e.tick, e.reactor) for e in outcome.events if e.kind is EventKind.KILL}
     for event in outcome.events:
         if event.kind is not EventKind.OBSERVATION:
@@ -129,7 +129,7 @@ def published(outcome: Outcome, reactor: str) -> History:
             if event.reactor == reactor:
                 continue
             tick += 1 if event.phase is Phase.DELIBERATE else 0
-        one = Published(tick, event.reactor, event.predicate, event.arguments)
+        one = PublishedValue(tick, event.reactor, event.predicate, event.arguments)
         found.setdefault(event.timeline, {})[tick] = one
     return {timeline: list(ticks.values()) for timeline, ticks in found.items()}
 

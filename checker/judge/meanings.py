@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 from checker.judge.functions import COMPUTED, conforms, product_of, sum_of
 from checker.judge.values import hull, is_near, is_open, lies_within, may_be_equal
-from runtime.executive.record import Interval, Value
+from runtime.executive.record import Value, ValueRange
 
 Meaning = Callable[..., bool | None]
 
@@ -68,7 +68,7 @@ def below(a: Value, b: Value) -> bool | None:
 
 def is_true(value: Value) -> bool | None:
     """Whether a truth value, or a number, is true."""
-    if isinstance(value, Interval):
+    if isinstance(value, ValueRange):
         return True if value.lower > 0 or value.upper < 0 else None
     return None if isinstance(value, tuple) else value != 0
 

@@ -23,13 +23,13 @@ from compiler.program import (
     TokenVariable,
     UnionOf,
 )
-from runtime.executive.record import Choice, GuardRun, Interval, Run, Value
+from runtime.executive.record import BodyRun, GuardRun, OpenValues, Value, ValueRange
 
 BUILT_IN = {STATE: "state", OBJECT: "object", DURATION: "duration", START: "start", END: "end"}
 ENDLESS = 2**51
 
 
-class Frame:
+class BodyFrame:
     """One run of a body: the values in its slots, its tokens, and what the record says of the run."""
 
     __slots__ = ("bench", "children", "choosing", "guards", "locals", "slots", "tok", "tokens")
@@ -44,17 +44,17 @@ class Frame:
         self.children: Iterator[int] = iter(())
         self.guards: Iterator[GuardRun] = iter(())
 
-    def follow(self, run: Run) -> None:
+    def follow(self, run: BodyRun) -> None:
         """Read what comes next from `run`."""
         self.locals = iter(run.locals)
         self.children = iter(run.children)
         self.guards = iter(run.guards)
 
 
-Read = Callable[[Frame], Value]
+Read = Callable[[BodyFrame], Value]
 
 
-class Names:
+class VariableNames:
     """How the variables of a body are called: for reports, and to tell the type of a token's parameter."""
 
     def __init__(self, program: Program) -> None:
@@ -99,15 +99,15 @@ def domain_value(domain: DomainConstant) -> Value:
     """The value, or the values, of a constant."""
     if domain.values is not None:
         values = tuple(float(each) if domain.kind == "float" else each for each in domain.values)
-        return values[0] if len(values) == 1 else Choice(values)
+        return values[0] if len(values) == 1 else OpenValues(values)
     assert domain.interval is not None
     lower, upper = domain.interval
     if lower == upper:
         return float(lower) if domain.kind == "float" else lower
-    return Interval(-inf if lower <= -ENDLESS else lower, inf if upper >= ENDLESS else upper)
+    return ValueRange(-inf if lower <= -ENDLESS else lower, inf if upper >= ENDLESS else upper)
 
 
-def reader(operand: Operand, names: Names) -> Read:
+def reader(operand: Operand, names: VariableNames) -> Read:
     """The function that reads `operand`."""
     match operand:
         case Constant(domain=domain):
@@ -130,12 +130,12 @@ def reader(operand: Operand, names: Names) -> Read:
             assert_never(operand)
 
 
-def _read_clock(frame: Frame) -> Value:
+def _read_clock(frame: BodyFrame) -> Value:
     return UNKNOWN if frame.tok is None else clock(frame.bench, frame.tok)
 
 
 def _token_reader(token: int, variable: int) -> Read:
-    def read(frame: Frame) -> Value:
+    def read(frame: BodyFrame) -> Value:
         tok = frame.tokens[token]
         if tok is None:
             return UNKNOWN
@@ -148,8 +148,8 @@ def _token_reader(token: int, variable: int) -> Read:
     return read
 
 
-def _field_reader(base: Read | None, members: tuple[str, ...], names: Names) -> Read:
-    def read(frame: Frame) -> Value:
+def _field_reader(base: Read | None, members: tuple[str, ...], names: VariableNames) -> Read:
+    def read(frame: BodyFrame) -> Value:
         if base is None:
             return UNKNOWN
         value = base(frame)
@@ -160,12 +160,12 @@ def _field_reader(base: Read | None, members: tuple[str, ...], names: Names) -> 
     return read
 
 
-def member(bench: Bench, names: Names, thing: Value, name: str) -> Value:
+def member(bench: Bench, names: VariableNames, thing: Value, name: str) -> Value:
     """The member called `name` of an object, or of each that it may be."""
-    if isinstance(thing, Interval):
+    if isinstance(thing, ValueRange):
         return UNKNOWN
     found: list[Value] = []
-    for each in thing.values if isinstance(thing, Choice) else (thing,):
+    for each in thing.values if isinstance(thing, OpenValues) else (thing,):
         known = bench.members.get(str(each))
         if known is None:
             return UNKNOWN
@@ -183,17 +183,17 @@ def united(values: list[Value]) -> Value:
         return values[0]
     scalars: list[float | int | bool | str] = []
     for each in values:
-        if isinstance(each, Choice):
+        if isinstance(each, OpenValues):
             scalars += each.values
-        elif isinstance(each, Interval):
+        elif isinstance(each, ValueRange):
             break
         else:
             scalars.append(each)
     else:
-        return Choice(tuple(dict.fromkeys(scalars)))
+        return OpenValues(tuple(dict.fromkeys(scalars)))
     hulls = [hull(each) for each in values]
     known = [each for each in hulls if each is not None]
-    return Interval(min(a for a, _ in known), max(b for _, b in known)) if len(known) == len(values) else UNKNOWN
+    return ValueRange(min(a for a, _ in known), max(b for _, b in known)) if len(known) == len(values) else UNKNOWN
 
 
 def is_range(operand: Operand) -> bool:

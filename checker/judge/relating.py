@@ -5,25 +5,25 @@ from collections.abc import Callable
 from checker.judge.bench import Bench, Tok
 from checker.judge.choosing import may_be_outside
 from checker.judge.meanings import equal
-from checker.judge.operands import Frame, Names, reader
+from checker.judge.operands import BodyFrame, VariableNames, reader
 from checker.judge.relations import OE, OS, TE, demands
 from checker.judge.values import difference, hull
 from compiler.program import END, OBJECT, START, Child, Relate
 from nddl_lang.text.source import Span
 from runtime.executive.record import NOBODY, Value
 
-Step = Callable[[Frame], None]
+Step = Callable[[BodyFrame], None]
 LEFT_OPEN = ("left open", "the others determine it")
 
 
-def child_step(child: Child, names: Names) -> Step:
+def child_step(child: Child, names: VariableNames) -> Step:
     slot, origin = child.slot, child.origin
     pairs = demands(child.relation, child.bounds)
     given = None if isinstance(child.object, str) else reader(child.object, names)
     suffix = child.predicate.rpartition(".")[2]
     label = child.label or suffix
 
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         bench, parent = frame.bench, frame.tok
         assert parent is not None
         frame.tokens[slot] = None
@@ -93,7 +93,7 @@ def is_due(bench: Bench, origin: Tok, tok: Tok, pairs: tuple[tuple[int, int, flo
 
 
 def relate(
-    frame: Frame, name: str, pairs: tuple[tuple[int, int, float, float], ...], origin: Tok, target: Tok, span: Span
+    frame: BodyFrame, name: str, pairs: tuple[tuple[int, int, float, float], ...], origin: Tok, target: Tok, span: Span
 ) -> None:
     """Judge a relation between two tokens."""
     bench = frame.bench
@@ -124,7 +124,7 @@ def relate(
 def relate_step(given: Relate) -> Step:
     pairs = demands(given.relation, given.bounds)
 
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         origin, target = frame.tokens[given.origin], frame.tokens[given.target]
         if origin is None or target is None:
             frame.bench.skip("a child is not on record")

@@ -6,7 +6,7 @@ from typing import Any
 from checker.judge.document import value_data
 from checker.judge.report import Disagreement, JudgeReport
 from nddl_lang.text.source import Span
-from runtime.executive.record import Choice, Interval, Value
+from runtime.executive.record import OpenValues, Value, ValueRange
 
 
 class DisagreementError(Exception):
@@ -21,9 +21,9 @@ class DisagreementError(Exception):
 
 def value_text(value: Value) -> str:
     """A value as reports print it: `[lo hi]` and `{a, b}` for what was never fixed."""
-    if isinstance(value, Interval):
+    if isinstance(value, ValueRange):
         return f"[{_bound(value.lower)} {_bound(value.upper)}]"
-    if isinstance(value, Choice):
+    if isinstance(value, OpenValues):
         return "{" + ", ".join(value_text(each) for each in value.values) + "}"
     if isinstance(value, bool):
         return "true" if value else "false"

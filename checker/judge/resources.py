@@ -9,13 +9,13 @@ from checker.judge.tokens import ProgramJudge
 from checker.judge.values import TOLERANCE
 from compiler.program import END, FIRST_PARAMETER, START, Call
 from nddl_lang.text.source import Span
-from runtime.executive.record import Interval, Value
+from runtime.executive.record import Value, ValueRange
 
 RESOURCES = frozenset({"Reservoir", "Reusable", "CBReusable", "Unary"})
 
 
 @dataclass(frozen=True, slots=True)
-class Use:
+class ResourceUse:
     """Something that changes a level: `amount` is added at `start` and, if it is given back, taken away at `end`."""
 
     start: int
@@ -26,7 +26,7 @@ class Use:
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class ResourceLimits:
     """What the level of a resource and its flows must keep to."""
 
     initial: float
@@ -57,24 +57,24 @@ def judge_resources(judge: ProgramJudge, bench: Bench) -> None:
             judge_level(bench, thing.name, limits, list(uses_of(bench, thing.name)))
 
 
-def limits_of(kind: str, members: dict[str, Value]) -> Limits | None:
+def limits_of(kind: str, members: dict[str, Value]) -> ResourceLimits | None:
     """The limits of a resource; None if one of them was never fixed."""
     found: dict[str, float] = {}
     for name, value in members.items():
         if isinstance(value, (int, float)):
             found[name] = float(value)
-        elif isinstance(value, Interval):
+        elif isinstance(value, ValueRange):
             return None
     if kind == "Unary":
-        return Limits(1.0, 0.0, inf, consumption=found.get("consumptionMax", inf))
+        return ResourceLimits(1.0, 0.0, inf, consumption=found.get("consumptionMax", inf))
     flows = (found.get("consumptionRateMax", inf), found.get("consumptionMax", inf))
     if kind == "Reservoir":
         levels = (found["initialCapacity"], found["levelLimitMin"], found["levelLimitMax"])
-        return Limits(*levels, *flows, found.get("productionRateMax", inf), found.get("productionMax", inf))
-    return Limits(found["capacity"], found["levelLimitMin"], inf, *flows)
+        return ResourceLimits(*levels, *flows, found.get("productionRateMax", inf), found.get("productionMax", inf))
+    return ResourceLimits(found["capacity"], found["levelLimitMin"], inf, *flows)
 
 
-def uses_of(bench: Bench, resource: str) -> Iterator[Use]:
+def uses_of(bench: Bench, resource: str) -> Iterator[ResourceUse]:
     """What was executed on a resource, by tokens of its own and by `uses` in rules."""
     for tok in bench.tokens.values():
         record = tok.record
@@ -90,7 +90,7 @@ def uses_of(bench: Bench, resource: str) -> Iterator[Use]:
 
 def _use(
     bench: Bench, kind: str, quantity: Value, start: Value, end: Value, tok: Tok | None, span: Span | None
-) -> Iterator[Use]:
+) -> Iterator[ResourceUse]:
     if not isinstance(start, int):
         bench.skip("a use whose start was never fixed")
     elif start > bench.last_tick:
@@ -98,12 +98,12 @@ def _use(
     elif isinstance(quantity, (tuple, str)):
         bench.skip("a use whose quantity was never fixed")
     elif kind in ("produce", "consume"):
-        yield Use(start, None, float(quantity) if kind == "produce" else -float(quantity), tok, span)
+        yield ResourceUse(start, None, float(quantity) if kind == "produce" else -float(quantity), tok, span)
     else:
-        yield Use(start, end if isinstance(end, int) else bench.last_tick + 1, -float(quantity), tok, span)
+        yield ResourceUse(start, end if isinstance(end, int) else bench.last_tick + 1, -float(quantity), tok, span)
 
 
-def judge_level(bench: Bench, resource: str, limits: Limits, uses: list[Use]) -> None:
+def judge_level(bench: Bench, resource: str, limits: ResourceLimits, uses: list[ResourceUse]) -> None:
     """Judge the level at each instant at which it changes, and the flows."""
     changes: dict[int, float] = {}
     drawn: dict[int, float] = {}
@@ -136,7 +136,7 @@ def judge_level(bench: Bench, resource: str, limits: Limits, uses: list[Use]) ->
 
 
 def _exceeded(
-    bench: Bench, resource: str, what: str, amount: float, least: float, most: float, tick: int, uses: list[Use]
+    bench: Bench, resource: str, what: str, amount: float, least: float, most: float, tick: int, uses: list[ResourceUse]
 ) -> None:
     users = tuple(use.tok for use in uses if use.tok is not None and use.start <= tick)[-4:]
     span = next((use.span for use in reversed(uses) if use.span is not None and use.start <= tick), None)

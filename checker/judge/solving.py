@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 from checker.judge.functions import COMPUTED, has_open, reach, sum_of
 from checker.judge.meanings import TESTS, negation
-from runtime.executive.record import Interval, Value
+from runtime.executive.record import Value, ValueRange
 
 
 def evaluate(function: Callable[..., float], inputs: tuple[Value, ...], monotone: bool) -> Value:
@@ -13,11 +13,11 @@ def evaluate(function: Callable[..., float], inputs: tuple[Value, ...], monotone
     if not has_open(inputs):
         return function(*inputs)
     if not monotone:
-        return Interval(-math.inf, math.inf)
+        return ValueRange(-math.inf, math.inf)
     lowest, highest = reach(function, inputs)
     if lowest is None or highest is None:
-        return Interval(-math.inf, math.inf)
-    return Interval(lowest, highest)
+        return ValueRange(-math.inf, math.inf)
+    return ValueRange(lowest, highest)
 
 
 def solver(name: str, place: int, count: int) -> Callable[..., Value] | None:
@@ -50,7 +50,7 @@ def solver(name: str, place: int, count: int) -> Callable[..., Value] | None:
 
 
 def _truth(answer: bool | None) -> Value:
-    return Interval(0, 1) if answer is None else answer
+    return ValueRange(0, 1) if answer is None else answer
 
 
 def _divide(a: float, b: float) -> float:

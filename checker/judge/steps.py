@@ -6,7 +6,7 @@ from typing import assert_never
 from checker.judge.bench import Bench
 from checker.judge.determined import Determined
 from checker.judge.meanings import MEANINGS, SILENT, Meaning, equal, is_true
-from checker.judge.operands import Frame, Names, Read, domain_value, is_range, reader
+from checker.judge.operands import BodyFrame, Read, VariableNames, domain_value, is_range, reader
 from checker.judge.relating import LEFT_OPEN, Step, child_step, relate_step
 from checker.judge.solving import solver
 from checker.judge.values import UNKNOWN, is_open, lies_within, may_be_equal
@@ -30,14 +30,14 @@ from compiler.program import (
     TypeCode,
 )
 from nddl_lang.text.source import Span
-from runtime.executive.record import Choice, Interval, Value
+from runtime.executive.record import OpenValues, Value, ValueRange
 
 Domain = Callable[[Bench, Value], bool | None]
 Written = dict[str, Meaning]  # constraints of the project, by name
 
 
 def compile_body(
-    body: tuple[Instruction, ...], names: Names, written: Written, undefined: set[int] | None = None
+    body: tuple[Instruction, ...], names: VariableNames, written: Written, undefined: set[int] | None = None
 ) -> list[Step]:
     """The steps of a body; `undefined` are slots of expressions that nothing has defined yet."""
     undefined = set() if undefined is None else undefined
@@ -72,7 +72,7 @@ def compile_body(
 
 
 def _blank(slot: int) -> Step:
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         frame.slots[slot] = UNKNOWN
 
     return step
@@ -81,7 +81,7 @@ def _blank(slot: int) -> Step:
 # ---- variables ----
 
 
-def domain_test(type_: TypeCode, domain: DomainConstant | None, names: Names) -> Domain | None:
+def domain_test(type_: TypeCode, domain: DomainConstant | None, names: VariableNames) -> Domain | None:
     """Whether a value is one that a declaration allows; None if it allows all."""
     limits = [domain_value(each) for each in (type_.domain, domain) if each is not None]
     if type_.kind == "object":
@@ -89,7 +89,7 @@ def domain_test(type_: TypeCode, domain: DomainConstant | None, names: Names) ->
     if type_.kind == "enum" and not limits:
         values = next((frozenset(given) for name, given in names.program.enums if name == type_.type_name), None)
         if values is not None:
-            limits = [Choice(tuple(sorted(values)))]
+            limits = [OpenValues(tuple(sorted(values)))]
     if not limits:
         return None
 
@@ -104,19 +104,19 @@ def domain_test(type_: TypeCode, domain: DomainConstant | None, names: Names) ->
 
 def within(value: Value, limit: Value) -> bool:
     """Whether a value may lie in a set of values."""
-    if isinstance(limit, Interval):
+    if isinstance(limit, ValueRange):
         return lies_within(value, limit.lower, limit.upper)
     return may_be_equal(value, limit)
 
 
-def _is_of_class(bench: Bench, value: Value, class_name: str, names: Names) -> bool | None:
+def _is_of_class(bench: Bench, value: Value, class_name: str, names: VariableNames) -> bool | None:
     if isinstance(value, tuple):
         return None
     known = bench.members.get(str(value))
     return None if known is None else names.is_kind_of(known[0], class_name)
 
 
-def _variable(new: NewVariable, names: Names, undefined: set[int]) -> list[Step]:
+def _variable(new: NewVariable, names: VariableNames, undefined: set[int]) -> list[Step]:
     slot, name = new.slot, new.name
     if name is None:
         undefined.add(slot)
@@ -125,7 +125,7 @@ def _variable(new: NewVariable, names: Names, undefined: set[int]) -> list[Step]
     test = domain_test(new.type, new.domain, names)
     copied = None if new.copy_of is None else reader(new.copy_of, names)
 
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         value = next(frame.locals, None)
         bench = frame.bench
         if value is None and frame.choosing is not None:
@@ -147,19 +147,19 @@ def _variable(new: NewVariable, names: Names, undefined: set[int]) -> list[Step]
 
 
 def _note(
-    frame: Frame, kind: str, name: str, values: tuple[tuple[str, Value], ...], held: str, found: str, span: Span
+    frame: BodyFrame, kind: str, name: str, values: tuple[tuple[str, Value], ...], held: str, found: str, span: Span
 ) -> None:
     tokens = () if frame.tok is None else (frame.tok,)
     frame.bench.report(kind, name, tokens, values, held, found, span)  # type: ignore[arg-type]
 
 
-def _assign(given: Assign, names: Names) -> Step:
+def _assign(given: Assign, names: VariableNames) -> Step:
     target = reader(given.target, names)
     name = names.of(given.target)
     limit = None if given.domain is None else domain_value(given.domain)
     source = reader(given.value, names) if given.value is not None and not isinstance(given.value, NewObject) else None
 
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         value = target(frame)
         if limit is not None and not frame.bench.weigh(within(value, limit)):
             _note(frame, "domain", name, ((name, value),), "assigned", "another value", given.span)
@@ -169,7 +169,7 @@ def _assign(given: Assign, names: Names) -> Step:
     return step
 
 
-def _sample(sample: Sample, names: Names, undefined: set[int]) -> Step:
+def _sample(sample: Sample, names: VariableNames, undefined: set[int]) -> Step:
     parameter, target = sample.parameter, sample.target
     slot = target.slot if isinstance(target, LocalVariable) and target.slot in undefined else None
     if slot is not None:
@@ -177,7 +177,7 @@ def _sample(sample: Sample, names: Names, undefined: set[int]) -> Step:
     read = reader(target, names)
     name = names.of(target)
 
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         tick = 0 if frame.tok is None else frame.tok.values[START]
         drawn = frame.bench.draw(parameter, tick) if isinstance(tick, int) else UNKNOWN
         if slot is not None:
@@ -194,7 +194,7 @@ def _sample(sample: Sample, names: Names, undefined: set[int]) -> Step:
 # ---- constraints ----
 
 
-def _post(post: Post, names: Names, written: Written, undefined: set[int]) -> list[Step]:
+def _post(post: Post, names: VariableNames, written: Written, undefined: set[int]) -> list[Step]:
     name = post.name
     if name in SILENT:
         return []
@@ -216,7 +216,7 @@ def _post(post: Post, names: Names, written: Written, undefined: set[int]) -> li
 def _use(post: Post, reads: list[Read]) -> Step:
     holder, quantity, start, end = reads
 
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         use = (holder(frame), quantity(frame), start(frame), end(frame), frame.tok, post.span)
         frame.bench.uses.append(use)
 
@@ -234,17 +234,17 @@ def _define(post: Post, place: int, reads: list[Read], undefined: set[int]) -> S
     if solve is None:
         return _blank(slot)
 
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         frame.slots[slot] = solve(*[read(frame) for read in others])
 
     return step
 
 
-def _two(post: Post, meaning: Meaning, reads: list[Read], names: Names) -> Step:
+def _two(post: Post, meaning: Meaning, reads: list[Read], names: VariableNames) -> Step:
     first, second = reads
     determined = Determined(post, names)
 
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         a, b = first(frame), second(frame)
         bench = frame.bench
         answer = meaning(a, b)
@@ -262,12 +262,12 @@ def _two(post: Post, meaning: Meaning, reads: list[Read], names: Names) -> Step:
     return step
 
 
-def _many(post: Post, meaning: Meaning, reads: list[Read], is_loose: bool, names: Names) -> Step:
+def _many(post: Post, meaning: Meaning, reads: list[Read], is_loose: bool, names: VariableNames) -> Step:
     determined = Determined(post, names)
     # An anonymous range in the text stands for any of its values.
     fixed = [k for k, operand in enumerate(post.operands) if not is_range(operand)]
 
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         values = [read(frame) for read in reads]
         bench = frame.bench
         answer = meaning(*values)
@@ -288,7 +288,11 @@ def _many(post: Post, meaning: Meaning, reads: list[Read], is_loose: bool, names
 
 
 def _refuse(
-    frame: Frame, post: Post, values: list[Value], names: Names, said: tuple[str, str] = ("it holds", "it does not")
+    frame: BodyFrame,
+    post: Post,
+    values: list[Value],
+    names: VariableNames,
+    said: tuple[str, str] = ("it holds", "it does not"),
 ) -> None:
     named = tuple((names.of(operand), value) for operand, value in zip(post.operands, values, strict=True))
     frame.bench.judged += 1
@@ -298,13 +302,13 @@ def _refuse(
 # ---- branches ----
 
 
-def _guard(guard: Guard, names: Names, written: Written, undefined: set[int]) -> Step:
+def _guard(guard: Guard, names: VariableNames, written: Written, undefined: set[int]) -> Step:
     condition = reader(guard.condition, names)
     then = compile_body(guard.then, names, written, set(undefined))
     otherwise = compile_body(guard.otherwise, names, written, set(undefined))
     text = guard.span.text.partition("{")[0].strip()
 
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         bench = frame.bench
         reached = next(frame.guards, None)
         if reached is None and frame.choosing is not None:
@@ -313,7 +317,7 @@ def _guard(guard: Guard, names: Names, written: Written, undefined: set[int]) ->
             if truth is None:
                 bench.skip("a branch that is not known")
                 return
-            inner = Frame(bench, frame.tok, list(frame.slots), list(frame.tokens))
+            inner = BodyFrame(bench, frame.tok, list(frame.slots), list(frame.tokens))
             inner.choosing = frame.choosing
             for each in then if truth else otherwise:
                 each(inner)
@@ -334,7 +338,7 @@ def _guard(guard: Guard, names: Names, written: Written, undefined: set[int]) ->
             found = "then" if truth else "else"
             _note(frame, "guard", text, (("condition", value),), reached.branch, found, guard.span)
         if reached.run is not None:
-            inner = Frame(bench, frame.tok, list(frame.slots), list(frame.tokens))
+            inner = BodyFrame(bench, frame.tok, list(frame.slots), list(frame.tokens))
             inner.follow(reached.run)
             for each in then if reached.branch == "then" else otherwise:
                 each(inner)
@@ -342,13 +346,13 @@ def _guard(guard: Guard, names: Names, written: Written, undefined: set[int]) ->
     return step
 
 
-def _loop(loop: ObjectLoop, names: Names, written: Written, undefined: set[int]) -> Step:
+def _loop(loop: ObjectLoop, names: VariableNames, written: Written, undefined: set[int]) -> Step:
     collection = reader(loop.collection, names)
     body = compile_body(loop.body, names, written, set(undefined))
 
-    def step(frame: Frame) -> None:
+    def step(frame: BodyFrame) -> None:
         things = collection(frame)
-        if isinstance(things, Interval):
+        if isinstance(things, ValueRange):
             frame.bench.skip("a loop over objects that are not on record")
             return
         for each in in_order(frame.bench, things):
@@ -361,5 +365,5 @@ def _loop(loop: ObjectLoop, names: Names, written: Written, undefined: set[int])
 
 def in_order(bench: Bench, things: Value) -> list[str]:
     """Objects in the order of their making."""
-    wanted = {str(each) for each in things.values} if isinstance(things, Choice) else {str(things)}
+    wanted = {str(each) for each in things.values} if isinstance(things, OpenValues) else {str(things)}
     return [name for name in bench.members if name in wanted]

@@ -15,7 +15,7 @@ GAPLESS = "something holds at every tick"
 
 
 @dataclass(frozen=True, slots=True)
-class Published:
+class PublishedValue:
     """What an owner published: from `tick` on the timeline holds the predicate with these arguments."""
 
     tick: int
@@ -24,7 +24,7 @@ class Published:
     arguments: Arguments
 
 
-History = dict[str, list[Published]]  # by timeline; of several in one tick the last
+History = dict[str, list[PublishedValue]]  # by timeline; of several in one tick the last
 
 
 def sequences(judge: ProgramJudge, bench: Bench) -> dict[str, list[Tok]]:
@@ -98,7 +98,7 @@ def is_cut_short(tok: Tok) -> bool:
 
 
 def judge_observations(
-    judge: ProgramJudge, bench: Bench, timeline: str, tokens: list[Tok], published: list[Published], is_own: bool
+    judge: ProgramJudge, bench: Bench, timeline: str, tokens: list[Tok], published: list[PublishedValue], is_own: bool
 ) -> None:
     """Every token begins with a publication, and every publication begins a token with what was published."""
     begun: dict[int, Tok] = {}
@@ -136,7 +136,7 @@ def observed(bench: Bench, timeline: str) -> set[int]:
     }
 
 
-def agrees(judge: ProgramJudge, tok: Tok, one: Published, is_own: bool) -> bool:
+def agrees(judge: ProgramJudge, tok: Tok, one: PublishedValue, is_own: bool) -> bool:
     """Whether a token holds what was published; what a user's model has no place for is `undefined` there."""
     held = tok.record.predicate.rpartition(".")[2]
     if held != one.predicate:
@@ -151,12 +151,12 @@ def agrees(judge: ProgramJudge, tok: Tok, one: Published, is_own: bool) -> bool:
     )
 
 
-def fits(judge: ProgramJudge, tok: Tok, one: Published) -> bool:
+def fits(judge: ProgramJudge, tok: Tok, one: PublishedValue) -> bool:
     """Whether the user's model certainly has a place for what was published."""
     class_name = tok.record.predicate.rpartition(".")[0]
     known = judge.predicates.get(f"{class_name}.{one.predicate}")
     return known is not None and not one.arguments
 
 
-def _told(one: Published) -> tuple[tuple[str, Value], ...]:
+def _told(one: PublishedValue) -> tuple[tuple[str, Value], ...]:
     return tuple((name, domain_value(domain)) for name, domain in one.arguments)

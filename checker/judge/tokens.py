@@ -5,14 +5,14 @@ from typing import Any
 
 from checker.judge.bench import Bench, Tok, lasting
 from checker.judge.choosing import MOST_TRIES, Choosing
-from checker.judge.operands import BUILT_IN, Frame, Names
+from checker.judge.operands import BUILT_IN, BodyFrame, VariableNames
 from checker.judge.relating import Step
 from checker.judge.report import Disagreement
 from checker.judge.steps import Domain, Written, compile_body, domain_test
 from checker.judge.values import UNKNOWN, ends_of, is_open, lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
 from nddl_lang.text.source import Span
-from runtime.executive.record import Run, Value
+from runtime.executive.record import BodyRun, Value
 
 LONGEST = float("inf")
 
@@ -43,7 +43,7 @@ class ProgramJudge:
     """A program ready to be judged."""
 
     program: Program
-    names: Names
+    names: VariableNames
     predicates: dict[str, PredicateJudge]
     rules: tuple[RuleJudge, ...]
     script: tuple[Step, ...]
@@ -53,7 +53,7 @@ class ProgramJudge:
 
 def compile_program(program: Program, written: Written) -> ProgramJudge:
     """Compile everything that a model says of a mission."""
-    names = Names(program)
+    names = VariableNames(program)
     predicates = {code.name: _predicate(code, program, written) for code in program.predicates}
     rules = tuple(_rule(rule, program, written) for rule in program.rules)
     script = tuple(compile_body(program.script, names, written))
@@ -67,7 +67,7 @@ def compile_program(program: Program, written: Written) -> ProgramJudge:
 
 
 def _predicate(code: PredicateCode, program: Program, written: Written) -> PredicateJudge:
-    names = Names(program)
+    names = VariableNames(program)
     names.tokens[0] = ("", code.name)
     tests = []
     for k, parameter in enumerate(code.parameters):
@@ -79,7 +79,7 @@ def _predicate(code: PredicateCode, program: Program, written: Written) -> Predi
 
 
 def _rule(rule: RuleCode, program: Program, written: Written) -> RuleJudge:
-    names = Names(program)
+    names = VariableNames(program)
     names.tokens[0] = ("", rule.predicate)
     return RuleJudge(tuple(compile_body(rule.body, names, written)), rule.slots, rule.tokens, rule.span)
 
@@ -115,7 +115,7 @@ def _judge_token(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
                 "domain", "object", (tok,), (("object", thing),), "its object", "of another class", known.code.span
             )
     if known.body:
-        frame = Frame(bench, tok, [UNKNOWN] * known.code.body_slots, [tok, *[None] * known.code.body_tokens])
+        frame = BodyFrame(bench, tok, [UNKNOWN] * known.code.body_slots, [tok, *[None] * known.code.body_tokens])
         for step in known.body:
             step(frame)
     if tok.is_cut:
@@ -132,7 +132,7 @@ def _judge_token(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
         return
     for run in record.runs:
         rule = judge.rules[run.rule]
-        frame = Frame(bench, tok, [UNKNOWN] * rule.slots, [tok, *[None] * rule.tokens])
+        frame = BodyFrame(bench, tok, [UNKNOWN] * rule.slots, [tok, *[None] * rule.tokens])
         frame.follow(run)
         for step in rule.steps:
             step(frame)
@@ -146,7 +146,7 @@ def find_run(bench: Bench, tok: Tok, rule: RuleJudge) -> None:
     for tries in range(MOST_TRIES):
         choosing.begin()
         choosing.known.clear()
-        frame = Frame(bench, tok, [UNKNOWN] * rule.slots, [tok, *[None] * rule.tokens])
+        frame = BodyFrame(bench, tok, [UNKNOWN] * rule.slots, [tok, *[None] * rule.tokens])
         frame.choosing = choosing
         uses = len(bench.uses)
         for _ in range(2):  # the second time with the locals that the first has found
@@ -167,7 +167,7 @@ def find_run(bench: Bench, tok: Tok, rule: RuleJudge) -> None:
     bench.found += first
 
 
-def _has_fired(bench: Bench, tok: Tok, known: PredicateJudge, runs: tuple[Run, ...]) -> bool:
+def _has_fired(bench: Bench, tok: Tok, known: PredicateJudge, runs: tuple[BodyRun, ...]) -> bool:
     """Whether the rules of a token fired, and no others; what the script activates early fires what stands above."""
     fired = tuple([run.rule for run in runs])
     if fired == known.rules:

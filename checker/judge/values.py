@@ -6,14 +6,14 @@ The language gives reals a tolerance of 1e-5. A real in a record therefore stand
 
 from math import inf, isinf
 
-from runtime.executive.record import Choice, Interval, Value
+from runtime.executive.record import OpenValues, Value, ValueRange
 
 TOLERANCE = 1e-5
 RELATIVE = 1e-9  # what sums and products of doubles may lose
 
 Scalar = float | int | bool | str
 Hull = tuple[float, float]
-UNKNOWN = Interval(-inf, inf)  # what the record does not tell
+UNKNOWN = ValueRange(-inf, inf)  # what the record does not tell
 
 
 def slack(value: float) -> float:
@@ -37,9 +37,9 @@ def is_open(value: Value) -> bool:
 
 def hull(value: Value) -> Hull | None:
     """The numbers that `value` may stand for; None for names and texts."""
-    if isinstance(value, Interval):
+    if isinstance(value, ValueRange):
         return (value.lower, value.upper)
-    if isinstance(value, Choice):
+    if isinstance(value, OpenValues):
         if not value.values or isinstance(value.values[0], str):
             return None
         numbers = [float(each) for each in value.values]
@@ -58,7 +58,7 @@ def ends_of(value: Value) -> Hull:
 
 def names(value: Value) -> frozenset[Scalar] | None:
     """The names that `value` may stand for; None if it may be any, or is a number."""
-    if isinstance(value, Choice):
+    if isinstance(value, OpenValues):
         return frozenset(value.values)
     return frozenset((value,)) if isinstance(value, str) else None
 
@@ -95,4 +95,4 @@ def difference(later: Value, earlier: Value) -> Value:
     a, b = hull(later), hull(earlier)
     if a is None or b is None:
         return UNKNOWN
-    return Interval(a[0] - b[1] if a[0] > -inf and b[1] < inf else -inf, a[1] - b[0] if b[0] > -inf else inf)
+    return ValueRange(a[0] - b[1] if a[0] > -inf and b[1] < inf else -inf, a[1] - b[0] if b[0] > -inf else inf)

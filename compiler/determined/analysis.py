@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 from compiler.determined.assemble import compile_block
-from compiler.determined.code import Block, Layout, Line
-from compiler.determined.model import Model
-from compiler.determined.reasons import Choice, Reason, UndeterminedError
+from compiler.determined.code import Line, RegisterBlock, RegisterLayout
+from compiler.determined.model import ReactorModel
+from compiler.determined.reasons import ChoiceReason, FreeChoice, UndeterminedError
 from compiler.determined.relations import FOLLOWING, MERGED, TOGETHER
 from compiler.program import Call, NewToken, PredicateCode, Program, Relate
 
@@ -13,14 +13,14 @@ MOST_PARAMETERS = 62  # as many bits has the mask of what is given
 
 
 @dataclass(frozen=True, slots=True)
-class Analysis:
+class DeterminismAnalysis:
     """What was found: the order in which timelines are settled, and the reasons against, if any."""
 
-    model: Model
-    layout: Layout
+    model: ReactorModel
+    layout: RegisterLayout
     order: tuple[int, ...]
-    blocks: tuple[Block, ...]
-    reasons: tuple[Reason, ...]
+    blocks: tuple[RegisterBlock, ...]
+    reasons: tuple[ChoiceReason, ...]
 
     @property
     def is_determined(self) -> bool:
@@ -28,28 +28,28 @@ class Analysis:
         return not self.reasons
 
 
-def analyse(program: Program, lines: tuple[Line, ...], lookahead: int) -> Analysis:
+def analyse(program: Program, lines: tuple[Line, ...], lookahead: int) -> DeterminismAnalysis:
     """Look at every token that may start on a timeline of the reactor, as somebody may ask for it or as the default.
 
     `lines` are the timelines of the reactor and, with the role "other", the model's other ones.
     """
-    model = Model(program, lines)
+    model = ReactorModel(program, lines)
     widths = [max((len(each.parameters) for each in model.predicates_of(n)), default=0) for n in range(len(lines))]
-    layout = Layout(lines, widths)
-    reasons: dict[Reason, None] = {}
+    layout = RegisterLayout(lines, widths)
+    reasons: dict[ChoiceReason, None] = {}
     if lookahead > 1:
-        reasons[Reason(Choice.LOOKAHEAD, "the reactor", None)] = None
+        reasons[ChoiceReason(FreeChoice.LOOKAHEAD, "the reactor", None)] = None
     for instruction in program.script:
         match instruction:
             case NewToken(kind=kind, predicate=goal, span=span) if kind != "fact":
-                reasons[Reason(Choice.GOAL, goal, span)] = None
+                reasons[ChoiceReason(FreeChoice.GOAL, goal, span)] = None
             case Relate(span=span):
-                reasons[Reason(Choice.STATEMENT, span.text.split("\n")[0], span)] = None
+                reasons[ChoiceReason(FreeChoice.STATEMENT, span.text.split("\n")[0], span)] = None
             case Call(method=method, span=span) if method != "close":
-                reasons[Reason(Choice.STATEMENT, span.text.split("\n")[0], span)] = None
+                reasons[ChoiceReason(FreeChoice.STATEMENT, span.text.split("\n")[0], span)] = None
             case _:
                 pass
-    blocks: list[Block] = []
+    blocks: list[RegisterBlock] = []
     for number, line in enumerate(lines):
         if line.role == "other":
             continue
@@ -57,7 +57,7 @@ def analyse(program: Program, lines: tuple[Line, ...], lookahead: int) -> Analys
             if predicate.span is None or predicate.is_action or predicate.is_event:
                 continue
             if len(predicate.parameters) > MOST_PARAMETERS:
-                reasons[Reason(Choice.FUNCTION, predicate.name, predicate.span)] = None
+                reasons[ChoiceReason(FreeChoice.FUNCTION, predicate.name, predicate.span)] = None
                 continue
             try:
                 blocks.append(compile_block(model, layout, number, predicate, _everything(predicate)))
@@ -68,14 +68,14 @@ def analyse(program: Program, lines: tuple[Line, ...], lookahead: int) -> Analys
         order = order_of(model, blocks)
     except UndeterminedError as obstacle:
         reasons[obstacle.reason] = None
-    return Analysis(model, layout, order, tuple(blocks), tuple(reasons))
+    return DeterminismAnalysis(model, layout, order, tuple(blocks), tuple(reasons))
 
 
 def _everything(predicate: PredicateCode) -> int:
     return (1 << len(predicate.parameters)) - 1
 
 
-def order_of(model: Model, blocks: list[Block]) -> tuple[int, ...]:
+def order_of(model: ReactorModel, blocks: list[RegisterBlock]) -> tuple[int, ...]:
     """Timelines in the order in which they are settled.
 
     Who starts a token on another one, or lets one follow there, comes before it; who reads what holds there, after it.
@@ -93,6 +93,6 @@ def order_of(model: Model, blocks: list[Block]) -> tuple[int, ...]:
         free = [n for n in before if n not in order and before[n] <= set(order)]
         if not free:
             names = ", ".join(f"`{model.lines[n].name}`" for n in before if n not in order)
-            raise UndeterminedError(Choice.CIRCLE, names, None)
+            raise UndeterminedError(FreeChoice.CIRCLE, names, None)
         order.append(free[0])
     return tuple(order)

@@ -1,9 +1,9 @@
 """Assemble a block: instructions in causal order become one list of integers, branches become jumps."""
 
 from compiler.determined import code
-from compiler.determined.code import STRIDE, Block, Layout
+from compiler.determined.code import STRIDE, RegisterBlock, RegisterLayout
 from compiler.determined.elaborate import Elaboration
-from compiler.determined.model import Model
+from compiler.determined.model import ReactorModel
 from compiler.determined.operations import Instruction
 from compiler.determined.relations import FOLLOWING, ROOT, TOGETHER
 from compiler.determined.schedule import AGAIN, Placed, Sequence, schedule
@@ -17,13 +17,15 @@ WITHOUT_RESULT: frozenset[int] = frozenset(
 )
 
 
-def compile_block(model: Model, layout: Layout, line: int, predicate: PredicateCode, mask: int) -> Block:
+def compile_block(
+    model: ReactorModel, layout: RegisterLayout, line: int, predicate: PredicateCode, mask: int
+) -> RegisterBlock:
     """The block of a predicate on a timeline, with the parameters in `mask` given; raises `UndeterminedError`."""
     work = Elaboration(model, layout, line, predicate, mask)
     sequence = schedule(work.sheet)
     placed = [*_clearing(work, layout, sequence), *_compared(sequence, layout)]
     placed = [(context, _following(instruction, work, layout, sequence)) for context, instruction in placed]
-    return Block(
+    return RegisterBlock(
         line,
         predicate,
         mask,
@@ -52,7 +54,7 @@ def linear(placed: list[Placed]) -> list[Instruction]:
     return [tuple(each) for each in done]
 
 
-def _clearing(work: Elaboration, layout: Layout, sequence: Sequence) -> list[Placed]:
+def _clearing(work: Elaboration, layout: RegisterLayout, sequence: Sequence) -> list[Placed]:
     """Make unknown what branches compute; tokens that start have their parameters cleared by the machine."""
     banks = {
         work.banks[number] + k
@@ -72,7 +74,7 @@ def _clearing(work: Elaboration, layout: Layout, sequence: Sequence) -> list[Pla
     return placed
 
 
-def _compared(sequence: Sequence, layout: Layout) -> list[Placed]:
+def _compared(sequence: Sequence, layout: RegisterLayout) -> list[Placed]:
     """Have what is computed more than once come out the same."""
     placed: list[Placed] = []
     for context, instruction in sequence.placed:
@@ -96,7 +98,7 @@ def _compared(sequence: Sequence, layout: Layout) -> list[Placed]:
     return placed
 
 
-def _following(instruction: Instruction, work: Elaboration, layout: Layout, sequence: Sequence) -> Instruction:
+def _following(instruction: Instruction, work: Elaboration, layout: RegisterLayout, sequence: Sequence) -> Instruction:
     """Tell a successor by its predicate and the parameters that this block gives it."""
     if instruction[0] != code.FOLLOW:
         return instruction

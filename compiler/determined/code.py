@@ -73,7 +73,7 @@ class LocalRecord:
 
 
 @dataclass(frozen=True, slots=True)
-class Block:
+class RegisterBlock:
     """What happens when a token of `predicate` starts on timeline `line`, the parameters in `mask` being given."""
 
     line: int
@@ -87,7 +87,7 @@ class Block:
 
 
 @dataclass(eq=False, slots=True)
-class Layout:
+class RegisterLayout:
     """The registers of a reactor; blocks that are compiled later take more at the end.
 
     Of each timeline there are banks of parameters: of the current token, of the one that is to follow it, of one that

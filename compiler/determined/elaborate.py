@@ -3,12 +3,12 @@
 from itertools import pairwise
 
 from compiler.determined import code
-from compiler.determined.code import BlockToken, GuardRecord, Layout, LocalRecord, Shown
+from compiler.determined.code import BlockToken, GuardRecord, LocalRecord, RegisterLayout, Shown
 from compiler.determined.items import Context, Item, Worksheet
-from compiler.determined.model import Model, values_of
+from compiler.determined.model import ReactorModel, values_of
 from compiler.determined.operations import DEMANDS, FUNCTIONS, Cell, Way, computed, demand, equal_ways
-from compiler.determined.reasons import Choice, UndeterminedError
-from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS, RELATIONS, ROOT, TOGETHER, Body
+from compiler.determined.reasons import FreeChoice, UndeterminedError
+from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS, RELATIONS, ROOT, TOGETHER, RuleInstance
 from compiler.determined.times import Time, demand_time, is_time_constraint
 from compiler.program import (
     DURATION,
@@ -39,7 +39,9 @@ from nddl_lang.text.source import Span
 class Elaboration:
     """Walks the rules of a token and of the tokens that start with it."""
 
-    def __init__(self, model: Model, layout: Layout, line: int, predicate: PredicateCode, mask: int) -> None:
+    def __init__(
+        self, model: ReactorModel, layout: RegisterLayout, line: int, predicate: PredicateCode, mask: int
+    ) -> None:
         self.model = model
         self.layout = layout
         self.sheet = Worksheet()
@@ -90,32 +92,32 @@ class Elaboration:
                     parameter.name,
                 )
                 if parameter.copy_of is not None:
-                    body = Body(number, -1, {0: number})
+                    body = RuleInstance(number, -1, {0: number})
                     mine = Cell(bank + k, parameter.type.kind)
                     span = parameter.span or self.model.span_of(predicate)
                     self._equate(mine, self._cell(parameter.copy_of, body, span), context, span, parameter.name)
-            self._run(Body(number, -1, {0: number}), predicate.body, context)
+            self._run(RuleInstance(number, -1, {0: number}), predicate.body, context)
             for index in predicate.rules:
-                self._run(Body(number, index, {0: number}), self.model.program.rules[index].body, context)
+                self._run(RuleInstance(number, index, {0: number}), self.model.program.rules[index].body, context)
         if how == FOLLOWING:
             for k in range(len(predicate.parameters)):
                 self.sheet.homes[bank + k] = context
         return number
 
-    def _child(self, child: Child, body: Body, context: Context) -> None:
+    def _child(self, child: Child, body: RuleInstance, context: Context) -> None:
         span = child.span
         what = f"{child.relation}({child.predicate.rpartition('.')[2]})"
         parent = self.tokens[body.tokens[child.origin]]
         how = RELATIONS.get(child.relation)
         if child.origin != 0 or how is None or (child.bounds and not self.model.are_usual(child)):
-            raise UndeterminedError(Choice.OPEN_TIMES, what, span)
+            raise UndeterminedError(FreeChoice.OPEN_TIMES, what, span)
         line, predicate = self.model.target(child, parent.line)
         if self.model.lines[line].role != "own" and how != MERGED:
-            raise UndeterminedError(Choice.ASKED_OF_OTHERS, what, span)
+            raise UndeterminedError(FreeChoice.ASKED_OF_OTHERS, what, span)
         if line == parent.line and how in (TOGETHER, MERGED):
-            raise UndeterminedError(Choice.OPEN_TIMES, what, span)
+            raise UndeterminedError(FreeChoice.OPEN_TIMES, what, span)
         if how == PREVIOUS and line != parent.line:
-            raise UndeterminedError(Choice.OPEN_TIMES, what, span)
+            raise UndeterminedError(FreeChoice.OPEN_TIMES, what, span)
         if how == MERGED:
             self._act((code.MERGE, line, self.model.number(predicate)), context, span, what, -1)
         if how == PREVIOUS:
@@ -142,11 +144,11 @@ class Elaboration:
 
     # ---- bodies ----
 
-    def _run(self, body: Body, instructions: tuple[Instruction, ...], context: Context) -> None:
+    def _run(self, body: RuleInstance, instructions: tuple[Instruction, ...], context: Context) -> None:
         for instruction in instructions:
             self._step(instruction, body, context)
 
-    def _step(self, instruction: Instruction, body: Body, context: Context) -> None:
+    def _step(self, instruction: Instruction, body: RuleInstance, context: Context) -> None:
         match instruction:
             case NewVariable(slot=slot, name=name, type=type_, domain=domain, copy_of=copy_of, span=span):
                 cell = Cell(self.layout.take(1), type_.kind)
@@ -174,9 +176,9 @@ class Elaboration:
             case Assign(target=target, domain=None, value=value, span=span) if _is_operand(value):
                 self._post(Post("eq", (target, value), None, span), body, context)  # type: ignore[arg-type]
             case _:
-                raise UndeterminedError(Choice.STATEMENT, instruction.span.text.split("\n")[0], instruction.span)
+                raise UndeterminedError(FreeChoice.STATEMENT, instruction.span.text.split("\n")[0], instruction.span)
 
-    def _guard(self, guard: Guard, body: Body, context: Context) -> None:
+    def _guard(self, guard: Guard, body: RuleInstance, context: Context) -> None:
         condition = self._cell(guard.condition, body, guard.span)
         self.guards.append(GuardRecord(body.token, body.rule, condition.register, context, guard.span))
         # A condition that is never known is one that the general engine would wait for.
@@ -184,7 +186,9 @@ class Elaboration:
         for branch, truth in ((guard.then, True), (guard.otherwise, False)):
             self._run(body, branch, (*context, (condition.register, truth)))
 
-    def _assign(self, target: Operand, domain: DomainConstant, body: Body, context: Context, span: Span) -> None:
+    def _assign(
+        self, target: Operand, domain: DomainConstant, body: RuleInstance, context: Context, span: Span
+    ) -> None:
         constant = Constant(domain)
         if isinstance(target, TokenVariable) and target.variable in (START, END, DURATION):
             self._post(Post("eq", (target, constant), None, span), body, context)
@@ -192,7 +196,7 @@ class Elaboration:
         cell = self._cell(target, body, span)
         self._restrict(cell, TypeCode(cell.kind, cell.kind, None), domain, context, span, span.text)
 
-    def _post(self, post: Post, body: Body, context: Context) -> None:
+    def _post(self, post: Post, body: RuleInstance, context: Context) -> None:
         """One constraint: about times, an equality, a function or a comparison."""
         layout, span, name = self.layout, post.span, post.name
         operands = [self._operand(operand, body, span) for operand in post.operands]
@@ -213,7 +217,7 @@ class Elaboration:
         cells = []
         for each, operand in zip(operands, post.operands, strict=True):
             if not isinstance(each, Cell):
-                raise UndeterminedError(Choice.END, _text(operand, span), span)
+                raise UndeterminedError(FreeChoice.END, _text(operand, span), span)
             cells.append(each)
         registers = tuple(cell.register for cell in cells)
         if name in ("eq", "concurrent"):
@@ -232,7 +236,7 @@ class Elaboration:
         elif name == "or":
             self._either(cells, context, span)
         else:
-            raise UndeterminedError(Choice.FUNCTION, name, span)
+            raise UndeterminedError(FreeChoice.FUNCTION, name, span)
 
     def _computed_time(self, time: Time, context: Context, span: Span) -> Cell:
         """A register for an end or a duration that a function computes."""
@@ -309,13 +313,13 @@ class Elaboration:
         self.sheet.given.add(register)
         return register
 
-    def _cell(self, operand: Operand, body: Body, span: Span) -> Cell:
+    def _cell(self, operand: Operand, body: RuleInstance, span: Span) -> Cell:
         found = self._operand(operand, body, span)
         if isinstance(found, Cell):
             return found
-        raise UndeterminedError(Choice.END, _text(operand, span), span)
+        raise UndeterminedError(FreeChoice.END, _text(operand, span), span)
 
-    def _operand(self, operand: Operand, body: Body, span: Span) -> "Cell | Time | DomainConstant":
+    def _operand(self, operand: Operand, body: RuleInstance, span: Span) -> "Cell | Time | DomainConstant":
         layout = self.layout
         match operand:
             case Constant(domain=domain):
@@ -326,13 +330,13 @@ class Elaboration:
             case GlobalVariable(index=index):
                 name, type_ = self.model.program.globals[index]
                 if name == "AGENT_CLOCK":
-                    raise UndeterminedError(Choice.CLOCK, span.text.split("\n")[0], span)
+                    raise UndeterminedError(FreeChoice.CLOCK, span.text.split("\n")[0], span)
                 register = layout.global_variable(index)
                 self.sheet.given.add(register)
                 return Cell(register, type_.kind)
             case LocalVariable(slot=slot):
                 if slot not in body.locals:
-                    raise UndeterminedError(Choice.STATEMENT, span.text.split("\n")[0], span)
+                    raise UndeterminedError(FreeChoice.STATEMENT, span.text.split("\n")[0], span)
                 return body.locals[slot]
             case TokenVariable(token=token, variable=variable) if variable >= FIRST_PARAMETER:
                 number = body.tokens[token]
@@ -344,7 +348,7 @@ class Elaboration:
                     layout.remembered.add(record.line)
                     self._act((code.PLANNED,), record.context, span, parameter.name, -1)
                 if self.model.lines[record.line].role != "own" and record.how != MERGED and record.how != ROOT:
-                    raise UndeterminedError(Choice.ASKED_OF_OTHERS, parameter.name, span)
+                    raise UndeterminedError(FreeChoice.ASKED_OF_OTHERS, parameter.name, span)
                 return Cell(self.banks[number] + k, parameter.type.kind)
             case TokenVariable(token=token, variable=variable) if variable in (START, END, DURATION):
                 record = self.tokens[body.tokens[token]]
@@ -354,13 +358,13 @@ class Elaboration:
                     return Cell(layout.starts[record.line], "int")
                 if record.how in (ROOT, TOGETHER, MERGED):
                     return Time(body.tokens[token], variable)
-                raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
+                raise UndeterminedError(FreeChoice.END, span.text.split("\n")[0], span)
             case Field():
                 return self._member(operand, body, span)
             case _:
-                raise UndeterminedError(Choice.STATEMENT, span.text.split("\n")[0], span)
+                raise UndeterminedError(FreeChoice.STATEMENT, span.text.split("\n")[0], span)
 
-    def _member(self, operand: Field, body: Body, span: Span) -> Cell:
+    def _member(self, operand: Field, body: RuleInstance, span: Span) -> Cell:
         """A member of an object that is known beforehand: a constant of the mission."""
         match operand.base:
             case TokenVariable(token=token, variable=variable) if variable == OBJECT:
@@ -368,10 +372,10 @@ class Elaboration:
             case GlobalVariable(index=index):
                 name = self.model.program.globals[index][0]
             case _:
-                raise UndeterminedError(Choice.STATEMENT, span.text.split("\n")[0], span)
+                raise UndeterminedError(FreeChoice.STATEMENT, span.text.split("\n")[0], span)
         kind = self.model.member_kind(name, operand.members)
         if kind is None:
-            raise UndeterminedError(Choice.STATEMENT, span.text.split("\n")[0], span)
+            raise UndeterminedError(FreeChoice.STATEMENT, span.text.split("\n")[0], span)
         register = self.layout.member(name, operand.members)
         self.sheet.given.add(register)
         return Cell(register, kind)

@@ -1,13 +1,13 @@
 """What a block looks up in the program: whose timeline a child is on, which values a domain allows."""
 
-from compiler.determined.code import LARGEST, Layout, Line
-from compiler.determined.reasons import Choice, UndeterminedError
+from compiler.determined.code import LARGEST, Line, RegisterLayout
+from compiler.determined.reasons import FreeChoice, UndeterminedError
 from compiler.program import Child, DomainConstant, GlobalVariable, PredicateCode, Program, TypeCode
 from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.text.source import Span
 
 
-class Model:
+class ReactorModel:
     """A program and the timelines of one reactor."""
 
     def __init__(self, program: Program, lines: tuple[Line, ...]) -> None:
@@ -53,19 +53,19 @@ class Model:
             case "any":
                 fitting = [n for n, each in enumerate(self.lines) if owner in self.ancestors(each.class_name)]
                 if not fitting:
-                    raise UndeterminedError(Choice.RESOURCE, child.predicate, child.span)
+                    raise UndeterminedError(FreeChoice.RESOURCE, child.predicate, child.span)
                 if len(fitting) > 1:
-                    raise UndeterminedError(Choice.SEVERAL_OBJECTS, child.predicate, child.span)
+                    raise UndeterminedError(FreeChoice.SEVERAL_OBJECTS, child.predicate, child.span)
                 line = fitting[0]
             case GlobalVariable(index=index) if self.program.globals[index][0] in self.line_numbers:
                 line = self.line_numbers[self.program.globals[index][0]]
             case _:
-                raise UndeterminedError(Choice.SEVERAL_OBJECTS, child.predicate, child.span)
+                raise UndeterminedError(FreeChoice.SEVERAL_OBJECTS, child.predicate, child.span)
         if self.lines[line].role == "other":
-            raise UndeterminedError(Choice.NO_TIMELINE, child.predicate, child.span)
+            raise UndeterminedError(FreeChoice.NO_TIMELINE, child.predicate, child.span)
         predicate = self.predicate(line, short)
         if predicate is None:
-            raise UndeterminedError(Choice.RESOURCE, child.predicate, child.span)
+            raise UndeterminedError(FreeChoice.RESOURCE, child.predicate, child.span)
         return line, predicate
 
     def are_usual(self, child: Child) -> bool:
@@ -94,7 +94,7 @@ class Model:
         return kind
 
 
-def values_of(domain: DomainConstant, layout: Layout) -> tuple[float, ...] | None:
+def values_of(domain: DomainConstant, layout: RegisterLayout) -> tuple[float, ...] | None:
     """The values of a domain as registers hold them; None where any value of its kind will do, or an interval."""
     if domain.interval is not None:
         return (float(domain.interval[0]),) if domain.interval[0] == domain.interval[1] else None

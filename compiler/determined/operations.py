@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from compiler.determined import code
-from compiler.determined.code import Layout
+from compiler.determined.code import RegisterLayout
 
 Instruction = tuple[int, ...]
 
@@ -34,7 +34,7 @@ class Way:
 Ways = list[Way]
 
 
-def computed(layout: Layout, operation: int, out: Cell, inputs: Sequence[Cell]) -> Way:
+def computed(layout: RegisterLayout, operation: int, out: Cell, inputs: Sequence[Cell]) -> Way:
     """One operation; what goes into a whole number is brought to the next one if it is within the tolerance."""
     registers = tuple(cell.register for cell in inputs)
     is_fraction = operation == code.DIV or any(cell.is_real for cell in inputs)
@@ -44,12 +44,12 @@ def computed(layout: Layout, operation: int, out: Cell, inputs: Sequence[Cell]) 
     return Way((out.register,), registers, ((operation, raw, *registers), (code.WHOLE, out.register, raw)))
 
 
-def equal_ways(layout: Layout, a: Cell, b: Cell) -> Ways:
+def equal_ways(layout: RegisterLayout, a: Cell, b: Cell) -> Ways:
     """Copy either into the other."""
     return [computed(layout, code.COPY, a, (b,)), computed(layout, code.COPY, b, (a,))]
 
 
-def _sum(layout: Layout, cells: Sequence[Cell]) -> Ways:
+def _sum(layout: RegisterLayout, cells: Sequence[Cell]) -> Ways:
     a, b, c = cells
     return [
         computed(layout, code.ADD, c, (a, b)),
@@ -58,7 +58,7 @@ def _sum(layout: Layout, cells: Sequence[Cell]) -> Ways:
     ]
 
 
-def _product(layout: Layout, cells: Sequence[Cell]) -> Ways:
+def _product(layout: RegisterLayout, cells: Sequence[Cell]) -> Ways:
     a, b, c = cells
     ways = [computed(layout, code.MUL, c, (a, b))]
     if a.is_real or b.is_real or c.is_real:
@@ -66,24 +66,24 @@ def _product(layout: Layout, cells: Sequence[Cell]) -> Ways:
     return ways
 
 
-def _quotient(layout: Layout, cells: Sequence[Cell]) -> Ways:
+def _quotient(layout: RegisterLayout, cells: Sequence[Cell]) -> Ways:
     a, b, q = cells
     return [computed(layout, code.DIV, q, (a, b)), computed(layout, code.MUL, a, (q, b))]
 
 
-def _negative(layout: Layout, cells: Sequence[Cell]) -> Ways:
+def _negative(layout: RegisterLayout, cells: Sequence[Cell]) -> Ways:
     a, b = cells
     return [computed(layout, code.NEG, a, (b,)), computed(layout, code.NEG, b, (a,))]
 
 
-def _function(operation: int) -> Callable[[Layout, Sequence[Cell]], Ways]:
+def _function(operation: int) -> Callable[[RegisterLayout, Sequence[Cell]], Ways]:
     return lambda layout, cells: [computed(layout, operation, cells[0], cells[1:])]
 
 
-def _chain(operation: int) -> Callable[[Layout, Sequence[Cell]], Ways]:
+def _chain(operation: int) -> Callable[[RegisterLayout, Sequence[Cell]], Ways]:
     """The first operand is what the operation makes of the others, from left to right."""
 
-    def ways(layout: Layout, cells: Sequence[Cell]) -> Ways:
+    def ways(layout: RegisterLayout, cells: Sequence[Cell]) -> Ways:
         out, so_far, *others = cells
         instructions: list[Instruction] = []
         inputs = tuple(cell.register for cell in cells[1:])
@@ -98,10 +98,10 @@ def _chain(operation: int) -> Callable[[Layout, Sequence[Cell]], Ways]:
     return ways
 
 
-def _points(operation: int, outputs: int) -> Callable[[Layout, Sequence[Cell]], Ways]:
+def _points(operation: int, outputs: int) -> Callable[[RegisterLayout, Sequence[Cell]], Ways]:
     """Functions of positions: all operands behind the outputs are inputs."""
 
-    def ways(layout: Layout, cells: Sequence[Cell]) -> Ways:
+    def ways(layout: RegisterLayout, cells: Sequence[Cell]) -> Ways:
         registers = tuple(cell.register for cell in cells)
         if outputs == 1:
             return [computed(layout, operation, cells[0], cells[1:])]
@@ -114,10 +114,10 @@ def _points(operation: int, outputs: int) -> Callable[[Layout, Sequence[Cell]], 
 
 def _test(
     real: int, whole: int, swapped: bool = False, negated: bool = False
-) -> Callable[[Layout, Sequence[Cell]], Ways]:
+) -> Callable[[RegisterLayout, Sequence[Cell]], Ways]:
     """A comparison as a truth value."""
 
-    def ways(layout: Layout, cells: Sequence[Cell]) -> Ways:
+    def ways(layout: RegisterLayout, cells: Sequence[Cell]) -> Ways:
         out, a, b = cells
         if swapped:
             a, b = b, a
@@ -132,15 +132,15 @@ def _test(
     return ways
 
 
-def _truth(operation: int) -> Callable[[Layout, Sequence[Cell]], Ways]:
-    def ways(layout: Layout, cells: Sequence[Cell]) -> Ways:
+def _truth(operation: int) -> Callable[[RegisterLayout, Sequence[Cell]], Ways]:
+    def ways(layout: RegisterLayout, cells: Sequence[Cell]) -> Ways:
         registers = tuple(cell.register for cell in cells)
         return [Way(registers[:1], registers[1:], ((operation, *registers),))]
 
     return ways
 
 
-FUNCTIONS: dict[str, Callable[[Layout, Sequence[Cell]], Ways]] = {
+FUNCTIONS: dict[str, Callable[[RegisterLayout, Sequence[Cell]], Ways]] = {
     "addEq": _sum,
     "mulEq": _product,
     "divEq": _quotient,
@@ -182,7 +182,7 @@ DEMANDS: dict[str, tuple[int, int, bool]] = {
 }
 
 
-def demand(layout: Layout, name: str, cells: Sequence[Cell]) -> tuple[Instruction, ...]:
+def demand(layout: RegisterLayout, name: str, cells: Sequence[Cell]) -> tuple[Instruction, ...]:
     """Instructions that hold the machine up unless a comparison is true."""
     real, whole, wanted = DEMANDS[name]
     a, b = cells

@@ -6,7 +6,7 @@ from enum import Enum
 from nddl_lang.text.source import Span
 
 
-class Choice(Enum):
+class FreeChoice(Enum):
     """What a model leaves open. The text says what, `{name}` in it names the subject."""
 
     LOOKAHEAD = "`{name}` looks further ahead than one tick, so it plans"
@@ -29,10 +29,10 @@ class Choice(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Reason:
+class ChoiceReason:
     """One choice: its kind, the subject in the modeler's words, and where the model leaves it (None: the setting)."""
 
-    choice: Choice
+    choice: FreeChoice
     name: str
     span: Span | None
 
@@ -45,6 +45,6 @@ class Reason:
 class UndeterminedError(Exception):
     """Ends the analysis of one block; raised and caught inside the analysis only."""
 
-    def __init__(self, choice: Choice, name: str, span: Span | None) -> None:
+    def __init__(self, choice: FreeChoice, name: str, span: Span | None) -> None:
         super().__init__(choice.name)
-        self.reason = Reason(choice, name, span)
+        self.reason = ChoiceReason(choice, name, span)

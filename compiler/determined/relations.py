@@ -18,7 +18,7 @@ RELATIONS = {
 
 
 @dataclass(eq=False, slots=True)
-class Body:
+class RuleInstance:
     """One rule instance, or the body of a predicate, under way: its token and what its slots stand for."""
 
     token: int

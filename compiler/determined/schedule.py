@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from compiler.determined import code
 from compiler.determined.items import Context, Item, Worksheet
 from compiler.determined.operations import Instruction, Way
-from compiler.determined.reasons import Choice, UndeterminedError
+from compiler.determined.reasons import FreeChoice, UndeterminedError
 
 Placed = tuple[Context, Instruction]
 AGAIN = -1  # at the end of an instruction: its result is known, and must come out the same
@@ -83,7 +83,7 @@ def schedule(sheet: Worksheet) -> Sequence:
             if register in sheet.openable and not _is_named(register, sheet):
                 continue
             name, span = sheet.names.get(register, ("a value", None))
-            raise UndeterminedError(Choice.OPEN_VALUE, name, span)
+            raise UndeterminedError(FreeChoice.OPEN_VALUE, name, span)
         _look(register, context, knowledge, placed, looked)
     for item in sheet.items:
         if item.rank == 1:
@@ -208,5 +208,5 @@ def _stuck(waiting: list[Item], knowledge: Knowledge, sheet: Worksheet) -> Undet
         for register in (*(each for each, _ in item.context), *item.needs):
             if not knowledge.is_readable(register, item.context):
                 name = sheet.names.get(register, ("", None))[0] or item.name.split("\n")[0]
-                return UndeterminedError(Choice.OPEN_VALUE, name, item.span)
-    return UndeterminedError(Choice.OPEN_VALUE, waiting[0].name.split("\n")[0], waiting[0].span)
+                return UndeterminedError(FreeChoice.OPEN_VALUE, name, item.span)
+    return UndeterminedError(FreeChoice.OPEN_VALUE, waiting[0].name.split("\n")[0], waiting[0].span)

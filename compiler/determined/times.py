@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from compiler.determined import code
-from compiler.determined.code import Layout
+from compiler.determined.code import RegisterLayout
 from compiler.determined.operations import Cell, Instruction
-from compiler.determined.reasons import Choice, UndeterminedError
+from compiler.determined.reasons import FreeChoice, UndeterminedError
 from compiler.program import DURATION, END, DomainConstant
 from nddl_lang.text.source import Span
 
@@ -38,7 +38,7 @@ def is_time_constraint(operands: Operands) -> bool:
     return any(isinstance(each, Time) for each in operands)
 
 
-def demand_time(layout: Layout, name: str, operands: Operands, line_of: LineOf, span: Span) -> list[Act]:
+def demand_time(layout: RegisterLayout, name: str, operands: Operands, line_of: LineOf, span: Span) -> list[Act]:
     """What a constraint says of ends; raises `UndeterminedError` where it says it of what is not known."""
     if name in ("eq", "concurrent"):
         pairs = pairwise(operands)
@@ -49,11 +49,11 @@ def demand_time(layout: Layout, name: str, operands: Operands, line_of: LineOf, 
         return _pair(layout, code.LAST_MOST, operands[0], operands[1], -1, line_of, span)
     if name == "temporalDistance":
         return _distance(layout, operands, line_of, span)
-    raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
+    raise UndeterminedError(FreeChoice.END, span.text.split("\n")[0], span)
 
 
 def _pair(
-    layout: Layout,
+    layout: RegisterLayout,
     relation: int,
     a: "Cell | Time | DomainConstant",
     b: "Cell | Time | DomainConstant",
@@ -64,7 +64,7 @@ def _pair(
     """`a` relation `b` + `step`."""
     if isinstance(a, Time) and isinstance(b, Time):
         if a.variable != END or b.variable != END or step:
-            raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
+            raise UndeterminedError(FreeChoice.END, span.text.split("\n")[0], span)
         tie = code.TIE if relation == code.LAST_EXACTLY else code.WITHIN
         return [Act((), ((tie, line_of(a), line_of(b)),))]
     if isinstance(b, Time):
@@ -74,7 +74,7 @@ def _pair(
         return _bounds(layout, relation, a, b, step, line_of, span)
     assert isinstance(b, Cell)
     if b.is_real and step:
-        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(FreeChoice.END, span.text.split("\n")[0], span)
     instructions: list[Instruction] = []
     value = b.register
     if b.is_real:
@@ -90,7 +90,7 @@ def _pair(
     return [Act((b.register,), tuple(instructions))]
 
 
-def _relative(layout: Layout, relation: int, time: Time, value: int, line_of: LineOf) -> list[Instruction]:
+def _relative(layout: RegisterLayout, relation: int, time: Time, value: int, line_of: LineOf) -> list[Instruction]:
     """Bound a duration, or an end: the machine counts from the start of the token."""
     line = line_of(time)
     if time.variable == DURATION:
@@ -100,11 +100,11 @@ def _relative(layout: Layout, relation: int, time: Time, value: int, line_of: Li
 
 
 def _bounds(
-    layout: Layout, relation: int, time: Time, domain: DomainConstant, step: int, line_of: LineOf, span: Span
+    layout: RegisterLayout, relation: int, time: Time, domain: DomainConstant, step: int, line_of: LineOf, span: Span
 ) -> list[Act]:
     """An end or duration against an interval: what it may be at most, at least, or both."""
     if domain.interval is None:
-        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(FreeChoice.END, span.text.split("\n")[0], span)
     lower, upper = domain.interval
     acts = []
     if relation != code.LAST_MOST and lower > -code.LARGEST:
@@ -116,11 +116,11 @@ def _bounds(
     return acts
 
 
-def _distance(layout: Layout, operands: Operands, line_of: LineOf, span: Span) -> list[Act]:
+def _distance(layout: RegisterLayout, operands: Operands, line_of: LineOf, span: Span) -> list[Act]:
     """`later - earlier` is `distance`."""
     earlier, distance, later = operands
     if isinstance(distance, Time):
-        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(FreeChoice.END, span.text.split("\n")[0], span)
     if isinstance(earlier, Time) and isinstance(later, Time):
         if isinstance(distance, DomainConstant) and distance.interval is not None:
             lower, upper = distance.interval
@@ -129,11 +129,11 @@ def _distance(layout: Layout, operands: Operands, line_of: LineOf, span: Span) -
                     return [Act((), ((code.WITHIN, line_of(later), line_of(earlier)),))]
                 if lower == 0 and upper >= code.LARGEST:
                     return [Act((), ((code.WITHIN, line_of(earlier), line_of(later)),))]
-        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(FreeChoice.END, span.text.split("\n")[0], span)
     base = later if isinstance(earlier, Time) else earlier
     time = earlier if isinstance(earlier, Time) else later
     if not isinstance(base, Cell) or not isinstance(time, Time) or time.variable != END:
-        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(FreeChoice.END, span.text.split("\n")[0], span)
     way = code.SUB if isinstance(earlier, Time) else code.ADD
     if isinstance(distance, Cell):
         value = layout.take(1)
@@ -145,7 +145,7 @@ def _distance(layout: Layout, operands: Operands, line_of: LineOf, span: Span) -
             )
         ]
     if distance.interval is None:
-        raise UndeterminedError(Choice.END, span.text.split("\n")[0], span)
+        raise UndeterminedError(FreeChoice.END, span.text.split("\n")[0], span)
     acts = []
     for bound, is_lower in zip(distance.interval, (True, False), strict=True):
         if abs(bound) < code.LARGEST:

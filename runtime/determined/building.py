@@ -1,12 +1,12 @@
 """Find out whether a reactor of a mission is determined, once per process, and make its compiled form."""
 
-from compiler.determined.reasons import Choice, Reason
+from compiler.determined.reasons import ChoiceReason, FreeChoice
 from compiler.program import Program
 from runtime.determined.loading import RegisterProgram, load_determined
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.workbench import Workbench
 
-Found = tuple[RegisterProgram | None, tuple[Reason, ...]]
+Found = tuple[RegisterProgram | None, tuple[ChoiceReason, ...]]
 
 # By the identity of the program, which is kept: models are loaded once and flown often.
 _KNOWN: dict[tuple[int, ReactorConfiguration, float, int], tuple[Program, Found]] = {}
@@ -36,7 +36,7 @@ def _obstacles(configuration: ReactorConfiguration) -> Found | None:
     """Settings under which the general engine does what no register code says."""
     reasons = []
     if configuration.early:
-        reasons.append(Reason(Choice.EARLY, ", ".join(configuration.early), None))
+        reasons.append(ChoiceReason(FreeChoice.EARLY, ", ".join(configuration.early), None))
     if configuration.max_steps is not None or configuration.max_depth is not None:
-        reasons.append(Reason(Choice.LIMITED, configuration.name, None))
+        reasons.append(ChoiceReason(FreeChoice.LIMITED, configuration.name, None))
     return (None, tuple(reasons)) if reasons else None

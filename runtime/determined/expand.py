@@ -8,14 +8,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import inf
 
-from compiler.determined.code import Block, BlockToken
+from compiler.determined.code import BlockToken, RegisterBlock
 from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS
 from compiler.program import Child, Guard, Instruction, NewVariable, PredicateCode
 from runtime.determined.asking import Ask, Asked, ask, ask_instead
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
 from runtime.determined.tags import FAR, LEAST, MOST, NONE, ROW, SLOT, WISHED
-from runtime.executive.record import NOBODY, GuardRun, Interval, ReactorRecord, Run, TokenRecord, Value
+from runtime.executive.record import NOBODY, BodyRun, GuardRun, ReactorRecord, TokenRecord, Value, ValueRange
 
 
 @dataclass(eq=False, slots=True)
@@ -28,7 +28,7 @@ class Held:
     start: int
     arguments: tuple[Value, ...]
     origin: str
-    runs: tuple[Run, ...] = ()
+    runs: tuple[BodyRun, ...] = ()
     shares: list[tuple[int, str]] = field(default_factory=list)
 
 
@@ -71,7 +71,7 @@ class Expansion:
             if block is not None:
                 self._read(block)
 
-    def _read(self, block: Block) -> None:
+    def _read(self, block: RegisterBlock) -> None:
         """The children and runs of all tokens of a block."""
         keys: dict[int, int] = {}
         children: dict[tuple[int, int, int], int] = {}
@@ -104,12 +104,12 @@ class Expansion:
 
     def _run(
         self,
-        block: Block,
+        block: RegisterBlock,
         token: int,
         rule: int,
         body: tuple[Instruction, ...],
         children: dict[tuple[int, int, int], int],
-    ) -> Run:
+    ) -> BodyRun:
         """One run of a rule's body or of a branch."""
         shown = {each.slot: each.shown for each in block.locals if each.token == token and each.rule == rule}
         guards = {each.span: each.register for each in block.guards if each.token == token and each.rule == rule}
@@ -129,7 +129,7 @@ class Expansion:
                     runs.append(GuardRun("then" if is_true else "else", True, inner))
                 case _:
                     pass
-        return Run(rule, tuple(named), tuple(made), tuple(runs))
+        return BodyRun(rule, tuple(named), tuple(made), tuple(runs))
 
     def _holds(self, context: tuple[tuple[int, bool], ...]) -> bool:
         return all((self.machine.registers[register] != 0.0) == truth for register, truth in context)
@@ -140,7 +140,7 @@ class Expansion:
     def _value(self, register: int, kind: str) -> Value:
         number = float(self.machine.registers[register])
         if number != number:
-            return Interval(-inf, inf)
+            return ValueRange(-inf, inf)
         if kind in ("int", "bool"):
             return bool(number) if kind == "bool" else int(number)
         return number + 0.0 if kind == "float" else self.program.name_of(int(number))
@@ -203,10 +203,10 @@ class Expansion:
         for line, held in sorted(self.current.items()):
             slot = int(present.state[SLOT * n + line])
             least, most = int(present.state[LEAST * n + slot]), int(present.state[MOST * n + slot])
-            end: Value = least if least == most else Interval(least, inf if most >= FAR else most)
+            end: Value = least if least == most else ValueRange(least, inf if most >= FAR else most)
             lasting: Value = least - held.start
-            if isinstance(end, Interval):
-                lasting = Interval(end.lower - held.start, end.upper - held.start)
+            if isinstance(end, ValueRange):
+                lasting = ValueRange(end.lower - held.start, end.upper - held.start)
             self.tokens.append(self._record(held, end, lasting, "end", tick))
             name = self.program.model.lines[line].name
             for key, shared in held.shares:
@@ -230,7 +230,7 @@ class Expansion:
         for line, (key, predicate) in sorted(self.awaited.items()):
             name = self.program.model.lines[line].name
             arguments = self._arguments(predicate, self.machine.following[line])
-            later, lasting = Interval(tick + 1, inf), Interval(1, inf)
+            later, lasting = ValueRange(tick + 1, inf), ValueRange(1, inf)
             self.tokens.append(
                 TokenRecord(
                     key,

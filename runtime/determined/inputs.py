@@ -30,7 +30,7 @@ class Inputs:
         self.is_fresh = True
 
 
-class DisagreementError(RuntimeError):
+class CatchUpError(RuntimeError):
     """The general engine does not get through what the register machine carried out: a mistake of ours."""
 
 
@@ -54,7 +54,7 @@ def catch_up(reactor: PlanReactor, shadow: Trace, inputs: Inputs, until: int, is
             pass
         failure = failure or reactor.failure()
         if failure is not None:
-            raise DisagreementError(f"`{reactor.name}` fails at tick {tick}: {failure.code} {failure.reason.kind.name}")
+            raise CatchUpError(f"`{reactor.name}` fails at tick {tick}: {failure.code} {failure.reason.kind.name}")
         reactor.recalls()
         reactor.requests(tick)
         reactor.refusals()

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 from compiler.determined.analysis import analyse
 from compiler.determined.assemble import compile_block
-from compiler.determined.code import FOLLOW, STRIDE, WHEN_FALSE, WHEN_TRUE, Block, Layout, Line
-from compiler.determined.model import Model
-from compiler.determined.reasons import Choice, Reason, UndeterminedError
+from compiler.determined.code import FOLLOW, STRIDE, WHEN_FALSE, WHEN_TRUE, Line, RegisterBlock, RegisterLayout
+from compiler.determined.model import ReactorModel
+from compiler.determined.reasons import ChoiceReason, FreeChoice, UndeterminedError
 from compiler.determined.relations import TOGETHER
 from compiler.program import DomainConstant, PredicateCode, Program
 from runtime.determined.machine import Machine
@@ -34,14 +34,14 @@ class FirstToken:
 class RegisterProgram:
     """A reactor as register code; blocks for further sets of given parameters are added when they are asked for."""
 
-    model: Model
-    layout: Layout
+    model: ReactorModel
+    layout: RegisterLayout
     order: tuple[int, ...]
     internal: tuple[int, ...]  # own timelines in the order of the configuration
     frame: ReactorRecord  # what the record of a mission says of globals, objects and the script
     defaults: list[int] = field(default_factory=list)
     first: list[FirstToken] = field(default_factory=list)
-    blocks: list[Block | None] = field(default_factory=lambda: [None])
+    blocks: list[RegisterBlock | None] = field(default_factory=lambda: [None])
     numbers: dict[tuple[int, int, int], int] = field(default_factory=dict)
     code: "array[int]" = field(default_factory=lambda: array("i", bytes(4 * STRIDE)))
     starts: "array[int]" = field(default_factory=lambda: array("q", [0]))
@@ -128,7 +128,7 @@ class RegisterProgram:
 
 def load_determined(
     bench: Workbench, program: Program, internal: tuple[str, ...], external: tuple[str, ...], lookahead: int
-) -> tuple[RegisterProgram | None, tuple[Reason, ...]]:
+) -> tuple[RegisterProgram | None, tuple[ChoiceReason, ...]]:
     """The register code of a reactor whose script has been run in `bench`, or the choices that are in the way."""
     lines = lines_of(bench, internal, external)
     analysis = analyse(program, lines, lookahead)
@@ -136,7 +136,7 @@ def load_determined(
         return None, analysis.reasons
     numbers = tuple(analysis.model.line_numbers[name] for name in internal)
     loaded = RegisterProgram(analysis.model, analysis.layout, analysis.order, numbers, bench.recorder.close())
-    reasons: dict[Reason, None] = {}
+    reasons: dict[ChoiceReason, None] = {}
     _load_facts(loaded, bench, reasons)
     _load_defaults(loaded, reasons)
     _load_constants(loaded, bench, reasons)
@@ -163,7 +163,7 @@ def _class_of(bench: Workbench, name: str) -> str:
     return bench.database.program.classes[number].name
 
 
-def _load_facts(loaded: RegisterProgram, bench: Workbench, reasons: dict[Reason, None]) -> None:
+def _load_facts(loaded: RegisterProgram, bench: Workbench, reasons: dict[ChoiceReason, None]) -> None:
     """The facts of the script: each must hold at the first tick, with values or without, but not with a choice."""
     objects = bench.database.objects.names
     taken: set[int] = set()
@@ -174,10 +174,10 @@ def _load_facts(loaded: RegisterProgram, bench: Workbench, reasons: dict[Reason,
         o = bench.object_of(t)
         line = loaded.model.line_numbers.get(objects[o], NONE) if o >= 0 else NONE
         if line < 0 or loaded.model.lines[line].role != "own":
-            reasons[Reason(Choice.NO_TIMELINE, predicate.name, predicate.span)] = None
+            reasons[ChoiceReason(FreeChoice.NO_TIMELINE, predicate.name, predicate.span)] = None
             continue
         if line in taken or bench.started_at(t) != FIRST_TICK:
-            reasons[Reason(Choice.LATER_FACT, predicate.name, predicate.span)] = None
+            reasons[ChoiceReason(FreeChoice.LATER_FACT, predicate.name, predicate.span)] = None
             continue
         taken.add(line)
         values: dict[int, float] = {}
@@ -186,7 +186,7 @@ def _load_facts(loaded: RegisterProgram, bench: Workbench, reasons: dict[Reason,
             if value is not None:
                 values[k] = value
             elif not is_open(domain) and domain.kind in ("int", "float"):
-                reasons[Reason(Choice.UNKNOWN_VALUE, f"{predicate.name}.{name}", predicate.span)] = None
+                reasons[ChoiceReason(FreeChoice.UNKNOWN_VALUE, f"{predicate.name}.{name}", predicate.span)] = None
         own = loaded.model.predicate(line, predicate.name.rpartition(".")[2])
         assert own is not None
         try:
@@ -199,9 +199,9 @@ def _load_facts(loaded: RegisterProgram, bench: Workbench, reasons: dict[Reason,
         loaded.first.append(FirstToken(line, block, values, bounds))
 
 
-def _load_defaults(loaded: RegisterProgram, reasons: dict[Reason, None]) -> None:
+def _load_defaults(loaded: RegisterProgram, reasons: dict[ChoiceReason, None]) -> None:
     """The default token of each own timeline. One that cannot be compiled is in the way where it is the first token."""
-    obstacles: dict[int, Reason] = {}
+    obstacles: dict[int, ChoiceReason] = {}
     for number, line in enumerate(loaded.model.lines):
         loaded.defaults.append(0)
         predicate = loaded.model.predicate(number, line.default) if line.role == "own" and line.default else None
@@ -223,7 +223,7 @@ def _load_defaults(loaded: RegisterProgram, reasons: dict[Reason, None]) -> None
             started |= {token.line for token in block.tokens if token.how == TOGETHER and not token.context}
 
 
-def _load_constants(loaded: RegisterProgram, bench: Workbench, reasons: dict[Reason, None]) -> None:
+def _load_constants(loaded: RegisterProgram, bench: Workbench, reasons: dict[ChoiceReason, None]) -> None:
     """Global variables and members that the code reads: they must have a value when the mission starts."""
     for index, register in loaded.layout.globals.items():
         name, type_ = loaded.model.program.globals[index]
@@ -232,7 +232,7 @@ def _load_constants(loaded: RegisterProgram, bench: Workbench, reasons: dict[Rea
     for (name, path), register in loaded.layout.members.items():
         found = member(bench, name, path)
         if found is None:
-            reasons[Reason(Choice.UNKNOWN_VALUE, f"{name}.{'.'.join(path)}", None)] = None
+            reasons[ChoiceReason(FreeChoice.UNKNOWN_VALUE, f"{name}.{'.'.join(path)}", None)] = None
         else:
             text = f"{name}.{'.'.join(path)}"
             _load_constant(loaded, bench, found[0], found[1], found[2], register, text, reasons)
@@ -246,11 +246,11 @@ def _load_constant(
     type_name: str,
     register: int,
     name: str,
-    reasons: dict[Reason, None],
+    reasons: dict[ChoiceReason, None],
 ) -> None:
     value = number_of(loaded.layout, bench.domain(v, kind, type_name))
     if value is None:
-        reasons[Reason(Choice.UNKNOWN_VALUE, name, None)] = None
+        reasons[ChoiceReason(FreeChoice.UNKNOWN_VALUE, name, None)] = None
     else:
         loaded.constants[register] = value
 
@@ -277,7 +277,7 @@ def member(bench: Workbench, name: str, path: tuple[str, ...]) -> tuple[int, str
     return None
 
 
-def number_of(layout: Layout, domain: DomainConstant) -> float | None:
+def number_of(layout: RegisterLayout, domain: DomainConstant) -> float | None:
     """The number that stands for the one value of a domain; None where there are more."""
     if domain.interval is not None:
         return float(domain.interval[0]) if domain.interval[0] == domain.interval[1] else None

@@ -37,7 +37,7 @@ cdef class Machine:
         n="long long", j="long long", first="long long", into="long long", block="long long", mask="long long",
         row="long long", line="long long", at="long long", is_wish="bint", value="double", present="Present", log="Log"
     )
-    cpdef bint settle(self, long long i, long long tick) except -1
+    cpdef bint start_block(self, long long i, long long tick) except -1
 
     @cython.locals(n="long long", j="long long", can="bint", present="Present")
     cpdef bint can_start(self, long long i, long long tick) except -1

@@ -129,7 +129,7 @@ class Machine:
             i = self.order[k]
             if i < 0:
                 break
-            if not self.settle(i, tick):
+            if not self.start_block(i, tick):
                 return False
         return present.end_tick(tick)
 
@@ -145,11 +145,11 @@ class Machine:
             present.state[DUE * n + j] = NONE
         present.state[WISH_FROM * n + i] = tick
         self.is_trial = True
-        can = self.settle(i, tick)
+        can = self.start_block(i, tick)
         self.is_trial = False
         return can
 
-    def settle(self, i: int, tick: int) -> bool:
+    def start_block(self, i: int, tick: int) -> bool:
         """Start what takes the place of what has ended on a timeline."""
         n = self.lines
         present = self.present

@@ -17,7 +17,7 @@ from runtime.executive.outcome import (
     ReasonKind,
     TimeBounds,
 )
-from runtime.executive.reactor import Failure, Reactor, Refusal
+from runtime.executive.reactor import Failure, Refusal, TeleoReactor
 from runtime.executive.trace import Trace
 from runtime.plan.readout.statements import Term
 
@@ -26,19 +26,19 @@ class OwnershipError(ValueError):
     """Reactors whose timelines have no owner, several owners, or owners in a circle."""
 
 
-def in_order(reactors: Sequence[Reactor]) -> list[Reactor]:
+def in_order(reactors: Sequence[TeleoReactor]) -> list[TeleoReactor]:
     """Reactors with owners before users, otherwise as given (T-REX 1.3).
 
     Raises `OwnershipError` where a timeline has no owner or several, or where owners depend on each other.
     """
-    owner: dict[str, Reactor] = {}
+    owner: dict[str, TeleoReactor] = {}
     for reactor in reactors:
         for timeline in reactor.internal:
             if timeline in owner:
                 raise OwnershipError(f"`{timeline}` is owned by `{owner[timeline].name}` and by `{reactor.name}`")
             owner[timeline] = reactor
     waiting = list(reactors)
-    done: list[Reactor] = []
+    done: list[TeleoReactor] = []
     while waiting:
         for reactor in waiting:
             for timeline in reactor.external:
@@ -54,7 +54,7 @@ def in_order(reactors: Sequence[Reactor]) -> list[Reactor]:
     return done
 
 
-def tell_owners(reactors: Sequence[Reactor]) -> None:
+def tell_owners(reactors: Sequence[TeleoReactor]) -> None:
     """Give each reactor its execution latency, and those of the owners it uses; `reactors` has owners first.
 
     The execution latency is a reactor's own and the largest of those it depends on (T-REX 1.1).
@@ -72,7 +72,7 @@ class Agent:
     def __init__(
         self,
         configuration: AgentConfiguration,
-        reactors: Sequence[Reactor],
+        reactors: Sequence[TeleoReactor],
         goals: Sequence[tuple[int, Request]],
         seed: int,
         trace: Trace,
@@ -83,13 +83,13 @@ class Agent:
         self.unsent = list(goals)
         self.reactors = in_order(reactors)
         tell_owners(self.reactors)
-        self.awake: list[Reactor] = []
-        self.killed: list[Reactor] = []
+        self.awake: list[TeleoReactor] = []
+        self.killed: list[TeleoReactor] = []
         self.owners = {timeline: reactor for reactor in self.reactors for timeline in reactor.internal}
-        self.senders: dict[int, Reactor] = {}  # who made a request, by its number
-        self.takers: dict[int, Reactor] = {}  # who was asked
+        self.senders: dict[int, TeleoReactor] = {}  # who made a request, by its number
+        self.takers: dict[int, TeleoReactor] = {}  # who was asked
         self.made: dict[int, Request] = {}  # requests of reactors that have not been taken back
-        self.stirred: list[Reactor] = []  # who has got something to do from a reactor that was killed
+        self.stirred: list[TeleoReactor] = []  # who has got something to do from a reactor that was killed
         self.seed = seed
         self.trace = trace
         self.tick = 0
@@ -152,7 +152,7 @@ class Agent:
                 return abort
         return None
 
-    def _settle(self, reactor: Reactor) -> Abort | None:
+    def _settle(self, reactor: TeleoReactor) -> Abort | None:
         """Let one reactor settle the present, and tell what its timelines begin to hold."""
         self.awake.append(reactor)
         self.trace.phase = Phase.START
@@ -196,7 +196,7 @@ class Agent:
             abort = self._give_up(reactor, failure) if failure is not None else self._dispatch(reactor, busy)
         return abort
 
-    def _send_goals(self, busy: list[Reactor]) -> Abort | None:
+    def _send_goals(self, busy: list[TeleoReactor]) -> Abort | None:
         """Hand the goals of the mission file that are due to the owners of their timelines."""
         self.trace.phase = Phase.START
         due = [goal for goal in self.unsent if goal[0] <= self.tick]
@@ -219,7 +219,7 @@ class Agent:
                     return abort
         return None
 
-    def _dispatch(self, reactor: Reactor, busy: list[Reactor]) -> Abort | None:
+    def _dispatch(self, reactor: TeleoReactor, busy: list[TeleoReactor]) -> Abort | None:
         """Deliver what a reactor takes back, asks for and refuses, now that it has finished planning."""
         self.trace.phase = Phase.DISPATCH
         self._tell_refusals(reactor.refusals())
@@ -235,7 +235,7 @@ class Agent:
                 return abort
         return None
 
-    def _ask(self, request: Request, busy: list[Reactor]) -> Abort | None:
+    def _ask(self, request: Request, busy: list[TeleoReactor]) -> Abort | None:
         """Hand a request to the owner of its timeline, who has work now."""
         owner = self.owners.get(request.timeline)
         if owner is None:
@@ -257,7 +257,7 @@ class Agent:
             owner.accept(request)
         return abort
 
-    def _recall(self, number: int, busy: list[Reactor]) -> Abort | None:
+    def _recall(self, number: int, busy: list[TeleoReactor]) -> Abort | None:
         """Tell the owner that a request is taken back."""
         self.senders.pop(number, None)
         self.made.pop(number, None)
@@ -275,7 +275,7 @@ class Agent:
             if sender is not None and sender in self.reactors:
                 sender.refused(refusal)
 
-    def _wake(self, reactor: Reactor, busy: list[Reactor]) -> Abort | None:
+    def _wake(self, reactor: TeleoReactor, busy: list[TeleoReactor]) -> Abort | None:
         """Give a reactor work in this tick; one that sleeps is brought up to now first."""
         if reactor not in self.reactors:
             return None
@@ -289,14 +289,14 @@ class Agent:
 
     # ---- failures ----
 
-    def _give_up(self, reactor: Reactor, failure: Failure) -> Abort | None:
+    def _give_up(self, reactor: TeleoReactor, failure: Failure) -> Abort | None:
         """End the mission, or go on without the reactor, as the configuration has it."""
         if self.configuration.on_failure == "abort_agent":
             return self._abort(reactor, failure)
         self._kill(reactor, failure)
         return None
 
-    def _abort(self, reactor: Reactor, failure: Failure) -> Abort:
+    def _abort(self, reactor: TeleoReactor, failure: Failure) -> Abort:
         """Record that the agent ends early, with its reason."""
         conflict = self._traced(failure)
         drawn = conflict.parameters if conflict is not None else ()
@@ -345,7 +345,7 @@ class Agent:
             elements[watched.number] = [*reasons.elements, observed]
         return Conflict(tuple(element for together in elements for element in together))
 
-    def _kill(self, reactor: Reactor, failure: Failure) -> None:
+    def _kill(self, reactor: TeleoReactor, failure: Failure) -> None:
         """Take a failed reactor out and tell the users of its timelines (T-REX 1.6, second generation)."""
         event = self.trace.record(
             EventKind.KILL,

@@ -16,7 +16,7 @@ from runtime.executive.messages import Arguments, Request
 from runtime.executive.outcome import Abort, EventKind, Outcome, Reason, ReasonKind
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
-from runtime.executive.reactor import Reactor
+from runtime.executive.reactor import TeleoReactor
 from runtime.executive.record import MissionRecord
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
@@ -90,7 +90,7 @@ def _flown(
     every_tick: bool,
     until: int | None,
     compiles: bool,
-) -> tuple[Outcome, list[Reactor]]:
+) -> tuple[Outcome, list[TeleoReactor]]:
     """A mission, and its reactors as it left them."""
     trace = Trace()
     world = World(configuration, seed, overrides or {}, trace)
@@ -120,10 +120,10 @@ def unloaded(configuration: AgentConfiguration, problem: UnusableModelError, wor
 
 def make_reactors(
     configuration: AgentConfiguration, programs: MissionPrograms, world: World, compiles: bool
-) -> list[Reactor]:
+) -> list[TeleoReactor]:
     """The reactors of a mission, ready for tick 0."""
     trace, seed, overrides = world.trace, world.seed, world.overrides
-    reactors: list[Reactor] = []
+    reactors: list[TeleoReactor] = []
     users = {line for each in configuration.reactors for line in each.external}
     users.update(line for each in configuration.coded for line in each.external)
     for number, (each, program) in enumerate(zip(configuration.reactors, programs.programs, strict=True)):

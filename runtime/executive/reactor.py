@@ -40,7 +40,7 @@ class Refusal:
     event: int
 
 
-class Reactor(Protocol):
+class TeleoReactor(Protocol):
     """A controller that owns timelines and uses those of others (T-REX 1.1).
 
     In a tick the agent calls `start_tick`, `synchronise` and `observations` of each reactor that is due, owners before

@@ -7,20 +7,20 @@ The record stands by itself: names, keys and values, no engine ids; it is what a
 from typing import NamedTuple
 
 
-class Interval(NamedTuple):
+class ValueRange(NamedTuple):
     """A number that was never fixed: both ends included, infinite ends are `inf`."""
 
     lower: float
     upper: float
 
 
-class Choice(NamedTuple):
+class OpenValues(NamedTuple):
     """One of several values, never decided."""
 
     values: tuple[float | int | bool | str, ...]
 
 
-Value = float | int | bool | str | Interval | Choice
+Value = float | int | bool | str | ValueRange | OpenValues
 
 
 class GuardRun(NamedTuple):
@@ -31,10 +31,10 @@ class GuardRun(NamedTuple):
 
     branch: str
     is_decided: bool
-    run: "Run | None"
+    run: "BodyRun | None"
 
 
-class Run(NamedTuple):
+class BodyRun(NamedTuple):
     """One run of a rule's body or of a branch, in the order of execution: named locals, children (keys), guards."""
 
     rule: int  # index into Program.rules
@@ -64,7 +64,7 @@ class TokenRecord(NamedTuple):
     origin: str
     fate: str
     tick: int
-    runs: tuple[Run, ...]
+    runs: tuple[BodyRun, ...]
 
 
 class ObjectRecord(NamedTuple):

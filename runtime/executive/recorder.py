@@ -21,14 +21,14 @@ from compiler.program import (
 from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT, KIND_OBJECT, KIND_STRING, KIND_SYMBOL
 from runtime.executive.record import (
     NOBODY,
-    Choice,
+    BodyRun,
     GuardRun,
-    Interval,
     ObjectRecord,
+    OpenValues,
     ReactorRecord,
-    Run,
     TokenRecord,
     Value,
+    ValueRange,
 )
 from runtime.plan.database import PlanDatabase
 from runtime.plan.tags import (
@@ -193,7 +193,7 @@ class Recorder:
         number = rows.predicate[t]
         status = rows.status[t]
         shapes = self.forms.parameters[number]
-        runs: tuple[Run, ...] = ()
+        runs: tuple[BodyRun, ...] = ()
         if status == ACTIVE and rows.scopes[t] >= 0:
             runs = self._runs(t, rows.key[t])
         return TokenRecord(
@@ -224,7 +224,7 @@ class Recorder:
             return "goal" if is_written else "request"
         return "rule" if is_written else "own"
 
-    def _runs(self, t: int, key: int) -> tuple[Run, ...]:
+    def _runs(self, t: int, key: int) -> tuple[BodyRun, ...]:
         """The runs of the rules of `t`, in the order in which they fired."""
         rows = self.rows
         scopes: list[int] = []
@@ -243,7 +243,7 @@ class Recorder:
                 inner.setdefault(rows.scope_parent[s], []).append(s)
         return tuple([self._run(s, key, self.forms.rules[rows.scope_rule[s]], inner) for s in tops])
 
-    def _run(self, s: int, key: int, form: Outline, inner: dict[int, list[int]]) -> Run:
+    def _run(self, s: int, key: int, form: Outline, inner: dict[int, list[int]]) -> BodyRun:
         rows = self.rows
         named: tuple[Value, ...] = ()
         children: tuple[int, ...] = ()
@@ -260,7 +260,7 @@ class Recorder:
         guards: tuple[GuardRun, ...] = ()
         if s in inner:
             guards = tuple([self._guard(g, key, form, k, inner) for k, g in enumerate(inner[s])])
-        return Run(rows.scope_rule[s], named, children, guards)
+        return BodyRun(rows.scope_rule[s], named, children, guards)
 
     def _guard(self, g: int, key: int, form: Outline, k: int, inner: dict[int, list[int]]) -> GuardRun:
         branch = self.rows.scope_branch[g]
@@ -317,12 +317,12 @@ class Recorder:
         if shape == FLOAT:
             if engine.is_singleton(v):
                 return lower + (upper - lower) * 0.5
-            return Interval(lower, upper)
+            return ValueRange(lower, upper)
         if shape == INT:
-            return Interval(_bound(lower), _bound(upper))
+            return ValueRange(_bound(lower), _bound(upper))
         if not engine.is_finite(v) and (isinf(lower) or isinf(upper)):
-            return Interval(lower, upper)
-        return Choice(tuple([self._scalar(each, shape) for each in engine.values_of(v)]))
+            return ValueRange(lower, upper)
+        return OpenValues(tuple([self._scalar(each, shape) for each in engine.values_of(v)]))
 
     def _scalar(self, number: float, shape: int) -> float | int | bool | str:
         if shape == FLOAT:

@@ -22,7 +22,7 @@ UNDEFINED = "undefined"
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
+class Continuation:
     """One way to settle a timeline: `token` is kept, started or met; `predicate` is that of a new token."""
 
     kind: str
@@ -137,7 +137,7 @@ class _Search:
     def _walk(self, patience: int, stuck: dict[str, None]) -> Unsettled | None:
         """Decide the timelines in their order, up to a number of tries; note those on which nothing fitted."""
         bench = self.bench
-        open_choices: list[list[Choice]] = []
+        open_choices: list[list[Continuation]] = []
         marks: list[int] = []
         self.made = []
         self.first = None
@@ -186,7 +186,7 @@ class _Search:
         self.bench.rewind_to(marks[-1])
         return True
 
-    def choices(self, line: TimelineState) -> list[Choice]:
+    def choices(self, line: TimelineState) -> list[Continuation]:
         """What may hold on `line` now, best first (T-REX 1.4)."""
         bench, tick, current = self.bench, self.tick, line.current
         if not line.is_internal:
@@ -195,30 +195,32 @@ class _Search:
             if predicate == NOTHING:
                 return []
             meets = [
-                Choice(MEET, token, predicate)
+                Continuation(MEET, token, predicate)
                 for token in bench.planned_after(line.object_id, current)
                 if bench.predicate_of(token) == predicate
                 and bench.lower(bench.start(token)) <= tick <= bench.upper(bench.start(token))
             ]
-            return [*meets, Choice(FACT, NOTHING, predicate)]
-        extend: list[Choice] = []
+            return [*meets, Continuation(FACT, NOTHING, predicate)]
+        extend: list[Continuation] = []
         if current != NOTHING:
             if bench.lower(bench.end(current)) > tick:
-                return [Choice(EXTEND, current, NOTHING)]
+                return [Continuation(EXTEND, current, NOTHING)]
             if bench.upper(bench.end(current)) > tick:
-                extend = [Choice(EXTEND, current, NOTHING)]
+                extend = [Continuation(EXTEND, current, NOTHING)]
         starts = [
-            Choice(NEXT, token, NOTHING)
+            Continuation(NEXT, token, NOTHING)
             for token in bench.planned_after(line.object_id, current)[:1]
             if bench.lower(bench.start(token)) <= tick <= bench.upper(bench.start(token))
         ]
         if not starts or not bench.is_requested(starts[0].token):
-            starts = [Choice(NEXT, token, NOTHING) for token in bench.must_begin(line.object_id, tick)] + starts
+            starts = [Continuation(NEXT, token, NOTHING) for token in bench.must_begin(line.object_id, tick)] + starts
         is_asked = bool(starts) and bench.is_requested(starts[0].token)
         if is_asked and self.is_last:
             starts = []  # what can begin at the end at the earliest is not begun
         is_due = bool(starts) and (line.is_early or is_asked)
-        new = [Choice(NEW, NOTHING, p) for p in ([line.default, *line.others] if line.default >= 0 else line.others)]
+        new = [
+            Continuation(NEW, NOTHING, p) for p in ([line.default, *line.others] if line.default >= 0 else line.others)
+        ]
         if is_due:
             return [*starts, *extend, *new]
         if line.is_late and line.default >= 0:
@@ -241,7 +243,7 @@ class _Search:
             return predicate
         return line.predicates.get(UNDEFINED, NOTHING)
 
-    def apply(self, line: TimelineState, choice: Choice) -> bool:
+    def apply(self, line: TimelineState, choice: Continuation) -> bool:
         """Carry out `choice`; False on conflict."""
         bench, tick = self.bench, self.tick
         token = choice.token
@@ -275,7 +277,7 @@ class _Search:
         self.made[len(self.made) - 1] = token
         return holds
 
-    def _observe(self, line: TimelineState, news: Observation, choice: Choice) -> int:
+    def _observe(self, line: TimelineState, news: Observation, choice: Continuation) -> int:
         """Insert what was observed as a fact, or let it meet the planned token `choice.token`; NOTHING on conflict."""
         bench, tick = self.bench, self.tick
         fact = bench.new_token(choice.predicate, line.object_id, is_fact=True)
@@ -329,7 +331,7 @@ class _Search:
         for line, token in zip(self.lines, self.made, strict=True):
             line.current = token
 
-    def _blame(self, line: TimelineState, choice: Choice) -> None:
+    def _blame(self, line: TimelineState, choice: Continuation) -> None:
         code = "F3" if line.is_internal else "F8" if line.news and line.news.predicate == "Failed" else "F2"
         match choice.kind:
             case "extend":

@@ -239,7 +239,7 @@ class PlanView:
         """Note that somebody asked for `t`."""
         self.requested[t] = int(self.rows.key[t])
 
-    def master(self, t: int) -> int:
+    def parent(self, t: int) -> int:
         """The token whose rule asked for `t`; NONE where there is none."""
         return int(self.rows.parent[t])
 

@@ -8,7 +8,7 @@ import pytest
 from checker.flight import fly_once
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.one_flight import Settings, first_departure, fly, read_trace, trace_text
+from checker.one_flight import FlightSettings, first_departure, fly, read_trace, trace_text
 from checker.oracle import judge
 from runtime.executive.outcome import EventKind, Outcome
 from tests.executive.flying import history, lines
@@ -134,7 +134,7 @@ def test_a_log_player_does_what_was_done(folder: Path) -> None:
     path.write_text(MISSION.format(code="code.py:Eye", on_failure="abort_agent"))
     mission, _ = read_mission(path)
     assert mission is not None
-    flight = fly(mission, load_models(mission), Settings(1, {}))
+    flight = fly(mission, load_models(mission), FlightSettings(1, {}))
     trace = folder / "trace.jsonl"
     trace.write_text(trace_text(flight, path, trace))
     assert first_departure(read_trace(trace), flight) is None

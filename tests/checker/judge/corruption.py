@@ -8,7 +8,7 @@ from typing import Any
 from checker.judge.judge import judge_mission
 from checker.judge.report import JudgeReport
 from runtime.executive.outcome import EventKind
-from runtime.executive.record import GuardRun, MissionRecord, ReactorRecord, Run, TokenRecord
+from runtime.executive.record import BodyRun, GuardRun, MissionRecord, ReactorRecord, TokenRecord
 from tests.executive.flying import Flown
 
 OTHER = {"red": "blue", "low": "high", "high": "low"}
@@ -64,18 +64,20 @@ def chosen(mission: Flown, dice: Random, accepts: Callable[[TokenRecord], bool])
     return dice.choice(found) if found else None
 
 
-def runs(token: TokenRecord) -> Iterator[tuple[Run, Callable[[Run], tuple[Run, ...]]]]:
+def runs(token: TokenRecord) -> Iterator[tuple[BodyRun, Callable[[BodyRun], tuple[BodyRun, ...]]]]:
     """The runs of a token, branches included, each with what puts another in its place."""
     for k, run in enumerate(token.runs):
         yield from _inner(run, lambda new, k=k: (*token.runs[:k], new, *token.runs[k + 1 :]))  # type: ignore[misc]
 
 
-def _inner(run: Run, build: Callable[[Run], tuple[Run, ...]]) -> Iterator[tuple[Run, Callable[[Run], tuple[Run, ...]]]]:
+def _inner(
+    run: BodyRun, build: Callable[[BodyRun], tuple[BodyRun, ...]]
+) -> Iterator[tuple[BodyRun, Callable[[BodyRun], tuple[BodyRun, ...]]]]:
     yield run, build
     for k, guard in enumerate(run.guards):
         if guard.run is not None:
 
-            def put_back(new: Run, k: int = k, guard: GuardRun = guard) -> tuple[Run, ...]:
+            def put_back(new: BodyRun, k: int = k, guard: GuardRun = guard) -> tuple[BodyRun, ...]:
                 return build(run._replace(guards=(*run.guards[:k], guard._replace(run=new), *run.guards[k + 1 :])))
 
             yield from _inner(guard.run, put_back)

@@ -14,7 +14,7 @@ from nddl_lang.semantics.constraints import CONSTRAINTS
 from nddl_lang.semantics.relations import REFUSED_RELATIONS, RELATIONS
 from runtime.executive.chance import sample
 from runtime.executive.configuration import ParameterConfiguration
-from runtime.executive.record import Choice, Interval, Value
+from runtime.executive.record import OpenValues, Value, ValueRange
 
 # What the judge says that it does not judge: domains rather than values, positions, dates.
 UNJUDGED = {"eqUnion", "memberImply", "lockCT", "testSingleton", "testSpecified", "commonAncestor", "hasAncestor"}
@@ -35,8 +35,8 @@ def test_every_constraint_of_the_language_is_judged_or_known_not_to_be() -> None
         ("addEq", (2, 3, 6), False),
         ("addEq", (0.1, 0.2, 0.3), True),
         ("addEq", (0.1, 0.2, 0.3001), False),
-        ("addEq", (Interval(1, 4), 3, 6), None),
-        ("addEq", (Interval(1, 4), 3, 9), False),
+        ("addEq", (ValueRange(1, 4), 3, 6), None),
+        ("addEq", (ValueRange(1, 4), 3, 9), False),
         ("mulEq", (2.5, 4, 10.0), True),
         ("mulEq", (1e6, 1e6, 1e12), True),
         ("mulEq", (3, 4, 13), False),
@@ -51,23 +51,23 @@ def test_every_constraint_of_the_language_is_judged_or_known_not_to_be() -> None
         ("leq", (3, 3), True),
         ("leq", (4, 3), False),
         ("lt", (3, 3), False),
-        ("lt", (Interval(1, 2), 3), True),
+        ("lt", (ValueRange(1, 2), 3), True),
         ("neq", ("red", "red"), False),
-        ("eq", (Choice(("red", "blue")), "green"), False),
-        ("eq", (Choice(("red", "blue")), "red"), None),
+        ("eq", (OpenValues(("red", "blue")), "green"), False),
+        ("eq", (OpenValues(("red", "blue")), "red"), None),
         ("testLeq", (False, 2, 3), False),
-        ("testAnd", (False, True, Interval(0, 1)), None),
+        ("testAnd", (False, True, ValueRange(0, 1)), None),
         ("or", (False, False), False),
-        ("or", (False, Interval(0, 1), True), True),
+        ("or", (False, ValueRange(0, 1), True), True),
         ("allDiff", (1, 2, 1), False),
         ("countZeroes", (1, 0, 3), True),
         ("countNonZeroes", (2, 0, 3), False),
-        ("temporalDistance", (3, Interval(2, 5), 9), False),
+        ("temporalDistance", (3, ValueRange(2, 5), 9), False),
         ("temporalDistance", (3, 4, 7), True),
         ("sinf", (0.5, 30.0), True),
         ("absf", (2.0, -2.0), True),
         ("travelTime", (5, 0.0, 0.0, 3.0, 4.0, 1.0), True),
-        ("withinBounds", (5, Interval(1, 2), Interval(3, 4)), False),
+        ("withinBounds", (5, ValueRange(1, 2), ValueRange(3, 4)), False),
     ],
 )
 def test_a_constraint_means_what_the_language_says(name: str, values: tuple[Value, ...], answer: bool | None) -> None:
@@ -78,7 +78,7 @@ def test_a_part_of_an_expression_is_computed() -> None:
     add = solver("addEq", 1, 3)
     assert add is not None and add(2, 9) == 7
     test = solver("testLessThan", 0, 3)
-    assert test is not None and test(2, 3) is True and test(Interval(0, 9), 3) == Interval(0, 1)
+    assert test is not None and test(2, 3) is True and test(ValueRange(0, 9), 3) == ValueRange(0, 1)
     assert solver("or", 0, 2) is None
     assert {name for name, row in COMPUTED.items() if row[0] not in (0, -1)} == set()
 

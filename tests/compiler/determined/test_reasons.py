@@ -2,10 +2,10 @@
 
 import pytest
 
-from compiler.determined.analysis import Analysis, analyse
+from compiler.determined.analysis import DeterminismAnalysis, analyse
 from compiler.determined.code import Line
 from compiler.determined.pages import DETERMINED_PAGES
-from compiler.determined.reasons import Choice
+from compiler.determined.reasons import FreeChoice
 from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_text
 from nddl_lang.syntax.dialect import Dialect
@@ -20,7 +20,7 @@ float DRAW = [0.0 1.0];
 LINES = (Line("arm", "Arm", "Rest", "own"), Line("eye", "Eye", "Off", "own"))
 
 
-def looked_at(rule: str, lines: tuple[Line, ...] = LINES, lookahead: int = 1) -> Analysis:
+def looked_at(rule: str, lines: tuple[Line, ...] = LINES, lookahead: int = 1) -> DeterminismAnalysis:
     """What is found out about a rule of `Arm::Act`."""
     text = f"{HEAD}{ARM}Arm::Act {{\n{rule}\n}}\nArm arm = new Arm(Internal);\nEye eye = new Eye(Internal);\nclose();\n"
     analysis = analyse_text("arm", text, Dialect.NDDLC)
@@ -50,16 +50,16 @@ def test_a_function_of_what_is_known_is_determined(rule: str) -> None:
 @pytest.mark.parametrize(
     ("rule", "choice", "line"),
     [
-        ("contains(Eye.Sees e);", Choice.OPEN_TIMES, 7),
-        ("any(Eye.Sees e);", Choice.OPEN_TIMES, 7),
-        ("int k;\nn < k;", Choice.OPEN_VALUE, 8),
-        ("bool b;", Choice.OPEN_VALUE, 7),
-        ("int k; k == n;\nif (start <= AGENT_CLOCK) { duration == k; }", Choice.CLOCK, 8),
-        ("float s;\nsinf(s, w);", Choice.FUNCTION, 8),
-        ("int k;\nk == duration + 1;\nk > 3;", Choice.OPEN_VALUE, 8),
+        ("contains(Eye.Sees e);", FreeChoice.OPEN_TIMES, 7),
+        ("any(Eye.Sees e);", FreeChoice.OPEN_TIMES, 7),
+        ("int k;\nn < k;", FreeChoice.OPEN_VALUE, 8),
+        ("bool b;", FreeChoice.OPEN_VALUE, 7),
+        ("int k; k == n;\nif (start <= AGENT_CLOCK) { duration == k; }", FreeChoice.CLOCK, 8),
+        ("float s;\nsinf(s, w);", FreeChoice.FUNCTION, 8),
+        ("int k;\nk == duration + 1;\nk > 3;", FreeChoice.OPEN_VALUE, 8),
     ],
 )
-def test_a_choice_is_named_with_its_line(rule: str, choice: Choice, line: int) -> None:
+def test_a_choice_is_named_with_its_line(rule: str, choice: FreeChoice, line: int) -> None:
     (reason,) = looked_at(rule).reasons
     assert reason.choice is choice
     assert reason.span is not None and reason.span.line == line
@@ -68,17 +68,17 @@ def test_a_choice_is_named_with_its_line(rule: str, choice: Choice, line: int) -
 def test_two_timelines_of_one_class_are_a_choice() -> None:
     lines = (*LINES, Line("other", "Eye", "Off", "own"))
     (reason,) = looked_at("equals(Eye.Sees e);", lines).reasons
-    assert reason.choice is Choice.SEVERAL_OBJECTS
+    assert reason.choice is FreeChoice.SEVERAL_OBJECTS
 
 
 def test_who_asks_others_plans() -> None:
     (reason,) = looked_at("equals(Eye.Sees e);", (LINES[0], Line("eye", "Eye", "Off", "used"))).reasons
-    assert reason.choice is Choice.ASKED_OF_OTHERS
+    assert reason.choice is FreeChoice.ASKED_OF_OTHERS
 
 
 def test_who_looks_ahead_plans() -> None:
     (reason,) = looked_at("duration == n;", lookahead=10).reasons
-    assert reason.choice is Choice.LOOKAHEAD
+    assert reason.choice is FreeChoice.LOOKAHEAD
 
 
 @pytest.mark.parametrize("page", DETERMINED_PAGES, ids=lambda page: page.code.id)
