@@ -12,7 +12,7 @@ import click
 _SIGN = "this is a bug in nddlc, not in your model"
 
 
-def _report(bug: Exception, arguments: list[str]) -> None:
+def report(bug: Exception, arguments: list[str]) -> None:
     """Print a short message; the traceback goes to a file."""
     what = f"{type(bug).__name__}: {bug}" if str(bug) else type(bug).__name__
     text = "".join(traceback.format_exception(bug))

@@ -6,7 +6,7 @@ from importlib.metadata import PackageNotFoundError, version
 from runtime.build_form import build_form
 
 
-def _version_text() -> str:
+def version_text() -> str:
     """One line for `nddlc --version`."""
     try:
         number = version("nddlc")

@@ -248,11 +248,12 @@ def signature_names(tree: ast.Module) -> set[str]:
 def doors(root: Path) -> Iterator[str]:
     """Complain of what is public and used in its own file only: it wants an underscore.
 
-    The grammar names the functions that make nodes, `pyproject.toml` the entry points.
+    The grammar names the functions that make nodes, `pyproject.toml` the entry points, the command what it loads late.
     """
     trees = {path: ast.parse(path.read_bytes()) for path in sources(root, *LAYERS, *OTHER_FOLDERS)}
     settings, grammar = root / "pyproject.toml", root / "nddl_lang/syntax/grammar.lark"
-    used = set(re.findall(r'"([\w.]+):(\w+)"', settings.read_text()) if settings.exists() else [])
+    named = [path for path in (settings, root / LAZY) if path.exists()]
+    used = {pair for path in named for pair in re.findall(r'"([\w.]+):(\w+)"', path.read_text())}
     made = re.findall(r"->\s*(\w+)", grammar.read_text()) if grammar.exists() else []
     used |= {(f"nddl_lang.syntax.{module}", name) for module in ("builder", "statements") for name in made}
     for path, tree in trees.items():
