@@ -93,6 +93,6 @@ def _order_of(model: ReactorModel, blocks: list[RegisterBlock]) -> tuple[int, ..
         free = [n for n in before if n not in order and before[n] <= set(order)]
         if not free:
             names = ", ".join(f"`{model.lines[n].name}`" for n in before if n not in order)
-            raise UndeterminedError(FreeChoice.CIRCLE, names, None)
+            raise UndeterminedError(FreeChoice.CYCLE, names, None)
         order.append(free[0])
     return tuple(order)

@@ -21,7 +21,7 @@ class FreeChoice(Enum):
     FUNCTION = "`{name}` has no register code"
     STATEMENT = "`{name}` is a statement without register code"
     END = "`{name}` reads an end that is not yet known"
-    CIRCLE = "the timelines {name} wait for each other"
+    CYCLE = "the timelines {name} wait for each other"
     LATER_FACT = "`{name}` is given for later than the first tick"
     GOAL = "`{name}` is a goal of the model's script"
     EARLY = "what is planned on `{name}` starts as soon as it may, by the setting `early`"

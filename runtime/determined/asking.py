@@ -37,7 +37,7 @@ class Ask:
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class PendingRequest:
     """All that is asked from a tick on: it takes the place of requests that were asked before.
 
     What was observed is asked before the tick is carried out, requests after it.
@@ -59,7 +59,7 @@ def ask(machine: Machine, wanted: Ask) -> None:
         machine.registers[machine.wished[line] + k] = value
 
 
-def ask_instead(machine: Machine, asked: Asked) -> None:
+def ask_instead(machine: Machine, asked: PendingRequest) -> None:
     """Replace all requests that have not started."""
     if not asked.is_observed:
         for line in range(machine.lines):

@@ -11,7 +11,7 @@ from math import inf
 from compiler.determined.code import BlockToken, RegisterBlock
 from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS
 from compiler.program import Child, Guard, Instruction, NewVariable, PredicateCode
-from runtime.determined.asking import Ask, Asked, ask, ask_instead
+from runtime.determined.asking import Ask, PendingRequest, ask, ask_instead
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
 from runtime.determined.tags import FAR, LEAST, MOST, NONE, ROW, SLOT, WISHED
@@ -252,7 +252,7 @@ class _Expansion:
 
 
 def expand(
-    program: RegisterProgram, machine: Machine, asked: Sequence[Asked], reach: int, until: int
+    program: RegisterProgram, machine: Machine, asked: Sequence[PendingRequest], reach: int, until: int
 ) -> tuple[TokenRecord, ...]:
     """Carry out once more, on a fresh machine, what was asked up to tick `until`; all tokens, by key."""
     machine.present.reach = reach

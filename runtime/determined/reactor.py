@@ -7,7 +7,7 @@ that came from outside so far, and goes on from there. The general engine is the
 from collections.abc import Callable
 
 from runtime.determined.arguments import given_block
-from runtime.determined.asking import Ask, Asked, ask, ask_instead
+from runtime.determined.asking import Ask, PendingRequest, ask, ask_instead
 from runtime.determined.expand import expand, record_of
 from runtime.determined.inputs import Inputs, catch_up, take_over
 from runtime.determined.loading import RegisterProgram
@@ -55,7 +55,7 @@ class DeterminedReactor:
         self.watched = sum(1 << n for n in program.internal)  # timelines whose changes others see
         self.publisher = Publisher(self.name, program, trace)
         self.inputs = Inputs()
-        self.asked: list[Asked] = []  # all that the machine was asked, for the record
+        self.asked: list[PendingRequest] = []  # all that the machine was asked, for the record
         self.wishes: list[Wish] = []  # requests that have not started
         self.news: dict[int, Observation] = {}
         self.windows: dict[str, tuple[int, int]] = {}
@@ -121,7 +121,7 @@ class DeterminedReactor:
                 return False
             asks.append(Ask(line, *given, (tick, tick), (tick + 1, FAR), (1, FAR), "observation"))
         if asks:
-            self._note_asked(Asked(tick, tuple(asks), True))
+            self._note_asked(PendingRequest(tick, tuple(asks), True))
         if (self.news or machine.present.next_event(tick - 1) <= tick) and not machine.tick(tick):
             return False
         self.news.clear()
@@ -246,7 +246,7 @@ class DeterminedReactor:
         """Whether a request might start at the final tick, when the planner begins nothing that was asked for."""
         return tick >= self.final_tick - 1 and wish.request.start[0] <= self.final_tick
 
-    def _note_asked(self, asked: Asked) -> None:
+    def _note_asked(self, asked: PendingRequest) -> None:
         """Ask the machine, and keep what was asked for the record."""
         ask_instead(self.machine, asked)
         self.asked.append(asked)
@@ -260,7 +260,7 @@ class DeterminedReactor:
             request = wish.request
             start = (max(request.start[0], tick + 1), request.start[1])
             asks.append(Ask(line, wish.block, wish.values, start, request.end, request.duration, "request"))
-        self._note_asked(Asked(tick, tuple(asks), False))
+        self._note_asked(PendingRequest(tick, tuple(asks), False))
         self.is_beyond = self.is_beyond or not all(present.has_room(line, tick) for line in chosen)
         machine.keep()
         self.base = tick

@@ -23,7 +23,7 @@ from runtime.plan.readout.statements import Term
 
 
 class OwnershipError(ValueError):
-    """Reactors whose timelines have no owner, several owners, or owners in a circle."""
+    """Reactors whose timelines have no owner, several owners, or owners in a cycle."""
 
 
 def in_order(reactors: Sequence[TeleoReactor]) -> list[TeleoReactor]:
@@ -48,7 +48,7 @@ def in_order(reactors: Sequence[TeleoReactor]) -> list[TeleoReactor]:
                 break
         else:
             names = ", ".join(f"`{reactor.name}`" for reactor in waiting)
-            raise OwnershipError(f"reactors wait for each other's timelines in a circle: {names}")
+            raise OwnershipError(f"reactors wait for each other's timelines in a cycle: {names}")
         waiting.remove(reactor)
         done.append(reactor)
     return done

@@ -152,5 +152,5 @@ def test_a_timeline_that_is_used_is_owned() -> None:
 
 def test_reactors_do_not_wait_for_each_other() -> None:
     both = f"{LAMP}{USER} Lamp lamp = new Lamp(Internal); User user = new User(Internal); close();"
-    with pytest.raises(OwnershipError, match="wait for each other's timelines in a circle: `a`, `b`"):
+    with pytest.raises(OwnershipError, match="wait for each other's timelines in a cycle: `a`, `b`"):
         fly(simulator("a", both, "lamp", "user"), simulator("b", both, "user", "lamp"))
