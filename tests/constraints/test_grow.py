@@ -5,7 +5,7 @@ from array import array
 
 import pytest
 
-from runtime.constraints.domains.arrays import _IS_LAZY, _LARGE, grown, next_room
+from runtime.constraints.domains.arrays import _IS_LAZY, _LARGE, grown, next_log_room
 
 
 @pytest.mark.parametrize(("code", "fill"), [("q", 0), ("i", 0), ("i", -1), ("b", 0), ("d", 0.0), ("Q", 0)])
@@ -15,8 +15,8 @@ def test_an_array_keeps_what_it_had(code: str, fill: float, room: int) -> None:
     new = grown(old, room, fill)
     assert (len(new), list(new[:4]), new[room - 1]) == (room, [1, 2, 3, fill], fill)
     new[room - 1] = 7
-    again = grown(new, next_room(room), fill)
-    assert (again[1], again[room - 1], again[room], len(again)) == (2, 7, fill, next_room(room))
+    again = grown(new, next_log_room(room), fill)
+    assert (again[1], again[room - 1], again[room], len(again)) == (2, 7, fill, next_log_room(room))
 
 
 @pytest.mark.skipif(not _IS_LAZY, reason="no forks there")

@@ -1,4 +1,4 @@
-"""Arrays of numbers: new ones, longer copies, rings laid out anew. Growth is rare, so it stays uncompiled."""
+"""Arrays of numbers: new ones, longer copies, rings laid out anew."""
 
 import mmap
 from array import array
@@ -7,6 +7,7 @@ from typing import Any, Literal, TypeVar, cast, overload
 _IS_LAZY = hasattr(mmap, "MAP_PRIVATE")  # can the system give pages that cost nothing until they are written?
 _Number = TypeVar("_Number", int, float)
 
+_SHORT = 2**10  # cells up to which rows grow fourfold
 _LARGE = 2**22  # bytes from which an array lives in such pages
 
 
@@ -24,7 +25,7 @@ def grown(old: "array[_Number]", length: int, fill: float = 0) -> "array[_Number
     view = memoryview(old)
     code = view.format
     size = length * view.itemsize
-    is_lazy = fill == 0 and size >= _LARGE and _IS_LAZY
+    is_lazy = size >= _LARGE and fill == 0 and _IS_LAZY
     new: array[Any] = _lazily_zeroed(code, size) if is_lazy else array(code, [fill]) * length
     memoryview(new)[: len(view)] = view
     return new
@@ -43,8 +44,13 @@ def _lazily_zeroed(code: Any, size: int) -> "array[Any]":
 
 
 def next_room(room: int) -> int:
-    """How long the arrays of a log become that were `room` long: large ones grow faster where the end costs nothing."""
-    return room * (4 if _IS_LAZY and room >= 2**18 else 2)
+    """How long rows become that were `room` long: short ones faster, for growth is much of a small problem's time."""
+    return room * (4 if room < _SHORT else 2)
+
+
+def next_log_room(room: int) -> int:
+    """How long the arrays of a log become: large ones, too, grow faster where their end costs nothing."""
+    return room * 4 if _IS_LAZY and room >= 2**18 else next_room(room)
 
 
 def grown_ring(old: "array[int]", first: int, last: int, room: int) -> "array[int]":

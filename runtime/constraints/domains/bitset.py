@@ -1,6 +1,6 @@
 """Keep which values between a variable's bounds are missing: words of bits, a log of who removed which."""
 
-from runtime.constraints.domains.arrays import grow_rows, grown
+from runtime.constraints.domains.arrays import grow_rows, grown, next_room
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     ALL_BITS,
@@ -249,8 +249,8 @@ def drop_log(s: Store, v: int) -> None:
 
 
 def _grow_log(s: Store) -> None:
-    """Double the rows of the log of holes."""
-    room = 2 * len(s.hole_mask)
+    """Lengthen the rows of the log of holes."""
+    room = next_room(len(s.hole_mask))
     grow_rows(s, "hole_variable hole_support hole_when hole_next", room, -1)
     grow_rows(s, "hole_word hole_mask", room)
 

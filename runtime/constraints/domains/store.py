@@ -3,7 +3,7 @@
 from array import array
 from typing import Any
 
-from runtime.constraints.domains.arrays import grow_rows, grown, grown_ring, next_room
+from runtime.constraints.domains.arrays import grow_rows, grown, grown_ring, next_log_room, next_room
 from runtime.constraints.domains.tags import (
     CONFLICT_DOMAIN,
     EVENT_DECIDED,
@@ -197,8 +197,8 @@ class Store:
     # -------------------------------------------------------------------------------------------------- growth
 
     def grow_variables(self) -> None:
-        """Double the rows of variables."""
-        room = 2 * len(self.kind)
+        """Lengthen the rows of variables."""
+        room = next_room(len(self.kind))
         grow_rows(
             self,
             "kind lb ub flo fhi words_of bit_base table_length is_open decided constant queued relaxed block_first "
@@ -236,7 +236,7 @@ class Store:
 
     def grow_trail(self) -> None:
         """Make the trail longer."""
-        room = next_room(self.trail_room)
+        room = next_log_room(self.trail_room)
         grow_rows(self, "trail_key trail_value trail_support trail_when", room)
         self.trail_room = room
 

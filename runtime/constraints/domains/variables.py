@@ -2,7 +2,7 @@
 
 from math import inf
 
-from runtime.constraints.domains.arrays import grow_rows
+from runtime.constraints.domains.arrays import grow_rows, next_room
 from runtime.constraints.domains.bitset import (
     attach_table,
     attach_words,
@@ -119,8 +119,8 @@ def drop_variable(s: Store, v: int) -> None:
 
 
 def _grow_restrictions(s: Store) -> None:
-    """Double the rows of restrictions."""
-    room = 2 * len(s.restriction_lo)
+    """Lengthen the rows of restrictions."""
+    room = next_room(len(s.restriction_lo))
     grow_rows(s, "restriction_variable restriction_next restriction_span restriction_owner", room, -1)
     grow_rows(s, "restriction_lo restriction_hi restriction_flags", room)
 

@@ -1,6 +1,6 @@
 """Keep constraints in rows and their arguments in slots; put them on the watch lists of their variables."""
 
-from runtime.constraints.domains.arrays import grow_rows
+from runtime.constraints.domains.arrays import grow_rows, next_room
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     EVENT_DOMAIN,
@@ -37,8 +37,8 @@ _MASK = 2**64 - 1
 
 
 def _grow_constraints(s: Store) -> None:
-    """Double the rows of constraints, and the queues with them."""
-    room = 2 * len(s.op)
+    """Lengthen the rows of constraints, and the queues with them."""
+    room = next_room(len(s.op))
     grow_rows(s, "op span owner link_a link_b constraint_next", room, -1)
     grow_rows(s, "mode first arity drawn entailed run_count run_epoch", room)
     s.grow_constraint_queues(room)
@@ -48,7 +48,7 @@ def _grow_slots(s: Store, need: int) -> None:
     """Make room for `need` more slots."""
     room = len(s.slot_variable)
     while room < s.slots_used + need:
-        room *= 2
+        room = next_room(room)
     grow_rows(s, "slot_variable slot_constraint slot_next slot_prev", room, -1)
     grow_rows(s, "slot_mask slot_key", room)
 

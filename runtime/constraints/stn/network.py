@@ -1,6 +1,6 @@
 """Propagate bounds along temporal edges, one new edge at a time, with exact detection of negative cycles."""
 
-from runtime.constraints.domains.arrays import grow_rows, grown
+from runtime.constraints.domains.arrays import grow_rows, next_room
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     CONFLICT_CYCLE,
@@ -19,10 +19,10 @@ from runtime.constraints.domains.tags import (
 
 
 def _grow_edges(s: Store) -> None:
-    """Double the rows of edges."""
-    room = 2 * len(s.edge_weight)
+    """Lengthen the rows of edges."""
+    room = next_room(len(s.edge_weight))
     grow_rows(s, "edge_source edge_target out_next out_prev in_next in_prev edge_span edge_owner edge_link", room, -1)
-    s.edge_weight = grown(s.edge_weight, room)
+    grow_rows(s, "edge_weight", room)
 
 
 def _link_edge(s: Store, source: int, target: int, weight: int, span: int, owner: int, link: int) -> int:

@@ -7,7 +7,7 @@ While a mark is open every change is logged; without marks rows go to free lists
 
 from array import array
 
-from runtime.constraints.domains.arrays import blank, grown
+from runtime.constraints.domains.arrays import blank, grow_rows, grown, next_room
 from runtime.plan.tags import (
     FREED,
     INACTIVE,
@@ -95,32 +95,16 @@ class Rows:
         self.link_after = blank(capacity * LISTS)
 
     def _grow_tokens(self) -> None:
-        """Double the token table."""
-        size = 2 * self.token_capacity
+        """Lengthen the token table."""
+        size = next_room(self.token_capacity)
         self.token_capacity = size
-        self.status = grown(self.status, size)
-        self.predicate = grown(self.predicate, size)
-        self.var0 = grown(self.var0, size)
-        self.width = grown(self.width, size)
-        self.flags = grown(self.flags, size)
-        self.parent = grown(self.parent, size)
-        self.relation = grown(self.relation, size)
-        self.origin = grown(self.origin, size)
-        self.label = grown(self.label, size)
-        self.key = grown(self.key, size)
-        self.span = grown(self.span, size)
-        self.creator = grown(self.creator, size)
-        self.scopes = grown(self.scopes, size)
-        self.children = grown(self.children, size)
-        self.sibling = grown(self.sibling, size)
-        self.merged_into = grown(self.merged_into, size)
-        self.merged = grown(self.merged, size)
-        self.merged_next = grown(self.merged_next, size)
-        self.pairs_out = grown(self.pairs_out, size)
-        self.pairs_in = grown(self.pairs_in, size)
-        self.link_head = grown(self.link_head, size * LISTS)
-        self.link_before = grown(self.link_before, size * LISTS)
-        self.link_after = grown(self.link_after, size * LISTS)
+        grow_rows(
+            self,
+            "status predicate var0 width flags parent relation origin label key span creator scopes children "
+            "sibling merged_into merged merged_next pairs_out pairs_in",
+            size,
+        )
+        grow_rows(self, "link_head link_before link_after", size * LISTS)
 
     def new_token(self, predicate: int, flags: int, parent: int, creator: int, span: int) -> int:
         """Take a row for a token; its variables are for the caller to make."""
@@ -231,22 +215,15 @@ class Rows:
         self.scope_inputs = blank(capacity)
 
     def _grow_scopes(self) -> None:
-        """Double the scope table."""
-        size = 2 * self.scope_capacity
+        """Lengthen the scope table."""
+        size = next_room(self.scope_capacity)
         self.scope_capacity = size
-        self.scope_kind = grown(self.scope_kind, size)
-        self.scope_token = grown(self.scope_token, size)
-        self.scope_rule = grown(self.scope_rule, size)
-        self.scope_parent = grown(self.scope_parent, size)
-        self.scope_frame = grown(self.scope_frame, size)
-        self.scope_size = grown(self.scope_size, size)
-        self.scope_slots = grown(self.scope_slots, size)
-        self.scope_holds = grown(self.scope_holds, size)
-        self.scope_next = grown(self.scope_next, size)
-        self.scope_at = grown(self.scope_at, size)
-        self.scope_branch = grown(self.scope_branch, size)
-        self.scope_watch = grown(self.scope_watch, size)
-        self.scope_inputs = grown(self.scope_inputs, size)
+        grow_rows(
+            self,
+            "scope_kind scope_token scope_rule scope_parent scope_frame scope_size scope_slots scope_holds "
+            "scope_next scope_at scope_branch scope_watch scope_inputs",
+            size,
+        )
 
     def new_scope(self, kind: int, token: int, rule: int, parent: int, slots: int, size: int) -> int:
         """Take a row for a scope of `token` with a frame of `size` cells, the first `slots` of them for variables.
@@ -341,14 +318,10 @@ class Rows:
         self.free_hold = h
 
     def grow_pairs(self) -> None:
-        """Double the table of pairs."""
-        size = 2 * self.pair_capacity
+        """Lengthen the table of pairs."""
+        size = next_room(self.pair_capacity)
         self.pair_capacity = size
-        self.pair_edge = grown(self.pair_edge, size)
-        self.pair_first = grown(self.pair_first, size)
-        self.pair_second = grown(self.pair_second, size)
-        self.pair_next_out = grown(self.pair_next_out, size)
-        self.pair_next_in = grown(self.pair_next_in, size)
+        grow_rows(self, "pair_edge pair_first pair_second pair_next_out pair_next_in", size)
 
     # ---- cells ----
 

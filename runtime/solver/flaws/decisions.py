@@ -3,7 +3,7 @@
 from array import array
 from collections.abc import Sequence
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import grow_rows, grown, next_room
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.tags import EVERYTHING, NONE
 
@@ -89,26 +89,15 @@ class Decisions:
         self.reason_free = NONE
 
     def _grow(self) -> int:
-        """Double the rows."""
-        room = 2 * self.room
-        self.kind = grown(self.kind, room)
-        self.manager = grown(self.manager, room)
-        self.item = grown(self.item, room)
-        self.handler = grown(self.handler, room)
-        self.instant = grown(self.instant, room)
-        self.is_low = grown(self.is_low, room)
-        self.tries = grown(self.tries, room)
-        self.phase = grown(self.phase, room)
-        self.cursor = grown(self.cursor, room)
-        self.mark = grown(self.mark, room)
-        self.rows_seen = grown(self.rows_seen, room)
-        self.engine_seen = grown(self.engine_seen, room)
-        self.dropped = grown(self.dropped, room)
-        self.dynamic = grown(self.dynamic, room)
-        self.pool_first = grown(self.pool_first, room)
-        self.pool_count = grown(self.pool_count, room)
-        self.reasons = grown(self.reasons, room, NONE)
-        self.is_local = grown(self.is_local, room)
+        """Lengthen the rows."""
+        room = next_room(self.room)
+        grow_rows(
+            self,
+            "kind manager item handler instant is_low tries phase cursor mark rows_seen engine_seen dropped dynamic "
+            "pool_first pool_count is_local",
+            room,
+        )
+        grow_rows(self, "reasons", room, NONE)
         self.room = room
         return 0
 
