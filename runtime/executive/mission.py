@@ -18,6 +18,7 @@ from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
 from runtime.executive.reactor import TeleoReactor
 from runtime.executive.record import MissionRecord
+from runtime.executive.stock import Loans
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import Environment, PlanDatabase
@@ -56,7 +57,8 @@ def run_mission(
     compiles: bool = True,
 ) -> Outcome:
     """Carry out one mission, see `record_mission`, without a record: that of determined reactors is work."""
-    return _flown(configuration, programs, seed, overrides, every_tick, until, compiles)[0]
+    with Loans() as loans:
+        return _flown(configuration, programs, seed, overrides, every_tick, until, compiles, loans)[0]
 
 
 def record_mission(
@@ -77,8 +79,9 @@ def record_mission(
     A model that does not load, be it for what was drawn, ends the mission before it begins (F9). Raises `ValueError`
     (of `workbench` and `agent`) for timelines that do not exist or have no single owner.
     """
-    outcome, reactors = _flown(configuration, programs, seed, overrides, every_tick, until, compiles)
-    recorded = tuple(each.record() for each in reactors if isinstance(each, (PlanReactor, DeterminedReactor)))
+    with Loans() as loans:
+        outcome, reactors = _flown(configuration, programs, seed, overrides, every_tick, until, compiles, loans)
+        recorded = tuple(each.record() for each in reactors if isinstance(each, (PlanReactor, DeterminedReactor)))
     return outcome, MissionRecord(recorded)
 
 
@@ -90,12 +93,13 @@ def _flown(
     every_tick: bool,
     until: int | None,
     compiles: bool,
+    loans: Loans,
 ) -> tuple[Outcome, list[TeleoReactor]]:
     """A mission, and its reactors as it left them."""
     trace = Trace()
     world = World(configuration, seed, overrides or {}, trace)
     try:
-        reactors = make_reactors(configuration, programs, world, compiles)
+        reactors = make_reactors(configuration, programs, world, compiles, loans)
     except UnusableModelError as problem:
         return unloaded(configuration, problem, world), []
     goals = []
@@ -119,7 +123,7 @@ def unloaded(configuration: AgentConfiguration, problem: UnusableModelError, wor
 
 
 def make_reactors(
-    configuration: AgentConfiguration, programs: MissionPrograms, world: World, compiles: bool
+    configuration: AgentConfiguration, programs: MissionPrograms, world: World, compiles: bool, loans: Loans
 ) -> list[TeleoReactor]:
     """The reactors of a mission, ready for tick 0."""
     trace, seed, overrides = world.trace, world.seed, world.overrides
@@ -130,13 +134,13 @@ def make_reactors(
         world.learn(program)
         loaded = register_program(configuration, programs, number) if compiles else None
         if loaded is None:
-            reactors.append(plan_reactor(configuration, programs, number, world))
+            reactors.append(plan_reactor(configuration, programs, number, world, loans))
             continue
 
         def general(shadow: Trace, number: int = number) -> PlanReactor:
             apart = World(configuration, seed, overrides, shadow)
             apart.parameters = world.parameters
-            return plan_reactor(configuration, programs, number, apart)
+            return plan_reactor(configuration, programs, number, apart, loans)
 
         reactor = DeterminedReactor(each, loaded, world.in_force, general, configuration.final_tick, trace)
         reactor.watched = sum(1 << reactor.numbers[line] for line in each.internal if line in users)
@@ -149,15 +153,21 @@ def make_reactors(
 
 
 def plan_reactor(
-    configuration: AgentConfiguration, programs: MissionPrograms, number: int, world: World
+    configuration: AgentConfiguration, programs: MissionPrograms, number: int, world: World, loans: Loans
 ) -> PlanReactor:
     """A reactor with a plan database of its own."""
     each = configuration.reactors[number]
+    solver, last = programs.solvers[number], configuration.final_tick
     draws = Draws(each.name, world)
-    bench = loaded_bench(configuration, programs, number, draws.draw)
-    draws.view = bench
-    planner = Planner(bench, programs.solvers[number], configuration.final_tick, each.max_steps, each.max_depth)
-    return PlanReactor(each, bench, planner, configuration.final_tick, world.trace, draws)
+
+    def make(environment: Environment) -> tuple[Workbench, Planner]:
+        bench = loaded_bench(configuration, programs, number, environment)
+        return bench, Planner(bench, solver, last, each.max_steps, each.max_depth)
+
+    parts = (programs.programs[number], solver, programs.constraints)
+    loaded = loans.borrow(configuration, number, parts, draws.draw, make)
+    draws.view = loaded.bench
+    return PlanReactor(each, loaded.bench, loaded.planner, last, world.trace, draws)
 
 
 def register_program(
