@@ -41,7 +41,10 @@ def load(agent: AgentConfiguration) -> Fly:
 def fly_once(
     agent: AgentConfiguration, seed: int, values: Mapping[str, float] | None = None, until: int | None = None
 ) -> Outcome:
-    """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick."""
+    """Fly one mission; `values` replaces draws of the named parameters, `until` ends it before its final tick.
+
+    It raises `DisagreementError` where the judge holds that the executive broke the model.
+    """
     root = Path(agent.root)
     reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
     programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)

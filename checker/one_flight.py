@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from checker.batch.identity import model_digest
-from checker.flight import fly_once
+from checker.flight import fly_once, load_programs
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Judgement, judge
@@ -38,7 +38,8 @@ class Flight:
 
 
 def fly(mission: Mission, models: ModelSet, settings: Settings) -> Flight:
-    """Fly the mission once."""
+    """Fly the mission once, with the models as they are now."""
+    load_programs.cache_clear()
     outcome = fly_once(models.agent, settings.seed, dict(settings.values), settings.until)
     return Flight(settings, model_digest(models.texts), outcome, judge(outcome))
 

@@ -88,6 +88,7 @@ class Agent:
         self.owners = {timeline: reactor for reactor in self.reactors for timeline in reactor.internal}
         self.senders: dict[int, Reactor] = {}  # who made a request, by its number
         self.takers: dict[int, Reactor] = {}  # who was asked
+        self.made: dict[int, Request] = {}  # requests of reactors that have not been taken back
         self.stirred: list[Reactor] = []  # who has got something to do from a reactor that was killed
         self.seed = seed
         self.trace = trace
@@ -228,6 +229,7 @@ class Agent:
                 return abort
         for request in reactor.requests(self.tick):
             self.senders[request.number] = reactor
+            self.made[request.number] = request
             abort = self._ask(request, busy)
             if abort is not None:
                 return abort
@@ -258,6 +260,7 @@ class Agent:
     def _recall(self, number: int, busy: list[Reactor]) -> Abort | None:
         """Tell the owner that a request is taken back."""
         self.senders.pop(number, None)
+        self.made.pop(number, None)
         owner = self.takers.pop(number, None)
         if owner is None or owner not in self.reactors:
             return None
@@ -362,6 +365,8 @@ class Agent:
             if owner is not None and owner in self.reactors:
                 owner.recall(number)
                 self.stirred.append(owner)
+        lost = [number for number, owner in self.takers.items() if owner is reactor and number in self.made]
+        self._tell_refusals([Refusal(self.made[number], event) for number in lost])
         for timeline in reactor.internal:
             del self.owners[timeline]
             seen = self.trace.record(EventKind.OBSERVATION, reactor.name, timeline, "Failed", causes=(event,))

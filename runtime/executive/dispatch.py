@@ -5,7 +5,6 @@ from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
-from runtime.plan.readout.names import TokenName
 
 INFINITY = 4503599627370495
 
@@ -32,10 +31,20 @@ class Dispatch:
         request = self.sent.get(self.bench.key(token))
         return request is not None and request.number in self.refused
 
-    def refusal_of(self, token: TokenName | None) -> tuple[int, ...]:
-        """The event in which an owner gave up a token of the plan."""
-        request = self.sent.get(token.key) if token is not None else None
-        return (self.refused[request.number],) if request is not None and request.number in self.refused else ()
+    def refusals(self) -> tuple[int, ...]:
+        """The events in which owners gave up what still is in the plan."""
+        return tuple(self.refused[one.number] for one in self.sent.values() if one.number in self.refused)
+
+    def is_cut_off(self, token: int) -> bool:
+        """Whether an owner has given up what `token` needs, begun or not."""
+        for key, request in self.sent.items():
+            t = self.sent_tokens[key]
+            if request.number in self.refused and self.bench.is_alive(t, key):
+                while t >= 0 and t != token:
+                    t = self.bench.master(t)
+                if t == token:
+                    return True
+        return False
 
     def notice(self, line: TimelineState) -> int:
         """How many ticks ahead the owner of a timeline is asked: its window begins that much later (T-REX 1.1)."""

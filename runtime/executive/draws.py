@@ -85,7 +85,7 @@ class Draws:
         world = self.world
         if not world.varies(name):
             return world.draw(self.reactor, name, 0)
-        tick = self._begin(token) if token >= 0 else 0
+        tick = self._begin(token) if token >= 0 and self.view is not None else 0  # what the script makes begins at 0
         if token >= 0 and self.view is not None:
             index = update_index(world.parameters[name], tick)
             rows = self.view.rows

@@ -1,5 +1,7 @@
 """What a reactor was asked for: queued until its window comes, posted, given up, taken back, done (T-REX 1.8)."""
 
+from collections.abc import Callable
+
 from runtime.executive.messages import Request
 from runtime.executive.outcome import EventKind, OpenGoal, Reason, ReasonKind
 from runtime.executive.reactor import Refusal
@@ -140,8 +142,11 @@ class Goals:
 
     # ---- the tick ----
 
-    def close(self, tick: int) -> bool:
-        """Goals that have run are done; those that are too late, or went in a repair, are given up. Whether any was."""
+    def close(self, tick: int, is_cut_off: Callable[[int], bool]) -> bool:
+        """Goals that have run are done; those that are too late, or went in a repair, are given up. Whether any was.
+
+        `is_cut_off` tells whether an owner has given up what a goal needed: then its end is no achievement.
+        """
         found = False
         late: list[int] = []
         for goal in self.live():
@@ -151,7 +156,10 @@ class Goals:
                 self._drop(goal, ReasonKind.DROPPED)
             elif bench.is_over(token, tick):
                 goal.is_closed = True
-                self.achieved(goal.request)
+                if is_cut_off(token):
+                    self._drop(goal, ReasonKind.DROPPED)
+                else:
+                    self.achieved(goal.request)
                 found = True
             elif not bench.is_active(token) and bench.upper(bench.start(token)) <= tick and not bench.is_merged(token):
                 goal.is_closed = True

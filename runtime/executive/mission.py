@@ -13,7 +13,7 @@ from runtime.executive.coded_reactor import CodedReactor
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, Value
 from runtime.executive.draws import Draws, World
 from runtime.executive.messages import Arguments, Request
-from runtime.executive.outcome import Outcome
+from runtime.executive.outcome import Abort, EventKind, Outcome, Reason, ReasonKind
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
 from runtime.executive.reactor import Reactor
@@ -30,6 +30,10 @@ INFINITY = 4503599627370495
 
 class UnusableModelError(ValueError):
     """A model that cannot be executed: its script is stopped by a fault, or contradicts itself."""
+
+    def __init__(self, message: str, reactor: str = "") -> None:
+        super().__init__(message)
+        self.reactor = reactor
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,11 +74,42 @@ def record_mission(
     It ends at the final tick, or at `until`. With `every_tick` reactors are woken at each tick, whether or not anything
     can happen; events are the same.
 
-    Raises `UnusableModelError` for a model that does not load, and `ValueError` (of `workbench` and `agent`) for
-    timelines that do not exist or have no single owner.
+    A model that does not load, be it for what was drawn, ends the mission before it begins (F9). Raises `ValueError`
+    (of `workbench` and `agent`) for timelines that do not exist or have no single owner.
     """
     trace = Trace()
     world = World(configuration, seed, overrides or {}, trace)
+    try:
+        reactors = make_reactors(configuration, programs, world, compiles)
+    except UnusableModelError as problem:
+        return unloaded(configuration, problem, world), MissionRecord(())
+    goals = []
+    for number, goal in enumerate(configuration.goals):
+        kinds = goal_kinds(configuration, programs, goal)
+        goals.append((goal.at, request_of(goal, -1 - number, kinds)))
+    agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
+    outcome = agent.run(until)
+    recorded = tuple(each.bench.recorder.close() for each in reactors if isinstance(each, PlanReactor))
+    return outcome, MissionRecord(recorded)
+
+
+def unloaded(configuration: AgentConfiguration, problem: UnusableModelError, world: World) -> Outcome:
+    """The outcome of a mission of which a model does not load."""
+    trace = world.trace
+    reason = Reason(ReasonKind.UNLOADABLE, tick=0, message=str(problem))
+    event = trace.record(
+        EventKind.ABORT, problem.reactor, causes=tuple(range(len(trace.events))), code="F9", reason=reason
+    )
+    abort = Abort("F9", 0, problem.reactor, (), reason, None, 0, event)
+    draws, events = tuple(trace.draws), tuple(trace.events)
+    return Outcome(world.seed, 0, configuration.final_tick, abort, draws, events, ())
+
+
+def make_reactors(
+    configuration: AgentConfiguration, programs: MissionPrograms, world: World, compiles: bool
+) -> list[Reactor]:
+    """The reactors of a mission, ready for tick 0."""
+    trace, seed, overrides = world.trace, world.seed, world.overrides
     reactors: list[Reactor] = []
     users = {line for each in configuration.reactors for line in each.external}
     users.update(line for each in configuration.coded for line in each.external)
@@ -86,7 +121,7 @@ def record_mission(
             continue
 
         def general(shadow: Trace, number: int = number) -> PlanReactor:
-            apart = World(configuration, seed, overrides or {}, shadow)
+            apart = World(configuration, seed, overrides, shadow)
             apart.parameters = world.parameters
             return plan_reactor(configuration, programs, number, apart)
 
@@ -97,14 +132,7 @@ def record_mission(
     for coded, cls in zip(configuration.coded, programs.code, strict=True):
         make = partial(cls, {**dict(coded.settings), "seed": seed})
         reactors.append(CodedReactor(coded, make, kinds_of, trace))
-    goals = []
-    for number, goal in enumerate(configuration.goals):
-        kinds = goal_kinds(configuration, programs, goal)
-        goals.append((goal.at, request_of(goal, -1 - number, kinds)))
-    agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
-    outcome = agent.run(until)
-    recorders = [reactor.bench.recorder for reactor in reactors if isinstance(reactor, PlanReactor)]
-    return outcome, MissionRecord(tuple(recorder.close() for recorder in recorders))
+    return reactors
 
 
 def plan_reactor(
@@ -139,14 +167,14 @@ def loaded_bench(
     database = PlanDatabase(programs.programs[number], environment, programs.constraints)
     fault = database.run_script()
     if fault is not None:
-        raise UnusableModelError(f"{fault.span.source.name}:{fault.span.line}: {fault.message}")
+        raise UnusableModelError(f"{fault.span.source.name}:{fault.span.line}: {fault.message}", name)
     bench = Workbench(database, name)
     holds = bench.set_global("TICK_DURATION", configuration.tick)
     holds = holds and bench.set_global("MISSION_START", 0)
     holds = holds and bench.set_global("MISSION_END", configuration.final_tick)
     holds = holds and bench.start_clock(configuration.final_tick)
     if not holds or not bench.is_consistent():
-        raise UnusableModelError(f"the model of `{name}` contradicts itself before the mission begins")
+        raise UnusableModelError(f"the model of `{name}` contradicts itself before the mission begins", name)
     bench.commit()
     return bench
 

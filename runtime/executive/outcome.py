@@ -157,6 +157,7 @@ class ReasonKind(StrEnum):
     STEPS = "steps"
     DEPTH = "depth"
     RAISED = "raised"
+    UNLOADABLE = "unloadable"
     # of the mission
     GOALS_OPEN = "goals open"
     NO_RECORD = "no record"

@@ -148,7 +148,7 @@ class PlanReactor:
             failure = self._prepare(tick) or self._settle(tick)
             if failure is None:
                 self.goals.report_rejected()
-                if self.goals.close(tick):
+                if self.goals.close(tick, self.dispatch.is_cut_off):
                     self.goals.reopen()
                 self.bench.recorder.settled = tick
                 return None
@@ -158,7 +158,8 @@ class PlanReactor:
         first = failures[0]
         repairs = _distinct(first.conflict, failures[1:])
         lines = first.timelines or tuple(line.name for line in self.timelines if line.is_internal)
-        causes = self.dispatch.refusal_of(first.reason.token) or causes or events[:1]
+        refusals = self.dispatch.refusals() if first.code == "F6" else ()
+        causes = refusals or causes or events[:1]
         return Failure(first.code, first.reason, lines, first.conflict, self.relaxes, repairs, causes, watched)
 
     def _prepare(self, tick: int) -> Unsettled | None:

@@ -47,6 +47,7 @@ _REASONS = {
     ReasonKind.NO_PLAN: "no plan inside the window",
     ReasonKind.STEPS: "more than {limit} decisions are needed about what holds at tick {tick}",
     ReasonKind.DEPTH: "more than {limit} decisions are needed at once",
+    ReasonKind.UNLOADABLE: "its model does not load: {message}",
     ReasonKind.RAISED: "its code failed: {message}",
     ReasonKind.GOALS_OPEN: "mandatory goals stayed open",
     ReasonKind.NO_RECORD: "ended at tick {tick} of {limit} without an abort record",

@@ -58,7 +58,7 @@ def settle(
     """
     if not bench.set_clock(tick):
         return Unsettled("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
-    failed = persist(bench, timelines, tick)
+    failed = persist(bench, timelines, tick, is_refused)
     if failed is not None:
         return failed
     mark = bench.mark()
@@ -69,7 +69,9 @@ def settle(
     return _Search(bench, planner, timelines, tick, final_tick, is_refused, True).run()
 
 
-def persist(bench: Workbench, timelines: list[TimelineState], tick: int) -> Unsettled | None:
+def persist(
+    bench: Workbench, timelines: list[TimelineState], tick: int, is_refused: Callable[[int], bool]
+) -> Unsettled | None:
     """No news means no change: what is observed on other reactors' timelines goes on; a new value ends it."""
     for line in timelines:
         if line.is_internal or line.current == NOTHING:
@@ -77,7 +79,9 @@ def persist(bench: Workbench, timelines: list[TimelineState], tick: int) -> Unse
         if line.news is None:
             if not bench.at_least(bench.end(line.current), tick + 1, SPAN_OBSERVATION, line.current):
                 what = Reason(ReasonKind.GOES_ON, bench.name_of(line.current), tick=tick)
-                return Unsettled("F1", (line.name,), what, conflict_of(bench))
+                following = bench.next_of(line.object_id, line.current)
+                code = "F6" if following >= 0 and is_refused(following) else "F1"
+                return Unsettled(code, (line.name,), what, conflict_of(bench))
         elif not bench.fix(bench.end(line.current), tick, SPAN_OBSERVATION, line.current):
             what = Reason(ReasonKind.ENDED, bench.name_of(line.current), tick=tick)
             return Unsettled("F2", (line.name,), what, conflict_of(bench))

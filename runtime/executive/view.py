@@ -239,6 +239,10 @@ class PlanView:
         """Note that somebody asked for `t`."""
         self.requested[t] = int(self.rows.key[t])
 
+    def master(self, t: int) -> int:
+        """The token whose rule asked for `t`; NONE where there is none."""
+        return int(self.rows.parent[t])
+
     def stands_for(self, t: int) -> int:
         """The token of the plan that `t` is, or is merged into."""
         return int(self.rows.merged_into[t] if self.rows.status[t] == MERGED else t)

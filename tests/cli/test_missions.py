@@ -1,0 +1,79 @@
+"""`nddlc run`, `replay` and `gold`: one mission flown, flown again, and kept as it was accepted."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from nddlc.main import run
+
+ORDER = Path(__file__).parents[1] / "executive" / "missions" / "order_of_requests"
+REPAIR = Path(__file__).parents[1] / "executive" / "missions" / "repair"
+
+
+def flown(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str]:
+    """Exit code and output of a command."""
+    code = run([*arguments])
+    return code, capsys.readouterr().out
+
+
+@pytest.fixture
+def mission(tmp_path: Path) -> Path:
+    """A copy of a mission."""
+    shutil.copytree(ORDER, tmp_path / "m")
+    return tmp_path / "m" / "mission.toml"
+
+
+def test_a_mission_that_passes(mission: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, shown = flown(capsys, "run", str(mission))
+    assert code == 0
+    assert "order, seed 0: PASS at tick 400" in shown
+    assert any(line.startswith("path") and "|Leg" in line for line in shown.splitlines())
+
+
+def test_a_mission_that_fails_under_a_given_value(capsys: pytest.CaptureFixture[str]) -> None:
+    code, shown = flown(capsys, "run", str(REPAIR / "mission.toml"), "--param", "D=25")
+    assert code == 1 and "FAIL F1" in shown
+    assert flown(capsys, "run", str(REPAIR / "mission.toml"), "--param", "D=5")[0] == 0
+
+
+def test_values_of_unknown_parameters_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
+    assert flown(capsys, "run", str(REPAIR / "mission.toml"), "--param", "E=25")[0] == 2
+    assert flown(capsys, "run", str(REPAIR / "mission.toml"), "--param", "D=x")[0] == 2
+
+
+def test_a_mission_may_be_stopped_before_its_end(mission: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, shown = flown(capsys, "run", str(mission), "--until", "50")
+    assert code == 0 and "at tick 50" in shown
+
+
+def test_a_trace_is_flown_again(mission: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    trace = tmp_path / "trace.jsonl"
+    assert flown(capsys, "run", str(mission), "--trace", str(trace))[0] == 0
+    events = [json.loads(line) for line in trace.read_text().splitlines()]
+    assert events[0]["kind"] == "mission" and events[-1]["kind"] == "end"
+    code, shown = flown(capsys, "replay", str(trace))
+    assert code == 0 and shown.startswith("the same: ")
+    model = mission.parent / "b.nddl"
+    model.write_text(model.read_text().replace("30", "31"))
+    code, shown = flown(capsys, "replay", str(trace))
+    assert code == 1 and "the models are not those of the trace" in shown and "departs at line" in shown
+
+
+def test_what_is_no_trace_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "t.jsonl").write_text('{"kind": "observation"}\n')
+    assert flown(capsys, "replay", str(tmp_path / "t.jsonl"))[0] == 2
+
+
+def test_what_was_accepted_is_compared(mission: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert flown(capsys, "gold", "diff", str(mission))[0] == 2
+    assert flown(capsys, "gold", "accept", str(mission), "--by", "Ada")[0] == 0
+    assert flown(capsys, "gold", "diff", str(mission)) == (0, "nothing differs\n")
+    assert flown(capsys, "gold", "show", str(mission))[1].startswith("accepted by Ada at ")
+    model = mission.parent / "b.nddl"
+    model.write_text(model.read_text().replace("30", "31"))
+    code, shown = flown(capsys, "gold", "diff", str(mission))
+    assert code == 1
+    assert "the models have changed since Ada accepted them" in shown
+    assert "tick 35, nav\n  - observation Hold by nav" in shown

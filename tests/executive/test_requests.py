@@ -1,0 +1,74 @@
+"""What becomes of requests that owners refuse, give up or take up again."""
+
+from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
+from runtime.executive.outcome import EventKind
+from tests.executive.flying import Flyer, fly, history, lines, open_goals, planner, simulator
+
+ARM = (
+    'class Arm extends AgentTimeline { predicate Rest { } predicate Act { int n; } Arm(Mode m) { super(m, "Rest"); } }'
+)
+TASK = (
+    'class Task extends AgentTimeline { predicate Idle { } predicate Do { int n; } Task(Mode m) { super(m, "Idle"); } }'
+)
+JOB = 'class Job extends AgentTimeline { predicate Free { } predicate Make { } Job(Mode m) { super(m, "Free"); } }'
+
+
+def task(rules: str, start: str = "") -> Flyer:
+    """A planner over the arm."""
+    text = f"{ARM}{TASK}{rules} Task task = new Task(Internal); Arm arm = new Arm(External); close(); {start}"
+    return planner("plan", text, "task", "arm", latency=1)
+
+
+def test_what_its_owner_rejected_is_missed_with_its_own_code() -> None:
+    # The arm rests for 30 ticks, and what runs needs it by tick 10.
+    rules = "Task::Do { duration >= 20; any(Arm.Act a); start + 2 <= a.start; a.start <= start + 5; }"
+    stuck = planner("arm", f"{ARM} Arm::Rest {{ duration >= 30; }} Arm arm = new Arm(Internal); close();", "arm")
+    goals = (GoalConfiguration("task", "Do", start=(5, 5), parameters=(("n", 1),)),)
+    outcome = fly(task(rules), stuck, until=40, goals=goals)
+    assert outcome.abort is not None and outcome.abort.code == "F6"
+    rejected = [n for n, event in enumerate(outcome.events) if event.kind is EventKind.REJECT]
+    assert rejected[0] in outcome.events[outcome.abort.event].causes
+
+
+def test_a_rejected_goal_comes_back_when_there_is_room() -> None:
+    # Two tasks of eight ticks do not fit into the time for both, until the first turns out to be shorter.
+    text = f"{TASK} Task::Do {{ duration >= 3; duration <= 8; n == n; }} Task task = new Task(Internal); close();"
+    first = GoalConfiguration("task", "Do", start=(2, 2), end=(10, 10), parameters=(("n", 1),))
+    second = GoalConfiguration("task", "Do", start=(4, 9), mandatory=True, parameters=(("n", 2),))
+    outcome = fly(planner("plan", text, "task"), until=30, goals=(first, second))
+    assert lines(outcome, "reject")[0].startswith("0 reject plan task Do(n=2)")
+    assert open_goals(outcome) != []
+
+
+def test_the_goal_of_a_planner_whose_middle_gives_up_is_not_achieved() -> None:
+    upper = f"{TASK}{JOB} Job::Make {{ contains(Task.Do d); d.n == 1; d.end == end; }}"
+    top = planner(
+        "top", f"{upper} Job job = new Job(Internal); Task task = new Task(External); close();", "job", "task"
+    )
+    middle = task("Task::Do { contains(Arm.Act a); a.n == n; a.end == end; } Arm::Act { duration <= 4; }")
+    arm = simulator("sim", f"{ARM} Arm::Act {{ duration == 9; }} Arm arm = new Arm(Internal); close();", "arm")
+    goals = (GoalConfiguration("job", "Make", mandatory=True, start=(5, 9)),)
+    outcome = fly(top, middle, arm, until=60, goals=goals, on_failure="kill_reactor")
+    assert history(outcome, "task")[-1].endswith("Failed")
+    assert [goal.split(":")[0] for goal in open_goals(outcome)] == ["Make"]
+
+
+def test_a_reactor_out_of_its_own_budget_is_f5() -> None:
+    script = " ".join(f"goal(Task.Do g{k}); g{k}.start == {k * 3}; g{k}.duration == 2;" for k in range(1, 6))
+    text = f"{TASK} Task task = new Task(Internal); close(); {script}"
+    flyer = planner("plan", text, "task")
+    deep = Flyer(type(flyer.configuration)("plan", "plan.nddl", 0, 100, ("task",), max_depth=2), text)
+    assert fly(flyer, until=30).abort is None
+    outcome = fly(deep, until=30)
+    assert outcome.abort is not None and outcome.abort.code == "F5" and outcome.abort.reason.limit == 2
+
+
+def test_a_model_that_what_was_drawn_contradicts_is_f9() -> None:
+    text = f"float D = [1.0 10.0]; {TASK} Task task = new Task(Internal); close(); "
+    text += "goal(Task.Do g); int k; float d; d == sampledParameter(D); k == ceil(d); g.n == k; g.n <= 5;"
+    parameters = (ParameterConfiguration("D", 1.0, 10.0),)
+    for value in (3.0, 8.0):
+        outcome = fly(planner("plan", text, "task"), until=5, parameters=parameters, overrides={"D": value})
+        assert (outcome.abort is None) == (value < 5)
+        if outcome.abort is not None:
+            assert (outcome.abort.code, outcome.abort.tick, outcome.last_tick) == ("F9", 0, 0)
