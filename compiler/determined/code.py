@@ -38,7 +38,7 @@ class Shown:
 
 
 @dataclass(frozen=True, slots=True)
-class TokenRecord:
+class BlockToken:
     """A token that a block knows: how it came (root, together, merged, previous, following), by which child slot."""
 
     how: str
@@ -80,7 +80,7 @@ class Block:
     predicate: PredicateCode
     mask: int
     instructions: tuple[tuple[int, ...], ...]
-    tokens: tuple[TokenRecord, ...]
+    tokens: tuple[BlockToken, ...]
     guards: tuple[GuardRecord, ...]
     locals: tuple[LocalRecord, ...]
     draws: tuple[int, ...]

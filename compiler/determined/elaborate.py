@@ -3,7 +3,7 @@
 from itertools import pairwise
 
 from compiler.determined import code
-from compiler.determined.code import GuardRecord, Layout, LocalRecord, Shown, TokenRecord
+from compiler.determined.code import BlockToken, GuardRecord, Layout, LocalRecord, Shown
 from compiler.determined.items import Context, Item, Worksheet
 from compiler.determined.model import Model, values_of
 from compiler.determined.operations import DEMANDS, FUNCTIONS, Cell, Way, computed, demand, equal_ways
@@ -43,7 +43,7 @@ class Elaboration:
         self.model = model
         self.layout = layout
         self.sheet = Worksheet()
-        self.tokens: list[TokenRecord] = []
+        self.tokens: list[BlockToken] = []
         self.banks: list[int] = []
         self.guards: list[GuardRecord] = []
         self.locals: list[LocalRecord] = []
@@ -59,7 +59,7 @@ class Elaboration:
     ) -> int:
         layout = self.layout
         number = len(self.tokens)
-        self.tokens.append(TokenRecord(how, line, predicate, parent, rule, slot, context))
+        self.tokens.append(BlockToken(how, line, predicate, parent, rule, slot, context))
         bank = {FOLLOWING: layout.following, PREVIOUS: layout.previous}.get(how, layout.current)[line]
         self.banks.append(bank)
         name = self.model.lines[line].name
@@ -261,6 +261,10 @@ class Elaboration:
     def _draw(self, target: Cell, parameter: str, context: Context, span: Span) -> None:
         number = self.layout.sample(parameter)
         self.draws.append(number)
+        if target.is_real:
+            way = Way((target.register,), (), ((code.DRAW, target.register, number),))
+            self.sheet.items.append(Item(context, span, span.text, (target.register,), (way,)))
+            return
         raw = Cell(self.layout.take(1), "float")
         self.sheet.items.append(
             Item(

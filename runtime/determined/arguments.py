@@ -66,7 +66,4 @@ def domain_of(program: RegisterProgram, kind: str, type_name: str, value: float)
         return DomainConstant(kind, type_name, (int(value), int(value)), None)
     if kind == "bool":
         return DomainConstant(kind, type_name, None, (bool(value),))
-    if int(value) >= len(program.names):
-        symbols = program.layout.symbols
-        program.names[:] = sorted(symbols, key=lambda name: symbols[name])
-    return DomainConstant(kind, type_name, None, (program.names[int(value)],))
+    return DomainConstant(kind, type_name, None, (program.name_of(int(value)),))

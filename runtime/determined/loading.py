@@ -13,6 +13,7 @@ from compiler.determined.relations import TOGETHER
 from compiler.program import DomainConstant, PredicateCode, Program
 from runtime.determined.machine import Machine
 from runtime.determined.tags import FAR, NONE
+from runtime.executive.record import ReactorRecord
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_FACT
 
@@ -37,6 +38,7 @@ class RegisterProgram:
     layout: Layout
     order: tuple[int, ...]
     internal: tuple[int, ...]  # own timelines in the order of the configuration
+    frame: ReactorRecord  # what the record of a mission says of globals, objects and the script
     defaults: list[int] = field(default_factory=list)
     first: list[FirstToken] = field(default_factory=list)
     blocks: list[Block | None] = field(default_factory=lambda: [None])
@@ -70,6 +72,13 @@ class RegisterProgram:
                 follower = self.block(target, self.model.program.predicates[successor], wanted)
                 self.code[here + STRIDE * k + 6] = follower
         return number
+
+    def name_of(self, number: int) -> str:
+        """The text, enum value or object of a number."""
+        if number >= len(self.names):
+            symbols = self.layout.symbols
+            self.names[:] = sorted(symbols, key=lambda name: symbols[name])
+        return self.names[number]
 
     def machine(self, world: object) -> Machine:
         """A machine on which nothing has happened yet."""
@@ -126,7 +135,7 @@ def load_determined(
     if analysis.reasons:
         return None, analysis.reasons
     numbers = tuple(analysis.model.line_numbers[name] for name in internal)
-    loaded = RegisterProgram(analysis.model, analysis.layout, analysis.order, numbers)
+    loaded = RegisterProgram(analysis.model, analysis.layout, analysis.order, numbers, bench.recorder.close())
     reasons: dict[Reason, None] = {}
     _load_facts(loaded, bench, reasons)
     _load_defaults(loaded, reasons)

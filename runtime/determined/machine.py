@@ -1,3 +1,4 @@
+# cython: boundscheck=False
 """Register machine: ticks go in, tokens that start come out; no plan database, no propagation.
 
 At a tick the machine finds what must end (its latest end is now, or something that was asked for may start) and runs
@@ -117,6 +118,8 @@ class Machine:
             if present.state[FOLLOWER * n + i] >= 0 and present.state[ENDING * n + present.state[OWNER * n + i]]:
                 present.state[DUE * n + i] = present.state[FOLLOWER * n + i]
                 present.state[FOLLOWER * n + i] = NONE
+                if present.state[OWNER * n + i] == i:
+                    continue
                 first = self.following[i]
                 into = self.incoming[i]
                 for j in range(self.width[i]):
@@ -166,6 +169,8 @@ class Machine:
         self.start(i, self.block_predicate[block])
         mask = self.block_mask[block]
         first = self.wished[i] if is_wish else self.incoming[i]
+        if present.state[DUE * n + i] >= 0 and present.state[OWNER * n + i] == i:
+            first = self.following[i]
         into = self.current[i]
         for j in range(self.width[i]):
             if mask >> j & 1:
@@ -334,6 +339,8 @@ class Machine:
             block = self.code[at - 2]
             if present.state[FOLLOWER * n + line] >= 0 or block <= 0:
                 return False
+            if present.state[DUE * n + line] >= 0 and not present.changed >> line & 1:
+                return False  # what is due there has not been taken yet
             present.state[FOLLOWER * n + line] = block
             present.state[OWNER * n + line] = a
             return True

@@ -4,29 +4,22 @@ It answers as the general reactor would, and wherever its code stops, it becomes
 that came from outside so far, and goes on from there. The general engine is the judge.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 from runtime.determined.arguments import given_block
+from runtime.determined.asking import Ask, Asked, ask, ask_instead
+from runtime.determined.expand import expand, record_of
 from runtime.determined.inputs import Inputs, catch_up, take_over
 from runtime.determined.loading import RegisterProgram
+from runtime.determined.machine import Machine
 from runtime.determined.publish import Publisher, Wish
-from runtime.determined.tags import (
-    FAR,
-    NONE,
-    STOPS,
-    WISH,
-    WISH_END_FROM,
-    WISH_END_UNTIL,
-    WISH_FROM,
-    WISH_LEAST,
-    WISH_MOST,
-    WISH_UNTIL,
-)
+from runtime.determined.tags import FAR, NONE, STOPS
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, Draw, EventKind, OpenGoal, Reason, ReasonKind
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.reactor import Failure, Refusal
+from runtime.executive.record import ReactorRecord
 from runtime.executive.story import latest
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import VariableName
@@ -49,8 +42,7 @@ class DeterminedReactor:
         trace: Trace,
     ) -> None:
         self.name = configuration.name
-        self.internal = configuration.internal
-        self.external = configuration.external
+        self.internal, self.external = configuration.internal, configuration.external
         self.latency, self.lookahead = configuration.latency, configuration.lookahead
         self.program = program
         self.drawn = drawn
@@ -63,6 +55,7 @@ class DeterminedReactor:
         self.watched = sum(1 << n for n in program.internal)  # timelines whose changes others see
         self.publisher = Publisher(self.name, program, trace)
         self.inputs = Inputs()
+        self.asked: list[Asked] = []  # all that the machine was asked, for the record
         self.wishes: list[Wish] = []  # requests that have not started
         self.news: dict[int, Observation] = {}
         self.windows: dict[str, tuple[int, int]] = {}
@@ -77,7 +70,7 @@ class DeterminedReactor:
         self.refused_goals: list[OpenGoal] = []
         self.refusals_made: list[Refusal] = []
         for fact in program.first:
-            self._ask(fact.line, fact.block, fact.values, (0, 0), fact.end, (1, FAR))
+            ask(self.machine, Ask(fact.line, fact.block, fact.values, (0, 0), fact.end, (1, FAR), "fact"))
         self.machine.keep()
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
@@ -121,11 +114,14 @@ class DeterminedReactor:
             self.reached = int(machine.run(self.reached, tick - 1, 0))
             if self.reached < tick - 1:
                 return False
+        asks: list[Ask] = []
         for line, news in self.news.items():
             given = given_block(self.program, self.machine, line, news.predicate, news.arguments)
             if given is None:
                 return False
-            self._ask(line, given[0], given[1], (tick, tick), (tick + 1, FAR), (1, FAR))
+            asks.append(Ask(line, *given, (tick, tick), (tick + 1, FAR), (1, FAR), "observation"))
+        if asks:
+            self._note_asked(Asked(tick, tuple(asks), True))
         if (self.news or machine.present.next_event(tick - 1) <= tick) and not machine.tick(tick):
             return False
         self.news.clear()
@@ -150,38 +146,22 @@ class DeterminedReactor:
         for k in range(len(machine.sample_until)):
             machine.sample_until[k] = NONE
 
-    def _ask(
-        self,
-        line: int,
-        block: int,
-        values: Mapping[int, float],
-        start: tuple[int, int],
-        end: tuple[int, int],
-        duration: tuple[int, int],
-    ) -> None:
-        """Have the machine start a token on a timeline as soon as it may."""
-        machine = self.machine
-        state, n = machine.present.state, machine.lines
-        state[WISH * n + line] = block
-        sections = (
-            (WISH_FROM, WISH_UNTIL, start),
-            (WISH_END_FROM, WISH_END_UNTIL, end),
-            (WISH_LEAST, WISH_MOST, duration),
-        )
-        for first, last, (lower, upper) in sections:
-            state[first * n + line] = max(lower, 0)
-            state[last * n + line] = min(upper, FAR)
-        for k, value in values.items():
-            machine.registers[machine.wished[line] + k] = value
+    def record(self) -> ReactorRecord:
+        """All tokens that were executed, with their children and runs of rules."""
+        if self.general is not None:
+            return self.general.bench.recorder.close()
+        machine = self.program.machine(self)
+        tokens = expand(self.program, machine, self.asked, self.machine.present.reach, self.tick)
+        return record_of(self.program.frame, self.name, tokens, self.tick)
 
-    def draw(self, machine: object, parameter: int, tick: int) -> bool:
-        """Give the machine the value of a parameter that is in force at `tick`; false if the mission has none."""
+    def draw(self, machine: Machine, parameter: int, tick: int) -> bool:
+        """Give a machine the value of a parameter that is in force at `tick`; false if the mission has none."""
         found = self.drawn(self.parameters[parameter], tick)
         if found is None:
             return False
         draw, until = found
-        self.machine.sample_value[parameter] = draw.value
-        self.machine.sample_until[parameter] = min(until, FAR)
+        machine.sample_value[parameter] = draw.value
+        machine.sample_until[parameter] = min(until, FAR)
         self.publisher.draws[parameter, tick] = draw
         return True
 
@@ -266,17 +246,22 @@ class DeterminedReactor:
         """Whether a request might start at the final tick, when the planner begins nothing that was asked for."""
         return tick >= self.final_tick - 1 and wish.request.start[0] <= self.final_tick
 
+    def _note_asked(self, asked: Asked) -> None:
+        """Ask the machine, and keep what was asked for the record."""
+        ask_instead(self.machine, asked)
+        self.asked.append(asked)
+
     def _choose(self, tick: int, chosen: dict[int, Wish]) -> None:
         machine = self.machine
-        present, n = machine.present, machine.lines
+        present = machine.present
         self.publisher.asked = chosen
-        for line in range(n):
-            present.state[WISH * n + line] = NONE
+        asks = []
         for line, wish in chosen.items():
             request = wish.request
             start = (max(request.start[0], tick + 1), request.start[1])
-            self._ask(line, wish.block, wish.values, start, request.end, request.duration)
-            self.is_beyond = self.is_beyond or not present.has_room(line, tick)
+            asks.append(Ask(line, wish.block, wish.values, start, request.end, request.duration, "request"))
+        self._note_asked(Asked(tick, tuple(asks), False))
+        self.is_beyond = self.is_beyond or not all(present.has_room(line, tick) for line in chosen)
         machine.keep()
         self.base = tick
         for line, wish in chosen.items():

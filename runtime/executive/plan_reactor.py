@@ -8,6 +8,7 @@ from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.planning import Planner
 from runtime.executive.reactor import Failure, Refusal, Watched
+from runtime.executive.record import ReactorRecord
 from runtime.executive.repair import relax
 from runtime.executive.story import conflict_of, latest
 from runtime.executive.synchronise import Unsettled, settle
@@ -226,6 +227,10 @@ class PlanReactor:
                     Observation(tick, line.name, predicate, arguments, line.event, self.name, line.current, token.key)
                 )
         return published
+
+    def record(self) -> ReactorRecord:
+        """What its plan held over the mission."""
+        return self.bench.recorder.close()
 
     # ---- planning ----
 

@@ -2,26 +2,32 @@
 
 import re
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 
 from checker.flight import programs_of
+from checker.judge.judge import judge_mission
 from checker.mission import read_mission
 from compiler.determined import code
+from runtime.determined.reactor import DeterminedReactor
+from runtime.executive.agent import Agent
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
-from runtime.executive.mission import register_program, run_mission
+from runtime.executive.draws import World
+from runtime.executive.mission import record_mission, register_program, request_of, run_mission
+from runtime.executive.outcome import EventKind
+from runtime.executive.trace import Trace
 from tests.executive.determined_models import Case, random_case, told
 from tests.executive.flying import simulator
 
 ROOT = Path(__file__).resolve().parents[2]
 MISSIONS = sorted([*(ROOT / "models").rglob("m*.toml"), *(ROOT / "tests").rglob("mission.toml")])
+KINDS = {"v": ("float", "float"), "n": ("int", "int")}
 
 STEPS = """
 float NOISE = [-1.0 1.0];
 class Helm extends AgentTimeline {
-  predicate Idle { }
-  predicate Run { float v; int n; }
-  Helm(Mode m) { super(m, "Idle"); }
+  predicate Idle { } predicate Run { float v; int n; } Helm(Mode m) { super(m, "Idle"); }
 }
 class Mirror extends AgentTimeline { predicate Holds { float v; } Mirror(Mode m) { super(m, "Holds"); } }
 class Motion extends AgentTimeline { predicate Step { float x; float x1; } Motion(Mode m) { super(m, "Step"); } }
@@ -129,18 +135,22 @@ COUNT = """
 class Count extends AgentTimeline { predicate At { int k; } Count(Mode m) { super(m, "At"); } }
 class Copy extends AgentTimeline { predicate None { } predicate Of { int k; } Copy(Mode m) { super(m, "None"); } }
 """
-COUNTER = (
-    "Count::At { duration == 5; meets(object.At next); next.k == k + 1; } Count count = new Count(Internal); close();"
-)
-COUNTER += "fact(count.At first); first.start == 0; first.k == 0;"
-COPIER = (
-    "Count::At { equals(Copy.Of c); c.k == k * 2; } Count count = new Count(External); Copy copy = new Copy(Internal);"
-)
+COUNTER = """
+Count::At { duration == 5; meets(object.At next); next.k == k + 1; }
+Count count = new Count(Internal);
+close();
+fact(count.At first); first.start == 0; first.k == 0;
+"""
+COPIER = """
+Count::At { equals(Copy.Of c); c.k == k * 2; }
+Count count = new Count(External); Copy copy = new Copy(Internal);
+close();
+"""
 
 
 def test_observations_are_inputs() -> None:
     counter = simulator("counter", COUNT + COUNTER, "count")
-    copier = simulator("copier", COUNT + COPIER + "close();", "copy", "count")
+    copier = simulator("copier", COUNT + COPIER, "copy", "count")
     agree(Case((counter, copier), until=23))
 
 
@@ -149,3 +159,60 @@ def test_the_machine_has_the_numbers_of_the_compiler() -> None:
     found = {name: int(number) for number, name in re.findall(r"op == (\d+):  # ([A-Z_]+)", text)}
     assert len(found) > 38
     assert {name: getattr(code, name) for name in found} == found
+
+
+def test_what_was_executed_is_on_record() -> None:
+    case = steps(run(3, (5, 9), 10.0), run(12, (14, 14), -3.0))
+    agent, programs = case.agent()
+    loaded = register_program(agent, programs, 0)
+    assert loaded is not None
+    trace = Trace()
+    world = World(agent, 1, {}, trace)
+    world.learn(programs.programs[0])
+    reactor = DeterminedReactor(agent.reactors[0], loaded, world.in_force, _never, 40, trace)
+    requests = [(goal.at, request_of(goal, -1 - n, KINDS)) for n, goal in enumerate(case.goals)]
+    outcome = Agent(agent, [reactor], requests, 1, trace).run()
+    record = reactor.record().tokens
+    by_key = {token.key: token for token in record}
+    assert len(by_key) == len(record)
+    published = sorted(
+        (event.tick, event.timeline, event.predicate) for event in outcome.events if event.kind is EventKind.OBSERVATION
+    )
+    active = [token for token in record if token.state == "active"]
+    assert sorted((token.start, token.object, token.predicate.rpartition(".")[2]) for token in active) == published
+    assert {token.origin for token in active} == {"fact", "request", "rule", "own"}
+    for token in record:
+        if token.state == "merged":
+            into = by_key[token.merged_into]
+            assert (into.state, into.object, into.start, into.end) == ("active", token.object, token.start, token.end)
+        for made in token.runs:
+            assert all(key in by_key for key in made.children)
+    second = [token for token in active if token.predicate == "Motion.Step"]
+    mirror, following = second[0].runs[0].children
+    assert by_key[mirror].predicate == "Mirror.Holds" and by_key[following] == second[1]
+    assert second[0].end == second[1].start == 1
+
+
+def _never(trace: Trace) -> NoReturn:
+    raise AssertionError("the machine does not stop")
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_judge_agrees_with_what_was_executed(seed: int) -> None:
+    agent, programs = random_case(seed).agent()
+    outcome, record = record_mission(agent, programs, seed)
+    assert len(record.reactors[0].tokens) > 4
+    assert judge_mission(agent, programs.programs, outcome, record).breaches == ()
+
+
+def test_the_judge_sees_a_value_that_was_not_computed() -> None:
+    agent, programs = steps(run(3, (5, 9), 10.0)).agent()
+    outcome, record = record_mission(agent, programs, 1)
+    assert judge_mission(agent, programs.programs, outcome, record).breaches == ()
+    (reactor,) = record.reactors
+    place = next(k for k, token in enumerate(reactor.tokens) if token.predicate == "Motion.Step" and token.start == 3)
+    step = reactor.tokens[place]
+    wrong = step._replace(arguments=(step.arguments[0], 40.0))
+    tokens = (*reactor.tokens[:place], wrong, *reactor.tokens[place + 1 :])
+    altered = record._replace(reactors=(reactor._replace(tokens=tokens),))
+    assert judge_mission(agent, programs.programs, outcome, altered).breaches

@@ -50,10 +50,10 @@ def test_a_function_of_what_is_known_is_determined(rule: str) -> None:
 @pytest.mark.parametrize(
     ("rule", "choice", "line"),
     [
-        ("contains(Eye.Sees e);", Choice.OPEN_TIMES, 8),
-        ("any(Eye.Sees e);", Choice.OPEN_TIMES, 8),
+        ("contains(Eye.Sees e);", Choice.OPEN_TIMES, 7),
+        ("any(Eye.Sees e);", Choice.OPEN_TIMES, 7),
         ("int k;\nn < k;", Choice.OPEN_VALUE, 8),
-        ("bool b;", Choice.OPEN_VALUE, 8),
+        ("bool b;", Choice.OPEN_VALUE, 7),
         ("int k; k == n;\nif (start <= AGENT_CLOCK) { duration == k; }", Choice.CLOCK, 8),
         ("float s;\nsinf(s, w);", Choice.FUNCTION, 8),
         ("int k;\nk == duration + 1;\nk > 3;", Choice.OPEN_VALUE, 8),

@@ -1,0 +1,286 @@
+"""Expand what a determined reactor executed into the record of the mission, by carrying its inputs out once more.
+
+In flight only inputs are kept. Here a fresh machine goes from event to event, and what the registers hold after each is
+read: the locals and guards of a block stay in registers of its own until it runs again.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from math import inf
+
+from compiler.determined.code import Block, BlockToken
+from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS
+from compiler.program import Child, Guard, Instruction, NewVariable, PredicateCode
+from runtime.determined.asking import Ask, Asked, ask, ask_instead
+from runtime.determined.loading import RegisterProgram
+from runtime.determined.machine import Machine
+from runtime.determined.tags import FAR, LEAST, MOST, NONE, ROW, SLOT, WISHED
+from runtime.executive.record import NOBODY, GuardRun, Interval, ReactorRecord, Run, TokenRecord, Value
+
+
+@dataclass(eq=False, slots=True)
+class Held:
+    """A token under way: what is known of it when it starts; `shares` are the children that are merged into it."""
+
+    key: int
+    predicate: PredicateCode
+    line: int
+    start: int
+    arguments: tuple[Value, ...]
+    origin: str
+    runs: tuple[Run, ...] = ()
+    shares: list[tuple[int, str]] = field(default_factory=list)
+
+
+class Expansion:
+    """The tokens of one reactor; `see` is called after each tick that the machine has carried out."""
+
+    def __init__(self, program: RegisterProgram, machine: Machine) -> None:
+        self.program = program
+        self.machine = machine
+        self.tokens: list[TokenRecord] = []
+        self.current: dict[int, Held] = {}
+        self.before: dict[int, Held] = {}
+        self.awaited: dict[int, tuple[int, PredicateCode]] = {}  # the key of what is to follow on a timeline
+        self.newest = NOBODY
+        self.row = 0
+
+    def see(self, tick: int, asked: dict[int, str]) -> None:
+        """Read the tokens that have started at `tick`; `asked` tells the origin of what came from outside."""
+        log = self.machine.log
+        rows = range(self.row, log.row_count)
+        self.row = log.row_count
+        keys: dict[int, int] = {}
+        for row in rows:
+            line, number = int(log.rows[ROW * row + 1]), int(log.rows[ROW * row + 3])
+            predicate = self.program.model.program.predicates[log.rows[ROW * row + 2]]
+            followed = self.awaited.get(line)
+            origin = "rule" if number < 0 else asked.get(line, "request") if number & WISHED else "own"
+            key = self._new_key()
+            if origin == "own" and followed is not None and followed[1] is predicate:
+                key, origin = self.awaited.pop(line)[0], "rule"
+            keys[row] = key
+            if line in self.current:
+                self._close(self.current[line], tick, "over")
+                self.before[line] = self.current[line]
+            arguments = self._arguments(predicate, self.machine.current[line])
+            self.current[line] = Held(key, predicate, line, tick, arguments, origin)
+        for row in rows:
+            number = int(log.rows[ROW * row + 3])
+            block = self.program.blocks[number & (WISHED - 1)] if number >= 0 else None
+            if block is not None:
+                self._read(block)
+
+    def _read(self, block: Block) -> None:
+        """The children and runs of all tokens of a block."""
+        keys: dict[int, int] = {}
+        children: dict[tuple[int, int, int], int] = {}
+        for number, token in enumerate(block.tokens):
+            if not self._holds(token.context):
+                continue
+            keys[number] = self._key(token)
+            children[token.parent, token.rule, token.slot] = keys[number]
+        for number, token in enumerate(block.tokens):
+            if number in keys and token.how not in (MERGED, PREVIOUS, FOLLOWING):
+                held = self.current[token.line]
+                held.runs = tuple(
+                    self._run(block, number, rule, self.program.model.program.rules[rule].body, children)
+                    for rule in token.predicate.rules
+                )
+
+    def _key(self, token: BlockToken) -> int:
+        """The key of a token that a block knows; children that hold already are merged, followers are awaited."""
+        if token.how in (MERGED, PREVIOUS):
+            key = self._new_key()
+            into = (self.current if token.how == MERGED else self.before)[token.line]
+            into.shares.append((key, token.predicate.name))
+            if token.how == PREVIOUS:
+                self._close_shares(into, self.current[token.line].start)
+            return key
+        if token.how == FOLLOWING:
+            self.awaited[token.line] = (self._new_key(), token.predicate)
+            return self.awaited[token.line][0]
+        return self.current[token.line].key
+
+    def _run(
+        self,
+        block: Block,
+        token: int,
+        rule: int,
+        body: tuple[Instruction, ...],
+        children: dict[tuple[int, int, int], int],
+    ) -> Run:
+        """One run of a rule's body or of a branch."""
+        shown = {each.slot: each.shown for each in block.locals if each.token == token and each.rule == rule}
+        guards = {each.span: each.register for each in block.guards if each.token == token and each.rule == rule}
+        named: list[Value] = []
+        made: list[int] = []
+        runs: list[GuardRun] = []
+        for step in body:
+            match step:
+                case NewVariable(name=str(), slot=slot):
+                    named.append(self._value(shown[slot].register, shown[slot].kind))
+                case Child(slot=slot):
+                    made.append(children[token, rule, slot])
+                case Guard(then=then, otherwise=otherwise, span=span):
+                    is_true = self.machine.registers[guards[span]] != 0.0
+                    branch = then if is_true else otherwise
+                    inner = self._run(block, token, rule, branch, children) if branch else None
+                    runs.append(GuardRun("then" if is_true else "else", True, inner))
+                case _:
+                    pass
+        return Run(rule, tuple(named), tuple(made), tuple(runs))
+
+    def _holds(self, context: tuple[tuple[int, bool], ...]) -> bool:
+        return all((self.machine.registers[register] != 0.0) == truth for register, truth in context)
+
+    def _arguments(self, predicate: PredicateCode, first: int) -> tuple[Value, ...]:
+        return tuple(self._value(first + k, each.type.kind) for k, each in enumerate(predicate.parameters))
+
+    def _value(self, register: int, kind: str) -> Value:
+        number = float(self.machine.registers[register])
+        if number != number:
+            return Interval(-inf, inf)
+        if kind in ("int", "bool"):
+            return bool(number) if kind == "bool" else int(number)
+        return number + 0.0 if kind == "float" else self.program.name_of(int(number))
+
+    def _new_key(self) -> int:
+        self.newest += 1
+        return self.newest
+
+    # ---- the ends ----
+
+    def _close(self, held: Held, end: int, fate: str) -> None:
+        """Record a token that ended at a tick, with what is merged into it."""
+        self.tokens.append(self._record(held, end, end - held.start, fate, end))
+        self._close_shares(held, end)
+
+    def _close_shares(self, held: Held, tick: int) -> None:
+        line = self.program.model.lines[held.line].name
+        end: Value = tick
+        for key, name in held.shares:
+            self.tokens.append(
+                TokenRecord(
+                    key,
+                    name,
+                    line,
+                    "merged",
+                    tick - held.start,
+                    held.start,
+                    end,
+                    held.arguments,
+                    held.key,
+                    "rule",
+                    "over",
+                    tick,
+                    (),
+                )
+            )
+        held.shares.clear()
+
+    def _record(self, held: Held, end: Value, duration: Value, fate: str, tick: int) -> TokenRecord:
+        line = self.program.model.lines[held.line].name
+        return TokenRecord(
+            held.key,
+            held.predicate.name,
+            line,
+            "active",
+            duration,
+            held.start,
+            end,
+            held.arguments,
+            NOBODY,
+            held.origin,
+            fate,
+            tick,
+            held.runs,
+        )
+
+    def finish(self, tick: int) -> tuple[TokenRecord, ...]:
+        """What still holds when the mission ends, its end as far as it is known; and what was still to follow."""
+        present, n = self.machine.present, self.machine.lines
+        for line, held in sorted(self.current.items()):
+            slot = int(present.state[SLOT * n + line])
+            least, most = int(present.state[LEAST * n + slot]), int(present.state[MOST * n + slot])
+            end: Value = least if least == most else Interval(least, inf if most >= FAR else most)
+            lasting: Value = least - held.start
+            if isinstance(end, Interval):
+                lasting = Interval(end.lower - held.start, end.upper - held.start)
+            self.tokens.append(self._record(held, end, lasting, "end", tick))
+            name = self.program.model.lines[line].name
+            for key, shared in held.shares:
+                self.tokens.append(
+                    TokenRecord(
+                        key,
+                        shared,
+                        name,
+                        "merged",
+                        lasting,
+                        held.start,
+                        end,
+                        held.arguments,
+                        held.key,
+                        "rule",
+                        "end",
+                        tick,
+                        (),
+                    )
+                )
+        for line, (key, predicate) in sorted(self.awaited.items()):
+            name = self.program.model.lines[line].name
+            arguments = self._arguments(predicate, self.machine.following[line])
+            later, lasting = Interval(tick + 1, inf), Interval(1, inf)
+            self.tokens.append(
+                TokenRecord(
+                    key,
+                    predicate.name,
+                    name,
+                    "inactive",
+                    lasting,
+                    later,
+                    later,
+                    arguments,
+                    NOBODY,
+                    "rule",
+                    "end",
+                    tick,
+                    (),
+                )
+            )
+        return tuple(sorted(self.tokens))
+
+
+def expand(
+    program: RegisterProgram, machine: Machine, asked: Sequence[Asked], reach: int, until: int
+) -> tuple[TokenRecord, ...]:
+    """Carry out once more, on a fresh machine, what was asked up to tick `until`; all tokens, by key."""
+    machine.present.reach = reach
+    for fact in program.first:
+        ask(machine, Ask(fact.line, fact.block, fact.values, (0, 0), fact.end, (1, FAR), "fact"))
+    expansion = Expansion(program, machine)
+    origins = dict.fromkeys((fact.line for fact in program.first), "fact")
+    waiting = list(asked)
+    tick = NONE
+    while tick < until:
+        due = max(min([machine.present.next_event(tick), until, *(each.tick for each in waiting[:1])]), tick + 1)
+        while waiting and waiting[0].tick == due and waiting[0].is_observed:
+            observed = waiting.pop(0)
+            ask_instead(machine, observed)
+            origins |= {each.line: each.origin for each in observed.asks}
+        if machine.present.next_event(due - 1) <= due and not machine.tick(due):
+            break
+        expansion.see(due, origins)
+        origins = {line: origin for line, origin in origins.items() if origin == "observation"}
+        while waiting and waiting[0].tick == due:
+            ask_instead(machine, waiting.pop(0))
+        tick = due
+    return expansion.finish(until)
+
+
+def record_of(frame: ReactorRecord, name: str, tokens: tuple[TokenRecord, ...], tick: int) -> ReactorRecord:
+    """The record of a reactor; `frame` is that of its script, whose facts are found again by their timelines."""
+    facts = {str(token.object): token.key for token in tokens if token.origin == "fact"}
+    lines = {token.key: str(token.object) for token in frame.tokens}
+    script = tuple(facts.get(lines.get(key, ""), NOBODY) for key in frame.script_tokens)
+    return frame._replace(reactor=name, last_tick=tick, script_tokens=script, tokens=tokens)
