@@ -35,7 +35,7 @@ cdef class Machine:
 
     @cython.locals(
         n="long long", j="long long", first="long long", into="long long", block="long long", mask="long long",
-        row="long long", line="long long", at="long long", is_wish="bint", present="Present", log="Log"
+        row="long long", line="long long", at="long long", is_wish="bint", value="double", present="Present", log="Log"
     )
     cpdef bint settle(self, long long i, long long tick) except -1
 

@@ -191,7 +191,10 @@ class Machine:
             at = log.take(row, self.width[line])
             first = self.current[line]
             for j in range(self.width[line]):
-                log.values[at + j] = self.registers[first + j]
+                value = self.registers[first + j]
+                if value >= LARGEST or value <= -LARGEST:
+                    return False  # as good as infinite
+                log.values[at + j] = value
         return True
 
     def start(self, i: int, predicate: int) -> int:

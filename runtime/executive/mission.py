@@ -89,7 +89,7 @@ def record_mission(
         goals.append((goal.at, request_of(goal, -1 - number, kinds)))
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
     outcome = agent.run(until)
-    recorded = tuple(each.record() for each in reactors if isinstance(each, (PlanReactor, DeterminedReactor)))
+    recorded = tuple(each.record() for each in reactors if isinstance(each, PlanReactor | DeterminedReactor))
     return outcome, MissionRecord(recorded)
 
 

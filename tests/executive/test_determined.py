@@ -200,19 +200,24 @@ def _never(trace: Trace) -> NoReturn:
 @pytest.mark.parametrize("seed", range(20))
 def test_the_judge_agrees_with_what_was_executed(seed: int) -> None:
     agent, programs = random_case(seed).agent()
-    outcome, record = record_mission(agent, programs, seed)
-    assert len(record.reactors[0].tokens) > 4
-    assert judge_mission(agent, programs.programs, outcome, record).breaches == ()
+    found = []
+    for compiles in (False, True):
+        outcome, record = record_mission(agent, programs, seed, compiles=compiles)
+        assert len(record.reactors[0].tokens) >= len(agent.reactors[0].internal)
+        report = judge_mission(agent, programs.programs, outcome, record)
+        found.append({(each.kind, each.name) for each in report.disagreements})
+    # What is within a hair of a bound may be told differently by the judge, but then of both.
+    assert found[0] == found[1]
 
 
 def test_the_judge_sees_a_value_that_was_not_computed() -> None:
     agent, programs = steps(run(3, (5, 9), 10.0)).agent()
     outcome, record = record_mission(agent, programs, 1)
-    assert judge_mission(agent, programs.programs, outcome, record).breaches == ()
+    assert judge_mission(agent, programs.programs, outcome, record).disagreements == ()
     (reactor,) = record.reactors
     place = next(k for k, token in enumerate(reactor.tokens) if token.predicate == "Motion.Step" and token.start == 3)
     step = reactor.tokens[place]
     wrong = step._replace(arguments=(step.arguments[0], 40.0))
     tokens = (*reactor.tokens[:place], wrong, *reactor.tokens[place + 1 :])
     altered = record._replace(reactors=(reactor._replace(tokens=tokens),))
-    assert judge_mission(agent, programs.programs, outcome, altered).breaches
+    assert judge_mission(agent, programs.programs, outcome, altered).disagreements
