@@ -1,5 +1,6 @@
 """A reactor that plans with a plan database: it synchronises, deliberates, asks owners for what it needs, repairs."""
 
+from runtime.executive.clock import next_reading
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.draws import Draws
@@ -101,7 +102,7 @@ class PlanReactor:
         such ticks, earliest starts and the moments at which tokens come into the planning window nothing changes.
         """
         bench = self.bench
-        if self.is_stirred or self.is_out_of_steps() or bench.reads_clock():
+        if self.is_stirred or self.is_out_of_steps():
             return tick + 1
         times = [float(request.start[0] - self.reach) for request in self.goals.waiting]
         for line in self.timelines:
@@ -122,6 +123,7 @@ class PlanReactor:
             if bench.lower(bench.start(token)) > tick + self.reach:
                 times.append(bench.lower(bench.start(token)) - self.reach)
         times.append(self.draws.next_change(bench, tick))
+        times.append(next_reading(bench, tick))
         return int(max(tick + 1, min([self.final_tick, *times])))
 
     def synchronise(self, tick: int) -> Failure | None:

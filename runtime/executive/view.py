@@ -378,11 +378,6 @@ class PlanView:
             t = int(self.rows.parent[t])
         return False
 
-    def reads_clock(self) -> bool:
-        """Whether anything in the plan depends on the tick that is now."""
-        number = self.globals.get("AGENT_CLOCK")
-        return number is not None and bool(self.engine.constraints_of(self.database.plan.globals[number]))
-
     def undecided(self) -> list[int]:
         """Tokens that are still to be decided."""
         return self._listed(HEAD_OPEN, LIST_OPEN)
