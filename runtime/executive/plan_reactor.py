@@ -112,7 +112,9 @@ class PlanReactor:
                 times.append(bench.upper(bench.start(token)))
             if line.is_internal:
                 token = bench.next_of(line.object_id, line.current)
-                if token != NOTHING and not bench.is_blocked(token, line.current, tick):
+                # What nobody asked for begins when what holds cannot go on, unless the timeline is early.
+                is_due = line.is_early or (token != NOTHING and bench.is_requested(token))
+                if is_due and token != NOTHING and not bench.is_blocked(token, line.current, tick):
                     times.append(bench.lower(bench.start(token)))
             else:
                 token = self.dispatch.next_request(line)
