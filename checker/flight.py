@@ -46,9 +46,7 @@ def fly_once(
     It raises `DisagreementError` where the judge holds that the executive broke the model.
     """
     root = Path(agent.root)
-    reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
-    programs = replace(programs, code=_load_code(root, agent.coded))
+    programs = programs_of(agent)
     with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
         outcome, record = record_mission(agent, programs, seed, values, until=until)
         report = judge_mission(agent, programs.programs, outcome, record, programs.constraints, values)
@@ -58,9 +56,11 @@ def fly_once(
 
 
 def programs_of(agent: AgentConfiguration) -> MissionPrograms:
-    """The compiled models of `agent`, and the flaw handling of its reactors."""
+    """The compiled models of `agent`, the flaw handling of its reactors, and the code of those in Python."""
+    root = Path(agent.root)
     reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    return load_programs(Path(agent.root), reactors, agent.constraints, agent.constraint_seconds)
+    programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
+    return replace(programs, code=_load_code(root, agent.coded))
 
 
 @lru_cache(maxsize=4)

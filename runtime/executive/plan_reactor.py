@@ -1,5 +1,6 @@
 """A reactor that plans with a plan database: it synchronises, deliberates, asks owners for what it needs, repairs."""
 
+from runtime.executive.clock import next_reading
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.draws import Draws
@@ -101,7 +102,7 @@ class PlanReactor:
         such ticks, earliest starts and the moments at which tokens come into the planning window nothing changes.
         """
         bench = self.bench
-        if self.is_stirred or self.is_out_of_steps() or bench.reads_clock():
+        if self.is_stirred or self.is_out_of_steps():
             return tick + 1
         times = [float(request.start[0] - self.reach) for request in self.goals.waiting]
         for line in self.timelines:
@@ -111,7 +112,9 @@ class PlanReactor:
                 times.append(bench.upper(bench.start(token)))
             if line.is_internal:
                 token = bench.next_of(line.object_id, line.current)
-                if token != NOTHING and not bench.is_blocked(token, line.current, tick):
+                # What nobody asked for begins when what holds cannot go on, unless the timeline is early.
+                is_due = line.is_early or (token != NOTHING and bench.is_requested(token))
+                if is_due and token != NOTHING and not bench.is_blocked(token, line.current, tick):
                     times.append(bench.lower(bench.start(token)))
             else:
                 token = self.dispatch.next_request(line)
@@ -122,6 +125,7 @@ class PlanReactor:
             if bench.lower(bench.start(token)) > tick + self.reach:
                 times.append(bench.lower(bench.start(token)) - self.reach)
         times.append(self.draws.next_change(bench, tick))
+        times.append(next_reading(bench, tick))
         return int(max(tick + 1, min([self.final_tick, *times])))
 
     def synchronise(self, tick: int) -> Failure | None:

@@ -56,6 +56,12 @@ def settle(
     The present token is kept as long as it may; but a token that somebody asked for starts as soon as it may, and so
     does any on a timeline that is early. `is_refused` tells what an owner will not do. On failure the caller rewinds.
     """
+    for line in timelines:
+        # While the reactor slept, what holds has gone on.
+        span = SPAN_EXECUTIVE if line.is_internal else SPAN_OBSERVATION
+        if line.current != NOTHING and not bench.at_least(bench.end(line.current), tick, span, line.current):
+            what = Reason(ReasonKind.CANNOT_GO_ON, bench.name_of(line.current), tick=tick)
+            return Unsettled("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
     if not bench.set_clock(tick):
         return Unsettled("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
     failed = persist(bench, timelines, tick, is_refused)

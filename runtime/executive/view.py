@@ -61,9 +61,9 @@ class PlanView:
         self.requested: dict[int, int] = {}  # token -> key
         self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
         self.external_objects: set[int] = set()
+        self.recorder = Recorder(database, name)
         self.internal_objects: set[int] = set()
         self.late_objects: set[int] = set()  # timelines on which what nobody asked for begins as late as it may
-        self.recorder = Recorder(database, name)
 
     # ---- names ----
 
@@ -377,11 +377,6 @@ class PlanView:
                 return True
             t = int(self.rows.parent[t])
         return False
-
-    def reads_clock(self) -> bool:
-        """Whether anything in the plan depends on the tick that is now."""
-        number = self.globals.get("AGENT_CLOCK")
-        return number is not None and bool(self.engine.constraints_of(self.database.plan.globals[number]))
 
     def undecided(self) -> list[int]:
         """Tokens that are still to be decided."""

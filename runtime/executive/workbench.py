@@ -19,6 +19,7 @@ from runtime.plan.tags import (
     NONE,
 )
 from runtime.plan.tokens.archive import archive, detach
+from runtime.plan.tokens.retraction import wake_guards
 
 
 class Workbench(PlanView):
@@ -53,13 +54,13 @@ class Workbench(PlanView):
         if self.engine.lower(v) >= bound:
             return True
         self.moved[v] = None
-        return self.engine.restrict_base(v, bound, inf, span, t) and self.database.fire()
+        return self._narrow(v, bound, inf, span, t)
 
     def at_most(self, v: int, bound: float, span: int, t: int) -> bool:
         """Reduce an upper bound."""
         if self.engine.upper(v) <= bound:
             return True
-        return self.engine.restrict_base(v, -inf, bound, span, t) and self.database.fire()
+        return self._narrow(v, -inf, bound, span, t)
 
     def within(self, v: int, bounds: tuple[float, float], span: int, t: int) -> bool:
         """Keep a variable between two bounds."""
@@ -67,7 +68,16 @@ class Workbench(PlanView):
 
     def fix(self, v: int, value: float, span: int, t: int) -> bool:
         """Give a variable its value."""
-        return self.engine.restrict_base(v, value, value, span, t) and self.database.fire()
+        return self._narrow(v, value, value, span, t)
+
+    def _narrow(self, v: int, lower: float, upper: float, span: int, t: int) -> bool:
+        """Restrict a base domain; what had one value left may be decided by it, and guards wait for that."""
+        was_decided = self.engine.is_decided(v)
+        if not self.engine.restrict_base(v, lower, upper, span, t):
+            return False
+        if not was_decided and self.engine.is_decided(v):
+            wake_guards(self.database.plan, v)
+        return bool(self.database.fire())
 
     def restrict_parameters(self, t: int, arguments: Arguments, span: int) -> bool:
         """Narrow parameters to what somebody else knows of them; a name that `t` does not have is a misfit."""

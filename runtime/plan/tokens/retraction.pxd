@@ -40,7 +40,7 @@ cpdef void _deactivate(Plan plan, long long t, sweep) except *
 
 
 @cython.locals(c="long long")
-cpdef void _wake_guards(Plan plan, long long v) except *
+cpdef void wake_guards(Plan plan, long long v) except *
 
 
 @cython.locals(child="long long", following="long long", last="long long", rows=Rows, s="long long")

@@ -136,14 +136,14 @@ def _deactivate(plan: Plan, t: int, sweep: Sweep) -> None:
     elif status == MERGED:
         rows.unset_merged(t)
         for v in range(rows.var0[t], rows.var0[t] + rows.width[t]):
-            _wake_guards(plan, v)
+            wake_guards(plan, v)
     rows.set_status(t, INACTIVE)
     sweep.undecided.append(rows.var0[t] + STATE)
     sweep.reopened.append(t)
     _drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] != SCOPE_BODY}, sweep)
 
 
-def _wake_guards(plan: Plan, v: int) -> None:
+def wake_guards(plan: Plan, v: int) -> None:
     """Have the guards looked at that wait for `v`: it may be decided no more, even if its values stay as they are."""
     if plan.variable_guards[v]:
         for c in plan.engine.constraints_of(v):
@@ -228,7 +228,7 @@ def _finish(plan: Plan, sweep: Sweep) -> bool:
         sweep.restrictions += _decisions_of(plan, v)
     restrictions = [r for r in dict.fromkeys(sweep.restrictions) if plan.engine.restriction_variable[r] not in gone]
     for r in restrictions:
-        _wake_guards(plan, plan.engine.restriction_variable[r])
+        wake_guards(plan, plan.engine.restriction_variable[r])
     sweep.constraints += plan.resources.take_refusals()
     if gone:
         _forget_foreign(plan, sweep.variables)
