@@ -18,7 +18,9 @@ def describe_found(b: Builder, kinds: list[str], index: int) -> str:
     source = b.anchor.source
     following = _NEXT_WORD.match(source.text, b.anchor.offset + b.piece.length)
     assert following is not None
-    b.piece.reach = max(b.piece.reach, following.end() - b.anchor.offset + 1)
+    # A comment that is still open may come to end anywhere.
+    end = len(source.text) if following[1] == "/" else following.end()
+    b.piece.reach = max(b.piece.reach, end - b.anchor.offset + 1)
     if following[1] is None:
         return "the end of the file"
     return f"`{excerpt(following[1])}`"
