@@ -8,7 +8,7 @@ from nddl_lang.syntax.tables import END
 from nddl_lang.syntax.words import RELATIONS
 from nddl_lang.text.nearest import nearest
 
-_NEXT_WORD = re.compile(r"(?:[ \t\r\n\f]++|//[^\n]*+|/\*.*?\*/)*+(#?\w++|[^\n])?", re.DOTALL)
+_NEXT_WORD = re.compile(r"(?:[ \t\r\n\f]+|//[^\n]*|/\*.*?\*/)*(#?\w++|[^\n])?", re.DOTALL)  # as in the formatter
 
 
 def describe_found(b: Builder, kinds: list[str], index: int) -> str:

@@ -56,7 +56,7 @@ _MASTER = re.compile(
     )""",
     re.VERBOSE | re.DOTALL,
 )
-_ELSE_AHEAD = re.compile(r"(?:[ \t\r\n\f]++|//[^\n]*+|/\*.*?\*/)*+(else(?![A-Za-z0-9_$]))?", re.DOTALL)
+_ELSE_AHEAD = re.compile(r"(?:[ \t\r\n\f]+|//[^\n]*|/\*.*?\*/)*(else(?![A-Za-z0-9_$]))?", re.DOTALL)
 
 # After one of these an operand has ended, so a sign that follows is an operator.
 _OPERANDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]"))
