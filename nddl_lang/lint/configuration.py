@@ -11,7 +11,7 @@ from nddl_lang.lint.settings import Settings
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Severity
 from nddl_lang.text.nearest import nearest
-from nddl_lang.text.read import read_text
+from nddl_lang.text.read import NotAFileError, read_text, real_path
 from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path as Key
 from nddl_lang.text.toml_places import find_places, toml_of
@@ -25,7 +25,7 @@ _DIALECTS = {each.value: each for each in Dialect}
 
 def find_configuration(directory: Path) -> Path | None:
     """The file that configures what stands in `directory`: the nearest one upwards, None where there is none."""
-    directory = directory.resolve()
+    directory = real_path(directory)
     for place in (directory, *directory.parents):
         for name in (NAME, PROJECT):
             path = place / name
@@ -35,7 +35,10 @@ def find_configuration(directory: Path) -> Path | None:
 
 
 def _has_section(path: Path) -> bool:
-    text = read_text(path) or ""
+    try:
+        text = read_text(path) or ""
+    except OSError:
+        return False  # for the tools of Python to complain about
     if "nddlc" not in text:
         return False
     try:
@@ -46,7 +49,11 @@ def _has_section(path: Path) -> bool:
 
 def read_configuration(path: Path) -> tuple[Settings, list[Diagnostic]]:
     """The settings in a file, and what is wrong with it."""
-    source = Source(str(path), read_text(path) or "")
+    try:
+        source = Source(str(path), read_text(path) or "")
+    except NotAFileError as problem:
+        place = Span(Anchor(Source(str(path), "")), 0, 0)
+        return Settings(), [NOT_TOML.at(place, reason=f"it cannot be read: {problem.strerror}")]
     try:
         table = tomllib.loads(toml_of(source.text))
     except tomllib.TOMLDecodeError as problem:
