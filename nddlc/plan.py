@@ -13,6 +13,7 @@ from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
 from nddlc.cancellation import Clock
 from nddlc.inputs import Unusable, chosen_dialect, colours, columns, configured, readable
+from nddlc.trust import library_for, trust_option
 from runtime.constraints.domains.tags import HALF_INF, INF
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.database import PlanDatabase
@@ -28,7 +29,6 @@ from runtime.solver.learning.rendering import as_data as reason_data
 from runtime.solver.learning.rendering import story
 from runtime.solver.search import Solver
 from runtime.solver.tags import PLAN, RESULT_NAMES
-from runtime.user.library import library_of
 from runtime.view.drawing import drawing
 from runtime.view.picture import page, svg
 from runtime.view.plan_text import INTERRUPTED, PlanReport, found_values, lines, verdict
@@ -67,6 +67,7 @@ def _tick(text: str) -> int:
 @click.option("--explain", is_flag=True, help="Say why there is no plan, or why goals were rejected.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object in one line.")
 @click.option("--format", "style", type=click.Choice(["text", "svg", "html"]), default="text", help="How to show it.")
+@trust_option
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -82,6 +83,7 @@ def command(
     explain: bool,
     as_json: bool,
     style: str,
+    is_trusted: bool,
 ) -> int:
     """Search a plan for a model and show it.
 
@@ -91,7 +93,8 @@ def command(
     configuration = _configuration(config)
     if horizon is not None and horizon[0] >= horizon[1]:
         raise Unusable(f"the horizon from {horizon[0]} to {horizon[1]} is empty")
-    loaded = load(path, directories, chosen_dialect(ctx, dialect), library_of(configured(path)), file)
+    library = library_for(path, configured(path), is_trusted=is_trusted)
+    loaded = load(path, directories, chosen_dialect(ctx, dialect), library, file)
     before = loaded.state()
     if loaded.database is None or before is None:
         _show_refusal(loaded, as_json)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from nddl_lang.lint.codes import NOT_TOML, UNKNOWN_KEY, WRONG_VALUE
-from nddl_lang.lint.settings import Settings
+from nddl_lang.lint.settings import ProjectModule, Settings
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Severity
 from nddl_lang.text.nearest import nearest
@@ -87,7 +87,7 @@ class _Reader:
             "constraints": self._constraints,
             "severity": lambda key, value: {"severities": tuple(self._weights(key, value))},
         }
-        settings = Settings()
+        settings = Settings(folder=self._directory)
         for name, value in table.items():
             key = (*prefix, name)
             reader = readers.get(name)
@@ -130,11 +130,11 @@ class _Reader:
                     self._unknown(place, name, {"modules": None, "time_limit": None})
         return found
 
-    def _modules(self, key: Key, value: Any) -> Iterator[Path]:
+    def _modules(self, key: Key, value: Any) -> Iterator[ProjectModule]:
         for index, item in enumerate(self._texts(key, value)):
             path = self._directory / item
             if path.is_file():
-                yield path
+                yield ProjectModule(path, self._span((*key, index)))
             else:
                 self._wrong((*key, index), item, "a Python file, seen from this file")
 
