@@ -10,6 +10,7 @@ from nddlc.inputs import chosen_dialect, colours, columns, configured, model_fil
 from nddlc.trust import library_for, trust_option
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.readout.state import PlanState
+from runtime.solver.flaws.relief import may_be_relieved
 from runtime.view.load_text import lines
 
 
@@ -54,4 +55,5 @@ def _page(loaded: Loaded, plan: PlanState | None, with_name: bool) -> Iterator[s
     if plan is None:
         yield "refused: the model is in error"
     else:
-        yield from lines(plan, columns())
+        relieved = loaded.database is not None and may_be_relieved(loaded.database)
+        yield from lines(plan, columns(), may_be_relieved=relieved)
