@@ -9,7 +9,9 @@ from lsp.uris import key_of
 from nddl_lang.analysis import Analyser, Analysis
 from nddl_lang.lint.configuration import find_configuration, read_configuration
 from nddl_lang.lint.linter import Linter
+from nddl_lang.lint.project_modules import read_callables
 from nddl_lang.lint.settings import Settings as Configuration
+from nddl_lang.semantics.callables import NATIVE_CALLABLES
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import load_module_graph
 from nddl_lang.syntax.incremental import Incremental
@@ -18,8 +20,7 @@ from nddl_lang.syntax.placement import CLASS, TOP
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source
 from runtime.user.fault import UserCodeError
-from runtime.user.library import load_library
-from runtime.user.limit import USUAL
+from runtime.user.library import library_of
 
 OpenText = Callable[[Path], str | None]
 _Place = tuple[str, Dialect, bool]
@@ -27,10 +28,14 @@ _Place = tuple[str, Dialect, bool]
 
 @dataclass(frozen=True, slots=True)
 class ServerSettings:
-    """What holds for all models: the dialect that is asked for, and where included files are looked for."""
+    """What holds for all models: the dialect that is asked for, and where included files are looked for.
+
+    Python of a project is run only where it `is_trusted`, and read otherwise.
+    """
 
     dialect: Dialect | None = None
     directories: tuple[str, ...] = ()
+    is_trusted: bool = False
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -51,7 +56,7 @@ class Project:
     def __init__(self, key: str, settings: ServerSettings) -> None:
         self.key = key
         self._settings = settings
-        self._configuration = _configuration(Path(key))
+        self._configuration, self._gaps = _configuration(Path(key), is_trusted=settings.is_trusted)
         self._analyser = Analyser(self._configuration.callables)
         self._linter = Linter()
         self._kept: dict[_Place, tuple[Incremental, Parse]] = {}
@@ -86,7 +91,7 @@ class Project:
         parses = {key_of(loaded.paths[parse.source]): parse for parse in loaded.parses}
         parses.pop(self.key, None)
         analysis = analyser.analyse(loaded)
-        found = tuple(self._configuration.choose(linter.lint(analysis)))
+        found = tuple(self._configuration.choose((*self._gaps, *linter.lint(analysis))))
         self._snapshot = Snapshot(analysis, found, {self.key: loaded.parses[0], **parses})
         self._analyser, self._linter = analyser, linter
 
@@ -108,14 +113,19 @@ class Project:
         return parse
 
 
-def _configuration(root: Path) -> Configuration:
-    """What the project of a file asks for; a configuration with mistakes counts as far as it is understood."""
+def _configuration(root: Path, *, is_trusted: bool) -> tuple[Configuration, tuple[Diagnostic, ...]]:
+    """What the project of a file asks for, and what its modules hide from somebody who does not run them.
+
+    A configuration with mistakes counts as far as it is understood.
+    """
     path = find_configuration(root.parent) if root.is_absolute() else None
     configuration = Configuration() if path is None else read_configuration(path)[0]
+    native = NATIVE_CALLABLES
     try:
-        modules = [module.as_posix() for module in configuration.modules]
-        library = load_library(Path(), modules, seconds=configuration.seconds or USUAL)
+        native = library_of(Configuration()).callables  # of installed packages
+        if is_trusted:
+            return replace(configuration, callables=library_of(configuration).callables), ()
     except UserCodeError as mistake:
         print(f"nddlc: {mistake}", file=sys.stderr)  # editors keep what a server says there
-        return configuration
-    return replace(configuration, callables=library.callables)
+    callables, gaps = read_callables(configuration, native)
+    return replace(configuration, callables=callables), gaps

@@ -52,7 +52,7 @@ def _included(file: Path) -> Iterator[str]:
     """The keys of the files that `file` includes from its own directory or below."""
     try:
         text = read_text(file) if file.stat().st_size <= _LARGEST else None
-    except OSError:
+    except (OSError, ValueError):
         return
     for name in _INCLUDE.findall(text or ""):
         yield key_of(file.parent / name)

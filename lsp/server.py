@@ -99,12 +99,13 @@ def _answer_lifecycle(server: _Server) -> None:
 
 
 def _settings(given: ServerSettings, options: Any) -> ServerSettings:
-    """The settings of the command line, with the include directories that the editor adds."""
-    directories = options.get("includeDirectories") if isinstance(options, dict) else None
-    if not isinstance(directories, list):
-        return given
-    added = tuple(each for each in directories if isinstance(each, str) and "\0" not in each)
-    return ServerSettings(given.dialect, (*given.directories, *added))
+    """The settings of the command line, with include directories and the trust that the editor adds."""
+    told = options if isinstance(options, dict) else {}
+    directories = told.get("includeDirectories")
+    found = directories if isinstance(directories, list) else []
+    added = tuple(each for each in found if isinstance(each, str) and "\0" not in each)
+    is_trusted = given.is_trusted or told.get("isTrusted") is True
+    return ServerSettings(given.dialect, (*given.directories, *added), is_trusted)
 
 
 def _answer_edits(server: _Server) -> None:

@@ -4,14 +4,14 @@ import re
 from collections.abc import Iterable
 
 from nddl_lang.lint import pages as lint_pages
-from nddl_lang.lint.pages_settings import SETTINGS_PAGES
+from nddl_lang.lint.pages_settings import SETTINGS_PAGES, TRUST_PAGES
 from nddl_lang.semantics import pages as semantic_pages
 from nddl_lang.syntax import pages as syntax_pages
 from nddl_lang.text.diagnostic import Code, Severity
 from nddl_lang.text.page import RulePage
 
 _FOUND = {**syntax_pages.PAGES, **semantic_pages.PAGES, **lint_pages.PAGES}
-_FOUND |= {page.code.id: page for page in SETTINGS_PAGES}
+_FOUND |= {page.code.id: page for page in (*SETTINGS_PAGES, *TRUST_PAGES)}
 PAGES: dict[str, RulePage] = {name: _FOUND[name] for name in sorted(_FOUND)}
 
 _GROUPS = {

@@ -14,7 +14,6 @@ from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.flight import load
 from checker.mission import LARGEST_SEED, Mission, read_mission
-from checker.models import load_models
 from checker.oracle import USER_CODE
 from checker.report.document import json_report
 from checker.report.html import html_report
@@ -26,7 +25,8 @@ from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
-from runtime.user.library import library_of
+from nddlc.known import known_callables
+from nddlc.trust import models_of, trust_option
 
 HOLDS, FINDINGS, UNUSABLE, BUG, INTERRUPTED = 0, 1, 2, 3, 130
 STORE = Path(".nddlc/runs.sqlite")
@@ -45,6 +45,7 @@ STYLES = ("text", "json", "html", "junit", "sarif")
 @click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where runs are kept.")
 @click.option("--no-store", is_flag=True, help="Keep nothing but the report.")
 @click.option("--resume", is_flag=True, help="Fly only what the same run has not finished before.")
+@trust_option
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -58,6 +59,7 @@ def command(
     store_path: Path,
     no_store: bool,
     resume: bool,
+    is_trusted: bool,
 ) -> int:
     """Check a model by flying many missions, or check the text of one model.
 
@@ -66,12 +68,14 @@ def command(
     """
     (file,) = readable((path,), ())
     if file.suffix == ".nddl":
-        analysis = analyse_file(file, chosen_dialect(ctx, None), callables=library_of(configured(file)).callables)
-        _tell(analysis.diagnostics, style)
+        settings = configured(file)
+        callables, gaps = known_callables(settings, is_trusted=is_trusted)
+        analysis = analyse_file(file, chosen_dialect(ctx, None), callables=callables)
+        _tell((*gaps, *analysis.diagnostics), style)
         if style == "text" and not analysis.has_errors:
             click.echo(f"the text of `{path}` is in order; missions are flown from a mission file (.toml)")
         return UNUSABLE if analysis.has_errors else HOLDS
-    campaign = _prepare(file, missions, seed, max_failure_rate, style)
+    campaign = _prepare(file, missions, seed, max_failure_rate, style, is_trusted)
     if campaign is None:
         return UNUSABLE
     count = workers or _cores()
@@ -89,7 +93,12 @@ def command(
 
 
 def _prepare(
-    file: Path, missions: int | None, seed: int | None, max_failure_rate: float | None, style: str
+    file: Path,
+    missions: int | None,
+    seed: int | None,
+    max_failure_rate: float | None,
+    style: str,
+    is_trusted: bool,
 ) -> Campaign | None:
     """Read the mission and its models; None where they are in error, which the user has then been told."""
     mission, found = read_mission(file)
@@ -97,7 +106,7 @@ def _prepare(
         _tell(found, style)
         return None
     mission = _overridden(mission, missions, seed, max_failure_rate)
-    models = load_models(mission)
+    models = models_of(mission, is_trusted=is_trusted)
     if models.has_errors:
         _tell((*found, *models.diagnostics), style)
         return None

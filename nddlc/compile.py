@@ -14,6 +14,7 @@ from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
 from nddlc.one_mission import prepare
+from nddlc.trust import library_for, trust_option
 from runtime.determined.building import find_out
 from runtime.determined.loading import RegisterProgram
 from runtime.executive.configuration import ReactorConfiguration
@@ -21,7 +22,6 @@ from runtime.executive.mission import loaded_bench
 from runtime.executive.workbench import Workbench
 from runtime.loading import load
 from runtime.plan.database import PlanDatabase
-from runtime.user.library import library_of
 
 _OWN, _USED = ("Internal", "Private"), ("External", "Observe")
 
@@ -32,6 +32,7 @@ _OWN, _USED = ("Internal", "Private"), ("External", "Observe")
 @click.option("--explain", is_flag=True, help="Show the choices that are in the way, each with its line.")
 @click.option("-I", "--include", "directories", multiple=True, metavar="DIR", help="Look for included files here too.")
 @click.option("--dialect", type=click.Choice(["nddl3", "nddlc"]), help="The same option as before the command.")
+@trust_option
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -40,6 +41,7 @@ def command(
     explain: bool,
     directories: tuple[str, ...],
     dialect: str | None,
+    is_trusted: bool,
 ) -> int:
     """Tell which reactors are determined: they fly as register code, without a plan database.
 
@@ -48,12 +50,13 @@ def command(
     """
     (file,) = readable((path,), directories)
     if file.suffix == ".toml":
-        _, mission, _ = prepare(path)
+        _, mission, _ = prepare(path, is_trusted=is_trusted)
         found = list(_of_mission(mission, reactor))
     elif reactor is not None:
         raise Unusable("`--reactor` names a reactor of a mission file, and this is a model")
     else:
-        loaded = load(file, directories, chosen_dialect(ctx, dialect), library_of(configured(file)), path)
+        library = library_for(file, configured(file), is_trusted=is_trusted)
+        loaded = load(file, directories, chosen_dialect(ctx, dialect), library, path)
         if loaded.is_refused or loaded.database is None or loaded.program is None:
             for each in loaded.diagnostics:
                 click.echo(render(each, colour=colours()), err=True)

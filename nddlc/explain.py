@@ -16,10 +16,11 @@ from checker.explain import result_data, result_text, story_data, story_text
 from checker.findings import Fault, Findings
 from checker.flight import load
 from checker.mission import read_mission
-from checker.models import ModelSet, load_models
+from checker.models import ModelSet
 from checker.oracle import Verdict
 from nddlc.check import STORE
 from nddlc.inputs import Unusable
+from nddlc.trust import models_of, trust_option
 from runtime.executive.rendering import event_data, trace_line
 
 
@@ -28,7 +29,8 @@ from runtime.executive.rendering import event_data, trace_line
 @click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
 @click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where runs are kept.")
 @click.option("--events", is_flag=True, help="Print the whole trace too.")
-def command(what: str, style: str, store_path: Path, events: bool) -> int:
+@trust_option
+def command(what: str, style: str, store_path: Path, events: bool, is_trusted: bool) -> int:
     """Explain why a mission failed.
 
     RUN is the id that `nddlc check` printed, or `latest`. Without a mission the first failed one is explained.
@@ -40,17 +42,17 @@ def command(what: str, style: str, store_path: Path, events: bool) -> int:
         raise Unusable(f"there is no store `{store_path}`", "`nddlc check` makes one; --store names another")
     try:
         with open_store(store_path) as store:
-            return _explain(store, name or LATEST, int(number) if number else None, style, events)
+            return _explain(store, name or LATEST, int(number) if number else None, style, events, is_trusted)
     except StoreError as problem:
         raise Unusable(str(problem)) from None
 
 
-def _explain(store: RunStore, name: str, number: int | None, style: str, events: bool) -> int:
+def _explain(store: RunStore, name: str, number: int | None, style: str, events: bool, is_trusted: bool) -> int:
     run = store.find(name)
     if run is None:
         known = ", ".join(store.run_ids()[:10])
         raise Unusable(f"no single run is named `{name}`", f"runs in the store: {known or 'none'}")
-    campaign, is_same = _campaign(run)
+    campaign, is_same = _campaign(run, is_trusted)
     results = tuple(store.results(run.id))
     first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
     findings = campaign.assess(results, may_fly=is_same, focus=first)
@@ -78,7 +80,7 @@ def _told(
     return story_text(story, findings.run_id, excerpts), story_data(story, findings.run_id, excerpts)
 
 
-def _campaign(run: Run) -> tuple[Campaign, bool]:
+def _campaign(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
     """The mission as its file is now, and whether that is still what was flown."""
     path = Path(run.mission_file)
     if path.is_relative_to(Path.cwd()):
@@ -90,7 +92,7 @@ def _campaign(run: Run) -> tuple[Campaign, bool]:
     if mission is None:
         raise Unusable(f"`{path}`, the mission file of the run, is in error", f"nddlc check {path}")
     mission = replace(mission, check=replace(mission.check, seed=run.seed, missions=run.missions))
-    models = load_models(mission)
+    models = models_of(mission, is_trusted=is_trusted, is_named=False)
     campaign = Campaign(mission, models, load)
     if models.has_errors:
         return Campaign(mission, ModelSet(mission.agent, {}, {}, {}, ()), load), False

@@ -12,6 +12,7 @@ from checker.one_flight import FlightSettings, fly
 from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable
 from nddlc.one_mission import prepare, values_of
+from nddlc.trust import trust_option
 
 _SAME, _DIFFERENT = 0, 1
 _MOST = 200  # differences that are printed
@@ -23,13 +24,14 @@ _MOST = 200  # differences that are printed
 @click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The seed of the mission, else that of the file.")
 @click.option("--param", "given", multiple=True, metavar="NAME=VALUE", help="Give a parameter a value (accept).")
 @click.option("--by", metavar="NAME", help="Who accepts; by default you.")
-def command(action: str, path: str, seed: int | None, given: tuple[str, ...], by: str | None) -> int:
+@trust_option
+def command(action: str, path: str, seed: int | None, given: tuple[str, ...], by: str | None, is_trusted: bool) -> int:
     """Compare a mission with its gold standard, accept what it does now, or show what was accepted.
 
     The gold standard lies in `gold/` beside the mission file; its first line says who accepted it, when, and of which
     models. `diff` ends with 0 if nothing differs, with 1 if something does.
     """
-    file, mission, models = prepare(path)
+    file, mission, models = prepare(path, is_trusted=is_trusted)
     number = mission.check.seed if seed is None else seed
     place = gold_path(file, number)
     if action == "accept":

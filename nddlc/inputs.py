@@ -16,10 +16,9 @@ from nddl_lang.lint.settings import Settings
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.roots import parts_of, roots_among
 from nddl_lang.text.nearest import nearest
+from nddl_lang.text.read import LARGEST, kind_of, real_path
 from nddl_lang.text.render import render
 from nddl_lang.text.write import write_whole
-
-_LARGEST = 64 * 2**20  # bytes of a file
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -66,7 +65,7 @@ def models_in(names: tuple[str, ...], directories: tuple[str, ...]) -> list[Path
             if not below:
                 raise Unusable(f"there is no model (.nddl) in `{name}`")
             roots = roots_among(below, [Path(directory) for directory in directories])
-            found.update(dict.fromkeys(_readable(str(root)) for root in roots))
+            found.update(dict.fromkeys(roots))
         else:
             found.update(dict.fromkeys(readable((name,), directories)))
     return list(found)
@@ -77,14 +76,20 @@ def parts_in(names: tuple[str, ...], models: list[Path], directories: tuple[str,
 
     They are those below the directories that are named, and what no other file beside them includes.
     """
-    below = {path.resolve() for name in names if Path(name).is_dir() for path in Path(name).rglob("*.nddl")}
+    below = {real_path(path) for name in names if Path(name).is_dir() for path in Path(name).rglob("*.nddl")}
     named = [Path(name) for name in names if not Path(name).is_dir()]
     alone = parts_of(models if named else [], [Path(directory) for directory in directories])
-    return frozenset((below | alone) - {path.resolve() for path in models})
+    return frozenset((below | alone) - {real_path(path) for path in models})
 
 
 def _is_model(path: Path, below: Path) -> bool:
-    return not any(part.startswith(".") for part in below.parts) and not path.is_dir()
+    """Whether a path found below a directory is to be read; nobody waits for a pipe that happens to lie there."""
+    if any(part.startswith(".") for part in below.parts) or path.is_dir():
+        return False
+    if path.exists() and not path.is_file():
+        click.echo(f"nddlc: left out `{path}`: it is {kind_of(path.stat().st_mode)}, not a file", err=True)
+        return False
+    return True
 
 
 @cache
@@ -101,7 +106,7 @@ def _configuration(directory: Path) -> Settings:
 
 def configured(path: Path) -> Settings:
     """The settings of the project that a file belongs to."""
-    return _configuration(path.resolve().parent)
+    return _configuration(real_path(path).parent)
 
 
 def write_text(path: Path, text: str) -> None:
@@ -153,8 +158,8 @@ def _check_kind(name: str, file: int) -> None:
     kind = os.fstat(file)
     if stat.S_ISBLK(kind.st_mode) or (stat.S_ISCHR(kind.st_mode) and not os.isatty(file) and name != os.devnull):
         raise Unusable(f"`{name}` is a device")
-    if kind.st_size > _LARGEST:
-        raise Unusable(f"`{name}` is too large: {kind.st_size / 2**20:.0f} MiB, and {_LARGEST / 2**20:.0f} are read")
+    if kind.st_size > LARGEST:
+        raise Unusable(f"`{name}` is too large: {kind.st_size / 2**20:.0f} MiB, and {LARGEST / 2**20:.0f} are read")
 
 
 def _alike(path: Path) -> str | None:

@@ -6,7 +6,6 @@ import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from importlib.metadata import entry_points
 from pathlib import Path
 
 import click
@@ -14,14 +13,13 @@ import click
 from nddl_lang.lint.check import Checker
 from nddl_lang.lint.configuration import is_code
 from nddl_lang.lint.settings import Settings, at_least
-from nddl_lang.semantics.callables import ENTRY_POINTS
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
 from nddl_lang.text.junit import junit_of
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.sarif import sarif_of
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, parts_in, write_text
-from nddlc.main import named
+from nddlc.known import known_callables
 
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
 _LEVELS = [severity.value for severity in Severity]
@@ -39,6 +37,7 @@ _STYLES = ["text", "json", "sarif", "github", "junit"]
 @click.option("--fail-on", type=click.Choice([*_LEVELS, "never"]), help="The least that makes it end with 1 (warning).")
 @click.option("--statistics", is_flag=True, help="Tell how often each code was found.")
 @click.option("--format", "style", type=click.Choice(_STYLES), default="text", help="How to print findings.")
+@click.option("--trust", "is_trusted", is_flag=True, help="Run the project's modules instead of reading them.")
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -54,6 +53,7 @@ def command(
     fail_on: str | None,
     statistics: bool,
     style: str,
+    is_trusted: bool,
 ) -> int:
     """Report everything that is wrong with models.
 
@@ -75,12 +75,12 @@ def command(
     has_failed = False
     mended = 0
     for path in paths:
-        settings = _settings(path, codes, fail_on)
+        settings, gaps = _settings(path, codes, fail_on, is_trusted)
         if fix or unsafe_fixes or only_show:
             mended += _mend(checker, path, settings, only_show=only_show, unsafe=unsafe_fixes, is_text=style == "text")
             if only_show:
                 continue
-        checked.append((settings, checker.check(path, settings)))
+        checked.append((settings, (*settings.choose(gaps), *checker.check(path, settings))))
     for settings, findings in checked:
         for each in findings:
             key = (each.span.source.name, each.span.begin, each.code.id, each.message)
@@ -103,18 +103,20 @@ def _codes(given: tuple[str, ...], option: str) -> Iterator[str]:
             yield code.upper()
 
 
-def _settings(path: Path, codes: dict[str, tuple[str, ...]], fail_on: str | None) -> Settings:
-    """The settings of the project that a file belongs to, with what the command line adds."""
+def _settings(
+    path: Path, codes: dict[str, tuple[str, ...]], fail_on: str | None, is_trusted: bool
+) -> tuple[Settings, tuple[Diagnostic, ...]]:
+    """The settings of a file's project, with what the command line adds; and what its modules hide."""
     settings = configured(path)
-    if settings.modules or entry_points(group=ENTRY_POINTS):  # else the engine need not be imported
-        settings = replace(settings, callables=named("runtime.user.library:library_of")(settings).callables)
+    callables, gaps = known_callables(settings, is_trusted=is_trusted)
+    settings = replace(settings, callables=callables)
     if codes["select"]:
         settings = replace(settings, select=codes["select"])
     if codes["ignore"]:
         settings = replace(settings, ignore=(*settings.ignore, *codes["ignore"]))
     if fail_on is not None:
         settings = replace(settings, fail_on=None if fail_on == "never" else Severity(fail_on))
-    return settings
+    return settings, gaps
 
 
 def _mend(checker: Checker, path: Path, settings: Settings, *, only_show: bool, unsafe: bool, is_text: bool) -> int:

@@ -7,18 +7,25 @@ import click
 
 from nddl_lang.text.render import render
 from nddlc.inputs import chosen_dialect, colours, columns, configured, model_files, readable
+from nddlc.trust import library_for, trust_option
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.readout.state import PlanState
-from runtime.user.library import library_of
+from runtime.solver.flaws.relief import may_be_relieved
 from runtime.view.load_text import lines
 
 
 @click.command()
 @model_files
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object per file, each in one line.")
+@trust_option
 @click.pass_context
 def command(
-    ctx: click.Context, files: tuple[str, ...], directories: tuple[str, ...], dialect: str | None, as_json: bool
+    ctx: click.Context,
+    files: tuple[str, ...],
+    directories: tuple[str, ...],
+    dialect: str | None,
+    as_json: bool,
+    is_trusted: bool,
 ) -> int:
     """Execute models, each by itself, and show their tokens and variables.
 
@@ -27,7 +34,8 @@ def command(
     chosen = chosen_dialect(ctx, dialect)
     is_fine = True
     for path, name in zip(readable(files, directories), files, strict=True):
-        loaded = load(path, directories, chosen, library_of(configured(path)), name)
+        library = library_for(path, configured(path), is_trusted=is_trusted)
+        loaded = load(path, directories, chosen, library, name)
         plan = loaded.state()
         is_fine = is_fine and plan is not None and plan.is_consistent
         if as_json:
@@ -47,4 +55,5 @@ def _page(loaded: Loaded, plan: PlanState | None, with_name: bool) -> Iterator[s
     if plan is None:
         yield "refused: the model is in error"
     else:
-        yield from lines(plan, columns())
+        relieved = loaded.database is not None and may_be_relieved(loaded.database)
+        yield from lines(plan, columns(), may_be_relieved=relieved)

@@ -5,15 +5,19 @@ from pathlib import Path
 import click
 
 from checker.mission import Mission, read_mission
-from checker.models import ModelSet, load_models
+from checker.models import ModelSet
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
 from nddlc.inputs import Unusable, colours, readable
+from nddlc.trust import models_of
 
 
-def prepare(path: str) -> tuple[Path, Mission, ModelSet]:
-    """Read a mission and its models; what is wrong with them is told, and an error ends the command."""
+def prepare(path: str, *, is_trusted: bool, is_named: bool = True) -> tuple[Path, Mission, ModelSet]:
+    """Read a mission and its models; what is wrong with them is told, and an error ends the command.
+
+    `is_named`: the command line names the mission, not a file that the command line names.
+    """
     (file,) = readable((path,), ())
     if file.suffix != ".toml":
         raise Unusable(f"`{path}` is no mission file (.toml)")
@@ -21,7 +25,7 @@ def prepare(path: str) -> tuple[Path, Mission, ModelSet]:
     if mission is None:
         _tell(found)
         raise Unusable("the mission file is in error: nothing was flown")
-    models = load_models(mission)
+    models = models_of(mission, is_trusted=is_trusted, is_named=is_named)
     _tell((*found, *models.diagnostics))
     if models.has_errors:
         raise Unusable("the models are in error: nothing was flown")

@@ -13,22 +13,23 @@ from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
 from nddlc.cancellation import Clock
 from nddlc.inputs import Unusable, chosen_dialect, colours, columns, configured, readable
+from nddlc.trust import library_for, trust_option
 from runtime.constraints.domains.tags import HALF_INF, INF
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.level_profile import LevelProfile, level_profiles
 from runtime.plan.readout.readout import live_tokens, read_state, token_names
-from runtime.plan.tags import REJECTED
+from runtime.plan.tags import FLAG_GOAL, FLAG_REJECTABLE, REJECTED
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.limits import Limits, model_limits
 from runtime.solver.configuration.read import read_configuration
+from runtime.solver.flaws.relief import may_be_relieved
 from runtime.solver.learning.attempts import FailedFlaw
 from runtime.solver.learning.failure_log import FailureLog
 from runtime.solver.learning.rendering import as_data as reason_data
 from runtime.solver.learning.rendering import story
 from runtime.solver.search import Solver
 from runtime.solver.tags import PLAN, RESULT_NAMES
-from runtime.user.library import library_of
 from runtime.view.drawing import drawing
 from runtime.view.picture import page, svg
 from runtime.view.plan_text import INTERRUPTED, PlanReport, found_values, lines, verdict
@@ -64,9 +65,11 @@ def _tick(text: str) -> int:
     default="nddlc",
     help="How to search: nddlc learns from conflicts; europa makes EUROPA's steps one by one.",
 )
+@click.option("--allow-unplanned", is_flag=True, help="End with 0 also if goals may lie outside the horizon.")
 @click.option("--explain", is_flag=True, help="Say why there is no plan, or why goals were rejected.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object in one line.")
 @click.option("--format", "style", type=click.Choice(["text", "svg", "html"]), default="text", help="How to show it.")
+@trust_option
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -79,24 +82,28 @@ def command(
     max_depth: int | None,
     max_seconds: float | None,
     strategy: str,
+    allow_unplanned: bool,
     explain: bool,
     as_json: bool,
     style: str,
+    is_trusted: bool,
 ) -> int:
     """Search a plan for a model and show it.
 
-    Ends with 0 if there is a plan, with 1 if there is none or it was not found in time.
+    Ends with 0 if there is a plan, with 1 if there is none, it was not found in time, or leaves goals out.
     """
     (path,) = readable((file,), directories)
     configuration = _configuration(config)
     if horizon is not None and horizon[0] >= horizon[1]:
         raise Unusable(f"the horizon from {horizon[0]} to {horizon[1]} is empty")
-    loaded = load(path, directories, chosen_dialect(ctx, dialect), library_of(configured(path)), file)
+    library = library_for(path, configured(path), is_trusted=is_trusted)
+    loaded = load(path, directories, chosen_dialect(ctx, dialect), library, file)
     before = loaded.state()
     if loaded.database is None or before is None:
         _show_refusal(loaded, as_json)
         return 1
     database = loaded.database
+    relieved = may_be_relieved(database)
     limits = _limits(database, horizon, max_steps, max_depth)
     solver = Solver(database, configuration, limits.start, limits.end, strategy == "europa")
     log = FailureLog(database, solver.agenda, solver.stack) if explain else None
@@ -104,7 +111,8 @@ def command(
     clock = Clock(solver, max_seconds)
     with clock, redirect_stdout(sys.stderr):  # what constraints print there would be read by programs
         result = solver.solve(limits.steps, limits.depth, clock)
-    reasons = _reasons(log, before.is_consistent, result)
+    was_consistent = before.is_consistent or solver.steps > 0 or result == PLAN
+    reasons = _reasons(log, was_consistent, result)
     plan = read_state(database)
     ended = INTERRUPTED if clock.is_interrupted and result != PLAN else RESULT_NAMES[result]
     report = PlanReport(
@@ -115,25 +123,43 @@ def command(
         limits,
         frozenset(name for t in live_tokens(database) if (name := database.token_label(t)) is not None),
         found_values(plan, before.variables) if ended != "exhausted" else [],
-        before.is_consistent,
+        was_consistent,
+        not solver.is_partial or (not was_consistent and not relieved),
+        strategy == "europa",
+        frozenset(_goals(database)),
         explain,
     )
     profiles = level_profiles(database, limits.start)
     if as_json:
-        click.echo(json.dumps(_data(loaded, report, profiles, reasons), ensure_ascii=False))
+        click.echo(json.dumps(_data(loaded, report, profiles, reasons, before.is_consistent), ensure_ascii=False))
     else:
         _show(loaded, report, profiles, reasons, style)
     if ended == INTERRUPTED:
         return 130
-    return 0 if result == PLAN else 1
+    return int(result != PLAN or (bool(report.beyond()) and not allow_unplanned))
+
+
+def _goals(database: PlanDatabase) -> Iterator[str]:
+    """The tokens that the script asked for by `goal`, by name."""
+    rows = database.plan.rows
+    for t, name in token_names(database, live_tokens(database)).items():
+        if rows.flags[t] & FLAG_GOAL and not rows.flags[t] & FLAG_REJECTABLE and rows.parent[t] < 0:
+            yield name
 
 
 def _data(
-    loaded: Loaded, report: PlanReport, profiles: Mapping[str, LevelProfile], reasons: Mapping[str, FailedFlaw]
+    loaded: Loaded,
+    report: PlanReport,
+    profiles: Mapping[str, LevelProfile],
+    reasons: Mapping[str, FailedFlaw],
+    was_consistent: bool,
 ) -> dict[str, Any]:
     """The result for programs."""
-    data = as_data(loaded, report.plan) | {"consistent": report.was_consistent}
+    data = as_data(loaded, report.plan) | {"consistent": was_consistent}
     data["solve"] = {"result": report.result, "steps": report.steps, "depth": report.depth}
+    if report.is_exhausted:
+        data["solve"]["is_complete"] = report.is_complete
+    data["solve"]["unplanned"] = report.beyond() if report.result == "plan" else []
     if report.is_explained:
         data["explanation"] = {name: reason_data(failure) for name, failure in reasons.items()}
     data["levels"] = {name: each.as_data() for name, each in profiles.items()}

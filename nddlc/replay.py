@@ -8,6 +8,7 @@ import click
 from checker.one_flight import first_departure, fly, read_trace
 from nddlc.inputs import Unusable, readable
 from nddlc.one_mission import prepare
+from nddlc.trust import trust_option
 
 _SAME, _DEPARTS = 0, 1
 
@@ -15,7 +16,8 @@ _SAME, _DEPARTS = 0, 1
 @click.command()
 @click.argument("path", metavar="TRACE")
 @click.option("--mission", metavar="MISSION", help="The mission file, if it is not where the trace says.")
-def command(path: str, mission: str | None) -> int:
+@trust_option
+def command(path: str, mission: str | None, is_trusted: bool) -> int:
     """Fly the mission of a trace again.
 
     TRACE was written by `nddlc run --trace`. Ends with 0 if the same happens, with 1 if the flight departs from the
@@ -26,7 +28,7 @@ def command(path: str, mission: str | None) -> int:
         recorded = read_trace(Path(file))
     except ValueError as problem:
         raise Unusable(f"`{path}` is no trace: {problem}") from None
-    _, read, models = prepare(mission or str(recorded.mission))
+    _, read, models = prepare(mission or str(recorded.mission), is_trusted=is_trusted, is_named=mission is not None)
     flight = fly(read, models, recorded.settings)
     found = first_departure(recorded, flight)
     if found is None:

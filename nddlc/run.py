@@ -12,6 +12,7 @@ from checker.oracle import Verdict
 from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable
 from nddlc.one_mission import prepare, values_of
+from nddlc.trust import trust_option
 from runtime.executive.outcome import EventKind
 from runtime.executive.rendering import event_text, goal_text, reason_text
 
@@ -25,13 +26,16 @@ _TOLD = (EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL, EventKind.RELAX, 
 @click.option("--param", "given", multiple=True, metavar="NAME=VALUE", help="Give a parameter a value; repeatable.")
 @click.option("--until", type=click.IntRange(0), help="Stop at this tick.")
 @click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write the trace here, as JSON Lines.")
-def command(path: str, seed: int | None, given: tuple[str, ...], until: int | None, trace: Path | None) -> int:
+@trust_option
+def command(
+    path: str, seed: int | None, given: tuple[str, ...], until: int | None, trace: Path | None, is_trusted: bool
+) -> int:
     """Fly one mission and show what happened.
 
     MISSION is a mission file (.toml). Ends with 0 if the mission passes, with 1 if it fails, with 2 if it cannot be
     flown.
     """
-    file, mission, models = prepare(path)
+    file, mission, models = prepare(path, is_trusted=is_trusted)
     settings = FlightSettings(mission.check.seed if seed is None else seed, values_of(given, models), until)
     _progress(f"flying {mission.agent.name} ...")
     flight = fly(mission, models, settings)

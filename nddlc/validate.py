@@ -12,13 +12,13 @@ from checker.judge.judge import judge_mission, judge_plan
 from checker.judge.rendering import report_data, report_text
 from checker.judge.report import JudgeReport
 from checker.mission import read_mission
-from checker.models import load_models
 from compiler.lower import compile_model
 from compiler.program import Program
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import render
 from nddlc.inputs import Unusable
+from nddlc.trust import models_of, trust_option
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, UnusableModelError, record_mission
 from runtime.executive.record import MissionRecord, ReactorRecord
@@ -32,7 +32,8 @@ from runtime.plan.database import PlanDatabase
 @click.option("--seed", type=int, default=0, help="Of a mission that is flown here.")
 @click.option("--record", "target", type=click.Path(path_type=Path), help="Write the record of what was flown.")
 @click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
-def command(plan: Path, mission_path: Path | None, seed: int, target: Path | None, style: str) -> int:
+@trust_option
+def command(plan: Path, mission_path: Path | None, seed: int, target: Path | None, style: str, is_trusted: bool) -> int:
     """Judge PLAN against its model, by code that shares nothing with the planner.
 
     PLAN is a mission file (.toml), which is flown; a record or a plan (.json); or a trace (.jsonl), which needs
@@ -41,13 +42,13 @@ def command(plan: Path, mission_path: Path | None, seed: int, target: Path | Non
     try:
         match plan.suffix:
             case ".toml":
-                report = _flown(plan, seed, target)
+                report = _flown(plan, seed, target, is_trusted)
             case ".jsonl":
                 if mission_path is None:
                     raise Unusable("a trace does not say whose it is", "name the mission file with --mission")
-                report = _traced(plan, mission_path)
+                report = _traced(plan, mission_path, is_trusted)
             case _:
-                report = _documented(plan, mission_path)
+                report = _documented(plan, mission_path, is_trusted)
     except DocumentError as problem:
         raise Unusable(f"`{plan}`: {problem}", "docs/validate.md describes the form") from None
     except UnusableModelError as problem:
@@ -56,8 +57,8 @@ def command(plan: Path, mission_path: Path | None, seed: int, target: Path | Non
     return 0 if report.holds else 1
 
 
-def _flown(path: Path, seed: int, target: Path | None) -> JudgeReport:
-    agent, programs = _loaded(path)
+def _flown(path: Path, seed: int, target: Path | None, is_trusted: bool) -> JudgeReport:
+    agent, programs = _loaded(path, is_trusted)
     outcome, record = record_mission(agent, programs, seed)
     if target is not None:
         text = json.dumps({"mission": str(path), "seed": seed, **record_data(record)}, indent=1)
@@ -67,11 +68,11 @@ def _flown(path: Path, seed: int, target: Path | None) -> JudgeReport:
     return judge_mission(agent, programs.programs, outcome, record, programs.constraints)
 
 
-def _loaded(path: Path) -> tuple[AgentConfiguration, MissionPrograms]:
+def _loaded(path: Path, is_trusted: bool, *, is_named: bool = True) -> tuple[AgentConfiguration, MissionPrograms]:
     mission, found = read_mission(path)
     _refuse(found)
     assert mission is not None
-    models = load_models(mission)
+    models = models_of(mission, is_trusted=is_trusted, is_named=is_named)
     _refuse(models.diagnostics)
     reactors = tuple((reactor.model, reactor.solver) for reactor in models.agent.reactors)
     root = Path(models.agent.root)
@@ -85,8 +86,8 @@ def _refuse(found: tuple[Diagnostic, ...]) -> None:
         raise Unusable("the model has errors")
 
 
-def _traced(path: Path, mission_path: Path) -> JudgeReport:
-    agent, programs = _loaded(mission_path)
+def _traced(path: Path, mission_path: Path, is_trusted: bool) -> JudgeReport:
+    agent, programs = _loaded(mission_path, is_trusted)
     lines = path.read_text(encoding="utf-8").splitlines()
     reports = []
     for place, program in zip(agent.reactors, programs.programs, strict=True):
@@ -102,7 +103,7 @@ def _traced(path: Path, mission_path: Path) -> JudgeReport:
     )
 
 
-def _documented(path: Path, mission_path: Path | None) -> JudgeReport:
+def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> JudgeReport:
     try:
         data: Any = json.loads(path.read_text(encoding="utf-8"))
     except (json.JSONDecodeError, UnicodeDecodeError) as problem:
@@ -110,7 +111,7 @@ def _documented(path: Path, mission_path: Path | None) -> JudgeReport:
     if not isinstance(data, dict):
         raise DocumentError("it is no object")
     if "reactors" in data:
-        return _recorded(path, data, mission_path)
+        return _recorded(path, data, mission_path, is_trusted)
     if not isinstance(data.get("model"), str):
         raise DocumentError("it names no `model`")
     model = path.parent / data["model"]
@@ -122,11 +123,11 @@ def _documented(path: Path, mission_path: Path | None) -> JudgeReport:
     return judge_plan(program, read_plan(data, _base(program, "plan"), program))
 
 
-def _recorded(path: Path, data: dict[str, Any], mission_path: Path | None) -> JudgeReport:
+def _recorded(path: Path, data: dict[str, Any], mission_path: Path | None, is_trusted: bool) -> JudgeReport:
     named = mission_path or (path.parent / data["mission"] if isinstance(data.get("mission"), str) else None)
     if named is None or not named.is_file():
         raise DocumentError("the mission that it names is not there; say where with --mission")
-    agent, programs = _loaded(named)
+    agent, programs = _loaded(named, is_trusted, is_named=mission_path is not None)
     places = zip(agent.reactors, programs.programs, strict=True)
     models = {place.name: program for place, program in places}
     bases = {name: _base(program, name, programs) for name, program in models.items()}

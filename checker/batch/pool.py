@@ -23,6 +23,7 @@ from runtime.executive.configuration import AgentConfiguration
 from runtime.user.fault import UserCodeError
 
 _LARGEST_CHUNK = 16
+_SAFE_PATH = "PYTHONSAFEPATH"
 _START_LIMIT = 120.0  # seconds for a worker to load the models
 _FAILED_STARTS = 3  # workers in a row that may die before they are ready
 
@@ -105,7 +106,7 @@ class _Worker:
         context = multiprocessing.get_context("spawn")
         self.connection, other = context.Pipe()
         self.process: BaseProcess = context.Process(target=work, args=(other, load, agent), daemon=True)
-        with _interrupts_held_back():
+        with _interrupts_held_back(), _safe_path():
             self.process.start()
         other.close()
         self.owed: deque[Task] = deque()
@@ -232,6 +233,20 @@ def _interrupts_held_back() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextlib.contextmanager
+def _safe_path() -> Iterator[None]:
+    """Keep the working folder off the path of a new interpreter: a `json.py` that lies there is not to be imported."""
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[_SAFE_PATH]
+        else:
+            os.environ[_SAFE_PATH] = before
 
 
 @contextlib.contextmanager

@@ -19,7 +19,10 @@ function makeClient() {
   };
   return new LanguageClient("nddlc", "NDDL", server, {
     documentSelector: [{ language: "nddl" }],
-    initializationOptions: { includeDirectories: settings.get("includeDirectories").map(withFolder) },
+    initializationOptions: {
+      includeDirectories: settings.get("includeDirectories").map(withFolder),
+      isTrusted: workspace.isTrusted,
+    },
     synchronize: { fileEvents: workspace.createFileSystemWatcher("**/*.nddl") },
   });
 }
@@ -47,6 +50,7 @@ async function start() {
 async function activate(context) {
   context.subscriptions.push(
     commands.registerCommand("nddlc.restart", start),
+    workspace.onDidGrantWorkspaceTrust(start),
     workspace.onDidChangeConfiguration((event) => {
       if (["command", "includeDirectories", "dialect"].some((name) => event.affectsConfiguration(`nddlc.${name}`))) {
         return start();

@@ -13,7 +13,8 @@ from nddl_lang.syntax.walk import same_tree
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.source import Source
 
-_TRIVIA = re.compile(r"(?:[ \t\r\n\f]++|//[^\n]*+|/\*.*?\*/)*+", re.DOTALL)
+# Not possessive: Python up to 3.11.2 reads on behind a comment without an end. Nothing follows, so nothing is retried.
+_TRIVIA = re.compile(r"(?:[ \t\r\n\f]+|//[^\n]*|/\*.*?\*/)*", re.DOTALL)
 # With these mistakes it is still clear what every lexeme means.
 _HARMLESS = frozenset((INTEGER_RANGE.id, UNKNOWN_ESCAPE.id))
 

@@ -9,11 +9,12 @@ from nddl_lang.lint.linter import Linter
 from nddl_lang.lint.mending import Mended, mend
 from nddl_lang.lint.settings import Settings
 from nddl_lang.lint.unused import OF_ALL_MODELS
+from nddl_lang.syntax.codes import UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import load_module_graph
 from nddl_lang.text.diagnostic import Diagnostic
-from nddl_lang.text.read import decode
-from nddl_lang.text.source import Source
+from nddl_lang.text.read import decode, read_named, read_text, real_path
+from nddl_lang.text.source import Anchor, Source, Span
 
 
 class Checker:
@@ -37,10 +38,20 @@ class Checker:
         self._votes: Counter[tuple[Path, int, str]] = Counter()
 
     def check(self, path: Path, settings: Settings) -> tuple[Diagnostic, ...]:
-        """All that is wrong with a file and what it includes; raises OSError if it cannot be read."""
-        found = self._check(Source(str(path), decode(path.read_bytes())), settings, is_counted=True)
+        """All that is wrong with a file and what it includes, and if that is that it cannot be read."""
+        try:
+            text = self._read(path)
+        except OSError as problem:
+            place = Span(Anchor(Source(str(path), "")), 0, 0)
+            return (UNREADABLE_FILE.at(place, path=path, reason=problem.strerror or problem),)
+        found = self._check(Source(str(path), text), settings, is_counted=True)
         self._votes.update({(part, each.span.begin, each.code.id) for each in found if (part := self._part(each))})
         return found
+
+    @staticmethod
+    def _read(path: Path) -> str:
+        """The text of a file, or of a pipe that the user named."""
+        return (read_text(path) or "") if path.is_file() else decode(read_named(path))
 
     def is_agreed(self, finding: Diagnostic) -> bool:
         """Whether all models that include the file of a finding say the same, where that is needed."""
@@ -54,7 +65,7 @@ class Checker:
 
     def mend(self, path: Path, settings: Settings, *, unsafe: bool) -> tuple[str, Mended] | None:
         """The text of a file and how it is after its fixes; None where it is no UTF-8 text."""
-        content = path.read_bytes()
+        content = read_named(path)
         text = decode(content)
         if text.encode() != content:
             return None
@@ -66,7 +77,7 @@ class Checker:
         directories = (*self._directories, *settings.directories)
         loaded = load_module_graph(source, directories, self._dialect or settings.dialect)
         for included, place in loaded.paths.items():
-            if included is not source and (part := place.resolve()) in self._parts:
+            if included is not source and (part := real_path(place)) in self._parts:
                 self._part_of[included] = part
                 self._readers[part] += is_counted
         return tuple(settings.choose(Linter(self._parts).lint(Analyser(settings.callables).analyse(loaded))))

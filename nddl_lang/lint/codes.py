@@ -74,3 +74,7 @@ NO_SUCH_CODE = Code("NDDL591", Severity.WARNING, "lint", "`{text}` is no code of
 NOT_TOML = Code("NDDL595", Severity.ERROR, "syntax", "this is not TOML: {reason}")
 UNKNOWN_KEY = Code("NDDL596", Severity.ERROR, "name", "there is no setting `{key}`")
 WRONG_VALUE = Code("NDDL597", Severity.ERROR, "type", "`{key}` must be {wanted}")
+UNREAD_MODULE = Code(
+    "NDDL598", Severity.WARNING, "name", "what `{path}` adds cannot be read without running it: {reason}"
+)
+NOT_TRUSTED = Code("NDDL599", Severity.ERROR, "include", "`{path}` is not run: {reason}")

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from nddl_lang.lint.codes import NOT_TOML, UNKNOWN_KEY, WRONG_VALUE
-from nddl_lang.lint.settings import Settings
+from nddl_lang.lint.settings import ProjectModule, Settings
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Severity
 from nddl_lang.text.nearest import nearest
-from nddl_lang.text.read import read_text
+from nddl_lang.text.read import NotAFileError, read_text, real_path
 from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path as Key
 from nddl_lang.text.toml_places import find_places, toml_of
@@ -25,7 +25,7 @@ _DIALECTS = {each.value: each for each in Dialect}
 
 def find_configuration(directory: Path) -> Path | None:
     """The file that configures what stands in `directory`: the nearest one upwards, None where there is none."""
-    directory = directory.resolve()
+    directory = real_path(directory)
     for place in (directory, *directory.parents):
         for name in (_NAME, _PROJECT):
             path = place / name
@@ -35,7 +35,10 @@ def find_configuration(directory: Path) -> Path | None:
 
 
 def _has_section(path: Path) -> bool:
-    text = read_text(path) or ""
+    try:
+        text = read_text(path) or ""
+    except OSError:
+        return False  # for the tools of Python to complain about
     if "nddlc" not in text:
         return False
     try:
@@ -46,7 +49,11 @@ def _has_section(path: Path) -> bool:
 
 def read_configuration(path: Path) -> tuple[Settings, list[Diagnostic]]:
     """The settings in a file, and what is wrong with it."""
-    source = Source(str(path), read_text(path) or "")
+    try:
+        source = Source(str(path), read_text(path) or "")
+    except NotAFileError as problem:
+        place = Span(Anchor(Source(str(path), "")), 0, 0)
+        return Settings(), [NOT_TOML.at(place, reason=f"it cannot be read: {problem.strerror}")]
     try:
         table = tomllib.loads(toml_of(source.text))
     except tomllib.TOMLDecodeError as problem:
@@ -80,7 +87,7 @@ class _Reader:
             "constraints": self._constraints,
             "severity": lambda key, value: {"severities": tuple(self._weights(key, value))},
         }
-        settings = Settings()
+        settings = Settings(folder=self._directory)
         for name, value in table.items():
             key = (*prefix, name)
             reader = readers.get(name)
@@ -123,11 +130,11 @@ class _Reader:
                     self._unknown(place, name, {"modules": None, "time_limit": None})
         return found
 
-    def _modules(self, key: Key, value: Any) -> Iterator[Path]:
+    def _modules(self, key: Key, value: Any) -> Iterator[ProjectModule]:
         for index, item in enumerate(self._texts(key, value)):
             path = self._directory / item
             if path.is_file():
-                yield path
+                yield ProjectModule(path, self._span((*key, index)))
             else:
                 self._wrong((*key, index), item, "a Python file, seen from this file")
 

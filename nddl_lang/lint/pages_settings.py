@@ -1,6 +1,6 @@
 """The pages of the codes about the settings of a project."""
 
-from nddl_lang.lint.codes import NOT_TOML, UNKNOWN_KEY, WRONG_VALUE
+from nddl_lang.lint.codes import NOT_TOML, NOT_TRUSTED, UNKNOWN_KEY, UNREAD_MODULE, WRONG_VALUE
 from nddl_lang.text.page import RulePage
 
 SETTINGS_PAGES = (
@@ -27,6 +27,27 @@ SETTINGS_PAGES = (
         "The message says what the setting can be; `docs/lint.md` lists all of them.",
         "[severity]\nNDDL501 = 3\n",
         '[severity]\nNDDL501 = "error"\n',
+        "toml",
+    ),
+)
+TRUST_PAGES = (
+    RulePage(
+        UNREAD_MODULE,
+        "A Python module with constraints computes what it offers, so its text does not tell the names and signatures.",
+        "`nddlc lint` and the editor run no Python of a project (`docs/security.md`). They read classes, calls of "
+        "`function` and plain values; what is computed stays unknown, and unknown names are then not complained about. "
+        "`nddlc lint --trust` runs the module.",
+        "CONSTRAINTS = [make(name) for name in NAMES]\n",
+        "CONSTRAINTS = [Near(), Far()]\n",
+        "python",
+    ),
+    RulePage(
+        NOT_TRUSTED,
+        "A configuration asks for Python that does not belong to the project that was named on the command line.",
+        "A file that somebody put there must not be run because a model beside it is planned. `docs/security.md` has "
+        "the rule; `--trust` runs it all the same.",
+        '[constraints]\nmodules = ["../shared/chart.py"]\n',
+        '[constraints]\nmodules = ["chart.py"]\n',
         "toml",
     ),
 )

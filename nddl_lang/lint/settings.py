@@ -7,6 +7,15 @@ from pathlib import Path
 from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class ProjectModule:
+    """A Python file with constraints, and where the configuration names it."""
+
+    path: Path
+    span: Span
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,7 +25,7 @@ class Settings:
     Codes may be cut short: `NDDL5` means all that begin so. `severities` maps codes to what they weigh, None meaning
     not at all. `fail_on` None: findings never make the command fail. `modules` are the Python files with the project's
     own constraints, and `seconds` how long one call of theirs may take, None for the usual limit; `callables` is what
-    models may call once they are loaded, which is not done here.
+    models may call with them, which is not found out here. `folder` is that of the configuration file, if there is one.
     """
 
     select: tuple[str, ...] = ()
@@ -25,9 +34,10 @@ class Settings:
     directories: tuple[Path, ...] = ()
     dialect: Dialect | None = None
     fail_on: Severity | None = Severity.WARNING
-    modules: tuple[Path, ...] = ()
+    modules: tuple[ProjectModule, ...] = ()
     seconds: float | None = None
     callables: Callables = NATIVE_CALLABLES
+    folder: Path | None = None
 
     def choose(self, findings: Iterable[Diagnostic]) -> Iterator[Diagnostic]:
         """The findings that are asked for; an error always is."""

@@ -37,6 +37,7 @@ from nddl_lang.syntax.nodes import (
     StringLiteral,
     VariableDecl,
 )
+from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Source, Span
 
 Given = tuple[Key, Domain, Span]
@@ -181,7 +182,7 @@ def assemble(analysis: Analysis, parts: list[Part], gists: list[Gist], judged: f
     """Put together what the statements contribute; `judged` are included files that the model is judged by too."""
     paths = analysis.loaded.paths
     library = frozenset(source for source, path in paths.items() if Path(path).parent == LIBRARY)
-    own = {source for source, path in paths.items() if source not in library and path.resolve() in judged}
+    own = {source for source, path in paths.items() if source not in library and real_path(path) in judged}
     whole = Whole(analysis, parts, gists, library, frozenset({analysis.loaded.root, *own}))
     ancestry: dict[str, list[str]] = {}
     for part, each in zip(parts, gists, strict=True):

@@ -13,16 +13,18 @@ ENTRY_POINTS = "nddlc.constraints"
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Callables:
-    """Constraints and functions by name."""
+    """Constraints and functions by name; `has_gaps`: the project has more, which could not be read."""
 
     constraints: Mapping[str, ConstraintRow]
     functions: Mapping[str, FunctionRow]
+    has_gaps: bool = False
 
     def extended(self, constraints: Iterable[ConstraintRow], functions: Iterable[FunctionRow]) -> "Callables":
         """These and some more, whose names must be free."""
         return Callables(
             {**self.constraints, **{row.name: row for row in constraints}},
             {**self.functions, **{row.name: row for row in functions}},
+            self.has_gaps,
         )
 
 

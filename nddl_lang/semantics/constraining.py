@@ -25,7 +25,8 @@ def check_call_constraint(context: Context, scope: Scope, node: CallConstraint) 
     if row is None:
         for argument in node.arguments:
             type_of(context, scope, argument)
-        _complain_unknown(context, node)
+        if not context.callables.has_gaps:
+            _complain_unknown(context, node)
         return
     if row.origin is Origin.NDDLC and context.dialect is Dialect.NDDL3:
         context.complain(NOT_IN_NDDL3.at(node.name.span, help=NO_ENVIRONMENT, name=name))

@@ -290,6 +290,8 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
     if row is None:
         for argument in call.arguments:
             type_of(context, scope, argument)
+        if context.callables.has_gaps and name not in context.callables.constraints:
+            return None
         complaint = UNKNOWN_FUNCTION.at(call.function.span, name=name)
         if name in context.callables.constraints:
             help_ = f"`{name}` is a constraint: write it as a statement, `{name}(...);`"

@@ -8,7 +8,7 @@ from nddl_lang.syntax.tables import END
 from nddl_lang.syntax.words import RELATIONS
 from nddl_lang.text.nearest import nearest
 
-_NEXT_WORD = re.compile(r"(?:[ \t\r\n\f]++|//[^\n]*+|/\*.*?\*/)*+(#?\w++|[^\n])?", re.DOTALL)
+_NEXT_WORD = re.compile(r"(?:[ \t\r\n\f]+|//[^\n]*|/\*.*?\*/)*(#?\w++|[^\n])?", re.DOTALL)  # as in the formatter
 
 
 def describe_found(b: Builder, kinds: list[str], index: int) -> str:
@@ -18,7 +18,9 @@ def describe_found(b: Builder, kinds: list[str], index: int) -> str:
     source = b.anchor.source
     following = _NEXT_WORD.match(source.text, b.anchor.offset + b.piece.length)
     assert following is not None
-    b.piece.reach = max(b.piece.reach, following.end() - b.anchor.offset + 1)
+    # A comment that is still open may come to end anywhere.
+    end = len(source.text) if following[1] == "/" else following.end()
+    b.piece.reach = max(b.piece.reach, end - b.anchor.offset + 1)
     if following[1] is None:
         return "the end of the file"
     return f"`{excerpt(following[1])}`"

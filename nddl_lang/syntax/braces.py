@@ -14,7 +14,8 @@ from nddl_lang.text.diagnostic import Edit, Fix, Note
 _PARAMETERS = frozenset(("BASETYPE", "filter"))
 _MEMBERS = _PARAMETERS | {"predicate", "action"}
 _LINE = re.compile(r"\n([ \t]*)(//[^\n]*|[^\s])")
-_NEXT_LINE = re.compile(r"(?:[ \t\r\f]*+(?://[^\n]*+)?\n)*+([ \t]*+)(\}|(?:predicate|action)(?![A-Za-z0-9_$]))?")
+# Not possessive: Python up to 3.11.2 misplaces a group behind a possessive one. Each line is read in one way only.
+_NEXT_LINE = re.compile(r"(?:[ \t\r\f]*(?://[^\n]*)?\n)*([ \t]*)(\}|(?:predicate|action)(?![A-Za-z0-9_$]))?")
 _LONGEST = len("predicate") + 1
 
 

@@ -10,7 +10,7 @@ from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.syntax.nodes import ClassDecl, Include, Module, Statement
 from nddl_lang.syntax.parser import Parse, parse, parse_members
 from nddl_lang.text.diagnostic import Diagnostic, Note
-from nddl_lang.text.read import is_text, read_text
+from nddl_lang.text.read import decode, is_text, read_named, read_text, real_path
 from nddl_lang.text.source import Anchor, Source, Span
 
 # The files that come with the package.
@@ -59,7 +59,9 @@ def load_module_graph(
     if isinstance(root, Source):
         source = root
     else:
-        text = open_text(Path(root))
+        path = Path(root)
+        is_pipe = path.exists() and not path.is_file()  # which the user named; what is included is never one
+        text = decode(read_named(path)) if is_pipe else open_text(path)
         if text is None:
             raise FileNotFoundError(f"no file {root}")
         source = Source(str(root), text)
@@ -101,7 +103,7 @@ class _Loader:
 
     def load(self, source: Source, path: Path, is_in_class: bool, include: Include | None = None) -> list[Any]:
         """The statements of `source` and, in their places, those of what it includes."""
-        resolved = path.resolve()
+        resolved = real_path(path)
         if is_text(source.text):
             parsed = self._parse_text(path, source, self._dialect, is_in_class)
         else:
@@ -159,7 +161,7 @@ class _Loader:
             self._report(MISSING_FILE.at(include.span, path=name, notes=(remark,)))
             return []
         path, text = found
-        resolved = path.resolve()
+        resolved = real_path(path)
         known = self._read.get(resolved)
         if known is not None:
             self.included[include] = known

@@ -52,7 +52,7 @@ class Incremental:
                     break
             piece = scanner.read(at)
             same = replaced.pop(text[at : at + piece.length], None)
-            if same is not None and same.kinds == piece.kinds and not piece.mends:
+            if same is not None and same.kinds == piece.kinds and not piece.mends and not piece.diagnostics:
                 piece = self._moved(same, source, at, piece.reach)
             else:
                 understand(piece, self._dialect, self._block)

@@ -4,14 +4,14 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from nddl_lang.text.read import read_text
+from nddl_lang.text.read import read_text, real_path
 
 _INCLUDE = re.compile(r'^[ \t]*#include[ \t]*"([^"\n]+)"', re.MULTILINE)
 
 
 def roots_among(files: Sequence[Path], directories: Sequence[Path] = ()) -> list[Path]:
     """The files that no other one includes; of files that include each other in a cycle, the first."""
-    by_key = {file.resolve(): file for file in files}
+    by_key = {real_path(file): file for file in files}
     included = {key: [each for each in _included(file, directories) if each in by_key] for key, file in by_key.items()}
     parts = {target for targets in included.values() for target in targets}
     roots = [key for key in by_key if key not in parts]
@@ -26,9 +26,9 @@ def roots_among(files: Sequence[Path], directories: Sequence[Path] = ()) -> list
 
 def parts_of(models: Sequence[Path], directories: Sequence[Path] = ()) -> frozenset[Path]:
     """The files in the folders of models that these include, and no other file beside them; resolved."""
-    roots = [model.resolve() for model in models]
+    roots = [real_path(model) for model in models]
     own = _closure(roots, directories)
-    beside = {path.resolve() for folder in {key.parent for key in own} for path in folder.glob("*.nddl")}
+    beside = {real_path(path) for folder in {key.parent for key in own} for path in folder.glob("*.nddl")}
     others = _closure([path for path in beside if path not in own], directories)
     folders = {root.parent for root in roots}
     return frozenset(key for key in own - others - set(roots) if not folders.isdisjoint(key.parents))
@@ -64,8 +64,8 @@ def _included(file: Path, directories: Sequence[Path]) -> list[Path]:
         return found  # what comes through a pipe can be read only once
     for name in _INCLUDE.findall(_text(file)):
         places = (place / name for place in (file.parent, *directories) if "\0" not in name)
-        target = next((path.resolve() for path in places if path.is_file()), None)
-        if target is not None and target != file.resolve():
+        target = next((real_path(path) for path in places if path.is_file()), None)
+        if target is not None and target != real_path(file):
             found.append(target)
     return found
 

@@ -56,7 +56,7 @@ _MASTER = re.compile(
     )""",
     re.VERBOSE | re.DOTALL,
 )
-_ELSE_AHEAD = re.compile(r"(?:[ \t\r\n\f]++|//[^\n]*+|/\*.*?\*/)*+(else(?![A-Za-z0-9_$]))?", re.DOTALL)
+_ELSE_AHEAD = re.compile(r"(?:[ \t\r\n\f]+|//[^\n]*|/\*.*?\*/)*(else(?![A-Za-z0-9_$]))?", re.DOTALL)
 
 # After one of these an operand has ended, so a sign that follows is an operator.
 _OPERANDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]"))
@@ -143,7 +143,8 @@ class Scanner:
         if self._doubled > 0 and len(self._brackets.open) == 1:
             leave_out_doubled(piece, self._doubled, base)
         piece.length = self._end - base
-        piece.reach = max(piece.reach - base, piece.length)
+        # What the next character is decides whether the last lexeme ends here.
+        piece.reach = max(piece.reach - base, piece.length + 1)
         piece.comments = [(start - base, end - base) for start, end in piece.comments if start < self._end]
         if base:
             piece.starts = [start - base for start in piece.starts]
@@ -224,7 +225,8 @@ class Scanner:
                 # The condition may have an `else` branch.
                 ahead = _ELSE_AHEAD.match(self._source.text, finish)
                 assert ahead is not None
-                piece.reach = max(piece.reach, ahead.end() + len("else") + 1)
+                is_open = self._source.text.startswith("/", ahead.end())  # a comment may come to end somewhere
+                piece.reach = _BEYOND if is_open else max(piece.reach, ahead.end() + len("else") + 1)
                 if ahead[1] is not None:
                     self._end = -1
         elif self._brackets.is_too_deep and not piece.is_too_deep:
@@ -319,6 +321,7 @@ class Scanner:
         elif group == _QUOTED:
             kind = read_quoted(piece, start - base, word)
         elif group == _DIRECTIVE and (name := misspelt_include(word)):
+            piece.reach = max(piece.reach, finish + 1)
             finish = start + len(name)
             kind = self._read_include(start, finish)
             if kind:
@@ -336,6 +339,10 @@ class Scanner:
             piece.is_cut_short = True
             self._end, piece.reach = len(text), _BEYOND
         else:
+            if word == "'":
+                # Its partner may come to stand anywhere in the line.
+                line_end = text.find("\n", finish)
+                piece.reach = max(piece.reach, line_end + 1) if line_end >= 0 else _BEYOND
             kind = read_other(piece, start - base, word) or ""
         return kind, start, finish
 

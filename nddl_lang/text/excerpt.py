@@ -1,6 +1,7 @@
 """Show a stretch of text with its line numbers and carets under it."""
 
 from collections.abc import Iterator
+from functools import lru_cache
 from unicodedata import category, east_asian_width
 
 from nddl_lang.text.source import Source, Span
@@ -43,6 +44,12 @@ def shown(line: str) -> tuple[str, list[int]]:
     return "".join(letters), columns
 
 
+@lru_cache(maxsize=8)  # many findings may stand in one long line
+def shown_line(source: Source, number: int) -> tuple[str, list[int]]:
+    """A line of a source as it can be printed, and the column of each of its characters."""
+    return shown(source.line(number))
+
+
 def _bounds(span: Span) -> tuple[tuple[int, int], tuple[int, int]]:
     """Line and column where `span` begins and where it ends, the end not included but in the line of the last one."""
     source = span.source
@@ -66,7 +73,7 @@ def excerpt(span: Span, mark: str = "^") -> Iterator[tuple[int | None, str, str]
         if number == 0:
             yield None, "...", ""
             continue
-        text, columns = shown(span.source.line(number))
+        text, columns = shown_line(span.source, number)
         if number == first:
             left = columns[min(start - 1, len(columns) - 1)]
             yield number, "  " + _cropped(text), " " + "_" * (left + 1) + mark
@@ -78,10 +85,9 @@ def excerpt(span: Span, mark: str = "^") -> Iterator[tuple[int | None, str, str]
 
 
 def _single(source: Source, number: int, start: int, end: int, mark: str) -> tuple[int, str, str]:
-    line = source.line(number)
-    text, columns = shown(line)
-    left = columns[min(start - 1, len(line))]
-    right = columns[min(end - 1, len(line))]
+    text, columns = shown_line(source, number)
+    left = columns[min(start - 1, len(columns) - 1)]
+    right = columns[min(end - 1, len(columns) - 1)]
     size = max(1, right - left)
     if len(text) > _LONGEST:
         cut = max(0, left - _LONGEST // 2)
@@ -89,6 +95,15 @@ def _single(source: Source, number: int, start: int, end: int, mark: str) -> tup
         left += (3 if cut else 0) - cut
         size = max(1, min(size, len(text) - left))
     return number, text, " " * left + mark * size
+
+
+def around(line: str, at: int) -> str:
+    """`line` as it can be printed; of a long one the stretch around the character `at`."""
+    if len(line) <= _LONGEST:
+        return shown(line)[0]
+    cut = max(0, at - _LONGEST // 2)
+    rest = "..." if cut + _LONGEST < len(line) else ""
+    return f"{'...' if cut else ''}{shown(line[cut : cut + _LONGEST])[0]}{rest}"
 
 
 def _cropped(text: str) -> str:

@@ -1,9 +1,12 @@
 """Read a file into a source, whatever bytes it holds."""
 
+import os
+import stat
 from pathlib import Path
 
 from nddl_lang.text.source import Source
 
+LARGEST = 64 * 2**20  # bytes of a file
 _LOOKED_AT = 4096
 _MOST_ODD = 0.02  # of the characters of a text may be control characters
 _MOST_UNREADABLE = 0.6  # and bytes that are not UTF-8: comments in another encoding may be long
@@ -24,14 +27,53 @@ def is_text(text: str) -> bool:
     return odd <= _MOST_ODD * len(head) + 1 and head.count("\ufffd") <= _MOST_UNREADABLE * len(head)
 
 
+class NotAFileError(OSError):
+    """What stands under a name cannot be read as a file; `strerror` says what it is."""
+
+
 def read_text(path: Path) -> str | None:
-    """The text of the file at `path`; None if there is no such file. Raises OSError if it cannot be read."""
+    """The text of the file at `path`; None if there is no such file.
+
+    Raises OSError if it cannot be read, is no regular file, or is larger than `LARGEST`: nothing that a model names is
+    waited for or read without end.
+    """
     try:
-        return decode(path.read_bytes())
+        file = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     except (FileNotFoundError, NotADirectoryError):
         return None
+    with os.fdopen(file, "rb", buffering=0) as opened:
+        kind = os.fstat(file)
+        if not stat.S_ISREG(kind.st_mode):
+            raise NotAFileError(0, f"it is {kind_of(kind.st_mode)}, not a file", str(path))
+        return decode(_bounded(opened.read(LARGEST + 1), path))
 
 
 def read_source(path: Path | str) -> Source:
-    """The file at `path` as a source of that name; raises OSError if it cannot be read."""
-    return Source(str(path), decode(Path(path).read_bytes()))
+    """What the user named, a file or a pipe, as a source of that name; raises OSError if it cannot be read."""
+    return Source(str(path), decode(read_named(Path(path))))
+
+
+def read_named(path: Path) -> bytes:
+    """The bytes of what the user named, a file or a pipe, up to `LARGEST` of them; raises OSError."""
+    with path.open("rb") as opened:
+        return _bounded(opened.read(LARGEST + 1), path)
+
+
+def real_path(path: Path) -> Path:
+    """The one name of a file, however it was reached; never raises, of links in a circle it is one of them."""
+    return Path(os.path.realpath(path))
+
+
+def kind_of(mode: int) -> str:
+    """What a mode of the file system stands for, with its article."""
+    if stat.S_ISFIFO(mode):
+        return "a pipe"
+    if stat.S_ISSOCK(mode):
+        return "a socket"
+    return "a directory" if stat.S_ISDIR(mode) else "a device"
+
+
+def _bounded(content: bytes, path: Path) -> bytes:
+    if len(content) > LARGEST:
+        raise NotAFileError(0, f"it is larger than {LARGEST // 2**20} MiB", str(path))
+    return content

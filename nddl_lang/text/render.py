@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note, Severity
-from nddl_lang.text.excerpt import excerpt, shown
+from nddl_lang.text.excerpt import around, excerpt
 from nddl_lang.text.source import Source, Span
 
 _RESET = "\x1b[0m"
@@ -82,14 +82,15 @@ class _Page:
             end = max(end, max(edit.span.finish for edit in edits))
             after = apply_edits(source.text[start:end], edits, start)
             yield self._bar()
+            edited = min(edit.span.begin for edit in edits) - start  # in the first line
             for number in range(first, last + 1):
-                yield self._changed(number, "-", source.line(number), _RED)
+                yield self._changed(number, "-", source.line(number), _RED, edited if number == first else 0)
             for offset, line in enumerate(after.split("\n") if after else []):
-                yield self._changed(first + offset, "+", line.removesuffix("\r"), _GREEN)
+                yield self._changed(first + offset, "+", line.removesuffix("\r"), _GREEN, 0 if offset else edited)
 
-    def _changed(self, number: int, sign: str, line: str, colour: str) -> str:
+    def _changed(self, number: int, sign: str, line: str, colour: str, at: int) -> str:
         mark = self._paint(f"{number:>{self._gutter}}", _GUTTER)
-        return f"{mark} {self._paint(f'{sign} {shown(line)[0]}'.rstrip(), colour)}"
+        return f"{mark} {self._paint(f'{sign} {around(line, at)}'.rstrip(), colour)}"
 
     def _bar(self) -> str:
         return self._sign("|")

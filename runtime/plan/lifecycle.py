@@ -32,6 +32,8 @@ def fire(plan: Plan) -> bool:
     engine = plan.engine
     if plan.stack_length and not run(plan) and plan.rows.level:
         return False
+    if plan.resources.postponed:
+        plan.resources.resume()
     while engine.propagate():
         plan.gather_woken()
         if plan.queue_length == 0:

@@ -16,15 +16,16 @@ from runtime.solver.flaws.selection cimport select
 from runtime.solver.learning.dead_end cimport explain_dead_end
 from runtime.solver.flaws.agenda_updates cimport update, rebuild, note_levels
 
+cdef long long ACTIVATE_ONLY, HANDLER_LISTED, KIND_FLOAT, MERGE_ONLY
 cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, _NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
 cdef long long TIMEOUT, UNBOUND_VARIABLE
 
 
 cdef class Solver:
-    cdef public object database, failure_log, nogoods
+    cdef public object database, failure_log, nogoods, relief
     cdef public Plan plan
     cdef public Engine engine
-    cdef public bint europa, has_active, is_exhausted, is_started, checks_overload, is_dead_end, may_restart
+    cdef public bint europa, has_active, is_exhausted, is_started, checks_overload, is_dead_end, is_partial, may_restart
     cdef public Filters filters
     cdef public Agenda agenda
     cdef public Decisions stack
@@ -45,7 +46,13 @@ cdef class Solver:
     cpdef long long solve(self, long long max_steps, long long max_depth, object is_late=*) except? -1
 
     @cython.locals(d="long long", most="long long", outcome="long long", agenda=Agenda, stack=Decisions)
+    cpdef long long _step(self) except? -1
+
+    @cython.locals(outcome="long long")
     cpdef long long step(self) except? -1
+
+    @cython.locals(d="long long", holds=bint, number="long long")
+    cpdef bint _holds(self) except -1
 
     cpdef long long fail(self, long long d) except? -1
 
@@ -62,6 +69,9 @@ cdef class Solver:
 
     @cython.locals(o="long long")
     cpdef int check_overload(self) except -1
+
+    @cython.locals(stack=Decisions)
+    cpdef bint _left_some(self, long long d, long long most) except -1
 
     cpdef long long _enter(self) except? -1
 

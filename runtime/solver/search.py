@@ -2,10 +2,12 @@
 
 from collections.abc import Callable
 
+from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import fire
 from runtime.plan.store.marks import commit, mark, release, rewind
 from runtime.plan.tags import REJECTED
+from runtime.plan.tokens.retraction import withdraw_refusals
 from runtime.solver.configuration.configuration import Configuration, with_resources
 from runtime.solver.configuration.handler_matching import HandlerMatching
 from runtime.solver.configuration.handler_table import HandlerTable
@@ -14,6 +16,7 @@ from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.agenda_updates import note_levels, rebuild, update
 from runtime.solver.flaws.decisions import Decisions
 from runtime.solver.flaws.filters import Filters, PlanningScope
+from runtime.solver.flaws.relief import Relief
 from runtime.solver.flaws.resource_selection import is_resource_managed
 from runtime.solver.flaws.selection import select
 from runtime.solver.flaws.supports import Supports
@@ -25,10 +28,13 @@ from runtime.solver.learning.nogoods import Nogoods
 from runtime.solver.learning.order_invariance import has_loops, is_order_invariant
 from runtime.solver.resolvers.choices import mend
 from runtime.solver.tags import (
+    ACTIVATE_ONLY,
     APPLIED,
     EVERYTHING,
     EXHAUSTED,
     FAILED,
+    HANDLER_LISTED,
+    MERGE_ONLY,
     MOVED,
     NO_CHOICE,
     OPEN_CONDITION,
@@ -61,6 +67,9 @@ class Solver:
         in_order = europa or has_loops(program)
         self.may_restart = not europa and is_order_invariant(program, self.plan, table, supports)
         self.agenda = Agenda(self.plan, table, self.filters, supports, europa, in_order, grounded(database))
+        relief = None if europa else Relief(self.plan, supports)
+        self.relief = relief if relief is not None and relief.is_possible else None
+        self.agenda.relief = self.relief
         self.stack = Decisions()
         self.analysis = ConflictAnalysis(self.agenda, self.stack)
         self.disjunctive = Disjunctive(self.agenda)
@@ -75,6 +84,7 @@ class Solver:
         self.is_exhausted = False
         self.is_started = False
         self.checks_overload = False  # energetic and disjunctive overload checks are on
+        self.is_partial = europa  # some resolver was never tried, so that to fail proves nothing
         self.is_dead_end = False  # no resolver of the decision that failed last can help
         self.failure_log: FailureLog | None = None  # for explanations: what was tried in vain
 
@@ -101,7 +111,11 @@ class Solver:
             self.check_overload()  # an overload needs no further reasons
         self.nogoods.clear()
         self.agenda.restarts.clear()
+        if self.relief is not None:
+            withdraw_refusals(self.plan)
+            self.plan.resources.relief = self.relief
         self.is_exhausted = not fire(self.plan)
+        self.plan.resources.relief = None
         if self.is_exhausted and self.failure_log is not None:
             self.failure_log.note_contradiction()
         rebuild(self.agenda)
@@ -110,6 +124,7 @@ class Solver:
         """Commit all decisions: the stack is empty, and nothing of it can be undone."""
         self.stack.clear()
         self.has_active = False
+        self.plan.resources.postponed.clear()
         self.is_started = False  # the next step, if there is one, refreshes
         commit(self.plan)
 
@@ -140,6 +155,16 @@ class Solver:
         """Make one decision, or try one resolver in vain."""
         if not self.is_started:
             self.refresh()
+        if self.relief is None:
+            return self._step()
+        # Only a search may postpone: whoever else changes the plan judges it as it is.
+        self.plan.resources.relief = self.relief
+        outcome = self._step()
+        self.plan.resources.relief = None
+        return outcome
+
+    def _step(self) -> int:
+        """Make one decision, or try one resolver in vain, with the judgement of levels postponed or not."""
         stack = self.stack
         agenda = self.agenda
         while not self.is_exhausted:
@@ -149,8 +174,12 @@ class Solver:
             if not self.has_active:
                 if d == 0:
                     agenda.dropped_count = 0  # nothing is undone behind the first decision
+                if self.relief is not None:
+                    self.relief.waiting = agenda.waiting_guards[d]
                 if not select(agenda):
-                    return PLAN
+                    if self.relief is None or self._holds():
+                        return PLAN
+                    return FAILED if d > 0 else EXHAUSTED
                 self._enter()
             agenda.probing = (
                 self.steps - self.steps_floor >= self.max_steps or stack.depth - self.depth_floor > self.max_depth
@@ -160,6 +189,7 @@ class Solver:
             if most == 0 or stack.tries[d] < most:
                 outcome = mend(agenda, stack, d)
             if outcome == NO_CHOICE:
+                self.is_partial = self.is_partial or self._left_some(d, most)
                 self._backjump(d, False)
                 continue
             if agenda.probing:
@@ -189,6 +219,28 @@ class Solver:
                 self._backjump(d, True)
             return FAILED
         return EXHAUSTED
+
+    def _holds(self) -> bool:
+        """Whether what was postponed holds now that nothing else is to be done; if not, the last decision is undone."""
+        if not self.plan.resources.postponed:
+            return True
+        self.plan.resources.relief = None
+        number = mark(self.plan)
+        holds = fire(self.plan)
+        d = self.stack.depth
+        if not holds and d > 0:
+            self.failures += 1
+            if self.failure_log is not None:
+                self.failure_log.note_failure(d - 1)
+            self.stack.reasons[d - 1] = EVERYTHING
+        if not holds and d == 0 and self.failure_log is not None:
+            self.failure_log.note_contradiction()
+        release(self.plan, number)
+        self.plan.resources.relief = self.relief
+        if not holds and d > 0:
+            self._retry(d - 1)
+        self.is_exhausted = not holds and d == 0
+        return holds
 
     def fail(self, d: int) -> int:
         """Conflict analysis of the resolver of decision `d` that has just failed."""
@@ -242,6 +294,18 @@ class Solver:
             for o in range(self.plan.object_count):
                 self.plan.resources.set_energetic(o, is_resource_managed(self.agenda, o))
         return 0
+
+    def _left_some(self, d: int, most: int) -> bool:
+        """Whether decision `d` has resolvers that were not tried: values of a float, or those that a handler omits."""
+        stack = self.stack
+        if most > 0 and stack.tries[d] >= most:
+            return True
+        if stack.kind[d] == UNBOUND_VARIABLE:
+            is_float = self.engine.kind[stack.item[d]] == KIND_FLOAT
+            return is_float or self.agenda.table.handler_code[stack.handler[d]] == HANDLER_LISTED
+        if stack.kind[d] == OPEN_CONDITION:
+            return self.agenda.table.handler_choice[stack.handler[d]] in (MERGE_ONLY, ACTIVATE_ONLY)
+        return False
 
     def _enter(self) -> int:
         """Open a decision about the flaw that was found."""

@@ -9,27 +9,18 @@ from importlib.metadata import EntryPoint, entry_points
 from pathlib import Path
 from types import ModuleType
 
+from nddl_lang.lint.python_module import LIST
 from nddl_lang.lint.settings import Settings
-from nddl_lang.semantics.callables import ENTRY_POINTS, NATIVE_CALLABLES, Callables, owner_of
-from nddl_lang.semantics.constraints import ConstraintRow, Origin
-from nddl_lang.semantics.functions import FunctionRow, ResultKind
-from nddl_lang.semantics.signature import Argument, ArgumentKind, Signature, signature
+from nddl_lang.semantics.callables import ENTRY_POINTS, NATIVE_CALLABLES, Callables
+from nddl_lang.semantics.constraints import ConstraintRow
+from nddl_lang.semantics.described import Description, DescriptionError, described
+from nddl_lang.semantics.described import row_of as described_row
 from runtime.user.constraint import Constraint
 from runtime.user.fault import UserCodeError, failed
 from runtime.user.limit import USUAL, WATCH, watched
 from runtime.user.written import has_test
 
-LIST = "CONSTRAINTS"
 NOT_LOADED = "cannot be loaded"
-KINDS = (
-    ArgumentKind.NUMBER,
-    ArgumentKind.BOOL,
-    ArgumentKind.STRING,
-    ArgumentKind.OBJECT,
-    ArgumentKind.ANY,
-    ArgumentKind.SAME,
-)
-RESULTS = {"float": ResultKind.FLOAT, "int": ResultKind.INT, "bool": ResultKind.BOOL}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -83,7 +74,7 @@ def load_library(
 
 def library_of(settings: Settings) -> Library:
     """The constraints that a project names in its settings, loaded once; raises UserCodeError as `load_library`."""
-    return _library(settings.modules, settings.seconds or USUAL)
+    return _library(tuple(each.path for each in settings.modules), settings.seconds or USUAL)
 
 
 @cache
@@ -142,71 +133,26 @@ def _note_texts(texts: dict[str, str], name: str, path: Path, constraints: Itera
 
 
 def _checked(found: list[tuple[str, Constraint]], texts: dict[str, str]) -> Library:
-    owners: dict[str, str] = {}
-    rows: list[ConstraintRow] = []
-    functions: list[FunctionRow] = []
-    for place, constraint in found:
-        name = constraint.name
-        if (owner := owner_of(name)) is not None:
-            raise UserCodeError(f"{place}: a constraint cannot be called `{name}`: that is {owner}")
-        if name in owners:
-            raise UserCodeError(f"{place}: there is a constraint `{name}` already, in {owners[name]}")
-        owners[name] = place
-        row = row_of(place, constraint)
-        rows.append(row)
-        if constraint.gives is not None:
-            functions.append(_function(place, constraint, row))
-    return Library(tuple(each for _, each in found), NATIVE_CALLABLES.extended(rows, functions), texts)
+    try:
+        callables = described(NATIVE_CALLABLES, [(place, _description(each)) for place, each in found])
+    except DescriptionError as problem:
+        raise UserCodeError(str(problem)) from None
+    for place, each in found:
+        row_of(place, each)
+    return Library(tuple(each for _, each in found), callables, texts)
 
 
 def row_of(place: str, constraint: Constraint) -> ConstraintRow:
     """What the language has to know of a constraint; raises UserCodeError where it is not well described."""
-    name = constraint.name
-
-    def complain(what: str) -> UserCodeError:
-        return UserCodeError(f"{place}: the constraint `{name}` {what}")
-
-    if not (isinstance(name, str) and name.isidentifier() and name.isascii()):
-        kind = type(constraint).__name__
-        raise UserCodeError(f"{place}: `{kind}` needs a `name` that can be written in a model, not {name!r}")
-    if not constraint.meaning:
-        raise complain("needs a sentence for its `meaning`")
     try:
-        described = signature(constraint.signature)
-    except KeyError:
-        kinds = ", ".join(kind.name.lower() for kind in KINDS)
-        raise complain(f'needs a `signature` such as "x:number y:number"; kinds are {kinds}') from None
-    places = _places(described)
-    if strange := next((each for each in places if each.kind not in KINDS), None):
-        raise complain(f"cannot have an argument of the kind {strange.kind.name.lower()} (`{strange.name}`)")
-    if not places:
-        raise complain("has no arguments")
-    if constraint.result is not None and not -1 <= constraint.result < len(places):
-        raise complain(f"has no argument {constraint.result} for a `result`")
+        row = described_row(place, _description(constraint))
+    except DescriptionError as problem:
+        raise UserCodeError(str(problem)) from None
     if type(constraint).propagate is Constraint.propagate and not has_test(constraint):
-        raise complain("has neither `propagate` nor `holds`")
-    return ConstraintRow(
-        name,
-        described,
-        constraint.result,
-        constraint.meaning,
-        Origin.USER,
-        forward_only=constraint.forward_only,
-        since=None,
-    )
+        raise UserCodeError(f"{place}: the constraint `{constraint.name}` has neither `propagate` nor `holds`")
+    return row
 
 
-def _places(described: Signature) -> list[Argument]:
-    rest = [] if described.rest is None else [described.rest]
-    return [*described.required, *described.optional, *rest]
-
-
-def _function(place: str, constraint: Constraint, row: ConstraintRow) -> FunctionRow:
-    result = RESULTS.get(str(constraint.gives))
-    if result is None or not row.signature.required:
-        what = f'gives {constraint.gives!r}; a function gives "float", "int" or "bool", as its first argument'
-        raise UserCodeError(f"{place}: the constraint `{constraint.name}` {what}")
-    inputs = Signature(row.signature.required[1:], row.signature.optional, row.signature.rest)
-    return FunctionRow(
-        constraint.name, inputs, result, constraint.name, constraint.meaning, Origin.USER, overlooks_rest=False
-    )
+def _description(each: Constraint) -> Description:
+    kind = type(each).__name__
+    return Description(kind, each.name, each.signature, each.meaning, each.result, each.forward_only, each.gives)

@@ -31,6 +31,9 @@ class PlanReport:
     named: frozenset[str]
     values: Sequence[tuple[str, str]]  # variables of the model that the search has narrowed
     was_consistent: bool  # before the search
+    is_complete: bool  # whether a search that found nothing tried all there is
+    is_europa: bool
+    goals: frozenset[str]  # what was asked for and may not be given up
     is_explained: bool
 
     @property
@@ -44,6 +47,11 @@ class PlanReport:
         tokens = self.plan.tokens
         shown = [each for each in tokens if each.name in self.named or each.state not in ("MERGED", "INACTIVE")]
         return sorted(shown, key=_times)
+
+    def beyond(self) -> list[str]:
+        """The goals that are not planned since they may lie outside the horizon."""
+        left = [each for each in self.plan.tokens if each.name in self.goals and each.state == "INACTIVE"]
+        return [each.name for each in left if not _is_within(each, self.limits)]
 
     def hidden_text(self) -> str:
         """How many tokens are not shown."""
@@ -109,7 +117,8 @@ def verdict(report: PlanReport) -> Iterator[str]:
     if report.result == "plan":
         own = [token for token in report.plan.tokens if token.name in report.named and not token.is_fact]
         left = [token for token in own if token.state == "INACTIVE" and token.parent is None]
-        beyond = [token.name for token in left if not _is_within(token, report.limits)]
+        beyond = report.beyond()
+        beyond += [token.name for token in left if not _is_within(token, report.limits) and token.name not in beyond]
         others = [token.name for token in left if _is_within(token, report.limits)]
         if beyond:
             where = f"may lie outside the horizon from {report.limits.start} to {report.limits.end}, see --horizon"
@@ -139,11 +148,17 @@ def _ending(report: PlanReport) -> str:
     force = f"{report.depth} decision{'' if report.depth == 1 else 's'} in force"
     match report.result:
         case "plan":
+            if left := len(report.beyond()):
+                return f"plan found after {count}, {force}, but {left} goal{'' if left == 1 else 's'} left out"
             return f"plan found after {count}, {force}"
         case "timeout":
             return f"no plan found yet: stopped after {count}, {force}"
         case "interrupted":
             return f"no plan found yet: interrupted after {count}, {force}"
+    if report.is_europa and not report.is_complete:
+        return f"EUROPA's search finds no plan: all its choices fail, after {count}; `--strategy nddlc` tries more"
+    if not report.is_complete:
+        return f"no plan found: all choices of this search fail, after {count}; it does not try all there are"
     if not report.was_consistent:
         return "no plan exists: the model contradicts itself before any decision"
     return f"no plan exists: all choices fail, after {count}"

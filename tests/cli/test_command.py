@@ -373,3 +373,14 @@ def test_what_may_not_be_touched_is_no_bug(words: list[str], said: str, tmp_path
 def test_a_name_that_is_too_long_is_no_bug(capsys: Captured) -> None:
     assert run(["lint", "a" * 300 + ".nddl"]) == 2
     assert "File name too long" in capsys.readouterr().err
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with names")
+def test_what_is_no_file_in_a_directory_is_left_out(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    os.mkfifo(tmp_path / "pipe.nddl")
+    (tmp_path / "loop.nddl").symlink_to("loop.nddl")
+    (tmp_path / "a.nddl").write_text("int a = 1;\nint b = c;\n", encoding="utf-8")
+    assert run(["lint", str(tmp_path)]) == 1
+    shown = capsys.readouterr()
+    assert f"left out `{tmp_path / 'pipe.nddl'}`: it is a pipe, not a file" in shown.err
+    assert "NDDL193" in shown.out and "NDDL201" in shown.out

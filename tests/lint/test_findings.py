@@ -19,8 +19,8 @@ ROOT = Path(__file__).resolve().parents[2]
 RULES = ROOT / "docs" / "rules"
 FIXTURES = Path(__file__).parent / "fixtures"
 PATHS = sorted(FIXTURES.rglob("*.nddl"))
-# Of settings, which are no text of a model: `test_configuration` shows them.
-OF_SETTINGS = {"NDDL595", "NDDL596", "NDDL597"}
+# Of settings, which are no text of a model: `test_configuration` and `test_trust` show them.
+OF_SETTINGS = {"NDDL595", "NDDL596", "NDDL597", "NDDL598", "NDDL599"}
 # It needs a second file: `test_an_include_beside_the_file` shows it.
 OF_FILES = {"NDDL573"}
 

@@ -27,7 +27,7 @@ PARTS = 4  # that may run side by side
 MUTATIONS = int(os.environ.get("NDDLC_FUZZ", "400"))
 DIALECTS = list(Dialect)
 
-TRIVIA = re.compile(r"(?:[ \t\r\n\f]++|//[^\n]*+|/\*.*?\*/)*+", re.DOTALL)
+TRIVIA = re.compile(r"(?:[ \t\r\n\f]++|//[^\n]*+|/\*.*?\*/)*", re.DOTALL)
 
 anything = st.one_of(
     st.text(),

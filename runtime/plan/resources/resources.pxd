@@ -14,7 +14,8 @@ cdef class Resources:
     cdef public Profile profile
     cdef public long long room, count, object_room, grounded_text
     cdef public long long pending
-    cdef public list free, refusals
+    cdef public list free, refusals, postponed
+    cdef public object relief
     cdef public long long[::1] token, sign, holder, quantity
     cdef public long long[::1] start, end, duration, on, start_low
     cdef public long long[::1] start_high, end_low, end_high, is_resource, is_energetic
@@ -54,6 +55,12 @@ cdef class Resources:
 
     @cython.locals(by_order=bint, is_tight=bint, o="long long")
     cpdef bint check(self, envelope, long long level) except -1
+
+    @cython.locals(wrong="long long")
+    cpdef bint _may_wait(self, long long o, long long is_low) except -1
+
+    @cython.locals(o="long long")
+    cpdef int resume(self) except -1
 
     @cython.locals(taken=list)
     cpdef list take_refusals(self)

@@ -5,12 +5,12 @@ are compared with those of the last check, so that going back in time needs no n
 """
 
 from math import inf
-from typing import Protocol
 
 from runtime.constraints.domains.arrays import blank, grown
 from runtime.constraints.domains.tags import SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
 from runtime.plan.resources.profile import Profile
+from runtime.plan.resources.protocols import OpenRelief, UseOrder
 from runtime.plan.resources.violation import Violation
 from runtime.plan.tags import (
     INITIAL,
@@ -28,19 +28,6 @@ from runtime.plan.tags import (
 )
 
 ROOM = 32
-
-
-class UseOrder(Protocol):
-    """The order of uses: what `envelope` knows beyond bounds of times."""
-
-    is_low: int
-    at: int
-
-    def find_certain(self, o: int) -> bool:
-        """Whether the order of uses makes certain what their times alone leave open."""
-
-    def note_orders(self, edges: list[int], read: list[int]) -> None:
-        """Add the edges and bounds by which it is certain."""
 
 
 class Resources:
@@ -78,6 +65,9 @@ class Resources:
         self.limit_steps: dict[int, list[tuple[int, float, float]]] = {}  # set_limit: the same of the level
         self.pending = 0
         self.refusals: list[int] = []
+        # A search may postpone the judgement of a level while there may be relief; it is then repeated at each check.
+        self.relief: OpenRelief | None = None
+        self.postponed: list[int] = []
 
     # ---- resources and uses ----
 
@@ -223,9 +213,30 @@ class Resources:
                     is_tight = is_tight and self.profile.overload() != 0
                     if not by_order and not is_tight:
                         continue
+                if self.relief is not None and self._may_wait(o, envelope.is_low if by_order else NONE):
+                    continue
                 self.changed[o] = 1
                 return self.refuse(o, level, envelope if by_order else None)
         return True
+
+    def _may_wait(self, o: int, is_low: int) -> bool:
+        """Whether the level of `o` is judged later, as something may relieve it; `is_low` NONE: the profile tells."""
+        wrong = self.profile.wrong
+        if is_low == NONE and wrong != TOO_LOW and wrong != TOO_HIGH:
+            return False
+        is_low = (1 if wrong == TOO_LOW else 0) if is_low == NONE else is_low
+        assert self.relief is not None
+        if not self.relief.may_come(o, 1 if is_low else -1):
+            return False
+        if o not in self.postponed:
+            self.postponed.append(o)
+        return True
+
+    def resume(self) -> None:
+        """Judge again what was postponed."""
+        for o in self.postponed:
+            self.changed[o] = 1
+        self.pending = 1
 
     def take_refusals(self) -> list[int]:
         """Give up the constraints that refused at level 0, as the reason may go."""

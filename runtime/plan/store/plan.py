@@ -5,7 +5,8 @@ from typing import Protocol
 
 from runtime.constraints.domains.arrays import blank, grown
 from runtime.constraints.engine import Engine
-from runtime.plan.resources.resources import Resources, UseOrder
+from runtime.plan.resources.protocols import UseOrder
+from runtime.plan.resources.resources import Resources
 from runtime.plan.store.rows import Rows
 from runtime.plan.tags import NONE
 

@@ -24,6 +24,7 @@ cdef class Agenda:
     cdef public HandlerTable table
     cdef public Filters filters
     cdef public Supports supports
+    cdef public object relief
     cdef public bint earliest, exact, probing
     cdef public Distances distances
     cdef public TimelineSequence sequence

@@ -14,6 +14,7 @@ from runtime.plan.tags import END, FLAG_GOAL, FREED, OBJECT, ROLE_TOKEN, START, 
 from runtime.solver.configuration.handler_table import HandlerTable
 from runtime.solver.flaws.filters import Filters
 from runtime.solver.flaws.guarding import guards_hold
+from runtime.solver.flaws.relief import Relief
 from runtime.solver.flaws.restarts import Restarts
 from runtime.solver.flaws.sequence import TimelineSequence
 from runtime.solver.flaws.supports import Supports
@@ -105,6 +106,7 @@ class Agenda:
         self.fired_scope = array("q", [NONE]) * 64  # guards that fired, by level: those of a level end at `fired_end`
         self.fired_end = array("q", [0]) * 64
         self.waiting_guards = array("q", [0]) * 64  # by level: how many have not fired
+        self.relief: Relief | None = None  # where open tokens may relieve a resource
 
     def reserve(self) -> int:
         """Make the tables as long as those of the plan and the engine."""

@@ -18,7 +18,7 @@ cpdef bint is_resource_managed(Agenda agenda, long long o) except -1
     at="long long", excess="double", handler="long long", is_mine=bint, is_rival=bint, low="long long",
     o="long long", priority="double", row="long long", takes_first=bint, uses=Uses
 )
-cpdef long long select_resource(Agenda agenda, long long manager) except? -1
+cpdef long long select_resource(Agenda agenda, long long manager, bint is_last) except? -1
 
 
 @cython.locals(t="long long", u="long long", uses=Resources)

@@ -25,8 +25,8 @@ def is_resource_managed(agenda: Agenda, o: int) -> bool:
     return False
 
 
-def select_resource(agenda: Agenda, manager: int) -> int:
-    """Compare the flaws of all resources with the best flaw so far.
+def select_resource(agenda: Agenda, manager: int, is_last: bool) -> int:
+    """Compare the flaws of all resources with the best flaw so far; `is_last`: those too that may be relieved.
 
     With `agenda.exact` the worst one by the manager's order, as EUROPA does. Otherwise the first one of the first
     resource: a precedence posted there is not undone by later ones.
@@ -48,6 +48,8 @@ def select_resource(agenda: Agenda, manager: int) -> int:
             continue
         takes_first = not agenda.exact or priority == BEST_PRIORITY or agenda.table.prefers_earliest[manager]
         if not (uses.first_flaw(o) if takes_first else uses.worst_flaw(o)):
+            continue
+        if not is_last and agenda.relief is not None and agenda.relief.may_come(o, 1 if uses.found_low else -1):
             continue
         is_rival = is_mine and priority == agenda.found_priority
         if is_rival and (not agenda.exact or not _is_better(agenda, manager, at, low, excess)):

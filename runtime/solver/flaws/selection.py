@@ -28,11 +28,15 @@ def select(agenda: Agenda) -> bool:
         if agenda.found_priority == BEST_PRIORITY:
             break
         if agenda.table.manager_kind[manager] == RESOURCE_THREAT:
-            select_resource(agenda, manager)
+            select_resource(agenda, manager, False)
             continue
         _select_from_heaps(agenda, manager)
         if agenda.dynamic_count:
             _select_dynamic(agenda, manager)
+    if agenda.found_item < 0 and agenda.relief is not None:
+        for manager in range(agenda.table.managers):
+            if agenda.table.manager_kind[manager] == RESOURCE_THREAT:
+                select_resource(agenda, manager, True)
     return agenda.found_item >= 0
 
 
