@@ -35,12 +35,9 @@ def blamed(findings: Findings) -> str:
 
 
 def rate_line(rate: Rate) -> str:
-    """The rate with its intervals."""
+    """The rate with its exact (Clopper-Pearson) interval."""
     level = number(rate.confidence * 100.0)
-    return (
-        f"failure rate {percent(rate.observed)}; {level} % interval {_interval(rate.exact)} (exact), "
-        f"{_interval(rate.wilson)} (Wilson)"
-    )
+    return f"failure rate {percent(rate.observed)}; exact {level} % interval {_interval(rate.exact)}"
 
 
 def decision(findings: Findings) -> str:
