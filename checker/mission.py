@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import cast
 
 from checker.codes import CYCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE
+from checker.losses import Limit
 from checker.mission_table import MissionText, Table
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.nearest import nearest
@@ -42,6 +43,7 @@ class CheckConfiguration:
     max_failure_rate: float = 0.0
     confidence: float = 0.95
     time_limit: float = 60.0  # seconds of wall time for one mission
+    limits: tuple[tuple[Limit, int], ...] = ()  # on what one mission may lose
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -112,6 +114,7 @@ def _read_check(table: Table) -> CheckConfiguration:
         max_failure_rate=table.number("max_failure_rate", default.max_failure_rate, 0.0, 1.0),
         confidence=table.number("confidence", default.confidence, 0.5, 0.999999),
         time_limit=table.number("time_limit", default.time_limit, 0.001),
+        limits=tuple((limit, most) for limit in Limit if (most := table.whole(limit.value, -1, 0)) >= 0),
     )
     if check.seed > LARGEST_SEED:
         table.complain_of_value("seed", check.seed, f"at most {LARGEST_SEED}")

@@ -12,6 +12,7 @@ from compiler.program import ParameterSite, Program
 from nddl_lang.analysis import Analysis, analyse_file
 from nddl_lang.semantics.callables import Callables
 from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.read import read_source
 from runtime.executive.configuration import AgentConfiguration
 from runtime.user.library import load_library
 
@@ -50,6 +51,8 @@ def load_models(mission: Mission) -> ModelSet:
         for source in analysis.loaded.sources
     }
     texts |= {each.file: (root / each.file).read_text(encoding="utf-8") for each in agent.coded if each.file}
+    solvers = dict.fromkeys(each.solver for each in agent.reactors if each.solver is not None)
+    texts |= {name: read_source(root / name).text for name in solvers}
     found: dict[tuple[str, int, str, str], Diagnostic] = {}
     for analysis in analyses.values():
         for one in analysis.diagnostics:

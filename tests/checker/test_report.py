@@ -8,8 +8,6 @@ from xml.etree import ElementTree
 
 import pytest
 
-from checker.batch.pool import fly_all
-from checker.batch.result import MissionResult
 from checker.campaign import Campaign
 from checker.excerpts import Excerpts
 from checker.findings import Findings
@@ -40,9 +38,8 @@ def campaign() -> Campaign:
 
 @pytest.fixture(scope="module")
 def findings(campaign: Campaign) -> Findings:
-    results: list[MissionResult] = []
-    agent, tasks = campaign.models.agent, [campaign.task(number) for number in range(1, 61)]
-    fly_all(load_split, agent, tasks, 1, 30.0, results.append)
+    sixty = replace(campaign.mission, check=replace(campaign.mission.check, missions=60))
+    results = list(replace(campaign, mission=sixty).fly(1, None).results)
     broken = Judgement(Verdict.ERROR, message="KeyError: <'x' & \x07>")
     results[2] = replace(results[2], judgement=broken, outcome=None, has_trace=False)
     return campaign.assess(tuple(results))
