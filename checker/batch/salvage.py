@@ -13,7 +13,7 @@ _MOST_MISSIONS = 10_000_000  # of one run that are looked for where its row does
 
 
 @dataclass(frozen=True, slots=True)
-class Damage:
+class StoreDamage:
     """What is wrong with a store. `missions` are damaged rows, `pages` what SQLite says of the file as a whole."""
 
     runs: int
@@ -27,7 +27,7 @@ class Damage:
         return not (self.missions or self.pages)
 
 
-def examine(path: Path) -> Damage:
+def examine(path: Path) -> StoreDamage:
     """Look at every page and every row; raises StoreError where the file is no store of this version."""
     with closing(_open(path)) as connection:
         pages = _integrity(connection)
@@ -39,10 +39,10 @@ def examine(path: Path) -> Damage:
                     whole += 1
                 else:
                     damaged.append((run.id, number))
-    return Damage(len(runs), whole, tuple(damaged), pages)
+    return StoreDamage(len(runs), whole, tuple(damaged), pages)
 
 
-def salvage(path: Path, target: Path) -> Damage:
+def salvage(path: Path, target: Path) -> StoreDamage:
     """Put what is whole of the store at `path` into a new one at `target`; the old one stays as it is."""
     found = examine(path)
     with closing(_open(path)) as connection, open_store(target) as store:

@@ -55,7 +55,7 @@ def _words(text: str) -> str:
 def _head(findings: Findings) -> list[str]:
     rate = findings.rate
     word = verdict_word(findings)
-    lost = f"; but: {words}" if (words := damage_words(findings.tally)) else ""
+    lost = f"; cost: {words}" if (words := damage_words(findings.tally)) else ""
     flown = str(len(findings.results)) if not findings.is_interrupted else f"{len(findings.results)}/{findings.planned}"
     tiles = [(flown, "missions flown"), (str(rate.failures), "failed"), (percent(rate.observed), "failure rate")]
     tiles.append((percent(rate.limit), "accepted"))

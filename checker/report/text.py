@@ -17,7 +17,7 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
     lost = damage_words(findings.tally)
     lines = [headline(findings), f"  {decision(findings)}"]
     if lost:
-        lines.append(f"  but: {lost}")
+        lines.append(f"  cost: {lost}")
     lines += [f"  {rate_line(findings.rate)}", f"  run {findings.run_id}, seed {findings.seed}"]
     lines += [f"  {line}" for line in loss_lines(findings.tally, excerpts)]
     lines += [f"  {parameter.name}: {describe(parameter)}" for parameter in findings.agent.parameters]
