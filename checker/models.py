@@ -4,9 +4,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from checker.influence import Influence, lines_of_influence
-from checker.mission import Mission
+from checker.mission import Mission, read_mission
 from checker.model_fit import complete, find_misfits, sampling_misfits
 from checker.names import relative_name
+from checker.role_fit import find_role_misfits
 from compiler.lower import compile_model
 from compiler.program import ParameterSite, Program
 from nddl_lang.analysis import Analysis, analyse_file
@@ -36,6 +37,12 @@ class ModelSet:
         return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
 
 
+def examine(path: Path) -> tuple[Diagnostic, ...]:
+    """All that is wrong with the mission file at `path` and its models; raises OSError if it cannot be read."""
+    mission, found = read_mission(path)
+    return found if mission is None else (*found, *load_models(mission).diagnostics)
+
+
 def load_models(mission: Mission) -> ModelSet:
     """Read all models of a mission; every mistake in them is reported, once.
 
@@ -62,6 +69,7 @@ def load_models(mission: Mission) -> ModelSet:
     programs = {model: compile_model(analysis) for model, analysis in analyses.items()}
     sites = _sites(programs)
     misfits = [*find_misfits(mission, programs), *sampling_misfits(mission, sites)]
+    misfits += find_role_misfits(mission, programs, library.constraints)
     completed = complete(mission, sites)
     return ModelSet(completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits))
 
