@@ -17,12 +17,15 @@ from checker.mission import LARGEST_SEED, Mission, read_mission
 from checker.models import load_models
 from checker.oracle import USER_CODE
 from checker.report.document import json_report
+from checker.report.github import github_report
 from checker.report.html import html_report
 from checker.report.junit import junit_report
+from checker.report.markdown import markdown_report
 from checker.report.sarif import sarif_report
 from checker.report.text import text_report
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.github import github_line
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
@@ -33,7 +36,7 @@ HOLDS, FINDINGS, UNUSABLE, BUG = 0, 1, 2, 3
 SIGNALLED = 128  # and the number of the signal: 130 for Ctrl-C, 143 for SIGTERM
 STORE = Path(".nddlc/runs.sqlite")
 REPORT = Path("nddlc-report")
-STYLES = ("text", "json", "html", "junit", "sarif")
+STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 
 
 @click.command()
@@ -136,10 +139,14 @@ def _overridden(mission: Mission, missions: int | None, seed: int | None, max_fa
 
 def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
     """Print diagnostics: as text, or as data for whoever asked for a format that programs read."""
-    if style != "text":
+    if style == "github":
+        for one in diagnostics:
+            click.echo(github_line(one))
+        return
+    if style not in ("text", "markdown"):
         click.echo(json.dumps({"diagnostics": [as_dict(one) for one in diagnostics]}, ensure_ascii=False, indent=1))
         return
-    colour = colours()
+    colour = colours() and style == "text"
     for one in diagnostics:
         click.echo(render(one, colour=colour))
     errors = sum(one.severity is Severity.ERROR for one in diagnostics)
@@ -168,7 +175,11 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path) ->
         raise Unusable(
             f"cannot write the report to `{output}`: {problem.strerror}", "--output names a folder"
         ) from None
-    if style == "text":
+    if style == "github":
+        click.echo(github_report(findings, excerpts), nl=False)
+    elif style == "markdown":
+        click.echo(markdown_report(findings, excerpts), nl=False)
+    elif style == "text":
         click.echo(text_report(findings, excerpts), nl=False)
         click.echo(f"\nreport: {output / 'report.html'} (beside it report.json, junit.xml, report.sarif)")
     else:

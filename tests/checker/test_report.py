@@ -16,8 +16,10 @@ from checker.models import load_models
 from checker.names import relative_name
 from checker.oracle import Judgement, Verdict
 from checker.report.document import json_report
+from checker.report.github import github_report
 from checker.report.html import html_report
 from checker.report.junit import junit_report
+from checker.report.markdown import markdown_report
 from checker.report.sarif import sarif_report
 from checker.report.svg import Axis
 from checker.report.text import text_report
@@ -122,3 +124,23 @@ def test_ticks_of_an_axis_are_round() -> None:
     assert Axis(0.0, 4.0, 0.0, 100.0).ticks() == [0.0, 1.0, 2.0, 3.0, 4.0]
     assert Axis(-0.3, 0.3, 0.0, 100.0).ticks() == [-0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3]
     assert Axis(2.0, 2.0, 0.0, 100.0).ticks()
+
+
+def test_github_marks_the_lines(findings: Findings) -> None:
+    lines = github_report(findings, Excerpts(ROOT)).splitlines()
+    assert all(re.fullmatch(r"::(error|warning|notice) [^:]*::.+", line) for line in lines)
+    assert lines[0].startswith("::error file=models/gps/rules.nddl,line=34,col=3,title=F1 an expected observation")
+    assert "fails when GPS_HIT_RATE > 3.8" in lines[0]
+    assert "KeyError" in lines[1]
+    assert lines[-1].startswith("::notice title=gps%3A 60 missions%2C 4 failed")
+
+
+def test_markdown_tells_verdict_faults_and_costs(findings: Findings) -> None:
+    page = markdown_report(findings, Excerpts(ROOT))
+    assert page.startswith("## gps: fails\n")
+    assert "| 60 | 4 | 6.78 % | 1 % | 1 |" in page
+    assert "models/gps/rules.nddl:34: duration <= SURFACE_MAX;" in page
+    assert "Fails when GPS\\_HIT\\_RATE &gt; 3.8" in page
+    assert "KeyError: &lt;'x' & \x07&gt;" in page
+    assert "* repairs of plans: 4; requests between reactors: 59" in page
+    assert "all of them optional" in page
