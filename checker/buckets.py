@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from checker.batch.result import MissionResult
 from checker.causes import Culprit, culprit_of
+from checker.losses import GoalFate, Limit, Repairs
 from checker.oracle import Judgement, Verdict
 from runtime.executive.outcome import OpenGoal
 
@@ -43,14 +44,34 @@ def bucket_key(result: MissionResult) -> Key:
     """What a failure is grouped by: its code and the culprit's place, or what it is about where there is none."""
     assert result.outcome is not None
     abort, reason = result.outcome.abort, result.judgement.reason
-    place = culprit_of(abort.conflict if abort else None).place
+    place = _culprit(result).place
     if place is not None:
         return (result.judgement.code, place.file, place.line, ())
     about = [abort.reactor if abort else ""]
+    if result.judgement.exceeded is not None:
+        about += _lost(result, result.judgement.exceeded.limit)
     if reason is not None:
         about += [reason.kind, reason.token.predicate if reason.token else "", reason.predicate, reason.timeline]
     goals = {f"{goal.timeline}.{goal.predicate}" for goal in result.open_goals}
     return (result.judgement.code, "", 0, (*about, *sorted(goals)))
+
+
+def _culprit(result: MissionResult) -> Culprit:
+    """The line to blame: of the conflict that ended the mission, or of what was repaired too often."""
+    abort = result.outcome.abort if result.outcome is not None else None
+    if abort is None and result.judgement.exceeded is not None and result.judgement.exceeded.limit is Limit.REPAIRS:
+        at: Repairs = max(result.losses.repairs, key=lambda one: one.count)
+        return Culprit(at=at.place)
+    return culprit_of(abort.conflict if abort else None)
+
+
+def _lost(result: MissionResult, limit: Limit) -> list[str]:
+    """What a mission lost more of than allowed: the goals that it gave up, with their reasons, or the requests."""
+    if limit is Limit.UNDELIVERED:
+        return sorted({f"{one.sender}.{one.timeline}.{one.predicate}" for one in result.losses.undelivered})
+    wanted = (GoalFate.LATE,) if limit is Limit.LATE else (GoalFate.LATE, GoalFate.REJECTED)
+    goals = [one for one in result.losses.goals if one.fate in wanted]
+    return [f"{one.number} {one.reason.kind if one.reason is not None else ''}" for one in goals]
 
 
 def group_failures(results: tuple[MissionResult, ...]) -> tuple[Bucket, ...]:
@@ -71,7 +92,7 @@ def _bucket(members: list[MissionResult], counted: int) -> Bucket:
     return Bucket(
         members[0].judgement,
         members[0].open_goals,
-        culprit_of(example.abort.conflict if example.abort else None),
+        _culprit(members[0]),
         example.abort.reactor if example.abort else "",
         tuple(member.number for member in members),
         round(len(members) / counted, 9),

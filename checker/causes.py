@@ -27,17 +27,18 @@ _MOST_EVENTS = 8  # of the way to the abort, the last ones
 class Culprit:
     """The element of a conflict where draw and model collide, and the lines that set what it compares with.
 
-    `number` is its index in the conflict, -1 where no element is written anywhere.
+    `number` is its index in the conflict, -1 where no element is written anywhere; then `at` may name a line.
     """
 
     number: int = -1
     element: ConflictElement | None = None
     limits: tuple[SourcePlace, ...] = ()
+    at: SourcePlace | None = None
 
     @property
     def place(self) -> SourcePlace | None:
         """The line to blame."""
-        return self.element.place if self.element is not None else None
+        return self.element.place if self.element is not None else self.at
 
 
 def culprit_of(conflict: Conflict | None) -> Culprit:

@@ -22,3 +22,18 @@ NO_RANGE = Code("NDDL715", Severity.ERROR, "domain", "the parameter `{name}` has
 NO_TIMELINE = Code("NDDL716", Severity.ERROR, "name", "the model `{model}` has no object `{timeline}`")
 NO_PREDICATE = Code("NDDL717", Severity.ERROR, "name", "`{class_name}` has no predicate `{predicate}`")
 NO_ARGUMENT = Code("NDDL718", Severity.ERROR, "name", "`{predicate}` has no parameter `{name}`")
+ILL_VALUE = Code("NDDL719", Severity.ERROR, "type", "`{name}` of `{predicate}` must be {wanted}, not {found}")
+OUT_OF_TIME = Code("NDDL720", Severity.ERROR, "domain", "this goal can never be achieved: {reason}")
+OTHER_ROLE = Code(
+    "NDDL721", Severity.ERROR, "rule", "`{timeline}` is {listed} here, and `{mode}` in the model `{model}`"
+)
+UNLISTED = Code(
+    "NDDL722",
+    Severity.WARNING,
+    "rule",
+    "`{timeline}` is `{mode}` in the model `{model}`, and not listed here",
+)
+NO_DEFAULT = Code(
+    "NDDL723", Severity.ERROR, "name", "`{timeline}` falls back to `{predicate}`, which `{class_name}` does not have"
+)
+NO_TEXT_FILE = Code("NDDL724", Severity.ERROR, "include", "`{path}` is {what}, not a file")

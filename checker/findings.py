@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 
 from checker.batch.result import MissionResult
 from checker.buckets import Bucket, group_failures
@@ -9,10 +10,20 @@ from checker.mission import Mission
 from checker.oracle import Verdict
 from checker.smt.confirm import Confirmation, confirm
 from checker.statistics import Rate, judge_rate
+from checker.tally import Tally, tally
 from checker.threshold import Refly, Threshold, find_thresholds
 from runtime.executive.configuration import AgentConfiguration
 
 _MOST_SHARPENED = 8  # buckets whose thresholds are sought by flying again; the rest must do with samples
+
+
+class Ending(StrEnum):
+    """Why no more missions were flown."""
+
+    COMPLETE = "complete"
+    SIGNAL = "signal"  # Ctrl-C, SIGTERM, a hang-up
+    SECONDS = "seconds"  # the time that was given is over
+    FAILURES = "failures"  # there are as many as were asked for
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +47,13 @@ class Findings:
     results: tuple[MissionResult, ...]
     rate: Rate
     faults: tuple[Fault, ...]
-    is_interrupted: bool
+    tally: Tally
+    ending: Ending
+
+    @property
+    def is_interrupted(self) -> bool:
+        """Whether a signal ended the run before its time."""
+        return self.ending is Ending.SIGNAL
 
     def count(self, verdict: Verdict) -> int:
         """How many missions ended so."""
@@ -62,7 +79,7 @@ def assess(
     results: Sequence[MissionResult],
     refly: Refly | None,
     *,
-    is_interrupted: bool = False,
+    ending: Ending = Ending.COMPLETE,
     focus: int | None = None,
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
@@ -78,7 +95,9 @@ def assess(
     for position, bucket in enumerate(group_failures(ordered)):
         is_wanted = position < _MOST_SHARPENED if focus is None else focus in bucket.missions
         faults.append(_fault(bucket, ordered, agent, refly if is_wanted else None))
-    return Findings(run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), is_interrupted)
+    return Findings(
+        run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending
+    )
 
 
 def _fault(bucket: Bucket, results: tuple[MissionResult, ...], agent: AgentConfiguration, refly: Refly | None) -> Fault:

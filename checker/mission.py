@@ -9,7 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
-from checker.codes import CYCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NOT_TOML, TWICE
+from checker.codes import CYCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_TOML, TWICE
+from checker.goal_fit import goals_out_of_time
+from checker.losses import Limit
 from checker.mission_table import MissionText, Table
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.nearest import nearest
@@ -42,6 +44,7 @@ class CheckConfiguration:
     max_failure_rate: float = 0.0
     confidence: float = 0.95
     time_limit: float = 60.0  # seconds of wall time for one mission
+    limits: tuple[tuple[Limit, int], ...] = ()  # on what one mission may lose
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -93,6 +96,7 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
     check = _read_check(top.table("check", "[check]"))
     head.close()
     top.close()
+    text.diagnostics += goals_out_of_time(agent, text)
     found = tuple(sorted(text.diagnostics, key=lambda diagnostic: diagnostic.span.begin))
     if any(diagnostic.severity is Severity.ERROR for diagnostic in found):
         return None, found
@@ -112,6 +116,7 @@ def _read_check(table: Table) -> CheckConfiguration:
         max_failure_rate=table.number("max_failure_rate", default.max_failure_rate, 0.0, 1.0),
         confidence=table.number("confidence", default.confidence, 0.5, 0.999999),
         time_limit=table.number("time_limit", default.time_limit, 0.001),
+        limits=tuple((limit, most) for limit in Limit if (most := table.whole(limit.value, -1, 0)) >= 0),
     )
     if check.seed > LARGEST_SEED:
         table.complain_of_value("seed", check.seed, f"at most {LARGEST_SEED}")
@@ -124,9 +129,7 @@ def _read_constraints(table: Table, root: Path) -> tuple[tuple[str, ...], float]
     seconds = table.number("time_limit", USUAL, 0.001)
     table.close()
     for index, file in enumerate(modules):
-        if not (root / file).is_file():
-            span = table.text.value_span((*table.path, "modules", index))
-            table.text.diagnostics.append(NO_FILE.at(span, path=file, help=_suggest_file(root, file)))
+        _look_at(table.text, (*table.path, "modules", index), root, file)
     return modules, seconds
 
 
@@ -186,9 +189,8 @@ def _read_reactors(
             else (("model", reactor.model), ("solver", reactor.solver))
         )
         for key, file in files:
-            if file and not (root / file).is_file():
-                span = table.text.value_span((*table.path, key))
-                table.text.diagnostics.append(NO_FILE.at(span, path=file, help=_suggest_file(root, file)))
+            if file:
+                _look_at(table.text, (*table.path, key), root, file)
         span = table.text.value_span((*table.path, "name"))
         if reactor.name in names:
             _complain_of_twin(table, span, "the reactor", reactor.name, names[reactor.name])
@@ -334,6 +336,20 @@ def _suggest(name: str, known: list[str]) -> str | None:
     if close:
         return f"did you mean `{close}`?"
     return "owned timelines: " + ", ".join(known) if known else None
+
+
+def _look_at(text: MissionText, key: tuple[str | int, ...], root: Path, file: str) -> None:
+    """Complain of a file that is not there, or is none."""
+    path, span = root / file, text.value_span(key)
+    try:
+        is_file, is_there, is_folder = path.is_file(), path.exists(), path.is_dir()
+    except (OSError, ValueError):  # no path can be so: a name with a zero byte, or one that is too long
+        is_file = is_there = is_folder = False
+    if is_there and not is_file:
+        what = "a directory" if is_folder else "a device or a pipe"
+        text.diagnostics.append(NO_TEXT_FILE.at(span, path=file, what=what, help="name a regular file"))
+    elif not is_file:
+        text.diagnostics.append(NO_FILE.at(span, path=file, help=_suggest_file(root, file)))
 
 
 def _suggest_file(root: Path, file: str) -> str | None:

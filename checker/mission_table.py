@@ -135,6 +135,9 @@ class Table:
             self._complain_of_type(key, value, "a pair [lower, upper] of numbers")
             return None
         lower, upper = value
+        if math.isnan(lower) or math.isnan(upper):
+            self.complain_of_value(key, f"[{lower}, {upper}]", "numbers at both ends")
+            return None
         if lower > upper:
             span = self.text.value_span((*self.path, key))
             self.text.diagnostics.append(

@@ -1,10 +1,21 @@
 """Hold a mission file against its models: timelines, goals and parameters that they do not have, ranges they give."""
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from checker.codes import NO_ARGUMENT, NO_PREDICATE, NO_RANGE, NO_TIMELINE, UNUSED_PARAMETER
+from checker.codes import (
+    ILL_DISTRIBUTION,
+    ILL_VALUE,
+    NO_ARGUMENT,
+    NO_PREDICATE,
+    NO_RANGE,
+    NO_TIMELINE,
+    UNUSED_PARAMETER,
+)
+from checker.goal_fit import strange_value
 from checker.mission import Mission
+from checker.mission_table import describe
 from compiler.program import DomainConstant, ParameterSite, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.nearest import nearest
@@ -41,16 +52,29 @@ def find_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[
             advice = _advice(goal.predicate, [*predicates], "predicates")
             yield NO_PREDICATE.at(span, class_name=class_name, predicate=goal.predicate, help=advice)
         else:
-            yield from _strange_arguments(mission, number, predicate)
+            yield from _strange_arguments(mission, number, predicate, owner)
 
 
-def _strange_arguments(mission: Mission, number: int, predicate: PredicateCode) -> Iterator[Diagnostic]:
-    known = [parameter.name for parameter in predicate.parameters]
-    for name, _ in mission.agent.goals[number].parameters:
+def _strange_arguments(
+    mission: Mission, number: int, predicate: PredicateCode, program: Program
+) -> Iterator[Diagnostic]:
+    known = {parameter.name: parameter for parameter in predicate.parameters}
+    for name, value in mission.agent.goals[number].parameters:
+        path = ("goal", number, "parameters", name)
         if name not in known:
-            span = mission.text.key_span(("goal", number, "parameters", name))
-            advice = _advice(name, known, "parameters")
+            span = mission.text.key_span(path)
+            advice = _advice(name, [*known], "parameters")
             yield NO_ARGUMENT.at(span, predicate=predicate.name, name=name, help=advice)
+            continue
+        strange = strange_value(known[name], value, program)
+        if strange is not None:
+            span = mission.text.value_span(path)
+            found = describe([*value] if isinstance(value, tuple) else value)
+            code = ILL_VALUE.at(
+                span, predicate=predicate.name, name=name, wanted=strange.wanted, found=found, help=strange.advice
+            )
+            declared = known[name].span
+            yield code if declared is None else replace(code, notes=(Note("declared here", declared),))
 
 
 def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> Iterator[Diagnostic]:
@@ -61,6 +85,9 @@ def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> It
         if site is None:
             advice = _advice(parameter.name, [*sites], "sampled parameters")
             yield UNUSED_PARAMETER.at(span, name=parameter.name, help=advice)
+        elif site.kind == "int" and (wrong := _fractions(parameter)):
+            notes = tuple(Note("sampled here", use) for use in site.uses[:1])
+            yield ILL_DISTRIBUTION.at(span, reason=f"the model samples whole numbers, and {wrong}", notes=notes)
         elif parameter.name in mission.needs_range and _bounds(site.default) is None:
             notes = tuple(Note("sampled here", use) for use in site.uses[:1])
             yield NO_RANGE.at(span, name=parameter.name, notes=notes)
@@ -69,6 +96,16 @@ def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> It
         if name not in listed and _bounds(site.default) is None:
             advice = f"write [parameters.{name}] with a `range` in {mission.source.name}"
             yield NO_RANGE.at(site.uses[0], name=name, help=advice)
+
+
+def _fractions(parameter: ParameterConfiguration) -> str:
+    """Why a whole number cannot be drawn so; empty where it can."""
+    strange = [value for value in parameter.values if value != int(value)]
+    if strange:
+        return f"{strange[0]:g} is none"
+    if not parameter.values and math.floor(parameter.upper) < math.ceil(parameter.lower):
+        return f"there is none from {parameter.lower:g} to {parameter.upper:g}"
+    return ""
 
 
 def complete(mission: Mission, sites: Mapping[str, ParameterSite]) -> AgentConfiguration:

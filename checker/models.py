@@ -4,14 +4,16 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from checker.influence import Influence, lines_of_influence
-from checker.mission import Mission
+from checker.mission import Mission, read_mission
 from checker.model_fit import complete, find_misfits, sampling_misfits
 from checker.names import relative_name
+from checker.role_fit import find_role_misfits
 from compiler.lower import compile_model
 from compiler.program import ParameterSite, Program
 from nddl_lang.analysis import Analysis, analyse_file
 from nddl_lang.semantics.callables import Callables
 from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.read import read_source
 from runtime.executive.configuration import AgentConfiguration
 from runtime.user.library import load_library
 
@@ -35,6 +37,12 @@ class ModelSet:
         return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
 
 
+def examine(path: Path) -> tuple[Diagnostic, ...]:
+    """All that is wrong with the mission file at `path` and its models; raises OSError if it cannot be read."""
+    mission, found = read_mission(path)
+    return found if mission is None else (*found, *load_models(mission).diagnostics)
+
+
 def load_models(mission: Mission) -> ModelSet:
     """Read all models of a mission; every mistake in them is reported, once.
 
@@ -50,6 +58,8 @@ def load_models(mission: Mission) -> ModelSet:
         for source in analysis.loaded.sources
     }
     texts |= {each.file: (root / each.file).read_text(encoding="utf-8") for each in agent.coded if each.file}
+    solvers = dict.fromkeys(each.solver for each in agent.reactors if each.solver is not None)
+    texts |= {name: read_source(root / name).text for name in solvers}
     found: dict[tuple[str, int, str, str], Diagnostic] = {}
     for analysis in analyses.values():
         for one in analysis.diagnostics:
@@ -59,6 +69,7 @@ def load_models(mission: Mission) -> ModelSet:
     programs = {model: compile_model(analysis) for model, analysis in analyses.items()}
     sites = _sites(programs)
     misfits = [*find_misfits(mission, programs), *sampling_misfits(mission, sites)]
+    misfits += find_role_misfits(mission, programs, library.constraints)
     completed = complete(mission, sites)
     return ModelSet(completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits))
 

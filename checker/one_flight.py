@@ -9,9 +9,10 @@ from typing import Any
 
 from checker.batch.identity import model_digest
 from checker.flight import fly_once, load_programs
+from checker.losses import losses_of
 from checker.mission import Mission
 from checker.models import ModelSet
-from checker.oracle import Judgement, judge
+from checker.oracle import Judgement, judge, judge_losses
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import trace_json
 
@@ -41,7 +42,8 @@ def fly(mission: Mission, models: ModelSet, settings: FlightSettings) -> Flight:
     """Fly the mission once, with the models as they are now."""
     load_programs.cache_clear()
     outcome = fly_once(models.agent, settings.seed, dict(settings.values), settings.until)
-    return Flight(settings, model_digest(models.texts), outcome, judge(outcome))
+    judged = judge_losses(judge(outcome), losses_of(outcome), mission.check.limits)
+    return Flight(settings, model_digest(models.texts), outcome, judged)
 
 
 def trace_text(flight: Flight, mission: Path, trace: Path) -> str:

@@ -7,11 +7,13 @@ stay open are class F10 of the failure taxonomy (reference of T-REX, 1.10 and 1.
 from dataclasses import dataclass
 from enum import Enum
 
+from checker.losses import Exceeded, Limit, Losses, exceeded
 from runtime.executive.outcome import EventKind, Outcome, Reason, ReasonKind
 
 GOALS_OPEN = "F10"
 NO_RECORD = "F7"
 BROKEN = "F11"
+LIMIT_CODES = {Limit.REJECTED: "L1", Limit.LATE: "L2", Limit.REPAIRS: "L3", Limit.UNDELIVERED: "L4"}
 USER_CODE = "USER"  # of an ERROR: a constraint that the project wrote in Python failed
 
 CODE_NAMES = {
@@ -26,6 +28,10 @@ CODE_NAMES = {
     "F9": "the model cannot hold, or its code failed",
     "F10": "the mission's time is over and a mandatory goal is open",
     "F11": "it ended well and did the wrong thing",
+    "L1": "more goals were given up than [check] allows",
+    "L2": "more goals were late than [check] allows",
+    "L3": "plans were repaired more often than [check] allows",
+    "L4": "more requests were not delivered than [check] allows",
 }
 
 
@@ -41,13 +47,14 @@ class Verdict(Enum):
 class Judgement:
     """A verdict; `code` names the class of failure and `reason` says why it failed, both empty for a PASS.
 
-    `message` is what the code said that failed in an ERROR.
+    `message` is what the code said that failed in an ERROR; `exceeded` the limit of [check] that was not kept.
     """
 
     verdict: Verdict
     code: str = ""
     reason: Reason | None = None
     message: str = ""
+    exceeded: Exceeded | None = None
 
 
 def judge(outcome: Outcome) -> Judgement:
@@ -65,3 +72,9 @@ def judge(outcome: Outcome) -> Judgement:
     if outcome.breaches:
         return Judgement(Verdict.FAIL, BROKEN, outcome.breaches[0])
     return Judgement(Verdict.PASS)
+
+
+def judge_losses(judgement: Judgement, losses: Losses, limits: tuple[tuple[Limit, int], ...]) -> Judgement:
+    """The judgement with the limits of [check] applied: a mission that passed fails where it lost more."""
+    over = exceeded(losses, limits) if judgement.verdict is Verdict.PASS else None
+    return judgement if over is None else Judgement(Verdict.FAIL, LIMIT_CODES[over.limit], exceeded=over)

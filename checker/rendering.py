@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import assert_never
 
 from checker.findings import Fault
+from checker.losses import Exceeded, Limit
 from checker.oracle import CODE_NAMES, Judgement
 from checker.sampling.wording import describe, number
 from checker.smt.confirm import Finding
@@ -20,6 +21,7 @@ from runtime.executive.outcome import (
     Event,
     EventKind,
     OpenGoal,
+    ReasonKind,
 )
 from runtime.executive.rendering import (
     choice_text,
@@ -37,14 +39,50 @@ _ORIGINS = {
     ElementKind.REQUEST: " (as asked for)",
     ElementKind.ORDER: " (by the order of tokens)",
 }
+_KINDS = {
+    ReasonKind.NO_LOOKAHEAD: "its owner does not look ahead",
+    ReasonKind.NO_OWNER: "nobody owns the timeline any more",
+    ReasonKind.UNKNOWN_PREDICATE: "the timeline has no such predicate",
+    ReasonKind.MISFIT: "its arguments do not fit",
+    ReasonKind.DROPPED: "dropped in a repair",
+    ReasonKind.REJECTED: "the planner found no place for it",
+    ReasonKind.CLOCK: "the plan did not allow it to be that late",
+    ReasonKind.GOES_ON: "a token went on longer than planned",
+    ReasonKind.ENDED: "a token ended when the plan did not allow it",
+    ReasonKind.CANNOT_GO_ON: "a token could not go on",
+    ReasonKind.CANNOT_START: "a token could not start",
+    ReasonKind.NONE_CAN_START: "no token could start",
+    ReasonKind.DID_NOT_START: "a token did not start in time",
+    ReasonKind.UNMET: "what was asked of the present could not be met",
+    ReasonKind.NO_PLACE: "no place for a token",
+    ReasonKind.NO_PLAN: "no plan inside the window",
+}
 
 
 def failure_text(judgement: Judgement, open_goals: Sequence[OpenGoal] = ()) -> str:
     """Why a mission failed, or could not be flown; empty for one that passed."""
+    if judgement.exceeded is not None:
+        return exceeded_text(judgement.exceeded)
     if judgement.reason is None:
         return judgement.message
     goals = ", ".join(goal_text(goal) for goal in open_goals)
     return reason_text(judgement.reason) + (f": {goals}" if goals else "")
+
+
+def exceeded_text(exceeded: Exceeded) -> str:
+    """A limit of [check] that a mission did not keep."""
+    what = {
+        Limit.REJECTED: "goals were given up",
+        Limit.LATE: "goals were late",
+        Limit.REPAIRS: "repairs of plans",
+        Limit.UNDELIVERED: "requests were not delivered",
+    }[exceeded.limit]
+    return f"{exceeded.found} {what}, and `{exceeded.limit.value}` is {exceeded.most}"
+
+
+def kind_text(kind: ReasonKind | None) -> str:
+    """What sort of reason it was, where reasons of one sort are counted together."""
+    return _KINDS.get(kind, kind.value) if kind is not None else "for no known reason"
 
 
 def step_text(step: Step, story: Story) -> str:

@@ -1,4 +1,4 @@
-"""Count of failures in, intervals for the failure rate out, and the decision against a limit.
+"""Count of failures in, an exact interval for the failure rate out, and the decision against a limit.
 
 Only ordinary missions count; those that ended in an ERROR of the tool say nothing about the model.
 """
@@ -6,8 +6,6 @@ Only ordinary missions count; those that ended in an ERROR of the tool say nothi
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-
-from runtime.executive.normal import normal_quantile
 
 _DIGITS = 9  # to which intervals are rounded, so that the last bits of `lgamma` reach no report
 Interval = tuple[float, float]
@@ -25,7 +23,6 @@ class Rate:
     missions: int
     observed: float
     confidence: float
-    wilson: Interval
     exact: Interval
     limit: float
     exceeds: bool
@@ -35,29 +32,17 @@ class Rate:
 def judge_rate(failures: int, missions: int, limit: float, confidence: float) -> Rate:
     """Estimate a failure rate and compare it with what is accepted."""
     observed = failures / missions if missions else 0.0
-    wilson = wilson_interval(failures, missions, confidence)
     exact = exact_interval(failures, missions, confidence)
     exceeds = observed > limit
     is_certain = exact[0] > limit if exceeds else exact[1] <= limit
-    return Rate(failures, missions, round(observed, _DIGITS), confidence, wilson, exact, limit, exceeds, is_certain)
-
-
-def wilson_interval(failures: int, missions: int, confidence: float) -> Interval:
-    """Wilson's score interval (Wilson 1927): near its nominal confidence even for few failures."""
-    if missions == 0:
-        return (0.0, 1.0)
-    z = normal_quantile((1.0 + confidence) / 2.0)
-    share = failures / missions
-    spread = z * math.sqrt(share * (1.0 - share) / missions + z * z / (4.0 * missions * missions))
-    centre = share + z * z / (2.0 * missions)
-    scale = 1.0 + z * z / missions
-    lower = 0.0 if failures == 0 else max(0.0, (centre - spread) / scale)
-    upper = 1.0 if failures == missions else min(1.0, (centre + spread) / scale)
-    return (round(lower, _DIGITS), round(upper, _DIGITS))
+    return Rate(failures, missions, round(observed, _DIGITS), confidence, exact, limit, exceeds, is_certain)
 
 
 def exact_interval(failures: int, missions: int, confidence: float) -> Interval:
-    """Clopper and Pearson's interval (1934): never below its nominal confidence."""
+    """Clopper and Pearson's interval (1934): never below its nominal confidence.
+
+    That holds for a given number of missions, and for a batch that ends with its k-th failure (docs/mission.md).
+    """
     if missions == 0:
         return (0.0, 1.0)
     tail = (1.0 - confidence) / 2.0

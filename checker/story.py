@@ -7,6 +7,7 @@ from checker.batch.result import MissionResult
 from checker.causes import culprit_of, draws_behind, events_to_abort, in_telling_order
 from checker.findings import Fault
 from checker.influence import Influence
+from checker.losses import Limit
 from checker.oracle import Judgement
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.outcome import (
@@ -21,6 +22,8 @@ from runtime.executive.outcome import (
     Outcome,
     SourcePlace,
 )
+
+_MOST_LOST = 12  # events that are told of a mission that lost too much
 
 
 class StepKind(StrEnum):
@@ -76,6 +79,8 @@ def tell(result: MissionResult, agent: AgentConfiguration, influence: Influence,
     if draws:
         way = [event for event in way if event.kind is not EventKind.SAMPLE]
     abort = outcome.abort
+    if result.judgement.exceeded is not None:
+        way = _lost(outcome, result.judgement.exceeded.limit)
     steps = [
         *draws,
         *(Step(StepKind.EVENT, event.tick, event) for event in way),
@@ -93,6 +98,16 @@ def tell(result: MissionResult, agent: AgentConfiguration, influence: Influence,
         tuple(_without_repeats(steps)),
         fault,
     )
+
+
+def _lost(outcome: Outcome, limit: Limit) -> list[Event]:
+    """The events in which a mission lost more than it may, the first ones."""
+    wanted = (EventKind.RELAX,) if limit is Limit.REPAIRS else (EventKind.REFUSE, EventKind.REJECT)
+    is_about_goals = limit in (Limit.REJECTED, Limit.LATE)
+    found = [event for event in outcome.events if event.kind in wanted]
+    if limit is not Limit.REPAIRS:
+        found = [one for one in found if (one.request is not None and one.request < 0) == is_about_goals]
+    return found[:_MOST_LOST]
 
 
 def _suspects(outcome: Outcome, fault: Fault | None) -> tuple[str, ...]:

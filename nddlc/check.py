@@ -2,36 +2,41 @@
 
 import json
 import os
-import sys
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
 import click
 
 from checker.batch.store import StoreError, open_store
-from checker.campaign import Campaign
+from checker.campaign import Campaign, Enough
 from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.flight import load
 from checker.mission import LARGEST_SEED, Mission, read_mission
 from checker.oracle import USER_CODE
 from checker.report.document import json_report
+from checker.report.github import github_report
 from checker.report.html import html_report
 from checker.report.junit import junit_report
+from checker.report.markdown import markdown_report
 from checker.report.sarif import sarif_report
 from checker.report.text import text_report
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.github import github_line
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
 from nddlc.known import known_callables
+from nddlc.progress import Display
 from nddlc.trust import models_of, trust_option
 
-HOLDS, FINDINGS, UNUSABLE, BUG, INTERRUPTED = 0, 1, 2, 3, 130
+HOLDS, FINDINGS, UNUSABLE, BUG = 0, 1, 2, 3
+SIGNALLED = 128  # and the number of the signal: 130 for Ctrl-C, 143 for SIGTERM
 STORE = Path(".nddlc/runs.sqlite")
 REPORT = Path("nddlc-report")
-STYLES = ("text", "json", "html", "junit", "sarif")
+STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 
 
 @click.command()
@@ -44,7 +49,11 @@ STYLES = ("text", "json", "html", "junit", "sarif")
 @click.option("--output", type=click.Path(path_type=Path), default=REPORT, help="Where reports go (./nddlc-report).")
 @click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where runs are kept.")
 @click.option("--no-store", is_flag=True, help="Keep nothing but the report.")
-@click.option("--resume", is_flag=True, help="Fly only what the same run has not finished before.")
+@click.option("--fresh", is_flag=True, help="Fly all missions again, also those that the store has of this run.")
+@click.option("--resume", is_flag=True, hidden=True, help="What is done without --fresh.")
+@click.option("--seconds", type=click.FloatRange(0.0, min_open=True), help="End when so much time is over.")
+@click.option("--max-failures", type=click.IntRange(1), help="End when so many missions have failed.")
+@click.option("--dry-run", is_flag=True, help="Only look whether mission file and models are in order.")
 @trust_option
 @click.pass_context
 def command(
@@ -58,14 +67,21 @@ def command(
     output: Path,
     store_path: Path,
     no_store: bool,
+    fresh: bool,
     resume: bool,
     is_trusted: bool,
+    seconds: float | None,
+    max_failures: int | None,
+    dry_run: bool,
 ) -> int:
     """Check a model by flying many missions, or check the text of one model.
 
     PATH is a mission file (.toml): its models are checked first, then its missions are flown. Ends with 0 if not too
-    many missions fail, with 1 if too many do. If PATH is a model (.nddl), only its text is checked.
+    many missions fail, with 1 if too many do. If PATH is a model (.nddl), only its text is checked. What is finished
+    is stored, and a run that was ended before its time goes on from there.
     """
+    if fresh and resume:
+        raise Unusable("--fresh flies everything again, --resume only what is missing", "leave one of them out")
     (file,) = readable((path,), ())
     if file.suffix == ".nddl":
         settings = configured(file)
@@ -78,18 +94,21 @@ def command(
     campaign = _prepare(file, missions, seed, max_failure_rate, style, is_trusted)
     if campaign is None:
         return UNUSABLE
-    count = workers or _cores()
+    if dry_run:
+        if style == "text":
+            click.echo(f"`{path}` and its models are in order; nothing was flown")
+        return HOLDS
+    count, enough = workers or _cores(), Enough(seconds, max_failures)
     try:
-        if no_store:
-            results, is_interrupted = campaign.fly(count, None, resume=False, progress=_progress)
-        else:
-            with open_store(store_path) as store:
-                results, is_interrupted = campaign.fly(count, store, resume=resume, progress=_progress)
+        with ExitStack() as stack:
+            store = None if no_store else stack.enter_context(open_store(store_path))
+            show = stack.enter_context(Display(campaign.mission.check.confidence))
+            flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show)
     except StoreError as problem:
-        raise Unusable(str(problem), "--store names another one, --no-store does without") from None
-    _progress(0, 0)
-    findings = campaign.assess(results, is_interrupted=is_interrupted)
-    return _report(campaign, findings, style, output)
+        raise Unusable(str(problem), problem.advice) from None
+    findings = campaign.assess(flown.results, ending=flown.ending)
+    code = _report(campaign, findings, style, output)
+    return code if flown.ended_by is None else SIGNALLED + flown.ended_by
 
 
 def _prepare(
@@ -129,10 +148,14 @@ def _overridden(mission: Mission, missions: int | None, seed: int | None, max_fa
 
 def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
     """Print diagnostics: as text, or as data for whoever asked for a format that programs read."""
-    if style != "text":
+    if style == "github":
+        for one in diagnostics:
+            click.echo(github_line(one))
+        return
+    if style not in ("text", "markdown"):
         click.echo(json.dumps({"diagnostics": [as_dict(one) for one in diagnostics]}, ensure_ascii=False, indent=1))
         return
-    colour = colours()
+    colour = colours() and style == "text"
     for one in diagnostics:
         click.echo(render(one, colour=colour))
     errors = sum(one.severity is Severity.ERROR for one in diagnostics)
@@ -143,12 +166,6 @@ def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
 def _cores() -> int:
     """How many cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-def _progress(done: int, planned: int) -> None:
-    """A line that counts, on a terminal only; wiped out where nothing is planned."""
-    if sys.stderr.isatty():
-        click.echo(f"\r{done} of {planned} missions" if planned else "\r\x1b[K", nl=False, err=True)
 
 
 def _report(campaign: Campaign, findings: Findings, style: str, output: Path) -> int:
@@ -167,13 +184,15 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path) ->
         raise Unusable(
             f"cannot write the report to `{output}`: {problem.strerror}", "--output names a folder"
         ) from None
-    if style == "text":
+    if style == "github":
+        click.echo(github_report(findings, excerpts), nl=False)
+    elif style == "markdown":
+        click.echo(markdown_report(findings, excerpts), nl=False)
+    elif style == "text":
         click.echo(text_report(findings, excerpts), nl=False)
         click.echo(f"\nreport: {output / 'report.html'} (beside it report.json, junit.xml, report.sarif)")
     else:
         click.echo(reports[style][1], nl=False)
-    if findings.is_interrupted:
-        return INTERRUPTED
     if findings.rate.exceeds:
         return FINDINGS
     if any(result.judgement.code != USER_CODE for result in findings.errors):

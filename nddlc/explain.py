@@ -44,7 +44,7 @@ def command(what: str, style: str, store_path: Path, events: bool, is_trusted: b
         with open_store(store_path) as store:
             return _explain(store, name or LATEST, int(number) if number else None, style, events, is_trusted)
     except StoreError as problem:
-        raise Unusable(str(problem)) from None
+        raise Unusable(str(problem), problem.advice) from None
 
 
 def _explain(store: RunStore, name: str, number: int | None, style: str, events: bool, is_trusted: bool) -> int:
@@ -53,7 +53,7 @@ def _explain(store: RunStore, name: str, number: int | None, style: str, events:
         known = ", ".join(store.run_ids()[:10])
         raise Unusable(f"no single run is named `{name}`", f"runs in the store: {known or 'none'}")
     campaign, is_same = _campaign(run, is_trusted)
-    results = tuple(store.results(run.id))
+    results = tuple(campaign.judged(one) for one in store.results(run.id))
     first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
     findings = campaign.assess(results, may_fly=is_same, focus=first)
     findings = replace(findings, run_id=run.id)
@@ -110,4 +110,4 @@ def _result(run: Run, number: int | None, campaign: Campaign, findings: Findings
         return stored
     if not is_same:
         raise Unusable(f"mission {number} of run {run.id} was not flown, and the model or nddlc has changed since")
-    return fly_one(load(campaign.models.agent), campaign.task(number), keep_trace=True)
+    return campaign.judged(fly_one(load(campaign.models.agent), campaign.task(number), keep_trace=True))

@@ -20,10 +20,12 @@ from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.sarif import sarif_of
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, parts_in, write_text
 from nddlc.known import known_callables
+from nddlc.main import named
 
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
 _LEVELS = [severity.value for severity in Severity]
 _STYLES = ["text", "json", "sarif", "github", "junit"]
+_MISSION = ".toml"
 
 
 @click.command()
@@ -57,7 +59,8 @@ def command(
 ) -> int:
     """Report everything that is wrong with models.
 
-    FILE is a model, or a directory with models; of those, files that others include are looked at as parts of them.
+    FILE is a model, a mission file (.toml), or a directory with models; of those, files that others include are
+    looked at as parts of them.
     Errors stop a model, warnings are very likely mistakes, remarks are worth a look. Settings stand in nddlc.toml or
     in [tool.nddlc] of pyproject.toml, upwards from each file. Ends with 0 if nothing weighs as much as --fail-on,
     with 1 otherwise.
@@ -76,11 +79,11 @@ def command(
     mended = 0
     for path in paths:
         settings, gaps = _settings(path, codes, fail_on, is_trusted)
-        if fix or unsafe_fixes or only_show:
+        if (fix or unsafe_fixes or only_show) and path.suffix != _MISSION:
             mended += _mend(checker, path, settings, only_show=only_show, unsafe=unsafe_fixes, is_text=style == "text")
             if only_show:
                 continue
-        checked.append((settings, (*settings.choose(gaps), *checker.check(path, settings))))
+        checked.append((settings, (*settings.choose(gaps), *_check(checker, path, settings))))
     for settings, findings in checked:
         for each in findings:
             key = (each.span.source.name, each.span.begin, each.code.id, each.message)
@@ -93,6 +96,14 @@ def command(
         return int(mended > 0)
     _tell(found, [str(path) for path in paths], style, mended, statistics)
     return int(has_failed)
+
+
+def _check(checker: Checker, path: Path, settings: Settings) -> tuple[Diagnostic, ...]:
+    """All that is wrong with a model, or with a mission file and the models that it names."""
+    if path.suffix != _MISSION:
+        return checker.check(path, settings)
+    found: tuple[Diagnostic, ...] = named("checker.models:examine")(path)
+    return tuple(settings.choose(found))
 
 
 def _codes(given: tuple[str, ...], option: str) -> Iterator[str]:

@@ -30,6 +30,7 @@ COMMANDS = {
     "gold": ("nddlc.gold", "Compare a mission with how it was accepted to be."),
     "check": ("nddlc.check", "Fly the missions of a mission file, and say what fails and why."),
     "explain": ("nddlc.explain", "Explain why one mission of a run failed."),
+    "store": ("nddlc.store", "Look whether a store of runs is whole, and salvage a damaged one."),
     "validate": ("nddlc.validate", "Judge a mission, a record, a trace or a plan against the model."),
     "lsp": ("nddlc.lsp", "Serve an editor over standard input and output."),
     "rule": ("nddlc.rule", "Explain a code that a message carries."),

@@ -11,7 +11,7 @@ from runtime.executive.configuration import AgentConfiguration
 
 _ID_LENGTH = 8
 ROOT = Path(__file__).resolve().parents[2]
-ENGINE = ("nddl_lang", "compiler", "runtime")
+ENGINE = ("nddl_lang", "compiler", "runtime", "checker")
 
 
 def model_digest(sources: Mapping[str, str]) -> str:
@@ -22,7 +22,7 @@ def model_digest(sources: Mapping[str, str]) -> str:
 
 @cache
 def engine_digest() -> str:
-    """The SHA-256 of the sources that models are read, compiled and run by; the same in whichever form they run."""
+    """The SHA-256 of the sources that read, compile, run and judge models; the same in whichever form they run."""
     content = hashlib.sha256()
     for folder in ENGINE:
         for path in sorted((ROOT / folder).rglob("*.py")):

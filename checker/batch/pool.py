@@ -1,7 +1,8 @@
 """Fly missions on worker processes: tasks in, results out as they come, whatever happens to a worker.
 
-A worker that dies or overruns costs exactly the mission it was flying; the rest of its chunk goes to others. Ctrl-C
-ends the batch at once and keeps what is finished. The order in which results come may vary; their content does not.
+A worker that dies or overruns costs exactly the mission it was flying; the rest of its chunk goes to others. Ctrl-C,
+SIGTERM and a hang-up end the batch at once and keep what is finished. The order in which results come may vary; their
+content does not.
 """
 
 import contextlib
@@ -11,10 +12,11 @@ import signal
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from types import FrameType
+from typing import Protocol
 
 from checker.batch.result import MissionResult
 from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result, work
@@ -26,6 +28,18 @@ _LARGEST_CHUNK = 16
 _SAFE_PATH = "PYTHONSAFEPATH"
 _START_LIMIT = 120.0  # seconds for a worker to load the models
 _FAILED_STARTS = 3  # workers in a row that may die before they are ready
+_MOST_QUIET = 0.25  # seconds without a look at the clock
+ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+
+
+class Supervisor(Protocol):
+    """Takes the results of a batch, and says when there are enough."""
+
+    def take(self, result: MissionResult) -> None:
+        """Have one more result."""
+
+    def is_enough(self) -> bool:
+        """Asked after results, and several times a second: whether to end the batch now."""
 
 
 class WorkerError(Exception):
@@ -38,15 +52,15 @@ def fly_all(
     tasks: Sequence[Task],
     workers: int,
     time_limit: float,
-    take: Callable[[MissionResult], None],
-) -> bool:
-    """Fly `tasks` and give each result to `take`; tell whether Ctrl-C ended the batch before all were flown."""
+    supervisor: Supervisor,
+) -> signal.Signals | None:
+    """Fly `tasks` and give each result to `supervisor`; the signal that ended the batch before all were flown."""
     if not tasks:
-        return False
-    with _interrupt_pipe() as interrupted:
-        pool = _Pool(load, agent, tasks, min(workers, len(tasks)), time_limit, take)
+        return None
+    with _signal_pipe() as signalled:
+        pool = _Pool(load, agent, tasks, min(workers, len(tasks)), time_limit, supervisor)
         try:
-            return pool.run(interrupted)
+            return pool.run(signalled)
         finally:
             pool.stop()
 
@@ -106,7 +120,7 @@ class _Worker:
         context = multiprocessing.get_context("spawn")
         self.connection, other = context.Pipe()
         self.process: BaseProcess = context.Process(target=work, args=(other, load, agent), daemon=True)
-        with _interrupts_held_back(), _safe_path():
+        with _signals_held_back(), _safe_path():
             self.process.start()
         other.close()
         self.owed: deque[Task] = deque()
@@ -133,29 +147,29 @@ class _Pool:
         tasks: Sequence[Task],
         workers: int,
         time_limit: float,
-        take: Callable[[MissionResult], None],
+        supervisor: Supervisor,
     ) -> None:
-        self.load, self.agent, self.time_limit, self.take = load, agent, time_limit, take
+        self.load, self.agent, self.time_limit, self.supervisor = load, agent, time_limit, supervisor
         self.waiting = deque(tasks)
         self.missing = len(tasks)
         self.chunk = max(1, min(_LARGEST_CHUNK, len(tasks) // (workers * 4)))
         self.failed_starts = 0
         self.workers = [_Worker(load, agent) for _ in range(workers)]
 
-    def run(self, interrupted: int) -> bool:
-        """Serve workers until every task has its result; True as soon as `interrupted` is readable."""
-        while self.missing:
+    def run(self, signalled: int) -> signal.Signals | None:
+        """Serve workers until every task has its result, or there are enough; a signal ends that at once."""
+        while self.missing and not self.supervisor.is_enough():
             ends: list[Connection | int] = [worker.connection for worker in self.workers]
             soonest = min(worker.deadline for worker in self.workers if worker.owed or not worker.is_ready)
-            ready = wait([*ends, interrupted], max(0.0, soonest - time.monotonic()))
+            ready = wait([*ends, signalled], min(_MOST_QUIET, max(0.0, soonest - time.monotonic())))
+            if signalled in ready:
+                return signal.Signals(os.read(signalled, 1)[0])
             for worker in list(self.workers):
                 if worker.connection in ready:
                     self._listen(worker)
                 elif time.monotonic() > worker.deadline and (worker.owed or not worker.is_ready):
                     self._lose(worker, f"took longer than {self.time_limit:g} s")
-            if interrupted in ready:
-                return self.missing > 0
-        return False
+        return None
 
     def stop(self) -> None:
         """End every worker; idle ones have nothing to lose, busy ones are not waited for."""
@@ -180,7 +194,7 @@ class _Pool:
                 else:
                     worker.owed.popleft()
                     self.missing -= 1
-                    self.take(message)
+                    self.supervisor.take(message)
                 worker.deadline = time.monotonic() + self.time_limit
                 if not worker.owed:
                     self._feed(worker)
@@ -198,7 +212,7 @@ class _Pool:
         worker.kill()
         if worker.owed:
             self.missing -= 1
-            self.take(error_result(worker.owed.popleft(), reason, code=code))
+            self.supervisor.take(error_result(worker.owed.popleft(), reason, code=code))
         elif not worker.is_ready:
             self.failed_starts += 1
             if self.failed_starts >= _FAILED_STARTS:
@@ -217,18 +231,21 @@ def _unloaded(failure: LoadFailure) -> Exception:
 
 
 def _fate(exit_code: int | None) -> str:
-    if exit_code is not None and exit_code < 0:
+    if exit_code is None or exit_code >= 0:
+        return f"exit code {exit_code}"
+    try:
         return f"signal {signal.Signals(-exit_code).name}"
-    return f"exit code {exit_code}"
+    except ValueError:  # real-time signals but the first and the last have no names
+        return f"signal {-exit_code}"
 
 
 @contextlib.contextmanager
-def _interrupts_held_back() -> Iterator[None]:
-    """Hold Ctrl-C back: a process started in here is born with it blocked, and so never prints a traceback for it."""
+def _signals_held_back() -> Iterator[None]:
+    """Hold back what ends a batch: a process started in here is born with it blocked, and so never dies of it."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
     try:
         yield
     finally:
@@ -250,22 +267,25 @@ def _safe_path() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _interrupt_pipe() -> Iterator[int]:
-    """A file descriptor that is readable once Ctrl-C was pressed; the first press raises nothing, a second one does."""
+def _signal_pipe() -> Iterator[int]:
+    """A file descriptor from which a signal that ends the batch can be read; the second one does what it always did."""
     reading, writing = os.pipe()
     is_main = threading.current_thread() is threading.main_thread()
-    before = signal.getsignal(signal.SIGINT)
+    before = {number: signal.getsignal(number) for number in ENDING}
 
-    def note(_number: int, _frame: FrameType | None) -> None:
-        os.write(writing, b"!")
-        signal.signal(signal.SIGINT, before)
+    def note(number: int, _frame: FrameType | None) -> None:
+        os.write(writing, bytes((number,)))
+        signal.signal(number, before[number])
 
     if is_main:
-        signal.signal(signal.SIGINT, note)
+        for number in ENDING:
+            if number != getattr(signal, "SIGHUP", None) or before[number] is not signal.SIG_IGN:  # nohup
+                signal.signal(number, note)
     try:
         yield reading
     finally:
         if is_main:
-            signal.signal(signal.SIGINT, before)
+            for number in ENDING:
+                signal.signal(number, before[number])
         os.close(reading)
         os.close(writing)

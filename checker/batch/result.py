@@ -8,6 +8,7 @@ from itertools import repeat
 from types import UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
+from checker.losses import NO_LOSSES, Losses
 from checker.oracle import Judgement, Verdict
 from runtime.executive.outcome import Draw, OpenGoal, Outcome
 
@@ -26,6 +27,7 @@ class MissionResult:
     outcome: Outcome | None
     has_trace: bool
     detail: str = ""
+    losses: Losses = NO_LOSSES
 
     @property
     def verdict(self) -> Verdict:

@@ -1,18 +1,28 @@
-"""Keep runs and their missions in an SQLite file, transactionally, so that a batch can be resumed and explained."""
+"""Keep runs and their missions in an SQLite file, transactionally, so that a batch can be resumed and explained.
 
+Each row carries a checksum; a store carries the mark of nddlc and the version of its format. Whatever is wrong with a
+store is a `StoreError` that says what to do about it.
+"""
+
+import os
 import sqlite3
+import time
+import zlib
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+from checker.batch.lock import Locks
 from checker.batch.result import MissionResult, read_result, write_result
 from checker.oracle import Verdict
 
 LATEST = "latest"
 FOLDER = ".nddlc"
-_COMMIT_EVERY = 64  # results
-_VERSION = 2  # of the schema and of `write_result`; other versions are not read
+VERSION = 3  # of the schema and of `write_result`; other versions are not read
+_MARK = 0x4E44444C  # `NDDL`: the application id of SQLite's file format
+_FLUSH_SECONDS = 0.5
 SCHEMA = """
 CREATE TABLE IF NOT EXISTS runs (
     turn INTEGER PRIMARY KEY AUTOINCREMENT,
@@ -26,13 +36,20 @@ CREATE TABLE IF NOT EXISTS missions (
     number INTEGER NOT NULL,
     verdict TEXT NOT NULL,
     result TEXT NOT NULL,
+    checksum INTEGER NOT NULL,
     PRIMARY KEY (run, number)
 ) WITHOUT ROWID;
 """
+_SALVAGE = "`nddlc store check` tells what is damaged, `nddlc store salvage` keeps what is whole"
+_NO_SPACE = ("SQLITE_FULL", "SQLITE_IOERR_WRITE", "SQLITE_IOERR_FSYNC", "SQLITE_IOERR_TRUNCATE", "SQLITE_IOERR_SHMSIZE")
 
 
 class StoreError(Exception):
-    """The store cannot be used; the message says why, in the user's words."""
+    """The store cannot be used; the message says why, in the user's words, and `advice` what to do."""
+
+    def __init__(self, message: str, advice: str = "--store names another one, --no-store does without") -> None:
+        super().__init__(message)
+        self.advice = advice
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,21 +62,34 @@ class Run:
     missions: int
 
 
+def checksum(run_id: str, number: int, verdict: str, result: str) -> int:
+    """The CRC-32 of a row."""
+    return zlib.crc32(f"{run_id}\0{number}\0{verdict}\0{result}".encode("utf-8", "surrogatepass"))
+
+
 class RunStore:
     """Runs on disk. Results are written in transactions: a reader sees whole missions or none."""
 
-    def __init__(self, connection: sqlite3.Connection) -> None:
+    def __init__(self, connection: sqlite3.Connection, path: Path) -> None:
+        self.path = path
         self._connection = connection
-        self._pending: list[tuple[str, int, str, str]] = []
+        self._pending: list[tuple[str, int, str, str, int]] = []
+        self._flushed = time.monotonic()
+        self._locks: Locks | None = None
 
     def begin(self, run: Run, *, keep: bool) -> dict[int, MissionResult]:
         """Register `run` as the latest; return what it has finished before if `keep`, else forget that.
 
-        A mission that ended in an ERROR was not finished.
+        A mission that ended in an ERROR was not finished. While this process lives, no other one can begin the run.
         """
+        if self._locks is None:
+            self._locks = Locks(self.path.with_name(self.path.name + ".lock"))
+        if not self._locks.take(run.id):
+            what = f"another nddlc flies run {run.id} into the store `{self.path}` just now"
+            raise StoreError(what, "wait until it has ended; what it has flown is then taken over")
         found = self.results(run.id) if keep else ()
         kept = {result.number: result for result in found if result.verdict is not Verdict.ERROR}
-        with self._connection:
+        with self._guarded(), self._connection:
             if not keep:
                 self._connection.execute("DELETE FROM missions WHERE run = ?", (run.id,))
             self._connection.execute("DELETE FROM runs WHERE id = ?", (run.id,))
@@ -71,39 +101,101 @@ class RunStore:
 
     def add(self, run: Run, result: MissionResult) -> None:
         """Keep a result; it is on disk after the next `flush` at the latest."""
-        self._pending.append((run.id, result.number, result.verdict.value, write_result(result)))
-        if len(self._pending) >= _COMMIT_EVERY:
+        verdict, text = result.verdict.value, write_result(result)
+        self._pending.append((run.id, result.number, verdict, text, checksum(run.id, result.number, verdict, text)))
+        self.flush_if_due()
+
+    def flush_if_due(self) -> None:
+        """Write what is pending, unless that was done just now."""
+        if self._pending and time.monotonic() - self._flushed >= _FLUSH_SECONDS:
             self.flush()
 
     def flush(self) -> None:
         """Write what is pending."""
-        with self._connection:
-            self._connection.executemany("INSERT OR REPLACE INTO missions VALUES (?, ?, ?, ?)", self._pending)
-        self._pending.clear()
+        if self._pending:
+            with self._guarded(), self._connection:
+                query = "INSERT OR REPLACE INTO missions VALUES (?, ?, ?, ?, ?)"
+                self._connection.executemany(query, self._pending)
+            self._pending.clear()
+        self._flushed = time.monotonic()
 
     def find(self, name: str) -> Run | None:
         """The run with that id, or the one that began last for `latest`; a unique beginning of an id will do."""
         chosen = "SELECT id, mission_file, seed, missions FROM runs "
         if name == LATEST:
-            rows = self._connection.execute(chosen + "ORDER BY turn DESC LIMIT 1").fetchall()
+            rows = self._rows(chosen + "ORDER BY turn DESC LIMIT 1")
         else:
-            rows = self._connection.execute(chosen + "WHERE substr(id, 1, ?) = ?", (len(name), name)).fetchall()
+            rows = self._rows(chosen + "WHERE substr(id, 1, ?) = ?", len(name), name)
         return Run(*rows[0]) if len(rows) == 1 else None
 
     def run_ids(self) -> list[str]:
         """All runs, the latest first."""
-        return [row[0] for row in self._connection.execute("SELECT id FROM runs ORDER BY turn DESC")]
+        return [row[0] for row in self._rows("SELECT id FROM runs ORDER BY turn DESC")]
 
-    def results(self, run_id: str) -> Iterator[MissionResult]:
+    def results(self, run_id: str) -> tuple[MissionResult, ...]:
         """The finished missions of a run, in order."""
-        rows = self._connection.execute("SELECT result FROM missions WHERE run = ? ORDER BY number", (run_id,))
-        return (read_result(row[0]) for row in rows)
+        query = "SELECT run, number, verdict, result, checksum FROM missions WHERE run = ? ORDER BY number"
+        return tuple(self._read(row) for row in self._rows(query, run_id))
 
     def result(self, run_id: str, number: int) -> MissionResult | None:
         """One finished mission of a run."""
-        query = "SELECT result FROM missions WHERE run = ? AND number = ?"
-        row = self._connection.execute(query, (run_id, number)).fetchone()
-        return read_result(row[0]) if row else None
+        query = "SELECT run, number, verdict, result, checksum FROM missions WHERE run = ? AND number = ?"
+        rows = self._rows(query, run_id, number)
+        return self._read(rows[0]) if rows else None
+
+    def close(self) -> None:
+        """Write what is pending and let go of the file."""
+        try:
+            self.flush()
+        finally:
+            self._connection.close()
+            if self._locks is not None:
+                self._locks.close()
+
+    def _rows(self, query: str, *values: object) -> list[Any]:
+        with self._guarded():
+            return self._connection.execute(query, values).fetchall()
+
+    def _read(self, row: tuple[str, int, str, str, int]) -> MissionResult:
+        found = result_of(row)
+        if found is None:
+            raise StoreError(f"mission {row[1]} of run {row[0]} in the store `{self.path}` is damaged", _SALVAGE)
+        return found
+
+    @contextmanager
+    def _guarded(self) -> Iterator[None]:
+        """Tell what is wrong with the file, or the disk, in the user's words."""
+        try:
+            yield
+        except sqlite3.Error as problem:
+            raise _told(problem, self.path) from problem
+
+
+def result_of(row: tuple[object, ...]) -> MissionResult | None:
+    """The result in a row (run, number, verdict, result, checksum); None where the row is damaged."""
+    run, number, verdict, text, written = row
+    if not (isinstance(run, str) and isinstance(number, int) and isinstance(verdict, str) and isinstance(text, str)):
+        return None
+    if checksum(run, number, verdict, text) != written:
+        return None
+    return read_result(text)
+
+
+def _told(problem: sqlite3.Error, path: Path) -> StoreError:
+    """What SQLite complains of, in words."""
+    name = getattr(problem, "sqlite_errorname", "")
+    if name in _NO_SPACE:
+        what = f"the store `{path}` cannot be written: no space is left on the disk, or in the quota"
+        return StoreError(what, "what was stored before is kept; make room, and the same command goes on from there")
+    if name.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")):
+        return StoreError(f"another process keeps the store `{path}` locked", "wait until it has ended")
+    if name.startswith(("SQLITE_READONLY", "SQLITE_PERM")):
+        return StoreError(f"the store `{path}` may not be written")
+    if name.startswith("SQLITE_NOTADB"):
+        return StoreError(f"`{path}` is no store of nddlc: it is no database")
+    if name.startswith("SQLITE_CORRUPT"):
+        return StoreError(f"the store `{path}` is damaged: {problem}", _SALVAGE)
+    return StoreError(f"the store `{path}` cannot be used: {problem}")
 
 
 @contextmanager
@@ -113,30 +205,51 @@ def open_store(path: Path) -> Iterator[RunStore]:
         path.parent.mkdir(parents=True, exist_ok=True)
         if path.parent.name == FOLDER and not (path.parent / ".gitignore").exists():
             (path.parent / ".gitignore").write_text("*\n", encoding="ascii")  # nothing in here is for others
-        connection = sqlite3.connect(path, timeout=10.0)
-        _prepare(connection, path)
-    except (OSError, sqlite3.Error) as problem:
-        reason = getattr(problem, "strerror", None) or problem
-        raise StoreError(f"the store `{path}` cannot be opened: {reason}") from problem
-    store = RunStore(connection)
+        if path.exists() and not path.is_file():
+            raise StoreError(f"`{path}` is no file that a store could be in")
+    except OSError as problem:
+        raise StoreError(f"the store `{path}` cannot be opened: {problem.strerror or problem}") from problem
+    store = RunStore(_connect(path), path)
     try:
         yield store
-    finally:
-        try:
-            store.flush()
-        finally:
+    except BaseException:
+        with suppress(StoreError):  # what went wrong first is what is told
+            store.close()
+        raise
+    store.close()
+
+
+def _connect(path: Path) -> sqlite3.Connection:
+    """A connection to a store of this version; a new one gets its tables."""
+    connection: sqlite3.Connection | None = None
+    try:
+        connection = sqlite3.connect(path, timeout=10.0)
+        check_version(connection, path)
+        connection.execute("PRAGMA journal_mode = WAL")
+        connection.execute("PRAGMA synchronous = NORMAL")
+        connection.executescript(f"PRAGMA application_id = {_MARK};PRAGMA user_version = {VERSION};{SCHEMA}")
+    except (sqlite3.Error, StoreError) as problem:
+        if connection is not None:
             connection.close()
+        if isinstance(problem, StoreError):
+            raise
+        if not os.access(path.parent, os.W_OK):
+            raise StoreError(f"the store `{path}` cannot be opened: its folder may not be written") from problem
+        raise _told(problem, path) from problem
+    return connection
 
 
-def _prepare(connection: sqlite3.Connection, path: Path) -> None:
-    """Make the tables of a new store; refuse one that another version of nddlc has written."""
+def check_version(connection: sqlite3.Connection, path: Path) -> None:
+    """Refuse a database that is no store, or one of another version of nddlc; an empty one is welcome."""
     (version,) = connection.execute("PRAGMA user_version").fetchone()
-    if connection.execute("SELECT COUNT(*) FROM sqlite_master").fetchone() == (0,):
-        version = _VERSION
-    if version != _VERSION:
-        connection.close()
-        what = f"the store `{path}` has format {version or 1}, this nddlc reads format {_VERSION}"
-        raise StoreError(f"{what}: delete it, or keep it and name another")
-    connection.execute("PRAGMA journal_mode = WAL")
-    connection.execute("PRAGMA synchronous = NORMAL")
-    connection.executescript(f"PRAGMA user_version = {_VERSION};{SCHEMA}")
+    (mark,) = connection.execute("PRAGMA application_id").fetchone()
+    tables = {row[0] for row in connection.execute("SELECT name FROM sqlite_master WHERE type = 'table'")}
+    if not tables:
+        return
+    if mark != _MARK and not {"runs", "missions"} <= tables:
+        raise StoreError(f"`{path}` is a database of something else, not a store of nddlc")
+    if mark == _MARK and version == VERSION:
+        return
+    age = "a newer" if version > VERSION else "an older"
+    what = f"the store `{path}` is of {age} nddlc: it has format {version or 1}, this one reads format {VERSION}"
+    raise StoreError(what, "delete it, or keep it and name another with --store")

@@ -9,6 +9,7 @@ from multiprocessing.connection import Connection
 
 import runtime.build_form
 from checker.batch.result import MissionResult, condense
+from checker.losses import losses_of
 from checker.oracle import USER_CODE, Judgement, Verdict, judge
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Outcome
@@ -51,7 +52,9 @@ class LastWords:
 
 def work(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
     """Serve missions until None comes or the other end is gone."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to the whole group; the parent decides what it means
+    for name in ("SIGINT", "SIGTERM", "SIGHUP"):  # these go to the whole group; the parent decides what they mean
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), signal.SIG_IGN)
     WATCH.last_words = partial(_send_last_words, connection)
     try:
         try:
@@ -86,10 +89,10 @@ def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
         return error_result(task, _reason(problem), problem.detail, USER_CODE)
     except Exception as problem:
         return error_result(task, f"{type(problem).__name__}: {problem}", traceback.format_exc())
-    judgement = judge(outcome)
+    judgement, losses = judge(outcome), losses_of(outcome)
     if judgement.verdict is Verdict.PASS and not keep_trace:
-        return MissionResult(task.number, task.seed, judgement, condense(outcome), has_trace=False)
-    return MissionResult(task.number, task.seed, judgement, outcome, has_trace=True)
+        return MissionResult(task.number, task.seed, judgement, condense(outcome), has_trace=False, losses=losses)
+    return MissionResult(task.number, task.seed, judgement, outcome, has_trace=True, losses=losses)
 
 
 def error_result(task: Task, message: str, detail: str = "", code: str = "") -> MissionResult:

@@ -13,7 +13,9 @@ from checker.explain import confirmation_data, place_data, threshold_data
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES, Verdict
 from checker.rendering import failure_text
+from checker.report.losses import mission_losses, tally_data
 from checker.report.wording import verdict_word
+from checker.tally import Tally
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.rendering import element_text
 
@@ -43,11 +45,13 @@ def _report_data(findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
             "is_certain": rate.is_certain,
             "confidence": rate.confidence,
             "exact": list(rate.exact),
-            "wilson": list(rate.wilson),
         },
+        "ending": findings.ending.value,
+        "losses": tally_data(findings.tally, excerpts),
+        "limits": {limit.value: most for limit, most in findings.mission.check.limits},
         "parameters": [_parameter(parameter) for parameter in agent.parameters],
         "faults": [_fault(fault, excerpts) for fault in findings.faults],
-        "missions": [_mission(result) for result in findings.results],
+        "missions": [_mission(result, findings.tally) for result in findings.results],
     }
 
 
@@ -85,7 +89,7 @@ def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
     }
 
 
-def _mission(result: MissionResult) -> dict[str, Any]:
+def _mission(result: MissionResult, tally: Tally) -> dict[str, Any]:
     outcome = result.outcome
     return {
         "mission": result.number,
@@ -94,6 +98,7 @@ def _mission(result: MissionResult) -> dict[str, Any]:
         "code": result.judgement.code,
         "reason": failure_text(result.judgement, result.open_goals),
         "last_tick": None if outcome is None else outcome.last_tick,
+        "losses": None if outcome is None else mission_losses(result, tally),
         "draws": []
         if outcome is None
         else [

@@ -8,17 +8,21 @@ from importlib.resources import files
 from checker.batch.result import MissionResult
 from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
+from checker.losses import Limit, amount
 from checker.oracle import CODE_NAMES, Verdict
 from checker.rendering import confirmation_text, failure_text, step_text, threshold_evidence
+from checker.report.losses import damage_words, goal_line, goal_text, repair_text, request_line, unmet_text
 from checker.report.svg import Dot, rate_plot, scatter_plot, strip_plot
 from checker.report.wording import blamed, decision, missions, percent, rate_line, verdict_word
 from checker.sampling.wording import describe, number
 from checker.story import Step, StepKind, Story
+from checker.tally import Tally
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.distributions import DISTRIBUTIONS
 from runtime.executive.outcome import SourcePlace
 
 _MOST_ROWS = 1000
+_MOST_LOSSES = 40
 COLOURS = 6
 
 
@@ -33,6 +37,7 @@ def html_report(findings: Findings, excerpts: Excerpts, stories: Sequence[Story 
         f"<title>{name}: {verdict_word(findings)}</title>",
         f"<style>\n{style}</style></head><body><main>",
         *_head(findings),
+        *_losses(findings.tally, excerpts),
         *_faults(findings, excerpts, stories),
         *_parameters(findings),
         *_table(findings),
@@ -50,6 +55,7 @@ def _words(text: str) -> str:
 def _head(findings: Findings) -> list[str]:
     rate = findings.rate
     word = verdict_word(findings)
+    lost = f"; cost: {words}" if (words := damage_words(findings.tally)) else ""
     flown = str(len(findings.results)) if not findings.is_interrupted else f"{len(findings.results)}/{findings.planned}"
     tiles = [(flown, "missions flown"), (str(rate.failures), "failed"), (percent(rate.observed), "failure rate")]
     tiles.append((percent(rate.limit), "accepted"))
@@ -58,13 +64,29 @@ def _head(findings: Findings) -> list[str]:
     return [
         f'<span class="verdict {word}">{word}</span>',
         f"<h1>{escape(findings.agent.name)}</h1>",
-        f'<p class="soft">{escape(decision(findings))}</p>',
+        f'<p class="soft">{escape(decision(findings))}{escape(lost)}</p>',
         '<div class="tiles">',
         *(f'<div class="tile"><b>{value}</b><span>{caption}</span></div>' for value, caption in tiles),
         "</div>",
         rate_plot(rate),
         f'<p class="soft">{escape(rate_line(rate))}</p>',
     ]
+
+
+def _losses(tally: Tally, excerpts: Excerpts) -> list[str]:
+    """What the missions cost, passed or not."""
+    rows = [("given up", goal_text(one, excerpts)) for one in tally.goals if one.given_up]
+    rows += [("repaired", repair_text(one, excerpts)) for one in tally.repairs]
+    rows += [("undelivered", unmet_text(one)) for one in tally.undelivered]
+    rows += [("request given up", unmet_text(one)) for one in tally.given_up]
+    parts = ["<h2>What it cost</h2>", f"<p>{_words(goal_line(tally))}.<br>{_words(request_line(tally))}.</p>"]
+    if rows:
+        parts.append('<ul class="evidence">')
+        parts += [f"<li><b>{what}</b>: {_words(text)}</li>" for what, text in rows[:_MOST_LOSSES]]
+        parts.append("</ul>")
+    if len(rows) > _MOST_LOSSES:
+        parts.append(f'<p class="soft">{len(rows) - _MOST_LOSSES} more are in the JSON report.</p>')
+    return parts
 
 
 def _faults(findings: Findings, excerpts: Excerpts, stories: Sequence[Story | None]) -> list[str]:
@@ -180,7 +202,8 @@ def _rows(findings: Findings, results: Sequence[MissionResult]) -> list[str]:
     captions = "".join(f'<th class="n">{escape(name)}</th>' for name in names)
     parts = [
         '<div class="scroll"><table><thead><tr><th class="n">mission</th><th>verdict</th><th class="n">tick</th>'
-        f'{captions}<th class="n">seed</th><th>reason</th></tr></thead><tbody>'
+        f'{captions}<th class="n">goals lost</th><th class="n">repairs</th><th class="n">seed</th><th>reason</th>'
+        "</tr></thead><tbody>"
     ]
     for result in results[:_MOST_ROWS]:
         last = {draw.parameter: draw.value for draw in (result.outcome.draws if result.outcome else ())}
@@ -191,7 +214,8 @@ def _rows(findings: Findings, results: Sequence[MissionResult]) -> list[str]:
         word = f"{result.verdict.value} {result.judgement.code}".strip()
         parts.append(
             f'<tr><td class="n">{result.number}</td><td class="v"><i class="chip"{colour}></i>{word}</td>'
-            f'<td class="n">{tick}</td>{values}<td class="n">{result.seed}</td>'
+            f'<td class="n">{tick}</td>{values}<td class="n">{amount(result.losses, Limit.REJECTED)}</td>'
+            f'<td class="n">{result.losses.repaired}</td><td class="n">{result.seed}</td>'
             f"<td>{_words(failure_text(result.judgement, result.open_goals))}</td></tr>"
         )
     parts.append("</tbody></table></div>")

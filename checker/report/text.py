@@ -4,6 +4,7 @@ from checker.excerpts import Excerpts
 from checker.explain import excerpt_lines
 from checker.findings import Findings
 from checker.rendering import confirmation_text, failure_text, threshold_text
+from checker.report.losses import damage_words, loss_lines
 from checker.report.wording import blamed, decision, fault_title, headline, rate_line
 from checker.sampling.wording import describe
 
@@ -13,8 +14,12 @@ _MOST_ERRORS = 3
 
 def text_report(findings: Findings, excerpts: Excerpts) -> str:
     """The summary: what was flown, what it means, each fault with line, threshold and the command that explains it."""
-    lines = [headline(findings), f"  {decision(findings)}", f"  {rate_line(findings.rate)}"]
-    lines.append(f"  run {findings.run_id}, seed {findings.seed}")
+    lost = damage_words(findings.tally)
+    lines = [headline(findings), f"  {decision(findings)}"]
+    if lost:
+        lines.append(f"  cost: {lost}")
+    lines += [f"  {rate_line(findings.rate)}", f"  run {findings.run_id}, seed {findings.seed}"]
+    lines += [f"  {line}" for line in loss_lines(findings.tally, excerpts)]
     lines += [f"  {parameter.name}: {describe(parameter)}" for parameter in findings.agent.parameters]
     for index, fault in enumerate(findings.faults[:_MOST_FAULTS]):
         bucket = fault.bucket

@@ -1,9 +1,11 @@
 """The sentences that every form of the report shares."""
 
-from checker.findings import Findings
+from checker.findings import Ending, Findings
 from checker.oracle import CODE_NAMES, USER_CODE, Verdict
 from checker.sampling.wording import number
 from checker.statistics import Rate
+
+_ENDINGS = {Ending.SECONDS: "time was over", Ending.FAILURES: "failures enough"}
 
 
 def percent(share: float) -> str:
@@ -11,9 +13,14 @@ def percent(share: float) -> str:
     return f"{_percentage(share)} %"
 
 
+def counted(count: int, word: str) -> str:
+    """`1 goal`, `2 goals`."""
+    return f"{count} {word}{'' if count == 1 else 's'}"
+
+
 def missions(count: int) -> str:
     """`1 mission`, `2 missions`."""
-    return f"{count} mission{'' if count == 1 else 's'}"
+    return counted(count, "mission")
 
 
 def headline(findings: Findings) -> str:
@@ -23,6 +30,8 @@ def headline(findings: Findings) -> str:
     flown = f"{missions(len(findings.results))}"
     if findings.is_interrupted:
         flown += f" of {findings.planned} (interrupted)"
+    elif findings.ending is not Ending.COMPLETE:
+        flown += f" of {findings.planned} ({_ENDINGS[findings.ending]})"
     errors = len(findings.errors)
     broken = f", {errors} not flown to the end because of an error {blamed(findings)}" if errors else ""
     return f"{name}: {flown}, {rate.failures} failed{broken}"
@@ -35,12 +44,9 @@ def blamed(findings: Findings) -> str:
 
 
 def rate_line(rate: Rate) -> str:
-    """The rate with its intervals."""
+    """The rate with its exact (Clopper-Pearson) interval."""
     level = number(rate.confidence * 100.0)
-    return (
-        f"failure rate {percent(rate.observed)}; {level} % interval {_interval(rate.exact)} (exact), "
-        f"{_interval(rate.wilson)} (Wilson)"
-    )
+    return f"failure rate {percent(rate.observed)}; exact {level} % interval {_interval(rate.exact)}"
 
 
 def decision(findings: Findings) -> str:

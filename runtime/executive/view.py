@@ -80,10 +80,10 @@ class PlanView:
             if predicate.class_name == code.name:
                 predicates[predicate.name.rpartition(".")[2]] = number
         (self.internal_objects if is_internal else self.external_objects).add(o)
-        default = predicates.get(self._default_name(o), NONE)
+        default = predicates.get(self.default_name(o), NONE)
         return TimelineState(name, o, is_internal, default, predicates)
 
-    def _default_name(self, o: int) -> str:
+    def default_name(self, o: int) -> str:
         """The default predicate that a timeline names; `undefined` if it names none."""
         domain = self._member(o, "defaultPredicate")
         if domain is not None and domain.values is not None and len(domain.values) == 1:

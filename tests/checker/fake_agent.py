@@ -158,3 +158,25 @@ def load_broken(_agent: AgentConfiguration) -> Fly:
 def load_nothing(_agent: AgentConfiguration) -> Fly:
     """A fake agent that cannot be loaded."""
     raise RuntimeError("no such engine")
+
+
+def load_very_slow(agent: AgentConfiguration) -> Fly:
+    """A fake agent that needs 0.4 s a mission."""
+
+    def fly(seed: int) -> Outcome:
+        time.sleep(0.4)
+        return _outcome(agent, seed, is_linked=True)
+
+    return fly
+
+
+def load_signalled(agent: AgentConfiguration) -> Fly:
+    """A fake agent that dies of a real-time signal in the mission with seed 3."""
+
+    def fly(seed: int) -> Outcome:
+        if seed == 3:
+            os.kill(os.getpid(), 40)
+            time.sleep(5.0)
+        return _outcome(agent, seed, is_linked=True)
+
+    return fly

@@ -50,11 +50,24 @@ def agent() -> AgentConfiguration:
     return mission.agent
 
 
+class Taker:
+    """Takes results, and never has enough."""
+
+    def __init__(self) -> None:
+        self.results: list[MissionResult] = []
+
+    def take(self, result: MissionResult) -> None:
+        self.results.append(result)
+
+    def is_enough(self) -> bool:
+        return False
+
+
 def fly(load: Load, seeds: range, workers: int, time_limit: float = 30.0) -> list[MissionResult]:
-    results: list[MissionResult] = []
+    taker = Taker()
     tasks = [Task(number, seed) for number, seed in enumerate(seeds, 1)]
-    assert not fly_all(load, agent(), tasks, workers, time_limit, results.append)
-    return sorted(results, key=lambda result: result.number)
+    assert fly_all(load, agent(), tasks, workers, time_limit, taker) is None
+    return sorted(taker.results, key=lambda result: result.number)
 
 
 def test_one_and_two_workers_agree() -> None:
@@ -99,7 +112,8 @@ def test_models_that_cannot_be_loaded_end_the_batch() -> None:
 
 
 def test_an_interrupt_keeps_what_is_finished() -> None:
-    results: list[MissionResult] = []
+    taker = Taker()
+    results = taker.results
     ended: list[float] = []
 
     def interrupt() -> None:
@@ -110,7 +124,7 @@ def test_an_interrupt_keeps_what_is_finished() -> None:
 
     threading.Thread(target=interrupt, daemon=True).start()
     tasks = [Task(number, number) for number in range(1, 2_001)]
-    assert fly_all(load_slow, agent(), tasks, 2, 30.0, results.append)
+    assert fly_all(load_slow, agent(), tasks, 2, 30.0, taker) is signal.SIGINT
     assert time.monotonic() - ended[0] < 1.0
     assert 5 <= len(results) < 2_000
 
@@ -135,12 +149,12 @@ def test_a_store_keeps_runs_and_resumes_them(tmp_path: Path) -> None:
         assert store.find("latest") == other
         assert store.run_ids() == [other.id, run.id]
         assert store.begin(run, keep=False) == {}
-        assert list(store.results(run.id)) == []
+        assert store.results(run.id) == ()
 
 
 def test_a_store_that_is_no_database_is_refused(tmp_path: Path) -> None:
     (tmp_path / "runs.sqlite").write_text("no database at all, and long enough to be sure of it" * 10)
-    with pytest.raises(StoreError, match="cannot be opened"), open_store(tmp_path / "runs.sqlite"):
+    with pytest.raises(StoreError, match="is no store of nddlc"), open_store(tmp_path / "runs.sqlite"):
         pass
 
 
@@ -153,7 +167,10 @@ def test_a_store_of_another_version_is_refused_by_its_name(tmp_path: Path) -> No
     connection = sqlite3.connect(path)
     connection.execute("PRAGMA user_version = 0")
     connection.close()
-    with pytest.raises(StoreError, match=r"has format 1, this nddlc reads format 2: delete it"), open_store(path):
+    with (
+        pytest.raises(StoreError, match=r"of an older nddlc: it has format 1, this one reads format 3"),
+        open_store(path),
+    ):
         pass
 
 

@@ -1,6 +1,8 @@
-"""Ctrl-C during a batch, as a user presses it: to the whole group of processes."""
+"""What ends a batch before its time: Ctrl-C, SIGTERM, kill -9, a full disk, a second nddlc on the same store."""
 
 import os
+import random
+import resource
 import signal
 import sqlite3
 import subprocess
@@ -10,44 +12,32 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-SCRIPT = f"""
-import sys
-sys.path.insert(0, {str(ROOT)!r})
-import nddlc.check
+from checker.batch.pool import fly_all
+from checker.batch.worker import Task
+from checker.mission import read_mission
+from checker.oracle import Verdict
 from nddlc.main import run
-from tests.checker.fake_agent import load_slow
+from tests.checker.fake_agent import load_signalled
+from tests.checker.test_batch import Taker
 
-if __name__ == "__main__":
-    nddlc.check.load = load_slow
-    sys.exit(run(["check", {str(ROOT / "models/gps/mission.toml")!r}, "--missions", "5000", *sys.argv[1:]]))
-"""
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-def test_ctrl_c_ends_a_batch_at_once_and_keeps_what_is_finished(tmp_path: Path) -> None:
-    (tmp_path / "flies.py").write_text(SCRIPT, encoding="utf-8")
-    command = [sys.executable, "flies.py"]
-    pipe = subprocess.PIPE
-    batch = subprocess.Popen(command, cwd=tmp_path, text=True, start_new_session=True, stdout=pipe, stderr=pipe)
-    store = tmp_path / ".nddlc" / "runs.sqlite"
-    while not finished(store):
-        assert batch.poll() is None, batch.communicate()
-        time.sleep(0.05)
-    os.killpg(batch.pid, signal.SIGINT)
-    pressed = time.monotonic()
-    out, err = batch.communicate(timeout=30)
-    took = time.monotonic() - pressed
-    assert batch.returncode == 130
-    assert "Traceback" not in err
-    kept = finished(store)
-    assert f"gps: {kept} missions of 5000 (interrupted)" in out
-    assert took < 3.0  # one second on a machine with nothing else to do
-    assert (tmp_path / ".nddlc" / ".gitignore").read_text() == "*\n"
+ROOT = Path(__file__).resolve().parents[2]
+GPS = str(ROOT / "models/gps/mission.toml")
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+PIPE = subprocess.PIPE
 
 
-def finished(store: Path) -> int:
+def begin(folder: Path, load: str, *arguments: str) -> "subprocess.Popen[str]":
+    """Start a batch in its own process group."""
+    command = [sys.executable, "-m", "tests.checker.fake_batch", load, GPS, *arguments]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    return subprocess.Popen(
+        command, cwd=folder, text=True, start_new_session=True, stdout=PIPE, stderr=PIPE, env=environment
+    )
+
+
+def finished(folder: Path) -> int:
     """How many missions are on disk."""
+    store = folder / ".nddlc" / "runs.sqlite"
     if not store.exists():
         return 0
     connection = sqlite3.connect(store)
@@ -57,3 +47,114 @@ def finished(store: Path) -> int:
         return 0
     finally:
         connection.close()
+
+
+def wait_for(folder: Path, batch: "subprocess.Popen[str]", missions: int = 1) -> None:
+    while finished(folder) < missions:
+        assert batch.poll() is None, batch.communicate()
+        time.sleep(0.05)
+
+
+@pytest.mark.parametrize(
+    ("number", "is_group"), [(signal.SIGINT, True), (signal.SIGTERM, False), (signal.SIGTERM, True)]
+)
+def test_a_signal_ends_a_batch_at_once_and_keeps_what_is_finished(
+    tmp_path: Path, number: signal.Signals, is_group: bool
+) -> None:
+    batch = begin(tmp_path, "load_slow", "--missions", "5000")
+    wait_for(tmp_path, batch)
+    (os.killpg if is_group else os.kill)(batch.pid, number)
+    pressed = time.monotonic()
+    out, err = batch.communicate(timeout=30)
+    took = time.monotonic() - pressed
+    assert batch.returncode == 128 + number
+    assert "Traceback" not in err
+    kept = finished(tmp_path)
+    assert f"gps: {kept} missions of 5000 (interrupted)" in out
+    assert took < 5.0  # one second on a machine with nothing else to do
+    assert (tmp_path / ".nddlc" / ".gitignore").read_text() == "*\n"
+
+
+def test_slow_missions_are_on_disk_within_a_second(tmp_path: Path) -> None:
+    batch = begin(tmp_path, "load_very_slow", "--missions", "5000", "--workers", "1")
+    wait_for(tmp_path, batch)
+    seen = time.monotonic()
+    wait_for(tmp_path, batch, 4)  # three more of 0.4 s each
+    took = time.monotonic() - seen
+    os.killpg(batch.pid, signal.SIGKILL)
+    batch.communicate(timeout=30)
+    assert took < 3 * 0.4 + 1.0 + 1.5
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_a_batch_killed_at_random_moments_and_resumed_is_as_if_undisturbed(
+    tmp_path: Path, number: signal.Signals
+) -> None:
+    chance = random.Random(20)
+    done = 0
+    for _ in range(5):
+        batch = begin(tmp_path, "load_slow", "--missions", "120")
+        if done == 0:
+            wait_for(tmp_path, batch)
+        time.sleep(chance.uniform(0.3, 1.5))
+        os.kill(batch.pid, number)
+        batch.communicate(timeout=30)
+        assert finished(tmp_path) >= done
+        done = finished(tmp_path)
+    ended = begin(tmp_path, "load_slow", "--missions", "120", "--output", "resumed")
+    ended.communicate(timeout=60)
+    undisturbed = begin(tmp_path, "load_slow", "--missions", "120", "--output", "whole", "--no-store")
+    undisturbed.communicate(timeout=60)
+    assert (ended.returncode, undisturbed.returncode) == (1, 1)
+    for name in ("report.json", "report.html", "report.sarif", "junit.xml"):
+        assert (tmp_path / "resumed" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
+
+
+def test_a_second_nddlc_on_the_same_run_is_refused(tmp_path: Path) -> None:
+    first = begin(tmp_path, "load_slow", "--missions", "5000")
+    wait_for(tmp_path, first)
+    second = begin(tmp_path, "load_slow", "--missions", "5000", "--fresh")
+    _, err = second.communicate(timeout=30)
+    assert second.returncode == 2
+    assert "another nddlc flies run" in err
+    other = begin(tmp_path, "load_slow", "--missions", "6")
+    other.communicate(timeout=30)
+    assert other.returncode in (0, 1)
+    os.kill(first.pid, signal.SIGTERM)
+    out, _ = first.communicate(timeout=30)
+    assert first.returncode == 143
+    third = begin(tmp_path, "load_slow", "--missions", "5000", "--seconds", "0.2")
+    out, _ = third.communicate(timeout=30)
+    assert "(time was over)" in out
+
+
+def test_a_full_disk_is_told_and_leaves_the_store_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = begin(tmp_path, "load_split", "--missions", "20", "--output", "whole")
+    whole.communicate(timeout=60)
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (150_000, before[1]))
+    try:
+        full = begin(tmp_path, "load_split", "--missions", "2000")
+        _, err = full.communicate(timeout=60)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert full.returncode == 2, err
+    assert "no space is left" in err
+    assert "Traceback" not in err
+    monkeypatch.chdir(tmp_path)
+    assert run(["store", "check"]) == 0
+    kept = finished(tmp_path)
+    again = begin(tmp_path, "load_split", "--missions", "2000")
+    again.communicate(timeout=120)
+    assert again.returncode == 1
+    assert finished(tmp_path) == 2020 > kept
+
+
+def test_a_real_time_signal_costs_one_mission() -> None:
+    mission, _ = read_mission(Path(GPS))
+    assert mission is not None
+    taker = Taker()
+    assert fly_all(load_signalled, mission.agent, [Task(n, n) for n in range(1, 7)], 1, 30.0, taker) is None
+    lost = {one.number: one.judgement.message for one in taker.results if one.verdict is Verdict.ERROR}
+    assert lost == {3: "the process died (signal 40)"}
+    assert len(taker.results) == 6

@@ -8,8 +8,6 @@ from xml.etree import ElementTree
 
 import pytest
 
-from checker.batch.pool import fly_all
-from checker.batch.result import MissionResult
 from checker.campaign import Campaign
 from checker.excerpts import Excerpts
 from checker.findings import Findings
@@ -18,8 +16,10 @@ from checker.models import load_models
 from checker.names import relative_name
 from checker.oracle import Judgement, Verdict
 from checker.report.document import json_report
+from checker.report.github import github_report
 from checker.report.html import html_report
 from checker.report.junit import junit_report
+from checker.report.markdown import markdown_report
 from checker.report.sarif import sarif_report
 from checker.report.svg import Axis
 from checker.report.text import text_report
@@ -40,9 +40,8 @@ def campaign() -> Campaign:
 
 @pytest.fixture(scope="module")
 def findings(campaign: Campaign) -> Findings:
-    results: list[MissionResult] = []
-    agent, tasks = campaign.models.agent, [campaign.task(number) for number in range(1, 61)]
-    fly_all(load_split, agent, tasks, 1, 30.0, results.append)
+    sixty = replace(campaign.mission, check=replace(campaign.mission.check, missions=60))
+    results = list(replace(campaign, mission=sixty).fly(1, None).results)
     broken = Judgement(Verdict.ERROR, message="KeyError: <'x' & \x07>")
     results[2] = replace(results[2], judgement=broken, outcome=None, has_trace=False)
     return campaign.assess(tuple(results))
@@ -125,3 +124,23 @@ def test_ticks_of_an_axis_are_round() -> None:
     assert Axis(0.0, 4.0, 0.0, 100.0).ticks() == [0.0, 1.0, 2.0, 3.0, 4.0]
     assert Axis(-0.3, 0.3, 0.0, 100.0).ticks() == [-0.3, -0.2, -0.1, 0.0, 0.1, 0.2, 0.3]
     assert Axis(2.0, 2.0, 0.0, 100.0).ticks()
+
+
+def test_github_marks_the_lines(findings: Findings) -> None:
+    lines = github_report(findings, Excerpts(ROOT)).splitlines()
+    assert all(re.fullmatch(r"::(error|warning|notice) [^:]*::.+", line) for line in lines)
+    assert lines[0].startswith("::error file=models/gps/rules.nddl,line=34,col=3,title=F1 an expected observation")
+    assert "fails when GPS_HIT_RATE > 3.8" in lines[0]
+    assert "KeyError" in lines[1]
+    assert lines[-1].startswith("::notice title=gps%3A 60 missions%2C 4 failed")
+
+
+def test_markdown_tells_verdict_faults_and_costs(findings: Findings) -> None:
+    page = markdown_report(findings, Excerpts(ROOT))
+    assert page.startswith("## gps: fails\n")
+    assert "| 60 | 4 | 6.78 % | 1 % | 1 |" in page
+    assert "models/gps/rules.nddl:34: duration <= SURFACE_MAX;" in page
+    assert "Fails when GPS\\_HIT\\_RATE &gt; 3.8" in page
+    assert "KeyError: &lt;'x' & \x07&gt;" in page
+    assert "* repairs of plans: 4; requests between reactors: 59" in page
+    assert "all of them optional" in page

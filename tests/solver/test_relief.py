@@ -21,7 +21,7 @@ def planned(folder: Path, text: str, capsys: pytest.CaptureFixture[str], *option
     path.write_text(text, encoding="utf-8")
     code = run(["plan", "--json", *options, str(path)])
     found: dict[str, Any] = json.loads(capsys.readouterr().out)
-    return found["solve"] | {"code": code, "consistent": found["consistent"]}
+    return dict(found["solve"]) | {"code": code, "consistent": found["consistent"]}
 
 
 CHAIN = HEAD.format("100.0", BOTH) + TAKE.replace("}", "meets(Give g); }") + GIVE + AFTER + TWO

@@ -1,0 +1,154 @@
+"""Hold the goals of a mission file against its time, and their values against the types of the model."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from checker.codes import OUT_OF_RANGE, OUT_OF_TIME
+from checker.mission_table import MissionText
+from compiler.program import DomainConstant, ParameterCode, Program
+from nddl_lang.text.diagnostic import Diagnostic
+from nddl_lang.text.nearest import nearest
+from runtime.executive.configuration import AgentConfiguration, Bounds, GoalConfiguration, Value
+
+_INFINITE = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
+_MOST_NAMED = 12
+
+
+@dataclass(frozen=True, slots=True)
+class Strange:
+    """What a value should have been."""
+
+    wanted: str
+    advice: str | None = None
+
+
+# ---- time ----
+
+
+def goals_out_of_time(agent: AgentConfiguration, text: MissionText) -> Iterator[Diagnostic]:
+    """Complain of goals that no mission can achieve, whatever the models say, and of bounds that are no ticks."""
+    if agent.final_tick < 1:
+        return
+    for number, goal in enumerate(agent.goals):
+        for key, bounds in (("start", goal.start), ("end", goal.end), ("duration", goal.duration)):
+            for bound in bounds or ():
+                if math.isfinite(bound) and bound != int(bound):
+                    span = text.value_span(("goal", number, key))
+                    yield OUT_OF_RANGE.at(span, key=key, wanted="whole ticks", found=bound)
+        late = _out_of_time(goal, agent.final_tick)
+        if late is not None:
+            key, reason, advice = late
+            yield OUT_OF_TIME.at(text.value_span(("goal", number, key)), reason=reason, help=advice)
+
+
+def _out_of_time(goal: GoalConfiguration, final_tick: int) -> tuple[str, str, str] | None:
+    """The key that is to blame, why there is no time for a goal, and what to do."""
+    over = f"the mission ends at tick {final_tick}"
+    raise_it = "send it earlier, or let the mission end later (`final_tick`)"
+    start, end, duration = goal.start or _ANY, goal.end or _ANY, goal.duration or _ANY
+    if goal.at >= final_tick:
+        return "at", f"it is sent at tick {goal.at}, and {over}", raise_it
+    if start[0] >= final_tick:
+        return "start", f"it begins at tick {start[0]:g} or later, and {over}", raise_it
+    if start[1] <= goal.at:
+        return "start", f"it begins by tick {start[1]:g}, and is sent at tick {goal.at}", "send it earlier (`at`)"
+    if duration[1] < 1:
+        return "duration", f"it lasts {duration[1]:g} ticks at most", "a token lasts one tick or longer"
+    first = max(start[0], goal.at + 1.0)
+    shortest = max(duration[0], 1.0)
+    if first + shortest > final_tick:
+        key = "duration" if goal.duration is not None else "start" if goal.start is not None else "at"
+        return key, f"it ends at tick {first + shortest:g} or later, and {over}", raise_it
+    if end[0] > final_tick:
+        return "end", f"it ends at tick {end[0]:g} or later, and {over}", raise_it
+    if end[1] < first + shortest:
+        return "end", f"it ends by tick {end[1]:g}, and cannot before tick {first + shortest:g}", "widen its bounds"
+    return None
+
+
+_ANY: Bounds = (-math.inf, math.inf)
+
+
+# ---- values ----
+
+
+def strange_value(parameter: ParameterCode, value: Value | Bounds, program: Program) -> Strange | None:
+    """What is wrong with the value that a goal gives to a parameter of its predicate."""
+    kind = parameter.type.kind
+    domains = [one for one in (parameter.type.domain, parameter.domain) if one is not None]
+    match kind:
+        case "int" | "float":
+            return _strange_number(value, domains, is_whole=kind == "int")
+        case "bool":
+            return None if isinstance(value, bool) else Strange("true or false")
+        case "enum":
+            known = dict(program.enums).get(parameter.type.type_name, ())
+            return _strange_name(value, _allowed([*known], domains), f"a value of `{parameter.type.type_name}`")
+        case "object":
+            wanted = parameter.type.type_name
+            objects = [name for name, code in program.globals if code.kind == "object"]
+            fitting = [name for name in objects if _is_a(_class_of(name, program), wanted, program)]
+            return _strange_name(value, fitting, f"an object of class `{wanted}`")
+        case _:
+            texts = [str(one) for domain in domains for one in domain.values or ()]
+            return _strange_name(value, texts or None, "a text")
+
+
+def _strange_number(value: Value | Bounds, domains: list[DomainConstant], *, is_whole: bool) -> Strange | None:
+    what = "a whole number" if is_whole else "a number"
+    if isinstance(value, bool | str):
+        return Strange(f"{what}, or a range of them")
+    lower, upper = value if isinstance(value, tuple) else (value, value)
+    if math.isnan(lower) or (not isinstance(value, tuple) and math.isinf(lower)):
+        return Strange(what)
+    if is_whole and any(math.isfinite(bound) and bound != int(bound) for bound in (lower, upper)):
+        return Strange(what)
+    for domain in domains:
+        if domain.interval is not None:
+            least, most = domain.interval
+            if upper < least or lower > most:
+                return Strange(f"{what} {_range(least, most)}")
+        elif domain.values is not None:
+            numbers = [float(one) for one in domain.values if isinstance(one, int | float)]
+            if numbers and not any(lower <= one <= upper for one in numbers):
+                return Strange("one of " + ", ".join(f"{one:g}" for one in numbers[:_MOST_NAMED]))
+    return None
+
+
+def _range(least: float, most: float) -> str:
+    if most >= _INFINITE:
+        return f"of at least {least:g}"
+    return f"of at most {most:g}" if least <= -_INFINITE else f"from {least:g} to {most:g}"
+
+
+def _strange_name(value: Value | Bounds, known: list[str] | None, what: str) -> Strange | None:
+    """A name is a text, and where they are known, one of the names that there are."""
+    listed = ", ".join((known or [])[:_MOST_NAMED]) if known is not None else ""
+    if not isinstance(value, str):
+        return Strange(f"{what}, in quotes", f"there are: {listed}" if listed else None)
+    if known is None or value in known:
+        return None
+    close = nearest(value, known)
+    return Strange(what, f"did you mean `{close}`?" if close else f"there are: {listed or 'none'}")
+
+
+def _allowed(known: list[str], domains: list[DomainConstant]) -> list[str]:
+    for domain in domains:
+        if domain.values is not None:
+            known = [name for name in known if name in domain.values]
+    return known
+
+
+def _class_of(name: str, program: Program) -> str:
+    return next(code.type_name for other, code in program.globals if other == name)
+
+
+def _is_a(name: str | None, ancestor: str, program: Program) -> bool:
+    """Whether a class is another one or extends it."""
+    bases = {each.name: each.base for each in program.classes}
+    while name is not None:
+        if name == ancestor:
+            return True
+        name = bases.get(name)
+    return False

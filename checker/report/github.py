@@ -1,0 +1,43 @@
+"""Findings in, workflow commands of GitHub Actions out: each fault and each lost goal becomes a mark at its line."""
+
+from checker.excerpts import Excerpts
+from checker.findings import Findings
+from checker.rendering import failure_text, threshold_text
+from checker.report.losses import damage_words, goal_text, repair_text
+from checker.report.wording import decision, fault_title, headline
+from nddl_lang.text.github import command_line
+from runtime.executive.outcome import SourcePlace
+
+_MOST_MARKS = 10  # of each command GitHub shows no more
+
+
+def github_report(findings: Findings, excerpts: Excerpts) -> str:
+    """An error for each fault, a warning for each goal given up and each line repaired, and a notice for the whole."""
+    rate = findings.rate
+    lines = []
+    for index, fault in enumerate(findings.faults[:_MOST_MARKS]):
+        bucket = fault.bucket
+        text = [failure_text(bucket.judgement, bucket.open_goals)]
+        text += [f"fails when {threshold_text(threshold)}" for threshold in fault.thresholds]
+        text.append(f"nddlc explain {findings.run_id}#{bucket.example}")
+        where = bucket.culprit.place or SourcePlace(findings.mission.source.name, 1, 1, "")
+        command = "error" if rate.exceeds else "warning"
+        lines.append(command_line(command, _place(where, fault_title(findings, index), excerpts), "\n".join(text)))
+    for error in findings.errors[:_MOST_MARKS]:
+        where = SourcePlace(findings.mission.source.name, 1, 1, "")
+        title = f"mission {error.number} (seed {error.seed}) could not be flown"
+        lines.append(command_line("error", _place(where, title, excerpts), failure_text(error.judgement)))
+    for goal in [one for one in findings.tally.goals if one.given_up][:_MOST_MARKS]:
+        lines.append(command_line("warning", _place(goal.place, "goal given up", excerpts), goal_text(goal, excerpts)))
+    for repair in [one for one in findings.tally.repairs if one.place is not None][:_MOST_MARKS]:
+        assert repair.place is not None
+        text_of = repair_text(repair, excerpts)
+        lines.append(command_line("notice", _place(repair.place, "plan repaired", excerpts), text_of))
+    cost = damage_words(findings.tally)
+    whole = [decision(findings), *([f"cost: {cost}"] if cost else []), f"run {findings.run_id}, seed {findings.seed}"]
+    lines.append(command_line("notice", {"title": headline(findings)}, "\n".join(whole)))
+    return "\n".join(lines) + "\n"
+
+
+def _place(place: SourcePlace, title: str, excerpts: Excerpts) -> dict[str, str | int]:
+    return {"file": excerpts.file(place), "line": place.line, "col": place.column, "title": title}

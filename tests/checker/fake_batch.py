@@ -1,0 +1,11 @@
+"""A batch as a process of its own, with the stand-in for the agent: `python -m tests.checker.fake_batch LOAD ...`."""
+
+import sys
+
+import nddlc.check
+from nddlc.main import run
+from tests.checker import fake_agent
+
+if __name__ == "__main__":
+    setattr(nddlc.check, "load", getattr(fake_agent, sys.argv[1]))  # noqa: B010 mypy knows what a module exports
+    sys.exit(run(["check", *sys.argv[2:]]))

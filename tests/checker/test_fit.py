@@ -1,0 +1,167 @@
+"""Goals, parameters and roles of a mission file are typed against the models; each mistake is named where it stands."""
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from nddlc.main import run
+
+MODEL = """\
+#include "TREX.nddl"
+enum Gear { Low, High }
+class Spot { int n; Spot(int m) { n = m; } }
+class Drive extends AgentTimeline {
+  predicate Idle {}
+  predicate Go { float distance; int legs; bool fast; Gear gear; Spot to; string note; legs <= 9; }
+  Drive(Mode m) { super(m, "Idle"); }
+}
+int LEGS = [0 9];
+Spot home = new Spot(1);
+Spot away = new Spot(2);
+Drive drive = new Drive(Internal);
+Drive other = new Drive(External);
+Drive::Go { float t; t == sampledParameter(LEGS); duration >= 3; }
+close();
+"""
+OWNER = MODEL.replace("drive = new Drive(Internal)", "drive = new Drive(External)").replace(
+    "other = new Drive(External)", "other = new Drive(Internal)"
+)
+MISSION = """\
+[mission]
+name = "drive"
+final_tick = 50
+[[reactor]]
+name = "driver"
+model = "driver.nddl"
+lookahead = 50
+internal = ["drive"]
+external = ["other"]
+[[reactor]]
+name = "second"
+model = "second.nddl"
+internal = ["other"]
+[[goal]]
+timeline = "drive"
+predicate = "Go"
+[goal.parameters]
+distance = 3.5
+legs = 2
+fast = true
+gear = "Low"
+to = "home"
+note = "x"
+"""
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "driver.nddl").write_text(MODEL)
+    second = OWNER.replace("Drive drive = new Drive(External);\n", "").replace("t == sampledParameter(LEGS); ", "")
+    (tmp_path / "second.nddl").write_text(second)
+    return tmp_path
+
+
+def found(text: str, capsys: pytest.CaptureFixture[str]) -> list[tuple[str, int, str, str | None]]:
+    """What `lint` and `check --dry-run` alike complain of."""
+    Path("mission.toml").write_text(text)
+    code = run(["lint", "mission.toml", "--format", "json", "--fail-on", "error"])
+    linted = json.loads(capsys.readouterr().out)["diagnostics"]
+    assert run(["check", "--dry-run", "mission.toml", "--format", "json"]) == 2 * code
+    if code:
+        assert json.loads(capsys.readouterr().out)["diagnostics"] == linted
+    assert not Path("nddlc-report").exists()
+    return [(one["code"], one["line"], one["message"], one["help"]) for one in linted if one["severity"] != "info"]
+
+
+def test_a_mission_in_order_is_said_to_be(capsys: pytest.CaptureFixture[str]) -> None:
+    assert found(MISSION, capsys) == []
+    assert run(["check", "--dry-run", "mission.toml"]) == 0
+    assert "in order; nothing was flown" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "wanted", "advice"),
+    [
+        ("distance = 3.5", 'distance = "far"', 'a number, or a range of them, not the text "far"', None),
+        ("distance = 3.5", "distance = true", "a number, or a range of them, not true or false", None),
+        ("distance = 3.5", "distance = nan", "a number, not the number nan", None),
+        ("legs = 2", "legs = 2.5", "a whole number, not the number 2.5", None),
+        ("legs = 2", "legs = [1, 2.5]", "a whole number, not a list", None),
+        ("fast = true", "fast = 1", "true or false, not the number 1", None),
+        ('gear = "Low"', 'gear = "Lwo"', 'a value of `Gear`, not the text "Lwo"', "did you mean `Low`?"),
+        ('gear = "Low"', "gear = 1", "a value of `Gear`, in quotes, not the number 1", "there are: Low, High"),
+        ('to = "home"', 'to = "drive"', 'an object of class `Spot`, not the text "drive"', "there are: home, away"),
+        ('note = "x"', "note = 5", "a text, in quotes, not the number 5", None),
+    ],
+)
+def test_a_value_of_another_type_is_named(
+    old: str, new: str, wanted: str, advice: str | None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = MISSION.replace(old, new)
+    line = text[: text.index(new)].count("\n") + 1
+    name = new.partition(" ")[0]
+    assert found(text, capsys) == [("NDDL719", line, f"`{name}` of `Drive.Go` must be {wanted}", advice)]
+
+
+@pytest.mark.parametrize(
+    ("keys", "reason"),
+    [
+        ("at = 50", "it is sent at tick 50, and the mission ends at tick 50"),
+        ("start = [60, 70]", "it begins at tick 60 or later, and the mission ends at tick 50"),
+        ("at = 20\nstart = [5, 20]", "it begins by tick 20, and is sent at tick 20"),
+        ("start = 40\nduration = [20, 30]", "it ends at tick 60 or later, and the mission ends at tick 50"),
+        ("end = [51, 90]", "it ends at tick 51 or later, and the mission ends at tick 50"),
+        ("start = 10\nduration = 20\nend = [0, 25]", "it ends by tick 25, and cannot before tick 30"),
+        ("duration = 0", "it lasts 0 ticks at most"),
+    ],
+)
+def test_a_goal_without_time_is_named(keys: str, reason: str, capsys: pytest.CaptureFixture[str]) -> None:
+    text = MISSION.replace('predicate = "Go"', f'predicate = "Go"\n{keys}')
+    ((code, _, message, _),) = found(text, capsys)
+    assert (code, message) == ("NDDL720", f"this goal can never be achieved: {reason}")
+
+
+def test_half_a_tick_is_named(capsys: pytest.CaptureFixture[str]) -> None:
+    text = MISSION.replace('predicate = "Go"', 'predicate = "Go"\nstart = [1.5, 30]')
+    assert [one[2] for one in found(text, capsys)] == ["`start` must be whole ticks, not 1.5"]
+
+
+def test_a_parameter_of_whole_numbers_is_drawn_from_such(capsys: pytest.CaptureFixture[str]) -> None:
+    for keys, reason in (("range = [0.2, 0.7]", "there is none from 0.2 to 0.7"), ("values = [1, 2.5]", "2.5 is none")):
+        ((code, _, message, _),) = found(MISSION + f"[parameters.LEGS]\n{keys}\n", capsys)
+        assert (code, message) == ("NDDL713", f"the model samples whole numbers, and {reason}")
+
+
+def test_roles_of_model_and_mission_are_compared(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "driver.nddl").write_text(MODEL.replace("other = new Drive(External)", "other = new Drive(Internal)"))
+    assert found(MISSION, capsys) == [
+        (
+            "NDDL721",
+            9,
+            "`other` is used (`external`) here, and `Internal` in the model `driver.nddl`",
+            "list `other` under `internal`, or change its mode in the model",
+        )
+    ]
+    (folder / "driver.nddl").write_text(MODEL)
+    text = MISSION.replace('external = ["other"]\n', "")
+    assert [(one[0], one[1]) for one in found(text, capsys)] == [("NDDL722", 4)]
+
+
+def test_a_default_that_the_class_lacks_is_named_in_the_model(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (folder / "driver.nddl").write_text(MODEL.replace('super(m, "Idle")', 'super(m, "Idel")'))
+    complaints = found(MISSION, capsys)
+    assert {one[:3] for one in complaints} == {
+        ("NDDL723", 7, "`drive` falls back to `Idel`, which `Drive` does not have"),
+        ("NDDL723", 7, "`other` falls back to `Idel`, which `Drive` does not have"),
+    }
+    assert complaints[0][3] == "did you mean `Idle`?"
+
+
+def test_files_are_regular_ones(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    os.mkfifo(folder / "pipe.nddl")
+    for name, what in (("pipe.nddl", "a device or a pipe"), ("/dev/zero", "a device or a pipe"), (".", "a directory")):
+        text = MISSION.replace('"second.nddl"', f'"{name}"')
+        assert found(text, capsys) == [("NDDL724", 12, f"`{name}` is {what}, not a file", "name a regular file")]

@@ -1,0 +1,93 @@
+"""A damaged store is told apart from a bug, and what is whole of it is kept."""
+
+import sqlite3
+from pathlib import Path
+
+import pytest
+
+from checker.batch.salvage import examine, salvage
+from checker.batch.store import Run, StoreError, open_store
+from nddlc.main import run
+from tests.checker.fake_agent import load_linked
+from tests.checker.test_batch import fly
+
+RUNS = (Run("abcd1234", "/m.toml", 7, 200), Run("00ff00ff", "/n.toml", 8, 5))
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Path:
+    """Two runs; all is in the main file."""
+    path = tmp_path / "runs.sqlite"
+    results = fly(load_linked, range(200), 1)
+    with open_store(path) as opened:
+        for one in RUNS:
+            opened.begin(one, keep=True)
+            for result in results[: one.missions]:
+                opened.add(one, result)
+    connection = sqlite3.connect(path)
+    connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+    connection.close()
+    return path
+
+
+def test_a_whole_store_is_said_to_be_whole(store: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["store", "check", str(store)]) == 0
+    assert "is whole: 205 missions of 2 runs" in capsys.readouterr().out
+
+
+def test_a_changed_row_is_found_and_left_out(
+    store: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    connection = sqlite3.connect(store)
+    connection.execute("UPDATE missions SET result = replace(result, '\"seed\":2', '\"seed\":3') WHERE number = 3")
+    connection.commit()
+    connection.close()
+    assert run(["store", "check", str(store)]) == 1
+    assert "mission 3 of run abcd1234 cannot be read" in capsys.readouterr().out
+    monkeypatch.chdir(store.parent)
+    assert run(["explain", "abcd#3", "--store", "runs.sqlite"]) == 2
+    with open_store(store) as opened, pytest.raises(StoreError, match=r"mission 3 of run abcd1234 .* is damaged"):
+        opened.begin(RUNS[0], keep=True)
+    assert run(["store", "salvage", str(store)]) == 0
+    assert "kept: 203 missions of 2 runs" in capsys.readouterr().out
+    assert examine(store).is_none
+    assert not examine(Path(f"{store}.damaged")).is_none
+    with open_store(store) as opened:
+        assert len(opened.begin(RUNS[0], keep=True)) == 199
+        assert opened.run_ids() == ["abcd1234", "00ff00ff"]
+
+
+def test_damaged_pages_cost_what_was_on_them(store: Path, tmp_path: Path) -> None:
+    content = bytearray(store.read_bytes())
+    pages = len(content) // 4096
+    assert pages > 10
+    for page in (pages // 2, pages - 2):
+        content[page * 4096 : page * 4096 + 4096] = b"\xa5" * 4096
+    store.write_bytes(bytes(content))
+    found = examine(store)
+    assert found.pages
+    with open_store(store) as opened, pytest.raises(StoreError, match="is damaged"):
+        opened.begin(RUNS[0], keep=True)
+    salvage(store, tmp_path / "new.sqlite")
+    after = examine(tmp_path / "new.sqlite")
+    assert after.is_none
+    assert 0 < after.whole == found.whole < 205
+
+
+@pytest.mark.parametrize(
+    ("make", "complaint"),
+    [
+        (lambda path: path.write_bytes(b"no database at all, and long enough to be sure" * 99), "is no store of nddlc"),
+        (lambda path: sqlite3.connect(path).executescript("CREATE TABLE t (x)"), "a database of something else"),
+        (lambda path: path.mkdir(), "no file that a store could be in"),
+    ],
+)
+def test_what_is_no_store_is_not_called_a_bug(
+    tmp_path: Path, make: object, complaint: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert callable(make)
+    path = tmp_path / "x.sqlite"
+    make(path)
+    assert run(["check", "models/gps/mission.toml", "--missions", "2", "--store", str(path)]) == 2
+    assert complaint in capsys.readouterr().err
+    assert run(["store", "check", str(path)]) == 2
