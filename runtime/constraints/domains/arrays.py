@@ -7,7 +7,7 @@ from typing import Any, Literal, TypeVar, cast, overload
 _IS_LAZY = hasattr(mmap, "MAP_PRIVATE")  # can the system give pages that cost nothing until they are written?
 _Number = TypeVar("_Number", int, float)
 
-_SHORT = 2**10  # cells up to which rows grow fourfold
+_SHORT = 2**9  # cells up to which rows grow fourfold
 _LARGE = 2**22  # bytes from which an array lives in such pages
 
 

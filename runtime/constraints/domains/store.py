@@ -16,7 +16,7 @@ from runtime.constraints.domains.tags import (
     TRAIL_UPPER,
 )
 
-_FIRST_ROOM = 64
+_FIRST_ROOM = 128
 
 
 class Store:
