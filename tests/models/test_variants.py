@@ -10,7 +10,7 @@ from checker.mission import read_mission
 from checker.models import load_models
 from runtime.executive.mission import run_mission
 from runtime.executive.outcome import EventKind, Outcome
-from bug_variants import Case, apply, read_variant
+from tests.models.bug_variants import Case, apply, read_variant
 
 BUGS = Path(__file__).parents[2] / "models" / "auv" / "bugs"
 VARIANTS = [read_variant(file) for file in sorted(BUGS.glob("*.toml"))]
