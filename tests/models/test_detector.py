@@ -1,0 +1,46 @@
+"""The detector of the INL mission: the hidden Markov model against its definition, and the thresholds."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+from runtime.user.reactor import Now, Seen
+from runtime.user.reactor_library import load_reactor
+
+INL = Path(__file__).parents[2] / "models" / "auv" / "inl"
+SETTINGS = {"clusters": "clusters.csv", "prior": 0.05, "stay": 0.97, "enter": 0.9, "leave": 0.1}
+
+
+def heard(detector, tick: int, cluster: int) -> list[str]:
+    now = Now(tick, {"water": Seen("Holds", {"id": cluster}, tick)}, frozenset({"water"}), frozenset())
+    detector.tick(now)
+    return [one.predicate for one in now.published]
+
+
+def test_the_belief_is_that_of_the_two_state_model() -> None:
+    detector = load_reactor(INL, "detector.py", "Detector")(SETTINGS)
+    outside, inside = 0.95, 0.05
+    for number, cluster in enumerate([20, 31, 38, 3, 17]):
+        heard(detector, 10 * number, cluster)
+        inside, outside = 0.97 * inside + 0.03 * outside, 0.03 * inside + 0.97 * outside
+        likely = 0.03 + 0.94 * cluster / 38
+        inside, outside = inside * likely, outside * (1 - likely)
+        inside, outside = inside / (inside + outside), outside / (inside + outside)
+        assert math.isclose(detector.belief, inside, rel_tol=1e-3)
+
+
+def test_it_tells_of_changes_only() -> None:
+    detector = load_reactor(INL, "detector.py", "Detector")(SETTINGS)
+    told = [heard(detector, 10 * k, 38 if k < 5 else 0) for k in range(10)]
+    assert [said for said in told if said] in (
+        [["Outside"], ["Inside"], ["Outside"]],
+        [["Outside", "Inside"], ["Outside"]],
+    )
+
+
+def test_a_probability_of_none_or_all_is_no_row_of_the_table(tmp_path) -> None:
+    (tmp_path / "detector.py").write_text((INL / "detector.py").read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "clusters.csv").write_text("cluster,inside\n0,1.0\n", encoding="utf-8")
+    with pytest.raises(ValueError, match="not between 0 and 1"):
+        load_reactor(tmp_path, "detector.py", "Detector")(SETTINGS)

@@ -1,0 +1,84 @@
+"""The models that come with the project: formatted, without a finding of lint, and flying."""
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from checker.flight import programs_of
+from checker.mission import read_mission
+from checker.models import load_models
+from nddlc.main import main
+from runtime.executive.mission import run_mission
+from runtime.executive.outcome import EventKind, Outcome
+
+MODELS = Path(__file__).parents[2] / "models"
+FILES = sorted(MODELS.rglob("*.nddl"))
+OWN = [file for file in FILES if "gps" not in file.relative_to(MODELS).parts]
+NOMINAL = {
+    "GPS_HIT_RATE": 1.0,
+    "ERROR_RATE_X": 0.0,
+    "ERROR_RATE_Y": 0.0,
+    "DX_NOISE": 0.0,
+    "DY_NOISE": 0.0,
+    "CLUSTER_ID": 5.0,
+}
+
+
+def fly(name: str, seed: int = 1, values: dict[str, float] | None = None) -> Outcome:
+    mission, _ = read_mission(MODELS / name)
+    assert mission is not None
+    models = load_models(mission)
+    assert not models.has_errors
+    return run_mission(models.agent, programs_of(models.agent), seed, values)
+
+
+@pytest.mark.parametrize("file", OWN, ids=lambda file: str(file.relative_to(MODELS)))
+def test_a_model_is_in_the_one_style(file) -> None:
+    found = CliRunner().invoke(main, ["fmt", "--check", str(file)])
+    assert found.exit_code == 0, found.output
+
+
+@pytest.mark.parametrize("file", OWN, ids=lambda file: str(file.relative_to(MODELS)))
+def test_lint_finds_nothing(file) -> None:
+    found = CliRunner().invoke(main, ["lint", str(file)])
+    assert found.exit_code == 0 and "nothing wrong" in found.output, found.output
+
+
+def test_the_survey_is_flown_to_its_end_without_a_repair() -> None:
+    outcome = fly("auv/inl/mission.toml", values=NOMINAL)
+    kinds = {event.kind for event in outcome.events}
+    assert outcome.abort is None and not outcome.open_goals
+    assert not kinds & {EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE}
+    fixes = [event for event in outcome.events if event.predicate == "Fix"]
+    checks = [event.tick for event in outcome.events if event.predicate == "CheckIn" and event.timeline == "comms"]
+    assert len(fixes) == len(checks)
+    assert all(after - before <= 5405 for before, after in zip([0, *checks], checks, strict=False))
+
+
+def test_a_detection_brings_a_closer_look_and_water_samples() -> None:
+    outcome = fly("auv/inl/mission.toml", values=NOMINAL | {"CLUSTER_ID": 28.0})
+    assert outcome.abort is None and not outcome.open_goals
+    done = [
+        event.predicate for event in outcome.events if event.kind is EventKind.ACHIEVED and event.request is not None
+    ]
+    assert "HighRes" in done and "Firing" in done
+
+
+def test_shore_sends_another_track() -> None:
+    outcome = fly("auv/front/mission.toml", values=NOMINAL)
+    assert outcome.abort is None and not outcome.open_goals
+    said = [event.kind for event in outcome.events if event.reactor == "shore"]
+    assert said == [EventKind.REQUEST, EventKind.RECALL, EventKind.REQUEST]
+    tracks = [
+        e for e in outcome.events if e.timeline == "front" and e.predicate == "Track" and e.kind is EventKind.ACHIEVED
+    ]
+    assert tracks, "no track was finished"
+    cells = {dict(e.arguments)["bin"].interval for e in outcome.events if e.predicate == "Profile"}
+    assert {(float(k), float(k)) for k in range(1, 8)} <= cells
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_the_survey_copes_with_what_is_drawn(seed) -> None:
+    outcome = fly("auv/inl/mission.toml", seed)
+    assert outcome.abort is None and not outcome.open_goals

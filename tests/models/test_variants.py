@@ -1,0 +1,73 @@
+"""Each bug variant fails at its failing values, and passes at its passing values, by repair, rejection and abort."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from checker.flight import programs_of
+from checker.mission import read_mission
+from checker.models import load_models
+from runtime.executive.mission import run_mission
+from runtime.executive.outcome import EventKind, Outcome
+from tests.models.bug_variants import Case, apply, read_variant
+
+BUGS = Path(__file__).parents[2] / "models" / "auv" / "bugs"
+VARIANTS = [read_variant(file) for file in sorted(BUGS.glob("*.toml"))]
+NOMINAL = {
+    "GPS_HIT_RATE": 1.0,
+    "ERROR_RATE_X": 0.0,
+    "ERROR_RATE_Y": 0.0,
+    "DX_NOISE": 0.0,
+    "DY_NOISE": 0.0,
+    "CLUSTER_ID": 5.0,
+}
+ORDER = [EventKind.REJECT, EventKind.RELAX, EventKind.ABORT]
+LONG_ENOUGH = 6000  # of a survey that nothing hinders, which lasts 5,500 s
+
+
+def fly(mission: Path, case: Case, until: int | None) -> Outcome:
+    parsed, _ = read_mission(mission)
+    assert parsed is not None
+    agent = load_models(parsed).agent
+    if case.seed is None:
+        return run_mission(agent, programs_of(agent), 1, NOMINAL | case.values, until=until)
+    agent = replace(agent, parameters=tuple(replace(each, mode="intra") for each in agent.parameters))
+    return run_mission(agent, programs_of(agent), case.seed, None, until=until)
+
+
+@pytest.mark.parametrize(
+    ("variant", "case"),
+    [(variant, case) for variant in VARIANTS for case in variant.fails],
+    ids=lambda given: getattr(given, "name", None) or str(given.values or given.seed),
+)
+def test_a_variant_fails_where_it_must(variant, case, tmp_path) -> None:
+    outcome = fly(apply(variant, tmp_path), case, None)
+    assert outcome.abort is not None
+    kinds = [event.kind for event in outcome.events if event.kind in ORDER]
+    assert kinds[-1] is EventKind.ABORT
+    assert EventKind.RELAX in kinds, "it gave up without a repair"
+
+
+@pytest.mark.parametrize(
+    ("variant", "case"),
+    [(variant, case) for variant in VARIANTS for case in variant.passes],
+    ids=lambda given: getattr(given, "name", None) or str(given.values),
+)
+def test_a_variant_passes_where_it_must(variant, case, tmp_path) -> None:
+    outcome = fly(apply(variant, tmp_path), case, LONG_ENOUGH)
+    assert outcome.abort is None
+
+
+@pytest.mark.parametrize("variant", VARIANTS, ids=lambda variant: variant.name)
+def test_the_model_without_the_mistake_does_not_fail_there(variant) -> None:
+    if not variant.fails:
+        pytest.skip("no values are known at which it fails")
+    outcome = fly(BUGS / variant.mission, variant.fails[0], 1500)
+    assert outcome.abort is None
+
+
+def test_an_edit_that_finds_no_place_is_refused(tmp_path) -> None:
+    first = VARIANTS[0]
+    with pytest.raises(ValueError, match="0 places"):
+        apply(replace(first, edits=((first.edits[0][0], "no such line", ""),)), tmp_path)
