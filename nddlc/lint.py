@@ -11,7 +11,7 @@ from pathlib import Path
 import click
 
 from nddl_lang.lint.check import Checker
-from nddl_lang.lint.configuration import is_code
+from nddl_lang.lint.configuration import NAME, PROJECT, is_code, read_configuration
 from nddl_lang.lint.settings import Settings, at_least
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
@@ -20,6 +20,7 @@ from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.sarif import sarif_of
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, parts_in, write_text
 from nddlc.known import known_callables
+from nddlc.main import named
 
 WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
 LEVELS = [severity.value for severity in Severity]
@@ -57,7 +58,8 @@ def command(
 ) -> int:
     """Report everything that is wrong with models.
 
-    FILE is a model, or a directory with models; of those, files that others include are looked at as parts of them.
+    FILE is a model, a mission file, or a directory with models; of those, files that others include are
+    looked at as parts of them.
     Errors stop a model, warnings are very likely mistakes, remarks are worth a look. Settings stand in nddlc.toml or
     in [tool.nddlc] of pyproject.toml, upwards from each file. Ends with 0 if nothing weighs as much as --fail-on,
     with 1 otherwise.
@@ -76,10 +78,13 @@ def command(
     mended = 0
     for path in paths:
         settings, gaps = _settings(path, codes, fail_on, is_trusted)
-        if fix or unsafe_fixes or only_show:
+        if (fix or unsafe_fixes or only_show) and path.suffix != ".toml":
             mended += _mend(checker, path, settings, only_show=only_show, unsafe=unsafe_fixes, is_text=style == "text")
             if only_show:
                 continue
+        if path.suffix == ".toml":
+            checked.append((settings, _told_of_toml(path)))
+            continue
         checked.append((settings, (*settings.choose(gaps), *checker.check(path, settings))))
     for settings, findings in checked:
         for each in findings:
@@ -93,6 +98,14 @@ def command(
         return int(mended > 0)
     _tell(found, [str(path) for path in paths], style, mended, statistics)
     return int(has_failed)
+
+
+def _told_of_toml(path: Path) -> tuple[Diagnostic, ...]:
+    """What is wrong with a mission file, or with a configuration."""
+    if path.name in (NAME, PROJECT):
+        return tuple(read_configuration(path)[1])
+    found: tuple[Diagnostic, ...] = named("checker.mission:read_mission")(path)[1]
+    return found
 
 
 def _codes(given: tuple[str, ...], option: str) -> Iterator[str]:

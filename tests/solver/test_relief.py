@@ -27,7 +27,12 @@ def planned(folder: Path, text: str, capsys: pytest.CaptureFixture[str], *option
 CHAIN = HEAD.format("100.0", BOTH) + TAKE.replace("}", "meets(Give g); }") + GIVE + AFTER + TWO
 RULES = {
     "a token that a rule asks for": CHAIN,
-    "another goal": HEAD.format("100.0", BOTH) + TAKE + GIVE + AFTER + TWO + "goal(r.Give k);\nk.start = [0 440];\nk.end = [0 440];\n",
+    "another goal": HEAD.format("100.0", BOTH)
+    + TAKE
+    + GIVE
+    + AFTER
+    + TWO
+    + "goal(r.Give k);\nk.start = [0 440];\nk.end = [0 440];\n",
     "a chain of rules": HEAD.format("100.0", BOTH + " predicate Link { }")
     + TAKE.replace("}", "meets(Link l); }")
     + "Rover::Link { meets(Give g); }\n"
