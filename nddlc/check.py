@@ -26,7 +26,8 @@ from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
 from nddlc.known import known_callables
-from nddlc.trust import models_of, trust_option
+from nddlc.mission_trust import models_of
+from nddlc.trust import trust_option
 
 HOLDS, FINDINGS, UNUSABLE, BUG, INTERRUPTED = 0, 1, 2, 3, 130
 STORE = Path(".nddlc/runs.sqlite")

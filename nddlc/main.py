@@ -111,6 +111,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except UserCodeError as mistake:
         _complain(f"nddlc: {mistake}\n  help: {mistake.advice}")
         return UNUSABLE
+    except MemoryError:
+        _complain("nddlc: there is not enough memory for this")
+        return UNUSABLE
     except (click.Abort, KeyboardInterrupt):
         _complain("nddlc: interrupted")
         return INTERRUPTED

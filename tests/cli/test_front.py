@@ -35,3 +35,22 @@ def test_lint_reads_a_configuration_as_one(tmp_path: Path, capsys: Captured) -> 
     path.write_text('ignore = ["NDDL501"]\n', encoding="utf-8")
     assert run(["lint", str(path)]) == 0
     assert "nothing wrong" in capsys.readouterr().out
+
+
+ENDLESS = """class A extends Timeline { predicate P { } }
+A::P { meets(P q); }
+A a = new A();
+close();
+goal(a.P g);
+g.start = [0 10];
+g.end = [1 20];
+"""
+
+
+@pytest.mark.parametrize("options", [[], ["--json"], ["--explain"], ["--strategy", "europa"]])
+def test_an_endless_rule_ends_at_the_memory_budget(options: list[str], tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "m.nddl"
+    path.write_text(ENDLESS, encoding="utf-8")
+    assert run(["plan", str(path), "--horizon", "0", "inf", "--max-memory", "20", "--max-seconds", "50", *options]) == 1
+    told = capsys.readouterr()
+    assert "memory" in told.out and "bug" not in told.err
