@@ -12,6 +12,7 @@ import click
 from runtime.solver.search import Solver
 from runtime.user.limit import WATCH
 
+_SHOWING_SECONDS = 0.0003  # for a token, when the search is over
 _PROGRESS_SECONDS = 0.5  # until progress is told, and between two tellings
 
 
@@ -47,7 +48,11 @@ class Clock:
             self._write(
                 f"{now - self._begun:.0f} s, {solver.steps} steps, {solver.failures} failed, depth {solver.depth}"
             )
-        return self.is_interrupted or (self.seconds is not None and now - self._begun >= self.seconds)
+        if self.is_interrupted or self.seconds is None:
+            return self.is_interrupted
+        # How far the search came must be shown within the limit too.
+        showing = min(self.seconds / 2, self.solver.plan.rows.token_count * _SHOWING_SECONDS)
+        return now - self._begun + showing >= self.seconds
 
     def _note(self, number: int, frame: FrameType | None) -> None:
         if self.is_interrupted or WATCH.call is not None:

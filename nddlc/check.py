@@ -29,8 +29,9 @@ from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
 from nddlc.known import known_callables
+from nddlc.mission_trust import models_of
 from nddlc.progress import Display
-from nddlc.trust import models_of, trust_option
+from nddlc.trust import trust_option
 
 HOLDS, FINDINGS, UNUSABLE, BUG = 0, 1, 2, 3
 SIGNALLED = 128  # and the number of the signal: 130 for Ctrl-C, 143 for SIGTERM

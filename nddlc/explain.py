@@ -20,7 +20,8 @@ from checker.models import ModelSet
 from checker.oracle import Verdict
 from nddlc.check import STORE
 from nddlc.inputs import Unusable
-from nddlc.trust import models_of, trust_option
+from nddlc.mission_trust import models_of
+from nddlc.trust import trust_option
 from runtime.executive.rendering import event_data, trace_line
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import click
 
 from nddl_lang.lint.check import Checker
-from nddl_lang.lint.configuration import is_code
+from nddl_lang.lint.configuration import NAME, PROJECT, is_code, read_configuration
 from nddl_lang.lint.settings import Settings, at_least
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
@@ -99,9 +99,11 @@ def command(
 
 
 def _check(checker: Checker, path: Path, settings: Settings) -> tuple[Diagnostic, ...]:
-    """All that is wrong with a model, or with a mission file and the models that it names."""
+    """All that is wrong with a model, a configuration, or a mission file and the models that it names."""
     if path.suffix != _MISSION:
         return checker.check(path, settings)
+    if path.name in (NAME, PROJECT):
+        return tuple(read_configuration(path)[1])
     found: tuple[Diagnostic, ...] = named("checker.models:examine")(path)
     return tuple(settings.choose(found))
 

@@ -112,6 +112,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except UserCodeError as mistake:
         _complain(f"nddlc: {mistake}\n  help: {mistake.advice}")
         return _UNUSABLE
+    except MemoryError:
+        _complain("nddlc: there is not enough memory for this")
+        return _UNUSABLE
     except (click.Abort, KeyboardInterrupt):
         _complain("nddlc: interrupted")
         return _INTERRUPTED

@@ -10,7 +10,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
 from nddlc.inputs import Unusable, colours, readable
-from nddlc.trust import models_of
+from nddlc.mission_trust import models_of
 
 
 def prepare(path: str, *, is_trusted: bool, is_named: bool = True) -> tuple[Path, Mission, ModelSet]:

@@ -13,6 +13,7 @@ from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
 from nddlc.cancellation import Clock
 from nddlc.inputs import Unusable, chosen_dialect, colours, columns, configured, readable
+from nddlc.memory import bounded, half_of_the_machine
 from nddlc.trust import library_for, trust_option
 from runtime.constraints.domains.tags import HALF_INF, INF
 from runtime.loading import Loaded, as_data, load
@@ -59,6 +60,7 @@ def _tick(text: str) -> int:
 @click.option("--max-steps", type=click.IntRange(0), help="Stop after so many steps.")
 @click.option("--max-depth", type=click.IntRange(0), help="Stop when so many decisions are in force.")
 @click.option("--max-seconds", type=click.FloatRange(0, min_open=True), help="Stop after so many seconds.")
+@click.option("--max-memory", type=click.IntRange(1), metavar="MIB", help="Stop at so much; half of the machine's.")
 @click.option(
     "--strategy",
     type=click.Choice(["nddlc", "europa"]),
@@ -81,6 +83,7 @@ def command(
     max_steps: int | None,
     max_depth: int | None,
     max_seconds: float | None,
+    max_memory: int | None,
     strategy: str,
     allow_unplanned: bool,
     explain: bool,
@@ -109,8 +112,13 @@ def command(
     log = FailureLog(database, solver.agenda, solver.stack) if explain else None
     solver.failure_log = log
     clock = Clock(solver, max_seconds)
-    with clock, redirect_stdout(sys.stderr):  # what constraints print there would be read by programs
-        result = solver.solve(limits.steps, limits.depth, clock)
+    budget = max_memory or half_of_the_machine()
+    try:
+        # What constraints print to standard output would be read by programs.
+        with clock, redirect_stdout(sys.stderr), bounded(budget):
+            result = solver.solve(limits.steps, limits.depth, clock)
+    except MemoryError:
+        return _tell_of_memory(loaded, budget, solver.steps, as_json)
     was_consistent = before.is_consistent or solver.steps > 0 or result == PLAN
     reasons = _reasons(log, was_consistent, result)
     plan = read_state(database)
@@ -137,6 +145,17 @@ def command(
     if ended == INTERRUPTED:
         return 130
     return int(result != PLAN or (bool(report.beyond()) and not allow_unplanned))
+
+
+def _tell_of_memory(loaded: Loaded, budget: int, steps: int, as_json: bool) -> int:
+    """Say that the search was stopped; the plan is in no state to be shown."""
+    if as_json:
+        data = as_data(loaded, None) | {"load": "ok", "solve": {"result": "memory", "steps": steps}}
+        click.echo(json.dumps(data, ensure_ascii=False))
+    else:
+        click.echo(f"no plan found yet: stopped after {steps} steps, when {budget} MiB of memory were used up")
+        click.echo("  help: a rule may ask for ever more tokens, see `nddlc lint`; --max-memory allows more", err=True)
+    return 1
 
 
 def _goals(database: PlanDatabase) -> Iterator[str]:

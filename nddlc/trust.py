@@ -10,8 +10,6 @@ from typing import Any, TypeVar
 
 import click
 
-from checker.mission import Mission
-from checker.models import ModelSet, load_models
 from nddl_lang.lint.codes import NOT_TRUSTED
 from nddl_lang.lint.settings import Settings
 from nddl_lang.text.diagnostic import Diagnostic, Note
@@ -47,7 +45,7 @@ def trust_option(command: Function) -> Function:
 def library_for(path: Path, settings: Settings, *, is_trusted: bool) -> Library:
     """The constraints of the project that a named model belongs to, loaded."""
     if not is_trusted and settings.folder is not None:
-        _permit(
+        permit(
             ((each.path, each.span) for each in settings.modules),
             real_path(settings.folder),
             _is_named(real_path(settings.folder), real_path(path.parent)),
@@ -55,33 +53,12 @@ def library_for(path: Path, settings: Settings, *, is_trusted: bool) -> Library:
     return library_of(settings)
 
 
-def models_of(mission: Mission, *, is_trusted: bool, is_named: bool = True) -> ModelSet:
-    """The models of a mission, read and checked; `is_named`: the command line names the mission, not another file."""
-    if not is_trusted:
-        root = real_path(Path(mission.agent.root))
-        here = real_path(Path.cwd())
-        _permit(_python_of(mission), root, is_named or root.is_relative_to(here))
-    return load_models(mission)
-
-
-def _python_of(mission: Mission) -> Iterable[tuple[Path, Span]]:
-    """The Python files that a mission asks for, each with its place."""
-    agent, text = mission.agent, mission.text
-    root = Path(agent.root)
-    for index, file in enumerate(agent.constraints):
-        yield root / file, text.value_span(("constraints", "modules", index))
-    places = [place for place in text.places if place[:1] == ("reactor",) and place[2:] == ("code",)]
-    for place, reactor in zip(sorted(places, key=lambda each: int(each[1])), agent.coded, strict=True):
-        if reactor.file:
-            yield root / reactor.file, text.value_span(place)
-
-
 def _is_named(folder: Path, named: Path) -> bool:
     """Whether a configuration's folder is the one that was named, or lies between it and where the user stands."""
     return folder == named or (named.is_relative_to(folder) and folder.is_relative_to(real_path(Path.cwd())))
 
 
-def _permit(files: Iterable[tuple[Path, Span]], folder: Path, is_named: bool) -> None:
+def permit(files: Iterable[tuple[Path, Span]], folder: Path, is_named: bool) -> None:
     """Raise Refused where one of the files is not of the project in `folder`, or that was not named."""
     refused = [(path, span) for path, span in files if not (is_named and real_path(path).is_relative_to(folder))]
     if not refused:

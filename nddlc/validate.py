@@ -18,7 +18,8 @@ from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import render
 from nddlc.inputs import Unusable
-from nddlc.trust import models_of, trust_option
+from nddlc.mission_trust import models_of
+from nddlc.trust import trust_option
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, UnusableModelError, record_mission
 from runtime.executive.record import MissionRecord, ReactorRecord

@@ -90,6 +90,11 @@ def choose(
     return best
 
 
+def takes(symbols: SymbolTable, owner: Class, types: Sequence[Type | None]) -> bool:
+    """Whether a constructor of the class takes arguments of these types."""
+    return any(_conversions(symbols, constructor, types) is not None for constructor in owner.constructors)
+
+
 def constructor_notes(owner: Class) -> tuple[Note, ...]:
     """A note per constructor of a class."""
     return tuple(Note(f"there is `{signature_text(item)}`", item.span) for item in owner.constructors)

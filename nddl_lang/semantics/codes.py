@@ -69,6 +69,10 @@ WRONG_ARGUMENT = Code("NDDL321", Severity.ERROR, "type", "`{name}` needs {expect
 ARGUMENTS_DIFFER = Code(
     "NDDL322", Severity.ERROR, "type", "`{name}` compares its arguments; `{text}` is {found}, `{other}` is {expected}"
 )
+NARROWED_TYPEDEF = Code(
+    "NDDL336", Severity.WARNING, "domain", "`{name}` is {found}: `{base}` allows no more than {allowed}"
+)
+NO_BASE = Code("NDDL335", Severity.ERROR, "arity", "`{name}` extends no class, so `super` has nothing to call")
 NO_CONSTRUCTOR = Code("NDDL323", Severity.ERROR, "arity", "class `{name}` has no constructor {arguments}")
 NO_BASE_CONSTRUCTOR = Code(
     "NDDL324",

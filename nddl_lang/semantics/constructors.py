@@ -1,5 +1,7 @@
 """Declare constructors, and check their bodies: `super(...)` first, then one value per member."""
 
+from collections.abc import Sequence
+
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.allocation import (
     argument_types,
@@ -8,6 +10,7 @@ from nddl_lang.semantics.allocation import (
     constructor_notes,
     has_empty_constructor,
     signature_text,
+    takes,
 )
 from nddl_lang.semantics.codes import (
     ASSIGNED_TWICE,
@@ -15,6 +18,7 @@ from nddl_lang.semantics.codes import (
     DUPLICATE_CONSTRUCTOR,
     DUPLICATE_FORMAL,
     MISSING_SUPER,
+    NO_BASE,
     NOT_A_MEMBER,
     SUPER_NOT_FIRST,
 )
@@ -27,6 +31,7 @@ from nddl_lang.semantics.schema import (
     LocalReference,
     MemberReference,
     Reference,
+    Type,
     Variable,
 )
 from nddl_lang.semantics.scope import BlockKind, Context, Scope
@@ -111,9 +116,24 @@ def _check_super(context: Context, scope: Scope, base: Class | None, node: Super
     types = argument_types(context, scope, node.arguments)
     if base is None or (scope.own_class is not None and context.symbols.is_partial(scope.own_class)):
         return
+    if base.is_native and node.arguments and base.base is None and scope.own_class is not None:
+        context.complain(
+            NO_BASE.at(node.span, help=_advise_base(context, scope.own_class, types), name=scope.own_class)
+        )
+        return
     constructor = choose(context, base, node.arguments, types, node.span)
     if constructor is not None:
         context.tables.constructors[node] = Chosen(constructor)
+
+
+def _advise_base(context: Context, name: str, types: Sequence[Type | None]) -> str:
+    """Which class is to be extended, by the constructors that would take the arguments."""
+    symbols = context.symbols
+    names = [each for each in symbols.names("class") if each != name]
+    owners = [owner for each in names if (owner := symbols.find_class(each)) is not None]
+    fitting = [owner.name for owner in owners if takes(symbols, owner, types)]
+    shown = fitting[0] if len(fitting) == 1 else "Base"
+    return f"write `class {name} extends {shown} {{ ... }}`, or remove `super(...)`"
 
 
 def _check_assignment(context: Context, scope: Scope, node: Assignment, given: dict[str, tuple[Domain, Span]]) -> None:

@@ -3,7 +3,7 @@
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.allocation import check_allocation
 from nddl_lang.semantics.classes import complain_taken
-from nddl_lang.semantics.codes import CLASS_TYPEDEF, DUPLICATE_NAME, DUPLICATE_VALUE
+from nddl_lang.semantics.codes import CLASS_TYPEDEF, DUPLICATE_NAME, DUPLICATE_VALUE, NARROWED_TYPEDEF
 from nddl_lang.semantics.schema import Domain, Enumeration, EnumValue, Kind, Type, Typedef, Values, Variable
 from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.typenames import find_type
@@ -62,7 +62,13 @@ def check_typedef(context: Context, node: TypedefDecl) -> None:
         return
     restriction = constant(context, node.domain) if is_sound else None
     if restriction is not None and base.restriction is not None:
-        restriction = domains.intersect(restriction, base.restriction, base.kind)
+        both = domains.intersect(restriction, base.restriction, base.kind)
+        if both is not None and both != restriction:
+            found, allowed = domains.text(both), domains.text(base.restriction)
+            context.complain(
+                NARROWED_TYPEDEF.at(node.domain.span, name=name, found=found, base=base.name, allowed=allowed)
+            )
+        restriction = both
     typedef = Typedef(name, Type(base.kind, name, base.base, restriction), node, node.name.span, node.doc)
     context.symbols.put("typedef", name, typedef)
     context.tables.declared[node.name] = typedef

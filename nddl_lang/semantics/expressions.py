@@ -18,7 +18,7 @@ from nddl_lang.semantics.codes import (
 from nddl_lang.semantics.constraints import Origin
 from nddl_lang.semantics.functions import FunctionRow, ResultKind
 from nddl_lang.semantics.literals import number
-from nddl_lang.semantics.names import resolve, resolve_value, suggest_name
+from nddl_lang.semantics.names import find, resolve, resolve_value, suggest_name
 from nddl_lang.semantics.natives import TIME_NAMES
 from nddl_lang.semantics.schema import (
     ClassReference,
@@ -336,9 +336,13 @@ def _sampled_type(context: Context, scope: Scope, call: CallExpr, row: FunctionR
 
 def sampled_parameter(context: Context, scope: Scope, owner: object, expression: Expr, row: FunctionRow) -> Type:
     """The type of what is drawn for the parameter that `expression` names; `owner` is the call or statement."""
-    reference = resolve(context, scope, expression) if isinstance(expression, PathExpr) else None
-    if reference is None and isinstance(expression, PathExpr):
-        return FLOAT
+    reference = None
+    if isinstance(expression, PathExpr):
+        # Locals are no parameters: where nothing has the name, none of them was meant.
+        is_known = len(expression.parts) > 1 or find(context, scope, expression.parts[0].name) is not None
+        reference = resolve(context, scope if is_known else Scope(scope.kind), expression)
+        if reference is None:
+            return FLOAT
     argument = row.signature.required[-1]
     if isinstance(reference, EnumValue | GlobalReference):
         found = reference_type(reference, None)

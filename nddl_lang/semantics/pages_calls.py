@@ -4,6 +4,7 @@ from nddl_lang.semantics.codes import (
     ARGUMENTS_DIFFER,
     FORMER_CONSTRAINT,
     MISSING_SUPER,
+    NO_BASE,
     NO_BASE_CONSTRUCTOR,
     NO_CONSTRUCTOR,
     NOT_IN_NDDL3,
@@ -80,6 +81,13 @@ CALL_PAGES = (
         "inherited.",
         _LAMP + "Lamp a = new Lamp();\n",
         _LAMP + "Lamp a = new Lamp(60);\n",
+    ),
+    RulePage(
+        NO_BASE,
+        "A constructor calls `super(...)` with arguments, but its class extends none.",
+        "`extends` and the class to build on were left out; what all classes come from has no such constructor.",
+        "class Lamp { Lamp(int w) { super(w); } }\n",
+        "class Light { Light(int w) { } }\nclass Lamp extends Light { Lamp(int w) { super(w); } }\n",
     ),
     RulePage(
         NO_BASE_CONSTRUCTOR,

@@ -11,6 +11,7 @@ from nddl_lang.semantics.codes import (
     MEMBER_VALUE,
     MIXED_ARITHMETIC,
     MIXED_SET,
+    NARROWED_TYPEDEF,
     NO_OBJECT_PREFIX,
     NO_ORDER,
     NOT_A_BOUND,
@@ -30,6 +31,13 @@ _GOALS = _ARM + "Arm a = new Arm();\nclose();\ngoal(a.grab g);\ngoal(a.grab h);\
 _COLORS = "enum Color { red, green }\nColor c;\n"
 
 TYPE_PAGES = (
+    RulePage(
+        NARROWED_TYPEDEF,
+        "A typedef of a typedef lists values that the first one does not allow.",
+        "A value must be allowed by both, so the type holds fewer values than its own line says.",
+        "typedef int [0 10] Small;\ntypedef Small [5 20] Odd;\n",
+        "typedef int [0 10] Small;\ntypedef Small [5 10] Odd;\n",
+    ),
     RulePage(
         NOT_AN_OBJECT,
         "Only objects and tokens have something behind a dot.",

@@ -10,6 +10,15 @@ from nddl_lang.text.nearest import nearest
 
 _NEXT_WORD = re.compile(r"(?:[ \t\r\n\f]+|//[^\n]*|/\*.*?\*/)*(#?\w++|[^\n])?", re.DOTALL)  # as in the formatter
 
+_OPERATORS = {
+    "and": "write one constraint per statement, one `if` inside the other, or `testAnd(truth, x, y);`",
+    "or": "write `or(x, y);` over truth values, or `testOr(truth, x, y);`",
+    "not": "turn the comparison round, as in `x <= 5`, or write `x == false`",
+    "then": "what follows a condition stands in braces: `if (x > 5) { }`",
+    "elif": "write `else { if (...) { } }`",
+    "is": "write `==`",
+}
+
 
 def describe_found(b: Builder, kinds: list[str], index: int) -> str:
     """What stands at the lexeme `index`, in words."""
@@ -32,6 +41,9 @@ def advise(kinds: list[str], texts: list[str], first: int, index: int) -> str | 
     The statement begins at the lexeme `first` and cannot go on with the lexeme `index`.
     """
     kind = kinds[index]
+    for at in (index, index - 1):
+        if at >= first and kinds[at] == "IDENT" and (advice := advise_operator(texts[at])) is not None:
+            return advice
     match kinds[first]:
         case "GOAL" if index == first + 1:
             return f"write `{texts[first]}(object.predicate name);`"
@@ -81,6 +93,8 @@ def _advise_after_name(kinds: list[str], texts: list[str], first: int, index: in
 def _advise_anywhere(kinds: list[str], texts: list[str], first: int, index: int) -> str | None:
     """What to write where it does not matter how the statement begins."""
     kind, before = kinds[index], kinds[index - 1] if index else ""
+    if before == "if" and kind != "(":
+        return "the condition stands in parentheses: `if (x > 5) { }`"
     if kinds[first + 2 : first + 3] == ["("] and (word := f"{texts[first]}_{texts[first + 1]}") in RELATIONS:
         return f"did you mean `{word}`?"
     if kind in (":", "::") and before == "IDENT" and kinds[first] in ("RELATION", "GOAL"):
@@ -98,3 +112,8 @@ def _advise_anywhere(kinds: list[str], texts: list[str], first: int, index: int)
     if kind == "else":
         return "an `else` follows the statement or block of an `if`"
     return None
+
+
+def advise_operator(text: str) -> str | None:
+    """What to write instead of a word that is an operator in other languages."""
+    return _OPERATORS.get(text.casefold())

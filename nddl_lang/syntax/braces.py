@@ -65,20 +65,37 @@ def close_body(piece: Piece, brackets: Brackets, base: int, at: int) -> None:
     piece.report(UNCLOSED_BRACE, start, start + 1, text="{", notes=notes)
 
 
-def is_surplus(piece: Piece, text: str, finish: int, indent: int) -> bool:
+def is_surplus(piece: Piece, text: str, finish: int, indent: int, *, is_alone: bool) -> bool:
     """Whether the `}` that ends at `finish` and closes the piece, last in its line, was written once too often.
 
-    It was if a member of the class follows, or a `}` below the place where the piece began, `indent` blanks deep.
+    It was if a member of the class follows, or a `}` below the place where the piece began, `indent` blanks deep; of a
+    rule also if lines follow that are indented like its own, and then such a `}`. If it `is_alone` in its line, only
+    this counts: else the next one is too many.
     """
     following = _NEXT_LINE.match(text, finish)
     assert following is not None
     end = following.end()
     # A comment in the last line of all may come to end there.
     piece.reach = max(piece.reach, len(text) + 1 if text.startswith("/", end) else end + _LONGEST)
-    if "\n" not in text[piece.starts[0] : finish] or "\n" not in following[0] or following[2] is None:
+    if "\n" not in text[piece.starts[0] : finish] or "\n" not in following[0]:
         return False
+    if is_alone or following[2] is None:
+        return piece.kinds[0] == "IDENT" and _goes_on(piece, text, finish, indent)
     depth = len(following[1])
     return depth == indent if following[2] == "}" else depth > indent and piece.kinds[0] == "class"
+
+
+def _goes_on(piece: Piece, text: str, finish: int, indent: int) -> bool:
+    """Whether indented lines follow that another `}` ends, `indent` blanks deep."""
+    for line in _LINE.finditer(text, finish):
+        piece.reach = max(piece.reach, line.end() + 1)
+        if len(line[1]) > indent:
+            continue
+        between = text[finish : line.start()]
+        is_end = line[2] == "}" and len(line[1]) == indent and between.strip() != ""
+        return is_end and between.count("{") == between.count("}")
+    piece.reach = max(piece.reach, len(text) + 1)
+    return False
 
 
 def leave_out(piece: Piece, brackets: Brackets, start: int, base: int) -> None:

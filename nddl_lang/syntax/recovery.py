@@ -8,7 +8,7 @@ end of the block that it stands in.
 from bisect import bisect_left
 from typing import Any
 
-from nddl_lang.syntax.advice import advise, describe_found
+from nddl_lang.syntax.advice import advise, advise_operator, describe_found
 from nddl_lang.syntax.builder import Builder, Maker
 from nddl_lang.syntax.codes import (
     EQUALITY_SIGN,
@@ -71,6 +71,8 @@ class Recovery:
             del states[depth + 1 :]
             del values[depth:]
             return first
+        if self._kinds[index] == "IDENT" and advise_operator(self._b.texts[index]) is not None and index > first:
+            return self._give_up(states, values, depth, first, index)
         if (
             self._insert(states, values, index)
             or self._reread(states, index)

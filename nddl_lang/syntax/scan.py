@@ -242,7 +242,8 @@ class Scanner:
         """Whether the `}` at `start` closes the piece too early; then it is left out."""
         piece = self._piece
         indent = self._indent(piece.starts[0])
-        if indent < 0 or self._indent(start) >= 0 or not is_surplus(piece, self._source.text, finish, indent):
+        is_alone = self._indent(start) >= 0
+        if indent < 0 or not is_surplus(piece, self._source.text, finish, indent, is_alone=is_alone):
             return False
         leave_out(piece, self._brackets, start, self._base)
         return True

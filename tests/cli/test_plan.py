@@ -152,7 +152,7 @@ def test_the_level_of_a_resource_is_drawn_from_step_to_step(tmp_path: Path, caps
 
 
 def test_goals_that_are_not_planned_are_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert planned(tmp_path, TWO, "--horizon", "0", "12") == 0
+    assert planned(tmp_path, TWO, "--horizon", "0", "12") == 1
     assert "the horizon from 0 to 12, see --horizon: c\n" in capsys.readouterr().out
 
 

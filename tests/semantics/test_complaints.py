@@ -67,4 +67,5 @@ def test_what_europa_allows_without_harm_is_no_error() -> None:
         "NDDL222",
         "NDDL235",
         "NDDL334",
+        "NDDL336",
     ]

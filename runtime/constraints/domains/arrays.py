@@ -39,7 +39,10 @@ def grow_rows(owner: object, names: str, length: int, fill: float = 0) -> None:
 
 def _lazily_zeroed(code: Any, size: int) -> "array[Any]":
     """Zeros, of so many bytes, in pages of their own: private ones, for workers are forked."""
-    pages = mmap.mmap(-1, size, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+    try:
+        pages = mmap.mmap(-1, size, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+    except OSError:
+        raise MemoryError from None
     return cast("array[Any]", memoryview(pages).cast(code))
 
 

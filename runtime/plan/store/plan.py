@@ -265,10 +265,10 @@ class Plan:
             self.awaited_count -= 1
             self.variable_guards[self.awaited[self.awaited_count]] -= 1
 
-    def note_variable(self, v: int, role: int, owner: int, name: int) -> None:
-        """Remember what a variable of the engine is."""
-        if v >= self.variable_capacity:
-            while v >= self.variable_capacity:
+    def reserve_variables(self, count: int) -> None:
+        """Have rows for the first `count` variables of the engine: constants are variables that nobody notes."""
+        if count > self.variable_capacity:
+            while count > self.variable_capacity:
                 self.variable_capacity *= 2
             self.variable_role = grown(self.variable_role, self.variable_capacity)
             self.variable_owner = grown(self.variable_owner, self.variable_capacity)
@@ -276,6 +276,11 @@ class Plan:
             self.variable_guards = grown(self.variable_guards, self.variable_capacity)
             self.proxy_index = grown(self.proxy_index, self.variable_capacity)
             self.proxy_member = grown(self.proxy_member, self.variable_capacity)
+
+    def note_variable(self, v: int, role: int, owner: int, name: int) -> None:
+        """Remember what a variable of the engine is."""
+        if v >= self.variable_capacity:
+            self.reserve_variables(v + 1)
         self.variable_role[v] = role
         self.variable_owner[v] = owner
         self.variable_name[v] = name

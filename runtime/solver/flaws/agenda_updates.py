@@ -32,6 +32,7 @@ from runtime.solver.tags import NO_KEY, NONE, OPEN_CONDITION, THREAT, UNBOUND_VA
 def rebuild(agenda: Agenda) -> int:
     """Rebuild the agenda from every token and variable; levels count from here."""
     agenda.clear()
+    agenda.plan.reserve_variables(agenda.engine.variables)
     agenda.level = 0
     for t in range(agenda.rows.token_count):
         if agenda.rows.status[t] == INACTIVE:

@@ -1,0 +1,45 @@
+"""A budget of memory for a search: what exceeds it is a MemoryError in here, not the end of the machine."""
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+if sys.platform != "win32":
+    import resource
+
+MEBIBYTE = 2**20
+USUAL = 4096  # where nobody can tell how much there is
+
+
+def half_of_the_machine() -> int:
+    """Half of the memory there is, in MiB."""
+    try:
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // MEBIBYTE // 2
+    except (AttributeError, ValueError, OSError):
+        return USUAL
+
+
+@contextmanager
+def bounded(mebibytes: int) -> Iterator[None]:
+    """Let what is inside take so much memory beside what is taken already."""
+    if sys.platform == "win32":  # where there is no such limit
+        yield
+        return
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    limit = _taken() + mebibytes * MEBIBYTE
+    known = [each for each in before if each != resource.RLIM_INFINITY]
+    resource.setrlimit(resource.RLIMIT_AS, (min([limit, *known]), before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, before)
+
+
+def _taken() -> int:
+    """The address space that this process has now, which is what the limit counts."""
+    try:
+        return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * os.sysconf("SC_PAGE_SIZE")
+    except (OSError, ValueError, IndexError):
+        return 1024 * MEBIBYTE
