@@ -144,8 +144,6 @@ def _parameter(node: _Node, complaints: list[Diagnostic]) -> tuple[ParameterConf
     batch = parts.get("BatchSampler")
     values: dict[str, dict[str, float]] = {tag: {} for tag in _PARTS}
     values |= {tag: _values(part, complaints) for tag, part in parts.items()}
-        tag: _values(part, complaints) for tag, part in parts.items()
-    }
     drawing = "Sampler" if mode == "intra" or "Min" in values["Sampler"] or "Mean" in values["Sampler"] else ""
     drawing = drawing or ("BatchSampler" if batch is not None else "Sampler")
     is_whole = False
