@@ -37,3 +37,4 @@ NO_DEFAULT = Code(
     "NDDL723", Severity.ERROR, "name", "`{timeline}` falls back to `{predicate}`, which `{class_name}` does not have"
 )
 NO_TEXT_FILE = Code("NDDL724", Severity.ERROR, "include", "`{path}` is {what}, not a file")
+ILL_BATCH = Code("NDDL725", Severity.ERROR, "syntax", "this is no batch file: {reason}")

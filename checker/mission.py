@@ -5,10 +5,11 @@ file (reference of T-REX, 3.1 and 5.5).
 """
 
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import cast
 
+from checker.batch_xml import read_batch
 from checker.codes import CYCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_TOML, TWICE
 from checker.goal_fit import goals_out_of_time
 from checker.losses import Limit
@@ -94,6 +95,8 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
         coded=coded,
     )
     check = _read_check(top.table("check", "[check]"))
+    if file := head.string("batch", ""):
+        agent, check = _with_batch(agent, check, file, root, top)
     head.close()
     top.close()
     text.diagnostics += goals_out_of_time(agent, text)
@@ -101,6 +104,25 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
     if any(diagnostic.severity is Severity.ERROR for diagnostic in found):
         return None, found
     return Mission(text, agent, check, unranged), found
+
+
+def _with_batch(
+    agent: AgentConfiguration, check: CheckConfiguration, file: str, root: Path, top: Table
+) -> tuple[AgentConfiguration, CheckConfiguration]:
+    """Add what a batch file in XML says of parameters and of the seed that the mission file does not."""
+    before = len(top.text.diagnostics)
+    _look_at(top.text, ("mission", "batch"), root, file)
+    if len(top.text.diagnostics) > before:
+        return agent, check
+    batch, complaints = read_batch(read_source(root / file))
+    top.text.diagnostics += complaints
+    if batch is None:
+        return agent, check
+    written = {one.name for one in agent.parameters}
+    added = tuple(one for one in batch.parameters if one.name not in written)
+    if batch.seed is not None and not top.table("check", "[check]").has("seed"):
+        check = replace(check, seed=batch.seed)
+    return replace(agent, parameters=(*agent.parameters, *added)), check
 
 
 def _not_toml(source: Source, problem: str) -> Diagnostic:

@@ -2,6 +2,7 @@
 
 from checker.codes import (
     CYCLE,
+    ILL_BATCH,
     ILL_DISTRIBUTION,
     ILL_VALUE,
     MISSING_KEY,
@@ -227,6 +228,14 @@ MISSION_PAGES = (
         "Models, constraints and flaw handling are read more than once, by several processes: regular files only.",
         '[[reactor]]\nmodel = "/dev/stdin"\n',
         '[[reactor]]\nmodel = "psim.nddl"\n',
+        "toml",
+    ),
+    RulePage(
+        ILL_BATCH,
+        "A batch file of the founding paper (XML) cannot be read, or lacks what a distribution needs.",
+        "Nothing is guessed: what is sampled decides what a batch shows.",
+        "[parameters.errorRateX]     # of <Min>low</Min>\nrange = []\n",
+        "[parameters.errorRateX]     # of <Min>-0.7</Min> and <Max>0.7</Max>\nrange = [-0.7, 0.7]\n",
         "toml",
     ),
 )

@@ -29,6 +29,7 @@ COMMANDS = {
     "replay": ("nddlc.replay", "Fly the mission of a trace again, and say where it departs."),
     "gold": ("nddlc.gold", "Compare a mission with how it was accepted to be."),
     "check": ("nddlc.check", "Fly the missions of a mission file, and say what fails and why."),
+    "convert": ("nddlc.convert", "Turn a batch file in XML into tables of a mission file."),
     "explain": ("nddlc.explain", "Explain why one mission of a run failed."),
     "store": ("nddlc.store", "Look whether a store of runs is whole, and salvage a damaged one."),
     "validate": ("nddlc.validate", "Judge a mission, a record, a trace or a plan against the model."),

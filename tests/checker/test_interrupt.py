@@ -62,7 +62,7 @@ def test_a_signal_ends_a_batch_at_once_and_keeps_what_is_finished(
     tmp_path: Path, number: signal.Signals, is_group: bool
 ) -> None:
     batch = begin(tmp_path, "load_slow", "--missions", "5000")
-    wait_for(tmp_path, batch)
+    wait_for(tmp_path, batch, 5)
     (os.killpg if is_group else os.kill)(batch.pid, number)
     pressed = time.monotonic()
     out, err = batch.communicate(timeout=30)
