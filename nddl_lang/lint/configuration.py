@@ -16,8 +16,8 @@ from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path as Key
 from nddl_lang.text.toml_places import find_places, toml_of
 
-_NAME = "nddlc.toml"
-_PROJECT = "pyproject.toml"
+NAME = "nddlc.toml"
+PROJECT = "pyproject.toml"
 _SEVERITIES: dict[str, Severity | None] = {**{each.value: each for each in Severity}, "off": None}
 _FAIL_ON: dict[str, Severity | None] = {**{each.value: each for each in Severity}, "never": None}
 _DIALECTS = {each.value: each for each in Dialect}
@@ -27,9 +27,9 @@ def find_configuration(directory: Path) -> Path | None:
     """The file that configures what stands in `directory`: the nearest one upwards, None where there is none."""
     directory = real_path(directory)
     for place in (directory, *directory.parents):
-        for name in (_NAME, _PROJECT):
+        for name in (NAME, PROJECT):
             path = place / name
-            if path.is_file() and (name == _NAME or _has_section(path)):
+            if path.is_file() and (name == NAME or _has_section(path)):
                 return path
     return None
 
@@ -60,7 +60,7 @@ def read_configuration(path: Path) -> tuple[Settings, list[Diagnostic]]:
         reason = str(problem)
         return Settings(), [NOT_TOML.at(Span(Anchor(source), 0, 0), reason=reason[:1].lower() + reason[1:])]
     prefix: Key = ()
-    if path.name == _PROJECT:
+    if path.name == PROJECT:
         table, prefix = table["tool"]["nddlc"], ("tool", "nddlc")
     reader = _Reader(source, path.parent)
     settings = reader.read(table, prefix)

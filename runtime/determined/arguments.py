@@ -1,6 +1,6 @@
 """Parameters as registers hold them, and as reactors tell each other."""
 
-from collections.abc import Callable
+from collections.abc import Sequence
 
 from compiler.determined.reasons import UndeterminedError
 from compiler.program import DomainConstant, PredicateCode
@@ -48,11 +48,22 @@ def _values_of(program: RegisterProgram, predicate: PredicateCode, arguments: Ar
     return values
 
 
-def arguments_of(program: RegisterProgram, predicate: PredicateCode, value_of: Callable[[int], float]) -> Arguments:
+def arguments_of(program: RegisterProgram, predicate: PredicateCode, values: Sequence[float]) -> Arguments:
     """Parameters as others read them."""
     told = []
-    for k, parameter in enumerate(predicate.parameters):
-        told.append((parameter.name, _domain_of(program, parameter.type.kind, parameter.type.type_name, value_of(k))))
+    known = program.told
+    for parameter, value in zip(predicate.parameters, values, strict=True):
+        kind, type_name = parameter.type.kind, parameter.type.type_name
+        if kind == "float":
+            domain = _domain_of(program, kind, type_name, value)
+        else:
+            found = known.get((kind, type_name, value))
+            if found is None:
+                found = _domain_of(program, kind, type_name, value)
+                if value == value:
+                    known[kind, type_name, value] = found
+            domain = found
+        told.append((parameter.name, domain))
     return tuple(told)
 
 

@@ -8,14 +8,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from math import inf
 
-from compiler.determined.code import BlockToken, RegisterBlock
+from compiler.determined.code import BlockToken
 from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS
-from compiler.program import Child, Guard, Instruction, NewVariable, PredicateCode
+from compiler.program import PredicateCode
 from runtime.determined.asking import Ask, PendingRequest, ask, ask_instead
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
+from runtime.determined.reading import TokenReading, values
 from runtime.determined.tags import FAR, LEAST, MOST, NONE, ROW, SLOT, WISHED
-from runtime.executive.record import NOBODY, BodyRun, GuardRun, ReactorRecord, TokenRecord, Value, ValueRange
+from runtime.executive.record import NOBODY, BodyRun, ReactorRecord, TokenRecord, Value, ValueRange
 
 
 @dataclass(eq=False, slots=True)
@@ -44,49 +45,49 @@ class _Expansion:
         self.awaited: dict[int, tuple[int, PredicateCode]] = {}  # the key of what is to follow on a timeline
         self.newest = NOBODY
         self.row = 0
+        self.registers: Sequence[float] = ()
 
     def see(self, tick: int, asked: dict[int, str]) -> None:
         """Read the tokens that have started at `tick`; `asked` tells the origin of what came from outside."""
         log = self.machine.log
         rows = range(self.row, log.row_count)
         self.row = log.row_count
-        keys: dict[int, int] = {}
+        self.registers = memoryview(self.machine.registers)
+        logged = memoryview(log.rows)
+        banks = memoryview(self.machine.current)
         for row in rows:
-            line, number = int(log.rows[ROW * row + 1]), int(log.rows[ROW * row + 3])
-            predicate = self.program.model.program.predicates[log.rows[ROW * row + 2]]
+            line, number = logged[ROW * row + 1], logged[ROW * row + 3]
+            predicate = self.program.model.program.predicates[logged[ROW * row + 2]]
             followed = self.awaited.get(line)
             origin = "rule" if number < 0 else asked.get(line, "request") if number & WISHED else "own"
             key = self._new_key()
             if origin == "own" and followed is not None and followed[1] is predicate:
                 key, origin = self.awaited.pop(line)[0], "rule"
-            keys[row] = key
             if line in self.current:
                 self._close(self.current[line], tick, "over")
                 self.before[line] = self.current[line]
-            arguments = self._arguments(predicate, self.machine.current[line])
+            arguments = self._arguments(predicate, banks[line])
             self.current[line] = _Held(key, predicate, line, tick, arguments, origin)
         for row in rows:
-            number = int(log.rows[ROW * row + 3])
-            block = self.program.blocks[number & (WISHED - 1)] if number >= 0 else None
-            if block is not None:
-                self._read(block)
+            number = logged[ROW * row + 3]
+            if number >= 0:
+                self._read(self.program.readings(number & (WISHED - 1)))
 
-    def _read(self, block: RegisterBlock) -> None:
+    def _read(self, readings: tuple[TokenReading, ...]) -> None:
         """The children and runs of all tokens of a block."""
-        keys: dict[int, int] = {}
+        registers, names = self.registers, self.program.name_of
+        held: list[TokenReading] = []
         children: dict[tuple[int, int, int], int] = {}
-        for number, token in enumerate(block.tokens):
-            if not self._holds(token.context):
+        for reading in readings:
+            token = reading.token
+            if token.context and not all((registers[k] != 0.0) == truth for k, truth in token.context):
                 continue
-            keys[number] = self._key(token)
-            children[token.parent, token.rule, token.slot] = keys[number]
-        for number, token in enumerate(block.tokens):
-            if number in keys and token.how not in (MERGED, PREVIOUS, FOLLOWING):
-                held = self.current[token.line]
-                held.runs = tuple(
-                    self._run(block, number, rule, self.program.model.program.rules[rule].body, children)
-                    for rule in token.predicate.rules
-                )
+            children[token.parent, token.rule, token.slot] = self._key(token)
+            if reading.bodies:
+                held.append(reading)
+        for reading in held:
+            runs = [body.run(registers, children, names) for body in reading.bodies]
+            self.current[reading.token.line].runs = tuple(runs)
 
     def _key(self, token: BlockToken) -> int:
         """The key of a token that a block knows; children that hold already are merged, followers are awaited."""
@@ -102,48 +103,9 @@ class _Expansion:
             return self.awaited[token.line][0]
         return self.current[token.line].key
 
-    def _run(
-        self,
-        block: RegisterBlock,
-        token: int,
-        rule: int,
-        body: tuple[Instruction, ...],
-        children: dict[tuple[int, int, int], int],
-    ) -> BodyRun:
-        """One run of a rule's body or of a branch."""
-        shown = {each.slot: each.shown for each in block.locals if each.token == token and each.rule == rule}
-        guards = {each.span: each.register for each in block.guards if each.token == token and each.rule == rule}
-        named: list[Value] = []
-        made: list[int] = []
-        runs: list[GuardRun] = []
-        for step in body:
-            match step:
-                case NewVariable(name=str(), slot=slot):
-                    named.append(self._value(shown[slot].register, shown[slot].kind))
-                case Child(slot=slot):
-                    made.append(children[token, rule, slot])
-                case Guard(then=then, otherwise=otherwise, span=span):
-                    is_true = self.machine.registers[guards[span]] != 0.0
-                    branch = then if is_true else otherwise
-                    inner = self._run(block, token, rule, branch, children) if branch else None
-                    runs.append(GuardRun("then" if is_true else "else", True, inner))
-                case _:
-                    pass
-        return BodyRun(rule, tuple(named), tuple(made), tuple(runs))
-
-    def _holds(self, context: tuple[tuple[int, bool], ...]) -> bool:
-        return all((self.machine.registers[register] != 0.0) == truth for register, truth in context)
-
     def _arguments(self, predicate: PredicateCode, first: int) -> tuple[Value, ...]:
-        return tuple(self._value(first + k, each.type.kind) for k, each in enumerate(predicate.parameters))
-
-    def _value(self, register: int, kind: str) -> Value:
-        number = float(self.machine.registers[register])
-        if number != number:
-            return ValueRange(-inf, inf)
-        if kind in ("int", "bool"):
-            return bool(number) if kind == "bool" else int(number)
-        return number + 0.0 if kind == "float" else self.program.name_of(int(number))
+        where = tuple([(first + k, each.type.kind) for k, each in enumerate(predicate.parameters)])
+        return values(self.registers, where, self.program.name_of)
 
     def _new_key(self) -> int:
         self.newest += 1

@@ -12,6 +12,7 @@ from compiler.determined.reasons import ChoiceReason, FreeChoice, UndeterminedEr
 from compiler.determined.relations import TOGETHER
 from compiler.program import DomainConstant, PredicateCode, Program
 from runtime.determined.machine import Machine
+from runtime.determined.reading import TokenReading, readings_of
 from runtime.determined.tags import FAR, NONE
 from runtime.executive.record import ReactorRecord
 from runtime.executive.workbench import Workbench
@@ -47,6 +48,8 @@ class RegisterProgram:
     starts: "array[int]" = field(default_factory=lambda: array("q", [0]))
     constants: dict[int, float] = field(default_factory=dict)  # register -> value of globals and members
     names: list[str] = field(default_factory=list)  # texts of the numbers of symbols
+    read: dict[int, tuple[TokenReading, ...]] = field(default_factory=dict)
+    told: dict[tuple[str, str, float], DomainConstant] = field(default_factory=dict)  # values that others were told
 
     def block(self, line: int, predicate: PredicateCode, mask: int) -> int:
         """The number of a block, and of all that follow from it; raises `UndeterminedError`."""
@@ -72,6 +75,13 @@ class RegisterProgram:
                 follower = self.block(target, self.model.program.predicates[successor], wanted)
                 self.code[here + STRIDE * k + 6] = follower
         return number
+
+    def readings(self, number: int) -> tuple[TokenReading, ...]:
+        """How the registers show what block `number` did."""
+        if number not in self.read:
+            block = self.blocks[number]
+            self.read[number] = () if block is None else readings_of(block, self.model.program.rules)
+        return self.read[number]
 
     def name_of(self, number: int) -> str:
         """The text, enum value or object of a number."""

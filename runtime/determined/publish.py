@@ -1,5 +1,6 @@
 """Publish what a machine has carried out: its log in, events of the trace and observations for users out."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from runtime.determined.arguments import arguments_of
@@ -47,17 +48,20 @@ class Publisher:
         trace = self.trace
         now, phase = trace.tick, trace.phase
         published: list[Observation] = []
-        while self.row < log.row_count and log.rows[ROW * self.row] <= until:
-            tick = int(log.rows[ROW * self.row])
+        logged, values = memoryview(log.rows), memoryview(log.values)
+        while self.row < log.row_count and logged[ROW * self.row] <= until:
+            tick = logged[ROW * self.row]
             last = self.row
-            while last < log.row_count and log.rows[ROW * last] == tick:
+            while last < log.row_count and logged[ROW * last] == tick:
                 last += 1
             trace.tick, trace.phase = tick, Phase.SYNCHRONISE
             self._tell_draws(log, tick)
-            rows = {int(log.rows[ROW * row + 1]): row for row in range(self.row, last)}
+            rows = {logged[ROW * row + 1]: row for row in range(self.row, last)}
             self._tell_achieved(rows, tick)
             trace.phase = Phase.OBSERVE
-            found = [self._observe(log, line, rows[line], tick) for line in self.program.internal if line in rows]
+            found = [
+                self._observe(logged, values, line, rows[line], tick) for line in self.program.internal if line in rows
+            ]
             if tick == until:
                 published = found
             self.row = last
@@ -92,12 +96,13 @@ class Publisher:
                         request=request.number,
                     )
 
-    def _observe(self, log: Log, line: int, row: int, tick: int) -> Observation:
+    def _observe(self, logged: Sequence[int], values: Sequence[float], line: int, row: int, tick: int) -> Observation:
         program = self.program
-        predicate = program.model.program.predicates[log.rows[ROW * row + 2]]
-        arguments = arguments_of(program, predicate, lambda k: float(log.values[log.rows[ROW * row + 4] + k]))
+        predicate = program.model.program.predicates[logged[ROW * row + 2]]
+        first = logged[ROW * row + 4]
+        arguments = arguments_of(program, predicate, values[first : first + len(predicate.parameters)])
         short = predicate.name.rpartition(".")[2]
-        wish = self._answered(line, int(log.rows[ROW * row + 3]), tick)
+        wish = self._answered(line, logged[ROW * row + 3], tick)
         last = self.events[line]
         causes = (wish.request.event,) if wish is not None else (last,) if last >= 0 else ()
         name = program.model.lines[line].name

@@ -1,0 +1,109 @@
+"""Readings: where the registers of a determined reactor show what the rules of a block did; made once per block."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from math import inf
+
+from compiler.determined.code import BlockToken, RegisterBlock
+from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS
+from compiler.program import Child, Guard, Instruction, NewVariable, RuleCode
+from runtime.executive.record import BodyRun, GuardRun, Value, ValueRange
+
+Named = tuple[tuple[int, str], ...]  # registers and kinds
+Names = Callable[[int], str]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class BodyReading:
+    """The body of a rule or a branch: registers of its named locals, child slots, and its guards."""
+
+    rule: int
+    named: Named
+    children: tuple[tuple[int, int, int], ...]  # number of the parent in its block, rule, slot
+    guards: tuple["GuardReading", ...]
+
+    def run(self, registers: Sequence[float], keys: dict[tuple[int, int, int], int], names: Names) -> BodyRun:
+        """What the body did, as the registers tell; `keys` are those of the children."""
+        guards = tuple([each.run(registers, keys, names) for each in self.guards]) if self.guards else ()
+        return BodyRun(
+            self.rule,
+            values(registers, self.named, names) if self.named else (),
+            tuple([keys[child] for child in self.children]) if self.children else (),
+            guards,
+        )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class GuardReading:
+    """A guard: the register of its condition, and both branches, None where one is empty."""
+
+    register: int
+    then: BodyReading | None
+    otherwise: BodyReading | None
+
+    def run(self, registers: Sequence[float], keys: dict[tuple[int, int, int], int], names: Names) -> GuardRun:
+        """Which branch was taken, and what it did."""
+        is_true = registers[self.register] != 0.0
+        branch = self.then if is_true else self.otherwise
+        return GuardRun(
+            "then" if is_true else "else", True, None if branch is None else branch.run(registers, keys, names)
+        )
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class TokenReading:
+    """A token of a block, by its number there; `bodies` are those of its rules, if they run with the block."""
+
+    number: int
+    token: BlockToken
+    bodies: tuple[BodyReading, ...]
+
+
+def readings_of(block: RegisterBlock, rules: tuple[RuleCode, ...]) -> tuple[TokenReading, ...]:
+    """All tokens of a block."""
+    return tuple(
+        TokenReading(
+            number,
+            token,
+            ()
+            if token.how in (MERGED, PREVIOUS, FOLLOWING)
+            else tuple(_body(block, number, rule, rules[rule].body) for rule in token.predicate.rules),
+        )
+        for number, token in enumerate(block.tokens)
+    )
+
+
+def _body(block: RegisterBlock, token: int, rule: int, body: tuple[Instruction, ...]) -> BodyReading:
+    shown = {each.slot: each.shown for each in block.locals if each.token == token and each.rule == rule}
+    registers = {each.span: each.register for each in block.guards if each.token == token and each.rule == rule}
+    named: list[tuple[int, str]] = []
+    children: list[tuple[int, int, int]] = []
+    guards: list[GuardReading] = []
+    for step in body:
+        match step:
+            case NewVariable(name=str(), slot=slot):
+                named.append((shown[slot].register, shown[slot].kind))
+            case Child(slot=slot):
+                children.append((token, rule, slot))
+            case Guard(then=then, otherwise=otherwise, span=span):
+                branches = [_body(block, token, rule, branch) if branch else None for branch in (then, otherwise)]
+                guards.append(GuardReading(registers[span], *branches))
+            case _:
+                pass
+    return BodyReading(rule, tuple(named), tuple(children), tuple(guards))
+
+
+def values(registers: Sequence[float], where: Named, names: Names) -> tuple[Value, ...]:
+    """What registers say of variables; NaN leaves one open."""
+    found: list[Value] = []
+    for register, kind in where:
+        number = registers[register]
+        if number != number:
+            found.append(ValueRange(-inf, inf))
+        elif kind == "float":
+            found.append(number + 0.0)  # no negative zero
+        elif kind == "int":
+            found.append(int(number))
+        else:
+            found.append(bool(number) if kind == "bool" else names(int(number)))
+    return tuple(found)
