@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from checker.batch.result import MissionResult
-from checker.causes import Culprit, culprit_of
+from checker.causes import Culprit, culprit_of, failed_by
 from checker.oracle import Judgement, Verdict
 from runtime.executive.outcome import OpenGoal
 
@@ -43,7 +43,7 @@ def bucket_key(result: MissionResult) -> Key:
     """What a failure is grouped by: its code and the culprit's place, or what it is about where there is none."""
     assert result.outcome is not None
     abort, reason = result.outcome.abort, result.judgement.reason
-    place = culprit_of(abort.conflict if abort else None).place
+    place = culprit_of(failed_by(result.outcome).conflict).place
     if place is not None:
         return (result.judgement.code, place.file, place.line, ())
     about = [abort.reactor if abort else ""]
@@ -71,7 +71,7 @@ def _bucket(members: list[MissionResult], counted: int) -> Bucket:
     return Bucket(
         members[0].judgement,
         members[0].open_goals,
-        culprit_of(example.abort.conflict if example.abort else None),
+        culprit_of(failed_by(example).conflict),
         example.abort.reactor if example.abort else "",
         tuple(member.number for member in members),
         round(len(members) / counted, 9),

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import click
 
+from checker.causes import failed_by, lines_that_rule_out
 from checker.happened import gantt
 from checker.mission import LARGEST_SEED
 from checker.one_flight import Flight, Settings, fly, trace_text
@@ -17,6 +18,8 @@ from runtime.executive.rendering import event_text, goal_text, reason_text
 
 PASS, FAIL = 0, 1
 TOLD = (EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL, EventKind.RELAX, EventKind.KILL, EventKind.ABORT)
+
+MOST_LINES = 8  # of the model that are named for a failure
 
 
 @click.command()
@@ -72,4 +75,7 @@ def _report(name: str, flight: Flight) -> str:
         f"recalled {counts[EventKind.RECALL]}; repairs {counts[EventKind.RELAX]}\n"
     )
     lines += [f"  open: {goal_text(goal)}\n" for goal in outcome.open_goals]
+    if judgement.verdict is not Verdict.PASS:
+        places = [element.place for element in lines_that_rule_out(failed_by(outcome))[:MOST_LINES]]
+        lines += [f"  ruled out by {one.file}:{one.line}:{one.column}: {one.text}\n" for one in places if one]
     return "".join(lines)
