@@ -22,3 +22,5 @@ NO_RANGE = Code("NDDL715", Severity.ERROR, "domain", "the parameter `{name}` has
 NO_TIMELINE = Code("NDDL716", Severity.ERROR, "name", "the model `{model}` has no object `{timeline}`")
 NO_PREDICATE = Code("NDDL717", Severity.ERROR, "name", "`{class_name}` has no predicate `{predicate}`")
 NO_ARGUMENT = Code("NDDL718", Severity.ERROR, "name", "`{predicate}` has no parameter `{name}`")
+UNKNOWN_ELEMENT = Code("NDDL719", Severity.ERROR, "name", "no element `{tag}` in {parent}")
+NO_EFFECT = Code("NDDL720", Severity.WARNING, "name", "`{what}` has no effect here")

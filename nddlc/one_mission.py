@@ -15,8 +15,8 @@ from nddlc.inputs import Unusable, colours, readable
 def prepare(path: str) -> tuple[Path, Mission, ModelSet]:
     """Read a mission and its models; what is wrong with them is told, and an error ends the command."""
     (file,) = readable((path,), ())
-    if file.suffix != ".toml":
-        raise Unusable(f"`{path}` is no mission file (.toml)")
+    if file.suffix not in (".toml", ".xml"):
+        raise Unusable(f"`{path}` is no mission file (.toml, or T-REX's .xml)")
     mission, found = read_mission(file)
     if mission is None:
         _tell(found)

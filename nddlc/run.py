@@ -31,8 +31,8 @@ MOST_LINES = 8  # of the model that are named for a failure
 def command(path: str, seed: int | None, given: tuple[str, ...], until: int | None, trace: Path | None) -> int:
     """Fly one mission and show what happened.
 
-    MISSION is a mission file (.toml). Ends with 0 if the mission passes, with 1 if it fails, with 2 if it cannot be
-    flown.
+    MISSION is a mission file (.toml) or an agent file of T-REX (.xml). Ends with 0 if the mission passes, with 1 if it
+    fails, with 2 if it cannot be flown.
     """
     file, mission, models = prepare(path)
     settings = Settings(mission.check.seed if seed is None else seed, values_of(given, models), until)

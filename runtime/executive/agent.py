@@ -114,7 +114,8 @@ class Agent:
         left = [goal for reactor in [*self.killed, *self.reactors] for goal in reactor.open_goals()]
         left += [OpenGoal(r.timeline, r.predicate, r.arguments) for _, r in self.unsent if r.is_mandatory]
         if last < final_tick:
-            left = [goal for goal in left if goal.reason is not None]  # the others may still be achieved
+            # The others may still be achieved.
+            left = [g for g in left if g.reason is not None and g.reason.kind is not ReasonKind.CUT_LOOSE]
         self.trace.phase = Phase.END
         if abort is None:
             self.trace.record(EventKind.END, "", code="F10" if left and not self.killed else "")

@@ -34,9 +34,9 @@ def lines_of(deadlock: Deadlock | None) -> set[str]:
     return {element.place.text for one in found for element in one.elements if element.place}
 
 
-def survey(rules: str, script: str = "", **goal: tuple[int, int]) -> Outcome:
+def survey(rules: str, script: str = "", start: tuple[int, int] | None = None) -> Outcome:
     """Fly a planner with two timelines of its own."""
-    goals = (GoalConfiguration("survey", "Transect", mandatory=True, **goal),) if goal else ()
+    goals = (GoalConfiguration("survey", "Transect", mandatory=True, start=start),) if start else ()
     model = f"{PLANNER}{rules}{OBJECTS}{script}"
     return fly(planner("planner", model, "survey motor", lookahead=60), until=50, goals=goals)
 
