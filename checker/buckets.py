@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from checker.batch.result import MissionResult
-from checker.causes import Culprit, culprit_of
+from checker.causes import Culprit, culprit_of, failed_by
 from checker.losses import GoalFate, Limit, Repairs
 from checker.oracle import Judgement, Verdict
 from runtime.executive.outcome import OpenGoal
@@ -62,7 +62,7 @@ def _culprit(result: MissionResult) -> Culprit:
     if abort is None and result.judgement.exceeded is not None and result.judgement.exceeded.limit is Limit.REPAIRS:
         at: Repairs = max(result.losses.repairs, key=lambda one: one.count)
         return Culprit(at=at.place)
-    return culprit_of(abort.conflict if abort else None)
+    return culprit_of(failed_by(result.outcome).conflict if result.outcome is not None else None)
 
 
 def _lost(result: MissionResult, limit: Limit) -> list[str]:

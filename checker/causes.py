@@ -4,11 +4,12 @@ Two graphs: events of the trace point at what they caused (across reactors), and
 together by the variables they share (inside the reactor that gave up). "Future work" of the founding paper, section 6.
 """
 
+from collections import Counter
 from dataclasses import dataclass
 
 import networkx as nx
 
-from runtime.executive.outcome import Conflict, ConflictElement, ElementKind, Event, Outcome, SourcePlace
+from runtime.executive.outcome import Conflict, ConflictElement, Deadlock, ElementKind, Event, Outcome, SourcePlace
 from runtime.plan.readout.names import VariableName
 
 # Kinds of elements that no line of the model can help.
@@ -21,6 +22,17 @@ _WORLD = (
 _VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
 _LIMITS = ("leq", "lt", "neq", "bounds", "withinBounds", "precedes", "strictlyPrecedes")
 _MOST_EVENTS = 8  # of the way to the abort, the last ones
+
+
+@dataclass(frozen=True, slots=True)
+class Failed:
+    """What is known of why a mission failed: what broke, and what a search has tried in vain.
+
+    `conflict` is what `deadlock` comes to where nothing broke: the elements that rule out what was tried.
+    """
+
+    conflict: Conflict | None = None
+    deadlock: Deadlock | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +51,46 @@ class Culprit:
     def place(self) -> SourcePlace | None:
         """The line to blame."""
         return self.element.place if self.element is not None else self.at
+
+
+def failed_by(outcome: Outcome | None) -> Failed:
+    """What is known of an abort, else of the first goal that stayed open for a known reason."""
+    if outcome is None:
+        return Failed()
+    ends = [outcome.abort] if outcome.abort is not None else list(outcome.open_goals)
+    for end in ends:
+        if end.conflict is not None or end.deadlock is not None:
+            conflict = end.conflict
+            if conflict is None and end.deadlock is not None:
+                conflict = in_common(end.deadlock)
+            return Failed(conflict, end.deadlock)
+    return Failed()
+
+
+def lines_that_rule_out(failed: Failed) -> list[ConflictElement]:
+    """The elements with a place, one for each line: the line to blame and what sets its limit first."""
+    conflicts = [failed.conflict] if failed.conflict is not None else []
+    conflicts += failed.deadlock.conflicts() if failed.deadlock is not None else ()
+    culprit = culprit_of(failed.conflict)
+    found = [element for conflict in conflicts for element in conflict.elements]
+    found.sort(key=lambda one: 0 if one.place == culprit.place else 1 if one.place in culprit.limits else 2)
+    lines: dict[tuple[str, int], ConflictElement] = {}
+    for element in found:
+        if element.place is not None:
+            lines.setdefault((element.place.file, element.place.line), element)
+    return list(lines.values())
+
+
+def in_common(deadlock: Deadlock) -> Conflict | None:
+    """The conflict that speaks for what was tried in vain: the one whose lines rule out the most, of equals the first.
+
+    A line is the same for every token that it is posted for.
+    """
+    conflicts = list(deadlock.conflicts())
+    places = [{element.place for element in one.elements if element.place is not None} for one in conflicts]
+    counts = Counter(place for each in places for place in each)
+    weights = [sum(counts[place] for place in each) / max(len(each), 1) for each in places]
+    return conflicts[weights.index(max(weights))] if conflicts else None
 
 
 def culprit_of(conflict: Conflict | None) -> Culprit:
@@ -102,13 +154,14 @@ def _event_graph(events: tuple[Event, ...]) -> "nx.DiGraph[int]":
 def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int, ...]:
     """Indices of the events on the way from a draw to the abort, in order, the abort left out.
 
+    Without an abort, those to what became of the first goal that stayed open for a known reason, with that event.
     From the draw of the first of `parameters` that is connected with the abort; else from whatever draw is; else the
     latest cause of each event, backwards. Of a long way, its root and its end.
     """
-    if outcome.abort is None or not outcome.events:
+    target = outcome.abort.event if outcome.abort is not None else _lost_at(outcome)
+    if target < 0 or not outcome.events:
         return ()
     graph = _event_graph(outcome.events)
-    target = outcome.abort.event
     ancestors: set[int] = nx.ancestors(graph, target)
     draws = {index: _drawn(outcome.events[index]) for index in sorted(ancestors, reverse=True)}
     wanted = [index for name in parameters for index, drawn in draws.items() if drawn == name]
@@ -121,15 +174,21 @@ def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int,
         while causes := outcome.events[current].causes:
             current = max(causes)
             way.insert(0, current)
+    if outcome.abort is None:
+        way.append(target)
     return tuple(way if len(way) <= _MOST_EVENTS else [way[0], *way[1 - _MOST_EVENTS :]])
+
+
+def _lost_at(outcome: Outcome) -> int:
+    """The event in which a goal was given up for a known reason; -1 if there is none."""
+    return next((goal.event for goal in outcome.open_goals if goal.reason is not None), -1)
 
 
 def draws_behind(outcome: Outcome) -> tuple[str, ...]:
     """The parameters that the abort depends on by the conflict's terms, or, failing those, by the trace."""
-    if outcome.abort is None:
-        return ()
-    names = outcome.abort.conflict.parameters if outcome.abort.conflict is not None else ()
-    if names or not outcome.events:
+    conflict = failed_by(outcome).conflict
+    names = conflict.parameters if conflict is not None else ()
+    if names or outcome.abort is None or not outcome.events:
         return names
     ancestors: set[int] = nx.ancestors(_event_graph(outcome.events), outcome.abort.event)
     drawn = (_drawn(outcome.events[index]) for index in sorted(ancestors))

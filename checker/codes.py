@@ -38,3 +38,5 @@ NO_DEFAULT = Code(
 )
 NO_TEXT_FILE = Code("NDDL724", Severity.ERROR, "include", "`{path}` is {what}, not a file")
 ILL_BATCH = Code("NDDL725", Severity.ERROR, "syntax", "this is no batch file: {reason}")
+UNKNOWN_ELEMENT = Code("NDDL726", Severity.ERROR, "name", "no element `{tag}` in {parent}")
+NO_EFFECT = Code("NDDL727", Severity.WARNING, "name", "`{what}` has no effect here")

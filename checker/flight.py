@@ -97,7 +97,12 @@ def _relative(outcome: Outcome, root: Path) -> Outcome:
         abort = replace(
             abort, conflict=_conflict(abort.conflict, root), repairs=repairs, deadlock=_deadlock(abort.deadlock, root)
         )
-    return replace(outcome, abort=abort, events=tuple(_event(event, root) for event in outcome.events))
+    goals = tuple(
+        replace(goal, conflict=_conflict(goal.conflict, root), deadlock=_deadlock(goal.deadlock, root))
+        for goal in outcome.open_goals
+    )
+    events = tuple(_event(event, root) for event in outcome.events)
+    return replace(outcome, abort=abort, events=events, open_goals=goals)
 
 
 def _event(event: Event, root: Path) -> Event:

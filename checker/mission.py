@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import cast
 
+from checker.agent_file import read_agent_file
 from checker.batch_xml import read_batch
 from checker.codes import CYCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_TOML, TWICE
 from checker.goal_fit import goals_out_of_time
 from checker.losses import Limit
-from checker.mission_table import MissionText, Table
+from checker.mission_table import MissionText, Table, TomlTable
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_source
@@ -69,12 +70,18 @@ def read_mission(path: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
 
 
 def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
-    """Read a mission's text; paths in it are relative to `root`."""
+    """Read a mission's text; paths in it are relative to `root`. A file `.xml` is T-REX's agent file."""
+    if source.name.endswith(".xml"):
+        text, found = read_agent_file(source, root)
+        return _mission_of(text, found, root) if found else (None, tuple(text.diagnostics))
     try:
         values = tomllib.loads(toml_of(source.text))
     except tomllib.TOMLDecodeError as problem:
         return None, (_not_toml(source, str(problem)),)
-    text = MissionText(source, find_places(source.text))
+    return _mission_of(MissionText(source, find_places(source.text)), values, root)
+
+
+def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
     top = Table(text, (), values, "a mission file")
     head = top.table("mission", "[mission]", needed=True)
     reactors, coded = _read_reactors(top.tables("reactor", needed=True), root)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from checker.batch.result import MissionResult
-from checker.causes import culprit_of, draws_behind, events_to_abort, in_telling_order
+from checker.causes import culprit_of, draws_behind, events_to_abort, failed_by, in_telling_order, lines_that_rule_out
 from checker.findings import Fault
 from checker.influence import Influence
 from checker.losses import Limit
@@ -23,6 +23,7 @@ from runtime.executive.outcome import (
     SourcePlace,
 )
 
+_MOST_LINES = 8  # that rule out what was tried
 _MOST_LOST = 12  # events that are told of a mission that lost too much
 
 
@@ -85,7 +86,7 @@ def tell(result: MissionResult, agent: AgentConfiguration, influence: Influence,
         *draws,
         *(Step(StepKind.EVENT, event.tick, event) for event in way),
         *_conflict(outcome),
-        *([Step(StepKind.TRIED, None, abort.deadlock)] if abort is not None and abort.deadlock is not None else ()),
+        *_tried(outcome),
         Step(StepKind.ABORT, outcome.last_tick, abort),
     ]
     return Story(
@@ -149,7 +150,7 @@ def _draws(
 
 def _sampled_at(outcome: Outcome, name: str) -> SourcePlace | None:
     """The line that samples a parameter, if the conflict knows it."""
-    conflict = outcome.abort.conflict if outcome.abort else None
+    conflict = failed_by(outcome).conflict
     for element in conflict.elements if conflict else ():
         if any(term.name == "sampledParameter" and term.arguments[1] == name for term in element.terms):
             return element.place
@@ -158,7 +159,7 @@ def _sampled_at(outcome: Outcome, name: str) -> SourcePlace | None:
 
 def _conflict(outcome: Outcome) -> list[Step]:
     """The elements of the conflict, from the draw outwards, the line to blame last."""
-    conflict = outcome.abort.conflict if outcome.abort else None
+    conflict = failed_by(outcome).conflict
     if conflict is None:
         return []
     culprit = culprit_of(conflict)
@@ -174,6 +175,17 @@ def _conflict(outcome: Outcome) -> list[Step]:
     if culprit.element is not None:
         steps.append(Step(StepKind.FAULT, None, culprit.element, culprit.place, culprit.limits))
     return steps
+
+
+def _tried(outcome: Outcome) -> list[Step]:
+    """What the search tried in vain, and the lines that rule it out and that the conflict does not name."""
+    failed = failed_by(outcome)
+    if failed.deadlock is None:
+        return []
+    limits = culprit_of(failed.conflict).limits
+    lines = [one for one in lines_that_rule_out(failed) if one.place not in limits][:_MOST_LINES]
+    steps = [Step(StepKind.CAUSE, None, element, element.place) for element in lines]
+    return [Step(StepKind.TRIED, None, failed.deadlock), *steps]
 
 
 def _without_repeats(steps: list[Step]) -> list[Step]:

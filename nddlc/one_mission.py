@@ -19,8 +19,8 @@ def prepare(path: str, *, is_trusted: bool, is_named: bool = True) -> tuple[Path
     `is_named`: the command line names the mission, not a file that the command line names.
     """
     (file,) = readable((path,), ())
-    if file.suffix != ".toml":
-        raise Unusable(f"`{path}` is no mission file (.toml)")
+    if file.suffix not in (".toml", ".xml"):
+        raise Unusable(f"`{path}` is no mission file (.toml, or T-REX's .xml)")
     mission, found = read_mission(file)
     if mission is None:
         _tell(found)

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import click
 
+from checker.causes import failed_by, lines_that_rule_out
 from checker.happened import gantt
 from checker.mission import LARGEST_SEED
 from checker.one_flight import Flight, FlightSettings, fly, trace_text
@@ -19,6 +20,8 @@ from runtime.executive.rendering import event_text, goal_text, reason_text
 _PASS, _FAIL = 0, 1
 _TOLD = (EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL, EventKind.RELAX, EventKind.KILL, EventKind.ABORT)
 
+MOST_LINES = 8  # of the model that are named for a failure
+
 
 @click.command()
 @click.argument("path", metavar="MISSION")
@@ -32,8 +35,8 @@ def command(
 ) -> int:
     """Fly one mission and show what happened.
 
-    MISSION is a mission file (.toml). Ends with 0 if the mission passes, with 1 if it fails, with 2 if it cannot be
-    flown.
+    MISSION is a mission file (.toml) or an agent file of T-REX (.xml). Ends with 0 if the mission passes, with 1 if it
+    fails, with 2 if it cannot be flown.
     """
     file, mission, models = prepare(path, is_trusted=is_trusted)
     settings = FlightSettings(mission.check.seed if seed is None else seed, values_of(given, models), until)
@@ -76,4 +79,7 @@ def _report(name: str, flight: Flight) -> str:
         f"recalled {counts[EventKind.RECALL]}; repairs {counts[EventKind.RELAX]}\n"
     )
     lines += [f"  open: {goal_text(goal)}\n" for goal in outcome.open_goals]
+    if judgement.verdict is not Verdict.PASS:
+        places = [element.place for element in lines_that_rule_out(failed_by(outcome))[:MOST_LINES]]
+        lines += [f"  ruled out by {one.file}:{one.line}:{one.column}: {one.text}\n" for one in places if one]
     return "".join(lines)

@@ -17,7 +17,7 @@ from runtime.executive.outcome import (
     ReasonKind,
     TimeBounds,
 )
-from runtime.executive.reactor import Failure, Refusal, TeleoReactor
+from runtime.executive.reactor import Failure, Refusal, TeleoReactor, Watched
 from runtime.executive.trace import Trace
 from runtime.plan.readout.statements import Term
 
@@ -92,6 +92,7 @@ class Agent:
         self.stirred: list[TeleoReactor] = []  # who has got something to do from a reactor that was killed
         self.seed = seed
         self.trace = trace
+        trace.tell_on = self._told_on
         self.tick = 0
 
     def run(self, until: int | None = None) -> Outcome:
@@ -113,7 +114,8 @@ class Agent:
         left = [goal for reactor in [*self.killed, *self.reactors] for goal in reactor.open_goals()]
         left += [OpenGoal(r.timeline, r.predicate, r.arguments) for _, r in self.unsent if r.is_mandatory]
         if last < final_tick:
-            left = [goal for goal in left if goal.reason is not None]  # the others may still be achieved
+            # The others may still be achieved.
+            left = [g for g in left if g.reason is not None and g.reason.kind is not ReasonKind.CUT_LOOSE]
         self.trace.phase = Phase.END
         if abort is None:
             self.trace.record(EventKind.END, "", code="F10" if left and not self.killed else "")
@@ -298,7 +300,7 @@ class Agent:
 
     def _abort(self, reactor: TeleoReactor, failure: Failure) -> Abort:
         """Record that the agent ends early, with its reason."""
-        conflict = self._traced(failure)
+        conflict = None if failure.conflict is None else self._told_on(failure.conflict, failure.watched)
         drawn = conflict.parameters if conflict is not None else ()
         event = self.trace.record(
             EventKind.ABORT,
@@ -323,13 +325,10 @@ class Agent:
             failure.deadlock,
         )
 
-    def _traced(self, failure: Failure) -> Conflict | None:
-        """The conflict of a failure, told on through the reactors that published what it hangs on."""
-        conflict = failure.conflict
-        if conflict is None:
-            return None
+    def _told_on(self, conflict: Conflict, watches: tuple[Watched, ...]) -> Conflict:
+        """A conflict, told on through the reactors that published what it hangs on."""
         elements = [[element] for element in conflict.elements]
-        for watched in failure.watched:
+        for watched in watches:
             owner = next((r for r in self.reactors if r.name == watched.source.owner), None)
             told = owner.why_it_lasts(watched.source.token, watched.source.token_key) if owner else None
             if told is None:
@@ -354,7 +353,7 @@ class Agent:
             causes=failure.causes,
             code=failure.code,
             reason=failure.reason,
-            conflict=self._traced(failure),
+            conflict=None if failure.conflict is None else self._told_on(failure.conflict, failure.watched),
             deadlock=failure.deadlock,
         )
         self.reactors.remove(reactor)

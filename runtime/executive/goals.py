@@ -1,15 +1,27 @@
 """What a reactor was asked for: queued until its window comes, posted, given up, taken back, done (T-REX 1.8)."""
 
 from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 from runtime.executive.messages import Request
-from runtime.executive.outcome import EventKind, OpenGoal, Reason, ReasonKind
-from runtime.executive.reactor import Refusal
+from runtime.executive.outcome import Conflict, Deadlock, EventKind, OpenGoal, Reason, ReasonKind
+from runtime.executive.reactor import Refusal, Watched
 from runtime.executive.repair import hold_present, stand
 from runtime.executive.timelines import NOTHING, Goal, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.view import SPAN_REQUEST
 from runtime.executive.workbench import Workbench
+
+
+@dataclass(frozen=True, slots=True)
+class Repair:
+    """The last repair of a reactor: when, its event, and what made it necessary."""
+
+    tick: int
+    event: int
+    reason: Reason
+    conflict: Conflict | None
+    deadlock: Deadlock | None = None
 
 
 class Goals:
@@ -27,6 +39,8 @@ class Goals:
         self.refusals: list[Refusal] = []
         self.given_up: list[OpenGoal] = []
         self.is_changed = False  # something was posted or taken out of the plan
+        self.repair: Repair | None = None
+        self.rejections: dict[int, Deadlock] = {}  # what the planner knows of the goals that it has rejected
 
     # ---- taking in ----
 
@@ -94,10 +108,10 @@ class Goals:
 
     # ---- giving up ----
 
-    def refuse(self, request: Request, why: Reason, kind: EventKind = EventKind.REFUSE) -> None:
+    def refuse(self, request: Request, why: Reason) -> None:
         """Tell that a request will not be met."""
         event = self.trace.record(
-            kind,
+            EventKind.REFUSE,
             self.name,
             request.timeline,
             request.predicate,
@@ -110,13 +124,64 @@ class Goals:
         if request.is_mandatory:
             self.given_up.append(OpenGoal(request.timeline, request.predicate, request.arguments, why, event))
 
-    def report_rejected(self) -> None:
+    def _give_up(self, request: Request, kind: ReasonKind, tick: int, deadlock: Deadlock | None = None) -> None:
+        """Tell that a goal of the plan will not be met, and what is known of why.
+
+        What is dropped went in the last repair; what is rejected or late in the tick of a repair, because of it.
+        """
+        repair = self.repair
+        if repair is not None and kind is not ReasonKind.DROPPED and repair.tick != tick:
+            repair = None
+        conflict: Conflict | None = None
+        causes: tuple[int, ...] = (request.event,)
+        why = Reason(kind)
+        if repair is not None:
+            conflict, causes = repair.conflict, (request.event, repair.event)
+            deadlock, why = deadlock or repair.deadlock, Reason(kind, because=repair.reason)
+            if conflict is not None:
+                causes += self.trace.draw_events(conflict.parameters)
+        event = self.trace.record(
+            EventKind.REJECT,
+            self.name,
+            request.timeline,
+            request.predicate,
+            request.arguments,
+            causes,
+            request=request.number,
+            reason=why,
+            conflict=conflict,
+            deadlock=deadlock,
+        )
+        self.refusals.append(Refusal(request, event))
+        if request.is_mandatory:
+            goal = OpenGoal(request.timeline, request.predicate, request.arguments, why, event, conflict, deadlock)
+            self.given_up.append(goal)
+
+    def note_repair(self, repair: Repair, watched: tuple[Watched, ...] = ()) -> None:
+        """Keep why the plan is repaired: where a mandatory goal is at stake, told on through the other reactors."""
+        conflict = repair.conflict
+        if conflict is not None and watched and any(goal.request.is_mandatory for goal in self.live()):
+            conflict = self.trace.tell_on(conflict, watched)
+        self.repair = replace(repair, conflict=conflict)
+
+    def missed(self) -> list[int]:
+        """The mandatory goals that the planner has just rejected."""
+        return [
+            goal.token
+            for goal in self.posted
+            if goal.request.is_mandatory
+            and not (goal.is_closed or goal.is_rejected)
+            and self.bench.is_alive(goal.token, goal.token_key)
+            and self.bench.is_rejected(goal.token)
+        ]
+
+    def report_rejected(self, tick: int) -> None:
         """Tell once of each goal that the planner found no place for; it may come back when there is room."""
         for goal in self.live():
             is_rejected = self.bench.is_alive(goal.token, goal.token_key) and self.bench.is_rejected(goal.token)
             if is_rejected and not goal.is_rejected:
                 goal.is_rejected = True
-                self.refuse(goal.request, Reason(ReasonKind.REJECTED), EventKind.REJECT)
+                self._give_up(goal.request, ReasonKind.REJECTED, tick, self.rejections.pop(goal.token, None))
             elif goal.is_rejected and not is_rejected:
                 goal.is_rejected = False
                 self._forgive(goal.request)
@@ -153,17 +218,17 @@ class Goals:
             bench, token = self.bench, goal.token
             if not bench.is_alive(token, goal.token_key):
                 goal.is_closed = True
-                self._drop(goal, ReasonKind.DROPPED)
+                self._drop(goal, ReasonKind.DROPPED, tick)
             elif bench.is_over(token, tick):
                 goal.is_closed = True
                 if is_cut_off(token):
-                    self._drop(goal, ReasonKind.DROPPED)
+                    self._drop(goal, ReasonKind.DROPPED, tick)
                 else:
                     self.achieved(goal.request)
                 found = True
             elif not bench.is_active(token) and bench.upper(bench.start(token)) <= tick and not bench.is_merged(token):
                 goal.is_closed = True
-                self._drop(goal, ReasonKind.TOO_LATE)
+                self._drop(goal, ReasonKind.TOO_LATE, tick)
                 late.append(token)
         if late:
             self.bench.recorder.cut()
@@ -172,9 +237,9 @@ class Goals:
             self.posted = self.live()
         return found
 
-    def _drop(self, goal: Goal, kind: ReasonKind) -> None:
+    def _drop(self, goal: Goal, kind: ReasonKind, tick: int) -> None:
         if not goal.is_rejected:
-            self.refuse(goal.request, Reason(kind), EventKind.REJECT)
+            self._give_up(goal.request, kind, tick)
 
     def achieved(self, request: Request) -> None:
         """Note that what was asked for has run to its end."""
@@ -201,7 +266,20 @@ class Goals:
 
     def open_goals(self) -> list[OpenGoal]:
         """Mandatory goals that were refused, or that have not run to their end by now."""
-        left = [goal.request for goal in self.live() if not goal.is_rejected] + self.waiting
-        return self.given_up + [
-            OpenGoal(r.timeline, r.predicate, r.arguments, event=r.event) for r in left if r.is_mandatory
-        ]
+        live = [self._live_goal(goal) for goal in self.live() if goal.request.is_mandatory and not goal.is_rejected]
+        return self.given_up + live + [_open_goal(request) for request in self.waiting if request.is_mandatory]
+
+    def _live_goal(self, goal: Goal) -> OpenGoal:
+        """A goal that is planned or runs; if a repair came while it ran, that may have cut it loose."""
+        found, repair, bench = _open_goal(goal.request), self.repair, self.bench
+        if repair is None or not bench.is_alive(goal.token, goal.token_key):
+            return found
+        began = bench.start(bench.stands_for(goal.token))
+        if bench.upper(began) > repair.tick or repair.event < goal.request.event:
+            return found
+        why = Reason(ReasonKind.CUT_LOOSE, because=repair.reason)
+        return replace(found, reason=why, event=repair.event, conflict=repair.conflict, deadlock=repair.deadlock)
+
+
+def _open_goal(request: Request) -> OpenGoal:
+    return OpenGoal(request.timeline, request.predicate, request.arguments, event=request.event)

@@ -5,6 +5,7 @@ one mission give equal outcomes, in either form of the engine and on any machine
 `runtime.executive.rendering` alone; nothing reads them back.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -124,6 +125,14 @@ class Deadlock:
     timeline: str = ""
     tried: tuple[FailedChoice, ...] = ()
 
+    def conflicts(self) -> Iterator[Conflict]:
+        """The conflicts that ended what was tried, however deep."""
+        for one in self.tried:
+            if one.conflict is not None:
+                yield one.conflict
+            if one.leads_to is not None:
+                yield from one.leads_to.conflicts()
+
 
 # ---- why ----
 
@@ -162,13 +171,15 @@ class ReasonKind(StrEnum):
     GOALS_OPEN = "goals open"
     NO_RECORD = "no record"
     CUT_OFF = "cut off"
+    CUT_LOOSE = "cut loose"
 
 
 @dataclass(frozen=True, slots=True)
 class Reason:
     """Why something happened, with what it is about; `limit` is a number of tries, steps or decisions.
 
-    `message` is text of others, such as that of an exception in a user's reactor.
+    `message` is text of others, such as that of an exception in a user's reactor. `because` is the reason of the repair
+    in which a goal lost its place.
     """
 
     kind: ReasonKind
@@ -178,6 +189,7 @@ class Reason:
     tick: int | None = None
     limit: int | None = None
     message: str = ""
+    because: "Reason | None" = None
 
 
 class RepairStage(StrEnum):
@@ -293,13 +305,18 @@ class Abort:
 
 @dataclass(frozen=True, slots=True)
 class OpenGoal:
-    """A mandatory goal that was not achieved; `event` is the index of what became of it last (-1: nothing)."""
+    """A mandatory goal that was not achieved; `event` is the index of what became of it last (-1: nothing).
+
+    `conflict` is what made a repair necessary in which it lost its place, `deadlock` what the planner tried in vain.
+    """
 
     timeline: str
     predicate: str
     arguments: Arguments = ()
     reason: Reason | None = None  # None: it was still waiting, planned or running
     event: int = -1
+    conflict: Conflict | None = None
+    deadlock: Deadlock | None = None
 
 
 @dataclass(frozen=True, slots=True)

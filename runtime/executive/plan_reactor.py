@@ -4,7 +4,7 @@ from runtime.executive.clock import next_reading
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.draws import Draws
-from runtime.executive.goals import Goals
+from runtime.executive.goals import Goals, Repair
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.planning import Planner
@@ -57,6 +57,8 @@ class PlanReactor:
         bench.late_objects = {line.object_id for line in self.timelines if line.is_internal and not line.is_early}
         self.by_name = {line.name: line for line in self.timelines}
         self.goals = Goals(self.name, bench, self.timelines, trace)
+        planner.missed = self.goals.missed
+        self.goals.rejections = planner.rejections
         self.tick = 0
         self.due = 0
         self.relaxes = 0
@@ -137,7 +139,7 @@ class PlanReactor:
         for attempt in range(3):
             if attempt:
                 self.trace.phase = Phase.REPAIR
-                self.trace.record(
+                event = self.trace.record(
                     EventKind.RELAX,
                     self.name,
                     causes=causes,
@@ -145,6 +147,8 @@ class PlanReactor:
                     reason=failures[-1].reason,
                     conflict=failures[-1].conflict,
                 )
+                broke = failures[0]
+                self.goals.note_repair(Repair(tick, event, broke.reason, broke.conflict, broke.deadlock), watched)
                 self.relaxes += 1
                 if not relax(self.bench, self.timelines, self.goals.live(), tick, forget=attempt == 2):
                     what = Reason(ReasonKind.CANNOT_RELAX)
@@ -152,7 +156,7 @@ class PlanReactor:
                     continue
             failure = self._prepare(tick) or self._settle(tick)
             if failure is None:
-                self.goals.report_rejected()
+                self.goals.report_rejected(tick)
                 if self.goals.close(tick, self.dispatch.is_cut_off):
                     self.goals.reopen()
                 self.bench.recorder.settled = tick
@@ -165,7 +169,9 @@ class PlanReactor:
         lines = first.timelines or tuple(line.name for line in self.timelines if line.is_internal)
         refusals = self.dispatch.refusals() if first.code == "F6" else ()
         causes = refusals or causes or events[:1]
-        return Failure(first.code, first.reason, lines, first.conflict, self.relaxes, repairs, causes, watched)
+        return Failure(
+            first.code, first.reason, lines, first.conflict, self.relaxes, repairs, causes, watched, first.deadlock
+        )
 
     def _prepare(self, tick: int) -> Unsettled | None:
         """Draw anew what was drawn for a tick at which its token does not begin."""
@@ -261,7 +267,7 @@ class PlanReactor:
             case "decided":
                 return True
             case "done":
-                self.goals.report_rejected()
+                self.goals.report_rejected(tick)
                 return False
             case "deep":
                 what = Reason(ReasonKind.DEPTH, limit=self.planner.max_depth)
@@ -276,10 +282,13 @@ class PlanReactor:
         if self.relaxed_at != tick:
             self.relaxed_at = tick
             self.relaxes += 1
-            self.trace.record(EventKind.RELAX, self.name, stage=RepairStage.REPLAN, reason=what, conflict=conflict)
+            stage = RepairStage.REPLAN
+            event = self.trace.record(EventKind.RELAX, self.name, stage=stage, reason=what, conflict=conflict)
+            self.goals.note_repair(Repair(tick, event, what, conflict))
             if relax(self.bench, self.timelines, self.goals.live(), tick + 1, forget=False):
                 return True
-        self.broken = Failure("F4", what, self.internal, conflict, self.relaxes)
+        deadlock = self.planner.deadlock()
+        self.broken = Failure("F4", what, self.internal, conflict, self.relaxes, deadlock=deadlock)
         return False
 
     def failure(self) -> Failure | None:

@@ -1,9 +1,10 @@
 """Let a reactor's solver plan ahead, or settle the flaws of the present, each within its window of time."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
-from runtime.executive.outcome import Conflict, Reason, ReasonKind
-from runtime.executive.story import conflict_of
+from runtime.executive.outcome import Conflict, Deadlock, Reason, ReasonKind
+from runtime.executive.story import SearchLog, conflict_of
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.configuration.configuration import Configuration, FlawFilter
@@ -13,6 +14,7 @@ from runtime.solver.tags import EXHAUSTED, PLAN
 
 NO_LIMIT = 2**62
 MOST_STEPS = 1_000_000  # decisions about one present that the engine makes, if nobody sets a limit
+MOST_EXPLAINED = 2_000  # decisions of a search that is repeated to find out why it failed
 
 
 class LimitError(RuntimeError):
@@ -87,6 +89,8 @@ class Planner:
         self.max_steps = max_steps
         self.max_depth = max_depth
         self.is_fresh = True
+        self.missed: Callable[[], list[int]] = list  # the mandatory goals that are rejected and that nobody was told of
+        self.rejections: dict[int, Deadlock] = {}  # why, by token
 
     def deliberate(self, tick: int, end: int) -> str:
         """Make one decision inside [tick, end]: "decided", "done" when nothing is left, "exhausted", or "deep"."""
@@ -96,6 +100,7 @@ class Planner:
             self.is_fresh = False
         outcome = self.solver.step()
         if outcome == PLAN:
+            self._explain_rejections()
             self.keep()
             return "done"
         is_deep = self.max_depth is not None and self.solver.depth > self.max_depth
@@ -124,6 +129,7 @@ class Planner:
         outcome = solver.solve(steps, depth)
         solver.max_steps = solver.max_depth = NO_LIMIT
         if outcome == PLAN:
+            self._explain_rejections()
             return "done"
         is_deep = solver.depth > depth
         solver.undo_all()
@@ -132,6 +138,37 @@ class Planner:
         if (self.max_depth if is_deep else self.max_steps) is None:
             raise LimitError(f"more than {MOST_STEPS} decisions about what holds at tick {tick}")
         return "deep" if is_deep else "steps"
+
+    def deadlock(self) -> Deadlock | None:
+        """Why the search that was exhausted found nothing: it is made again, with a log."""
+        return self._logged().deadlock()
+
+    def _logged(self) -> SearchLog:
+        """Make the search of the window again from its start, with a log; all of it is undone."""
+        solver = self.solver
+        log = SearchLog(self.bench, solver)
+        solver.failure_log = log.log
+        solver.refresh()
+        solver.solve(MOST_EXPLAINED, MOST_EXPLAINED)
+        solver.undo_all()
+        solver.failure_log = None
+        solver.max_steps = solver.max_depth = NO_LIMIT
+        self.is_fresh = True
+        return log
+
+    def _explain_rejections(self) -> None:
+        """Find out why mandatory goals were rejected: the search is made with a log, then once more as it was."""
+        missed = self.missed()
+        if not missed:
+            return
+        self.solver.undo_all()
+        log = self._logged()
+        for token in missed:
+            found = log.rejection(token)
+            if found is not None:
+                self.rejections[token] = found
+        self.solver.refresh()
+        self.solver.solve(NO_LIMIT, NO_LIMIT)
 
     def reason(self) -> tuple[Reason, Conflict | None]:
         """Why the search cannot go on: the first token that must hold and cannot, and what stands against it."""

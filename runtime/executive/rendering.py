@@ -51,6 +51,7 @@ _REASONS = {
     ReasonKind.RAISED: "its code failed: {message}",
     ReasonKind.GOALS_OPEN: "mandatory goals stayed open",
     ReasonKind.NO_RECORD: "ended at tick {tick} of {limit} without an abort record",
+    ReasonKind.CUT_LOOSE: "it began, and a repair has cut it loose from what was to end it",
     ReasonKind.CUT_OFF: "{predicate} on `{timeline}` counts as achieved, but was cut off by a repair",
 }
 
@@ -114,8 +115,9 @@ def trace_line(event: Event) -> str:
 
 
 def reason_text(reason: Reason) -> str:
-    """A reason as a clause."""
-    return _REASONS[reason.kind].format(
+    """A reason as a clause, and what it came of."""
+    because = f" ({reason_text(reason.because)})" if reason.because is not None else ""
+    text = _REASONS[reason.kind].format(
         token=reason.token,
         predicate=reason.predicate,
         timeline=reason.timeline,
@@ -123,6 +125,7 @@ def reason_text(reason: Reason) -> str:
         limit=reason.limit,
         message=reason.message,
     )
+    return text + because
 
 
 def goal_text(goal: OpenGoal) -> str:
@@ -233,6 +236,8 @@ def _reason_data(reason: Reason) -> dict[str, Any]:
     for name in ("predicate", "timeline", "tick", "limit", "message"):
         if (value := getattr(reason, name)) not in (None, ""):
             found[name] = value
+    if reason.because is not None:
+        found["because"] = _reason_data(reason.because)
     return found | {"words": reason_text(reason)}
 
 

@@ -1,5 +1,6 @@
 """Turn a conflict of the engine, or the failure log of a search, into the outcome's typed data, with source places."""
 
+from compiler.program import NewGlobal
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import (
     KIND_BOOL,
@@ -25,7 +26,7 @@ from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import TokenName, VariableName
 from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.plan.readout.terms import TermReader
-from runtime.plan.tags import ROLE_LOCAL, ROLE_TOKEN
+from runtime.plan.tags import NONE, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.learning.attempts import CauseOrigin, FailedFlaw, FoundCause
 from runtime.solver.learning.failure_log import FailureLog
 from runtime.solver.search import Solver
@@ -113,8 +114,20 @@ class ElementReader(TermReader):
             kind = ElementKind.DURATION
         spans = self.database.code.spans
         place = _place_of(spans[cause.span]) if 0 <= cause.span < len(spans) else None
+        if cause.span == NONE and kind is ElementKind.DECLARATION:
+            place = self.declared(found)
         token = self.token_name(cause.owner) if cause.owner >= 0 else None
         return _element(kind, place, token, found, terms)
+
+    def declared(self, found: Term | ResourceTerm) -> SourcePlace | None:
+        """Where the global variable is declared whose value a term without a place of its own tells."""
+        about = found.arguments[0] if isinstance(found, Term) and found.arguments else None
+        if not isinstance(about, VariableName) or about.token is not None:
+            return None
+        for made in self.database.program.script:
+            if isinstance(made, NewGlobal) and made.name == about.name and made.domain is not None:
+                return _place_of(made.span)
+        return None
 
     def term(self, cause: Cause) -> Term | ResourceTerm:
         """What a cause says; of a draw, the name of its parameter and the value."""
@@ -189,6 +202,8 @@ class SearchLog:
     def _element(self, found: FoundCause) -> ConflictElement:
         kind = _element_kind(found.term, found.number, is_declared=found.origin is CauseOrigin.DECLARED)
         place = None if found.span is None else _place_of(found.span)
+        if found.number == NONE and kind is ElementKind.DECLARATION:
+            place = self.reader.declared(found.term)
         return _element(kind, place, self.reader.tokens.get(found.owner), found.term, ())
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from runtime.executive.messages import Observation
-from runtime.executive.outcome import Conflict, Reason, ReasonKind
+from runtime.executive.outcome import Conflict, Deadlock, Reason, ReasonKind
 from runtime.executive.planning import LimitError, Planner
 from runtime.executive.story import conflict_of
 from runtime.executive.timelines import NOTHING, TimelineState
@@ -38,6 +38,7 @@ class Unsettled:
     timelines: tuple[str, ...]
     reason: Reason
     conflict: Conflict | None
+    deadlock: Deadlock | None = None
 
 
 OUT_OF_PATIENCE = Unsettled("", (), Reason(ReasonKind.UNMET), None)
@@ -320,7 +321,8 @@ class _Search:
         if outcome != "done":
             if self.first is None:
                 what, conflict = self.planner.reason() if self.explains else (Reason(ReasonKind.NO_PLAN), None)
-                self.first = Unsettled("F3", (), what, conflict)
+                deadlock = self.planner.deadlock() if self.explains else None
+                self.first = Unsettled("F3", (), what, conflict, deadlock)
             return False
         return True
 

@@ -1,7 +1,10 @@
 """Record what happens in a mission, each event with the earlier events that caused it."""
 
+from collections.abc import Callable
+
 from runtime.executive.messages import Arguments
 from runtime.executive.outcome import Conflict, Deadlock, Draw, Event, EventKind, Phase, Reason, RepairStage, TimeBounds
+from runtime.executive.reactor import Watched
 from runtime.plan.readout.names import TokenName
 
 
@@ -14,6 +17,8 @@ class Trace:
         self.tick = 0
         self.phase = Phase.START
         self._drawn: dict[tuple[str, int], int] = {}
+        # a conflict, told on through the reactors that published what it hangs on; the agent knows these
+        self.tell_on: Callable[[Conflict, tuple[Watched, ...]], Conflict] = lambda conflict, _: conflict
 
     def record(
         self,

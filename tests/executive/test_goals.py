@@ -125,7 +125,8 @@ def test_a_request_is_taken_back_when_its_token_loses_its_place() -> None:
     assert lines(outcome, "recall") == ["4 recall user lamp On(n=[-inf +inf])"]
     assert lines(outcome, "reject") == [
         "0 reject sim lamp On(n=[-inf +inf]): the planner found no place for it",
-        "4 reject user user Busy: the planner found no place for it",
+        "4 reject user user Busy: the planner found no place for it"
+        " (Lamp.Off#0 goes on at tick 4, later than the plan allows)",
     ]
     assert history(outcome, "lamp") == ["0 Off"]
 

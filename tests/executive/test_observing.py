@@ -73,7 +73,10 @@ def test_one_tick_past_the_bound_there_are_two_repairs() -> None:
         "13 relax user forgetting the past: Lamp.On#4 goes on at tick 13, later than the plan allows",
     ]
     # What runs stays; what it needs is asked for anew.
-    assert outcome.abort is None and open_goals(outcome) == ["Busy"]
+    assert outcome.abort is None and open_goals(outcome) == [
+        "Busy: it began, and a repair has cut it loose from what was to end it"
+        " (Lamp.On#4 goes on at tick 13, later than the plan allows)"
+    ]
 
 
 def test_what_is_only_planned_gives_way_to_the_world_with_the_past_kept() -> None:
@@ -85,7 +88,8 @@ def test_what_is_only_planned_gives_way_to_the_world_with_the_past_kept() -> Non
     assert outcome.abort is None
     assert lines(outcome, "relax", "reject") == [
         "9 relax user keeping the past: Lamp.On#3 goes on at tick 9, later than the plan allows",
-        "9 reject user user Busy: the planner found no place for it",
+        "9 reject user user Busy: the planner found no place for it"
+        " (Lamp.On#3 goes on at tick 9, later than the plan allows)",
     ]
 
 

@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -9,17 +10,17 @@ from runtime.user.reactor import Now, Seen
 from runtime.user.reactor_library import load_reactor
 
 INL = Path(__file__).parents[2] / "models" / "auv" / "inl"
-SETTINGS = {"clusters": "clusters.csv", "prior": 0.05, "stay": 0.97, "enter": 0.9, "leave": 0.1}
+SETTINGS: dict[str, Any] = {"clusters": "clusters.csv", "prior": 0.05, "stay": 0.97, "enter": 0.9, "leave": 0.1}
 
 
-def heard(detector, tick: int, cluster: int) -> list[str]:
+def heard(detector: Any, tick: int, cluster: int) -> list[str]:
     now = Now(tick, {"water": Seen("Holds", {"id": cluster}, tick)}, frozenset({"water"}), frozenset())
     detector.tick(now)
     return [one.predicate for one in now.published]
 
 
 def test_the_belief_is_that_of_the_two_state_model() -> None:
-    detector = load_reactor(INL, "detector.py", "Detector")(SETTINGS)
+    detector: Any = load_reactor(INL, "detector.py", "Detector")(SETTINGS)
     outside, inside = 0.95, 0.05
     for number, cluster in enumerate([20, 31, 38, 3, 17]):
         heard(detector, 10 * number, cluster)
@@ -31,7 +32,7 @@ def test_the_belief_is_that_of_the_two_state_model() -> None:
 
 
 def test_it_tells_of_changes_only() -> None:
-    detector = load_reactor(INL, "detector.py", "Detector")(SETTINGS)
+    detector: Any = load_reactor(INL, "detector.py", "Detector")(SETTINGS)
     told = [heard(detector, 10 * k, 38 if k < 5 else 0) for k in range(10)]
     assert [said for said in told if said] in (
         [["Outside"], ["Inside"], ["Outside"]],
@@ -39,7 +40,7 @@ def test_it_tells_of_changes_only() -> None:
     )
 
 
-def test_a_probability_of_none_or_all_is_no_row_of_the_table(tmp_path) -> None:
+def test_a_probability_of_none_or_all_is_no_row_of_the_table(tmp_path: Path) -> None:
     (tmp_path / "detector.py").write_text((INL / "detector.py").read_text(encoding="utf-8"), encoding="utf-8")
     (tmp_path / "clusters.csv").write_text("cluster,inside\n0,1.0\n", encoding="utf-8")
     with pytest.raises(ValueError, match="not between 0 and 1"):

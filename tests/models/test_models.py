@@ -3,12 +3,11 @@
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
 from checker.flight import programs_of
 from checker.mission import read_mission
 from checker.models import load_models
-from nddlc.main import main
+from nddlc.main import run
 from runtime.executive.mission import run_mission
 from runtime.executive.outcome import EventKind, Outcome
 
@@ -34,15 +33,14 @@ def fly(name: str, seed: int = 1, values: dict[str, float] | None = None) -> Out
 
 
 @pytest.mark.parametrize("file", OWN, ids=lambda file: str(file.relative_to(MODELS)))
-def test_a_model_is_in_the_one_style(file) -> None:
-    found = CliRunner().invoke(main, ["fmt", "--check", str(file)])
-    assert found.exit_code == 0, found.output
+def test_a_model_is_in_the_one_style(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["fmt", "--check", str(file)]) == 0, capsys.readouterr()
 
 
 @pytest.mark.parametrize("file", OWN, ids=lambda file: str(file.relative_to(MODELS)))
-def test_lint_finds_nothing(file) -> None:
-    found = CliRunner().invoke(main, ["lint", str(file)])
-    assert found.exit_code == 0 and "nothing wrong" in found.output, found.output
+def test_lint_finds_nothing(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code = run(["lint", str(file)])
+    assert code == 0 and "nothing wrong" in capsys.readouterr().out
 
 
 def test_the_survey_is_flown_to_its_end_without_a_repair() -> None:
@@ -79,6 +77,6 @@ def test_shore_sends_another_track() -> None:
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
-def test_the_survey_copes_with_what_is_drawn(seed) -> None:
+def test_the_survey_copes_with_what_is_drawn(seed: int) -> None:
     outcome = fly("auv/inl/mission.toml", seed)
     assert outcome.abort is None and not outcome.open_goals

@@ -1,0 +1,267 @@
+"""Read T-REX's agent file: XML in, the values and places of a mission file out (reference of T-REX, 3.1).
+
+What is read has the form of `mission.toml`, and is checked with it; only what XML can get wrong is told here.
+"""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from checker.codes import MISSING_KEY, NO_EFFECT, NO_FILE, TWICE, UNKNOWN_ELEMENT, UNKNOWN_KEY, WRONG_TYPE
+from checker.mission_table import MissionText, TomlTable
+from nddl_lang.text.diagnostic import Note
+from nddl_lang.text.nearest import nearest
+from nddl_lang.text.read import read_source
+from nddl_lang.text.source import Source, Span
+from nddl_lang.text.toml_places import Path as Keys
+from nddl_lang.text.toml_places import Stretch
+from runtime.solver.configuration.element import Attribute, Element
+from runtime.solver.configuration.read_xml import read_xml
+
+CLOCKS = ("StepClock", "RealTimeClock", "FastClock", "LogClock")
+SECONDS = {"hours": 3600.0, "minutes": 60.0, "seconds": 1.0, "millis": 1e-3, "micros": 1e-6}
+AGENT = {"name": "name", "finalTick": "final_tick"}
+AGENT_UNREAD = ("allow_empty", "config")
+MODELLED = {
+    "name": "name",
+    "latency": "latency",
+    "lookahead": "lookahead",
+    "model": "model",
+    "plan_cfg": "solver",
+    "solverConfig": "solver",
+    "maxSteps": "max_steps",
+    "maxDepth": "max_depth",
+}
+CODED = {"name": "name", "latency": "latency", "code": "code"}
+UNREAD = ("config", "log", "verbose", "all_plans", "relation_gv")  # what T-REX writes beside the mission
+TIMES = ("start", "end", "duration")
+DOMAINS = ("int", "float", "bool", "string", "symbol", "enum", "date", "duration")
+CONTENTS = ("Use", "Plugin", "Goal", "EuropaReactor", "PythonReactor", *CLOCKS)
+
+
+@dataclass(slots=True)
+class AgentFile:
+    """An agent file under reading: the values found so far, by the names of `mission.toml`."""
+
+    text: MissionText
+    root: Path
+    places: dict[Keys, Stretch]
+    mission: TomlTable = field(default_factory=dict)
+    reactors: list[TomlTable] = field(default_factory=list)
+    goals: list[TomlTable] = field(default_factory=list)
+    clock: Element | None = None
+
+    def read(self, agent: Element) -> TomlTable:
+        """All of a file; `agent` is its root."""
+        if agent.tag != "Agent":
+            self.text.diagnostics.append(UNKNOWN_ELEMENT.at(agent.span, tag=agent.tag, parent="an agent file"))
+            return {}
+        agent = self._with_config(agent)
+        self._put(("mission",), agent.span)
+        self._attributes(agent, self.mission, ("mission",), AGENT, AGENT_UNREAD)
+        for child in agent.children:
+            match child.tag:
+                case "Goal":
+                    self._goal(self._with_config(child))
+                case "EuropaReactor":
+                    self._reactor(self._with_config(child), MODELLED)
+                case "PythonReactor":
+                    self._reactor(self._with_config(child), CODED)
+                case "Use":
+                    self._use(child)
+                case "Plugin":
+                    self.text.diagnostics.append(NO_EFFECT.at(child.span, what="Plugin", help=NO_PLUGIN))
+                case tag if tag in CLOCKS:
+                    self._clock(child)
+                case _:
+                    self._complain_of_element(child, "Agent", CONTENTS)
+        return {"mission": self.mission, "reactor": self.reactors, "goal": self.goals}
+
+    def _with_config(self, element: Element) -> Element:
+        """An element with what the file named by `config` adds; what stands in the element itself counts first."""
+        named = element.find("config")
+        if named is None:
+            return element
+        file = self.root / named.value
+        if not file.is_file():
+            self.text.diagnostics.append(NO_FILE.at(named.span, path=named.value))
+            return element
+        found, diagnostics = read_xml(read_source(file))
+        self.text.diagnostics += diagnostics
+        if found is None:
+            return element
+        # The mission's places are those of one file, so what comes from another stands where that is named.
+        own = {attribute.name for attribute in element.attributes}
+        added = tuple(Attribute(one.name, one.value, named.span) for one in found.attributes if one.name not in own)
+        children = tuple(_moved(child, named.span) for child in found.children)
+        return Element(element.tag, element.attributes + added, children + element.children, element.span)
+
+    def _reactor(self, element: Element, known: dict[str, str]) -> None:
+        path: Keys = ("reactor", len(self.reactors))
+        table: TomlTable = {}
+        self._put(path, element.span)
+        if known is CODED:
+            settings: TomlTable = {}
+            given = tuple(one for one in element.attributes if one.name not in CODED and one.name not in UNREAD)
+            for attribute in given:
+                settings[attribute.name] = _value(attribute.value)
+                self._put((*path, "settings", attribute.name), attribute.span)
+            if given:
+                table["settings"] = settings
+                self._put((*path, "settings"), element.span)
+            self._attributes(element, table, path, known, (*UNREAD, *(one.name for one in given)))
+        else:
+            same = element.find("synch_cfg")
+            if same is not None:
+                self.text.diagnostics.append(NO_EFFECT.at(same.span, what="synch_cfg", help=ONE_SOLVER))
+            self._attributes(element, table, path, known, (*UNREAD, "synch_cfg"))
+        lines: dict[str, list[str]] = {"internal": [], "external": []}
+        for child in element.children:
+            key = child.tag.lower()
+            name = child.find("name")
+            if child.tag not in ("Internal", "External"):
+                self._complain_of_element(child, element.tag, ("Internal", "External"))
+            elif name is None:
+                self.text.diagnostics.append(MISSING_KEY.at(child.span, table=f"<{child.tag}>", key="name"))
+            else:
+                self._put((*path, key, len(lines[key])), name.span)
+                lines[key].append(name.value)
+                self._attributes(child, {}, (), {"name": "name"}, ("goals", "listen"))
+        table |= {key: names for key, names in lines.items() if names}
+        self.reactors.append(table)
+
+    def _goal(self, element: Element) -> None:
+        path: Keys = ("goal", len(self.goals))
+        table: TomlTable = {}
+        parameters: TomlTable = {}
+        self._put(path, element.span)
+        known = {"on": "timeline", "pred": "predicate", "at": "at", "mandatory": "mandatory", "recall": "recall"}
+        self._attributes(element, table, path, known, ("config", "id"))
+        for child in element.children:
+            name = child.find("name")
+            if child.tag != "Variable":
+                self._complain_of_element(child, "Goal", ("Variable",))
+            elif name is None:
+                self.text.diagnostics.append(MISSING_KEY.at(child.span, table="<Variable>", key="name"))
+            else:
+                is_time = name.value in TIMES
+                keys: Keys = (*path, name.value) if is_time else (*path, "parameters", name.value)
+                self._put(keys, name.span, child.span)
+                (table if is_time else parameters)[name.value] = self._domain(child, name.value)
+        if parameters:
+            table["parameters"] = parameters
+            self._put((*path, "parameters"), element.span)
+        self.goals.append(table)
+
+    def _domain(self, variable: Element, name: str) -> object:
+        """The value of a variable, or `[min, max]`."""
+        domains = [child for child in variable.children if child.tag in DOMAINS]
+        for child in variable.children:
+            if child not in domains:
+                self._complain_of_element(child, "Variable", DOMAINS)
+        if len(domains) != 1:
+            found = f"{len(domains)} of them"
+            self.text.diagnostics.append(
+                WRONG_TYPE.at(variable.span, key=name, wanted="one domain, such as `int`", found=found)
+            )
+            return 0
+        (domain,) = domains
+        inner = [value for child in domain.children if child.tag == "elem" and (value := child.find("value"))]
+        single = domain.find("value") or (inner[0] if len(inner) == 1 else None)
+        if single is not None:
+            is_text = domain.tag in ("string", "symbol", "enum")
+            return single.value if is_text else _value(single.value)
+        bounds = [domain.find(key) for key in ("min", "max")]
+        if domain.children or not any(bounds):
+            self.text.diagnostics.append(
+                WRONG_TYPE.at(domain.span, key=name, wanted="a value, or `min` and `max`", found="something else")
+            )
+            return 0
+        ends = (float("-inf"), float("inf"))
+        return [end if given is None else _value(given.value) for given, end in zip(bounds, ends, strict=True)]
+
+    def _use(self, element: Element) -> None:
+        file = element.find("file")
+        if file is None:
+            self.text.diagnostics.append(MISSING_KEY.at(element.span, table="<Use>", key="file"))
+        elif not (self.root / file.value).is_file():
+            self.text.diagnostics.append(NO_FILE.at(file.span, path=file.value))
+
+    def _clock(self, element: Element) -> None:
+        """A clock says how long a tick is; time passes as fast as the mission can be flown."""
+        if self.clock is not None:
+            first = (Note("first here", self.clock.span),)
+            self.text.diagnostics.append(TWICE.at(element.span, what="a clock", name=element.tag, notes=first))
+            return
+        self.clock = element
+        if element.tag not in ("RealTimeClock", "FastClock"):
+            return
+        seconds = 0.0
+        for attribute in element.attributes:
+            factor, value = SECONDS.get(attribute.name), _value(attribute.value)
+            if factor is not None and isinstance(value, int | float) and not isinstance(value, bool):
+                seconds += factor * value
+                self._put(("mission", "tick"), attribute.span)
+            elif factor is not None:
+                self.text.diagnostics.append(
+                    WRONG_TYPE.at(attribute.span, key=attribute.name, wanted="a number", found="a text")
+                )
+        if seconds:
+            self.mission["tick"] = seconds
+
+    def _attributes(
+        self, element: Element, table: TomlTable, path: Keys, known: dict[str, str], unread: tuple[str, ...]
+    ) -> None:
+        """Put the attributes of an element into a table; those that mean nothing are told."""
+        for attribute in element.attributes:
+            key = known.get(attribute.name)
+            if key is not None:
+                is_text = key in ("name", "model", "solver", "code", "timeline", "predicate")
+                table[key] = attribute.value if is_text else _value(attribute.value)
+                self._put((*path, key), attribute.span)
+            elif attribute.name not in unread:
+                close = nearest(attribute.name, [*known])
+                advice = f"did you mean `{close}`?" if close else "known attributes: " + ", ".join(known)
+                self.text.diagnostics.append(
+                    UNKNOWN_KEY.at(attribute.span, key=attribute.name, table=f"<{element.tag}>", help=advice)
+                )
+
+    def _complain_of_element(self, element: Element, parent: str, known: tuple[str, ...]) -> None:
+        close = nearest(element.tag, list(known))
+        advice = f"did you mean `{close}`?" if close else "known elements: " + ", ".join(known)
+        self.text.diagnostics.append(
+            UNKNOWN_ELEMENT.at(element.span, tag=element.tag, parent=f"<{parent}>", help=advice)
+        )
+
+    def _put(self, path: Keys, key: Span, value: Span | None = None) -> None:
+        stood = value or key
+        self.places.setdefault(path, Stretch((key.begin, key.end), (stood.begin, stood.end)))
+
+
+NO_PLUGIN = 'reactors in Python are loaded by `<PythonReactor code="file.py:Class"/>`'
+ONE_SOLVER = "the present is settled with the flaw handling of `plan_cfg`"
+
+
+def read_agent_file(source: Source, root: Path) -> tuple[MissionText, TomlTable | None]:
+    """The values of an agent file; None where it is no XML. What is wrong with it stands in the text's diagnostics."""
+    places: dict[Keys, Stretch] = {}
+    text = MissionText(source, places)
+    agent, diagnostics = read_xml(source)
+    text.diagnostics += diagnostics
+    return text, None if agent is None else AgentFile(text, root, places).read(agent)
+
+
+def _moved(element: Element, span: Span) -> Element:
+    attributes = tuple(Attribute(one.name, one.value, span) for one in element.attributes)
+    return Element(element.tag, attributes, tuple(_moved(child, span) for child in element.children), span)
+
+
+def _value(text: str) -> bool | int | float | str:
+    """What the text of an attribute says: a truth value, a number, or itself."""
+    if text in ("true", "false"):
+        return text == "true"
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text
