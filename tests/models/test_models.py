@@ -82,3 +82,11 @@ def test_shore_sends_another_track() -> None:
 def test_the_survey_copes_with_what_is_drawn(seed) -> None:
     outcome = fly("auv/inl/mission.toml", seed)
     assert outcome.abort is None and not outcome.open_goals
+
+
+@pytest.mark.parametrize("name", sorted(file.name for file in (MODELS / "classic").glob("*.nddl")))
+def test_a_classic_problem_is_planned_with_all_its_goals(name) -> None:
+    arguments = ["plan", "--horizon", "0", "100", "--max-steps", "20000", str(MODELS / "classic" / name)]
+    found = CliRunner().invoke(main, arguments)
+    assert found.exit_code == 0 and "plan found" in found.output, found.output
+    assert "not planned" not in found.output
