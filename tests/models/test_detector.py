@@ -5,14 +5,14 @@ from pathlib import Path
 
 import pytest
 
-from runtime.user.reactor import Now, Seen
+from runtime.user.reactor import Now, Reactor, Seen
 from runtime.user.reactor_library import load_reactor
 
 INL = Path(__file__).parents[2] / "models" / "auv" / "inl"
 SETTINGS = {"clusters": "clusters.csv", "prior": 0.05, "stay": 0.97, "enter": 0.9, "leave": 0.1}
 
 
-def heard(detector, tick: int, cluster: int) -> list[str]:
+def heard(detector: Reactor, tick: int, cluster: int) -> list[str]:
     now = Now(tick, {"water": Seen("Holds", {"id": cluster}, tick)}, frozenset({"water"}), frozenset())
     detector.tick(now)
     return [one.predicate for one in now.published]
@@ -39,7 +39,7 @@ def test_it_tells_of_changes_only() -> None:
     )
 
 
-def test_a_probability_of_none_or_all_is_no_row_of_the_table(tmp_path) -> None:
+def test_a_probability_of_none_or_all_is_no_row_of_the_table(tmp_path: Path) -> None:
     (tmp_path / "detector.py").write_text((INL / "detector.py").read_text(encoding="utf-8"), encoding="utf-8")
     (tmp_path / "clusters.csv").write_text("cluster,inside\n0,1.0\n", encoding="utf-8")
     with pytest.raises(ValueError, match="not between 0 and 1"):

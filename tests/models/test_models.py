@@ -3,12 +3,11 @@
 from pathlib import Path
 
 import pytest
-from click.testing import CliRunner
 
 from checker.flight import programs_of
 from checker.mission import read_mission
 from checker.models import load_models
-from nddlc.main import main
+from nddlc.main import run
 from runtime.executive.mission import run_mission
 from runtime.executive.outcome import EventKind, Outcome
 
@@ -25,6 +24,15 @@ NOMINAL = {
 }
 
 
+Captured = pytest.CaptureFixture[str]
+
+
+def told(capsys: Captured, *words: str) -> tuple[int, str]:
+    code = run(list(words))
+    said = capsys.readouterr()
+    return code, said.out + said.err
+
+
 def fly(name: str, seed: int = 1, values: dict[str, float] | None = None) -> Outcome:
     mission, _ = read_mission(MODELS / name)
     assert mission is not None
@@ -34,15 +42,15 @@ def fly(name: str, seed: int = 1, values: dict[str, float] | None = None) -> Out
 
 
 @pytest.mark.parametrize("file", OWN, ids=lambda file: str(file.relative_to(MODELS)))
-def test_a_model_is_in_the_one_style(file) -> None:
-    found = CliRunner().invoke(main, ["fmt", "--check", str(file)])
-    assert found.exit_code == 0, found.output
+def test_a_model_is_in_the_one_style(file: Path, capsys: Captured) -> None:
+    code, said = told(capsys, "fmt", "--check", str(file))
+    assert code == 0, said
 
 
 @pytest.mark.parametrize("file", OWN, ids=lambda file: str(file.relative_to(MODELS)))
-def test_lint_finds_nothing(file) -> None:
-    found = CliRunner().invoke(main, ["lint", str(file)])
-    assert found.exit_code == 0 and "nothing wrong" in found.output, found.output
+def test_lint_finds_nothing(file: Path, capsys: Captured) -> None:
+    code, said = told(capsys, "lint", str(file))
+    assert code == 0 and "nothing wrong" in said, said
 
 
 def test_the_survey_is_flown_to_its_end_without_a_repair() -> None:
@@ -79,14 +87,14 @@ def test_shore_sends_another_track() -> None:
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
-def test_the_survey_copes_with_what_is_drawn(seed) -> None:
+def test_the_survey_copes_with_what_is_drawn(seed: int) -> None:
     outcome = fly("auv/inl/mission.toml", seed)
     assert outcome.abort is None and not outcome.open_goals
 
 
 @pytest.mark.parametrize("name", sorted(file.name for file in (MODELS / "classic").glob("*.nddl")))
-def test_a_classic_problem_is_planned_with_all_its_goals(name) -> None:
+def test_a_classic_problem_is_planned_with_all_its_goals(name: str, capsys: Captured) -> None:
     arguments = ["plan", "--horizon", "0", "100", "--max-steps", "20000", str(MODELS / "classic" / name)]
-    found = CliRunner().invoke(main, arguments)
-    assert found.exit_code == 0 and "plan found" in found.output, found.output
-    assert "not planned" not in found.output
+    code, said = told(capsys, *arguments)
+    assert code == 0 and "plan found" in said, said
+    assert "not planned" not in said

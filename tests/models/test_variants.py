@@ -10,7 +10,7 @@ from checker.mission import read_mission
 from checker.models import load_models
 from runtime.executive.mission import run_mission
 from runtime.executive.outcome import EventKind, Outcome
-from tests.models.bug_variants import Case, apply, read_variant
+from tests.models.bug_variants import Case, Variant, apply, read_variant
 
 BUGS = Path(__file__).parents[2] / "models" / "auv" / "bugs"
 VARIANTS = [read_variant(file) for file in sorted(BUGS.glob("*.toml"))]
@@ -41,7 +41,7 @@ def fly(mission: Path, case: Case, until: int | None) -> Outcome:
     [(variant, case) for variant in VARIANTS for case in variant.fails],
     ids=lambda given: getattr(given, "name", None) or str(given.values or given.seed),
 )
-def test_a_variant_fails_where_it_must(variant, case, tmp_path) -> None:
+def test_a_variant_fails_where_it_must(variant: Variant, case: Case, tmp_path: Path) -> None:
     outcome = fly(apply(variant, tmp_path), case, None)
     assert outcome.abort is not None
     kinds = [event.kind for event in outcome.events if event.kind in ORDER]
@@ -54,20 +54,20 @@ def test_a_variant_fails_where_it_must(variant, case, tmp_path) -> None:
     [(variant, case) for variant in VARIANTS for case in variant.passes],
     ids=lambda given: getattr(given, "name", None) or str(given.values),
 )
-def test_a_variant_passes_where_it_must(variant, case, tmp_path) -> None:
+def test_a_variant_passes_where_it_must(variant: Variant, case: Case, tmp_path: Path) -> None:
     outcome = fly(apply(variant, tmp_path), case, LONG_ENOUGH)
     assert outcome.abort is None
 
 
 @pytest.mark.parametrize("variant", VARIANTS, ids=lambda variant: variant.name)
-def test_the_model_without_the_mistake_does_not_fail_there(variant) -> None:
+def test_the_model_without_the_mistake_does_not_fail_there(variant: Variant) -> None:
     if not variant.fails:
         pytest.skip("no values are known at which it fails")
     outcome = fly(BUGS / variant.mission, variant.fails[0], 1500)
     assert outcome.abort is None
 
 
-def test_an_edit_that_finds_no_place_is_refused(tmp_path) -> None:
+def test_an_edit_that_finds_no_place_is_refused(tmp_path: Path) -> None:
     first = VARIANTS[0]
     with pytest.raises(ValueError, match="0 places"):
         apply(replace(first, edits=((first.edits[0][0], "no such line", ""),)), tmp_path)
