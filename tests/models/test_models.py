@@ -24,6 +24,15 @@ NOMINAL = {
 }
 
 
+Captured = pytest.CaptureFixture[str]
+
+
+def told(capsys: Captured, *words: str) -> tuple[int, str]:
+    code = run(list(words))
+    said = capsys.readouterr()
+    return code, said.out + said.err
+
+
 def fly(name: str, seed: int = 1, values: dict[str, float] | None = None) -> Outcome:
     mission, _ = read_mission(MODELS / name)
     assert mission is not None
@@ -33,14 +42,15 @@ def fly(name: str, seed: int = 1, values: dict[str, float] | None = None) -> Out
 
 
 @pytest.mark.parametrize("file", OWN, ids=lambda file: str(file.relative_to(MODELS)))
-def test_a_model_is_in_the_one_style(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["fmt", "--check", str(file)]) == 0, capsys.readouterr()
+def test_a_model_is_in_the_one_style(file: Path, capsys: Captured) -> None:
+    code, said = told(capsys, "fmt", "--check", str(file))
+    assert code == 0, said
 
 
 @pytest.mark.parametrize("file", OWN, ids=lambda file: str(file.relative_to(MODELS)))
-def test_lint_finds_nothing(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code = run(["lint", str(file)])
-    assert code == 0 and "nothing wrong" in capsys.readouterr().out
+def test_lint_finds_nothing(file: Path, capsys: Captured) -> None:
+    code, said = told(capsys, "lint", str(file))
+    assert code == 0 and "nothing wrong" in said, said
 
 
 def test_the_survey_is_flown_to_its_end_without_a_repair() -> None:
@@ -80,3 +90,11 @@ def test_shore_sends_another_track() -> None:
 def test_the_survey_copes_with_what_is_drawn(seed: int) -> None:
     outcome = fly("auv/inl/mission.toml", seed)
     assert outcome.abort is None and not outcome.open_goals
+
+
+@pytest.mark.parametrize("name", sorted(file.name for file in (MODELS / "classic").glob("*.nddl")))
+def test_a_classic_problem_is_planned_with_all_its_goals(name: str, capsys: Captured) -> None:
+    arguments = ["plan", "--horizon", "0", "100", "--max-steps", "20000", str(MODELS / "classic" / name)]
+    code, said = told(capsys, *arguments)
+    assert code == 0 and "plan found" in said, said
+    assert "not planned" not in said
