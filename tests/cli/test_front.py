@@ -54,3 +54,12 @@ def test_an_endless_rule_ends_at_the_memory_budget(options: list[str], tmp_path:
     assert run(["plan", str(path), "--horizon", "0", "inf", "--max-memory", "20", "--max-seconds", "50", *options]) == 1
     told = capsys.readouterr()
     assert "memory" in told.out and "bug" not in told.err
+
+
+def test_a_zero_is_printed_as_one(tmp_path: Path, capsys: Captured) -> None:
+    path = tmp_path / "m.nddl"
+    text = "float x = [0.0 5.0];\nfloat y = [-3.0 0.0];\nfloat z;\nz == x * y;\nz >= 0.0;\nx > 1.0;\n"
+    path.write_text(text, encoding="utf-8")
+    for options in (["load"], ["load", "--json"], ["plan"]):
+        run([*options, str(path)])
+        assert "e-3" not in capsys.readouterr().out

@@ -4,6 +4,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
+from sys import float_info
 
 from runtime.constraints.domains.base_domain import is_growing
 from runtime.constraints.domains.tags import (
@@ -96,7 +97,10 @@ def _number_text(x: float, kind: int) -> str:
         return "+inf"
     if x == -inf:
         return "-inf"
-    return str(int(x)) if kind == KIND_INT else repr(float(x))
+    if kind == KIND_INT:
+        return str(int(x))
+    # Products are rounded outwards: beside zero that is the least number there is, of either sign.
+    return "0.0" if abs(x) < float_info.min else repr(float(x))
 
 
 def base_text(prototypes: Prototypes, engine: Engine, v: int, names: Sequence[str]) -> str:
