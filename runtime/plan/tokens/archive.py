@@ -60,15 +60,17 @@ def _removable(plan: Plan, tokens: list[int], tick: int) -> dict[int, None]:
             if rows.status[child] == MERGED and _has_begun(plan, rows.merged_into[child], tick):
                 known[child] = None
             child = rows.sibling[child]
-    doomed = dict.fromkeys(
-        t for t in known if not plan.predicate_resource[rows.predicate[t]] and not _has_waiting_guard(plan, t)
-    )
+    doomed: dict[int, None] = {}
+    for t in known:
+        if not plan.predicate_resource[rows.predicate[t]] and not _has_waiting_guard(plan, t):
+            doomed[t] = None
     changed = True
     while changed:
-        needed = [t for t in doomed if not _is_free(plan, t, doomed, tick)]
-        for t in needed:
-            del doomed[t]
-        changed = bool(needed)
+        changed = False
+        for t in list(doomed):
+            if not _is_free(plan, t, doomed, tick):
+                del doomed[t]
+                changed = True
     return doomed
 
 
@@ -103,7 +105,8 @@ def _has_begun(plan: Plan, t: int, tick: int) -> bool:
 def _has_waiting_guard(plan: Plan, t: int) -> bool:
     """Whether a part of the rules of `t` may still come."""
     rows = plan.rows
-    return any(rows.scope_kind[s] == SCOPE_GUARD and rows.scope_branch[s] == BRANCH_WAITING for s in scopes_of(plan, t))
+    guards = [s for s in scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_GUARD]
+    return bool([s for s in guards if rows.scope_branch[s] == BRANCH_WAITING])
 
 
 def _orphan(plan: Plan, t: int, doomed: dict[int, None]) -> None:
@@ -156,12 +159,20 @@ def _freeze(plan: Plan, doomed: dict[int, None]) -> list[int]:
         near[engine.edge_target[e]] = None
     for c in constraints:
         near.update(dict.fromkeys(engine.arguments(c)))
-    near.update(dict.fromkeys(engine.restriction_variable[r] for r in restrictions))
-    supports = {e * 4 + SUPPORT_EDGE for e in edges}
-    supports.update(c * 4 + SUPPORT_CONSTRAINT for c in constraints)
-    supports.update(r * 4 + SUPPORT_RESTRICTION for r in restrictions)
-    frozen = [v for v in near if v not in gone and not engine.constant[v]]
-    return [v for v in frozen if _keep_domain(plan, v, supports)]
+    for r in restrictions:
+        near[engine.restriction_variable[r]] = None
+    supports: set[int] = set()
+    for e in edges:
+        supports.add(e * 4 + SUPPORT_EDGE)
+    for c in constraints:
+        supports.add(c * 4 + SUPPORT_CONSTRAINT)
+    for r in restrictions:
+        supports.add(r * 4 + SUPPORT_RESTRICTION)
+    limited: list[int] = []
+    for v in near:
+        if v not in gone and not engine.constant[v] and _keep_domain(plan, v, supports):
+            limited.append(v)
+    return limited
 
 
 def _outdone(plan: Plan, v: int) -> list[int]:
@@ -188,7 +199,8 @@ def _belongings(
     restrictions: dict[int, None] = {}
     gone: dict[int, None] = {}
     for t in doomed:
-        gone.update(dict.fromkeys(range(rows.var0[t], rows.var0[t] + rows.width[t])))
+        for v in range(rows.var0[t], rows.var0[t] + rows.width[t]):
+            gone[v] = None
         for s in scopes_of(plan, t):
             h = rows.scope_holds[s]
             while h >= 0:
@@ -206,7 +218,10 @@ def _belongings(
         constraints.update(dict.fromkeys(engine.constraints_of(v)))
         edges.update(dict.fromkeys(engine.edges_of(v)))
     for c in constraints:
-        edges.update(dict.fromkeys(e for e in (engine.link_a[c], engine.link_b[c]) if e >= 0))
+        if engine.link_a[c] >= 0:
+            edges[engine.link_a[c]] = None
+        if engine.link_b[c] >= 0:
+            edges[engine.link_b[c]] = None
     return edges, constraints, restrictions, gone
 
 

@@ -38,11 +38,14 @@ cdef class Agenda:
     cdef public long long[::1] token_level, active_level, order_level, variable_row, variable_key, variable_deferred
     cdef public long long[::1] variable_level, waits_for, waiting_next, waiting_before, edge_level, constraint_level
     cdef public long long[::1] restriction_level, dynamic_slot, dynamic_is_variable, dropped_slot, dropped_kind
-    cdef public long long[::1] fired_scope, fired_end, waiting_guards
-    cdef public signed char[::1] watched
+    cdef public long long[::1] fired_scope, fired_end, waiting_guards, zeros, nones, no_keys
+    cdef public signed char[::1] watched, unwatched
     cdef public double found_priority
 
     cpdef int _make_tables(self) except -1
+
+    @cython.locals(most="long long", room="long long", slots="long long")
+    cpdef int _empty_tables(self) except -1
 
     @cython.locals(room="long long")
     cpdef long long reserve(self) except? -1

@@ -6,7 +6,7 @@ key that a slot has now is in `token_key` or `variable_key`, NO_KEY if it is in 
 
 from array import array
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import blank, grown
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
 from runtime.plan.store.plan import Plan
@@ -48,8 +48,7 @@ class Agenda:
         self.distances = Distances(plan.engine, exact)
         self.uses = Uses(plan, self.distances, grounded)
         self.restarts = Restarts(plan.engine)
-        self.found_at = 0
-        self.found_low = 0
+        self.found_at = self.found_low = 0
         self.earliest = False  # goals come before what else is open, in the order of their starts
         self.probing = False  # a resolver is looked for, but not carried out
         self.managers = max(table.managers, 1)
@@ -63,50 +62,68 @@ class Agenda:
                     self.sorted_by_size[heap] = 1 if not in_order or table.heap_priority[heap] != 0.0 else 0
         self.sequence = TimelineSequence(plan, exact)
         self.level = 0
-        self.found_manager = NONE
-        self.found_kind = NONE
-        self.found_item = NONE
-        self.found_handler = NONE
+        self.found_manager = self.found_kind = self.found_item = self.found_handler = NONE
         self.found_priority = 0.0
+        self.zeros, self.nones, self.no_keys, self.unwatched = blank(1), blank(1), blank(1), blank(1, "b")
         self._make_tables()
 
     def _make_tables(self) -> None:
         """Make the tables, empty."""
         self.token_room = 64
-        self.variable_room = 256
-        self.edge_room = 256
-        self.constraint_room = 256
-        self.restriction_room = 256
+        self.variable_room = self.edge_room = self.constraint_room = self.restriction_room = 256
         self.token_row = array("q", [NONE]) * (64 * self.managers)
         self.token_key = array("q", [NO_KEY]) * (64 * self.managers)
-        self.token_deferred = array("q", [0]) * 64
         self.token_waiting = array("q", [NONE]) * 64
-        self.token_level = array("q", [0]) * 64
-        self.active_level = array("q", [0]) * 64
-        self.order_level = array("q", [0]) * 64
+        self.token_deferred, self.token_level, self.active_level, self.order_level = [blank(64) for _ in range(4)]
         self.variable_row = array("q", [NONE]) * (256 * self.managers)
         self.variable_key = array("q", [NO_KEY]) * (256 * self.managers)
-        self.variable_deferred = array("q", [0]) * 256
-        self.watched = array("b", [0]) * 256  # by variable: whether a change of its domain is looked at
-        self.variable_level = array("q", [0]) * 256
-        self.waits_for = array("q", [NONE]) * 256
-        self.waiting_next = array("q", [NONE]) * 256
-        self.waiting_before = array("q", [NONE]) * 256
-        self.edge_level = array("q", [0]) * 256
-        self.constraint_level = array("q", [0]) * 256
-        self.restriction_level = array("q", [0]) * 256
-        self.dynamic_count = 0
-        self.dynamic_slot = array("q", [0]) * 64
-        self.dynamic_is_variable = array("q", [0]) * 64
-        self.dropped_count = 0
-        self.dropped_slot = array("q", [0]) * 256
-        self.dropped_kind = array("q", [0]) * 256
-        self.rows_seen = 0
-        self.engine_seen = 0
+        self.variable_deferred, self.variable_level = blank(256), blank(256)
+        self.watched = blank(256, "b")  # by variable: whether a change of its domain is looked at
+        self.waits_for, self.waiting_next, self.waiting_before = [array("q", [NONE]) * 256 for _ in range(3)]
+        self.edge_level, self.constraint_level, self.restriction_level = blank(256), blank(256), blank(256)
+        self.dynamic_slot, self.dynamic_is_variable = blank(64), blank(64)
+        self.dropped_slot, self.dropped_kind = blank(256), blank(256)
+        self.dynamic_count = self.dropped_count = self.rows_seen = self.engine_seen = 0
         self.fired_scope = array("q", [NONE]) * 64  # guards that fired, by level: those of a level end at `fired_end`
-        self.fired_end = array("q", [0]) * 64
-        self.waiting_guards = array("q", [0]) * 64  # by level: how many have not fired
+        self.fired_end, self.waiting_guards = blank(64), blank(64)  # by level; and how many have not fired
         self.relief: Relief | None = None  # where open tokens may relieve a resource
+
+    def _empty_tables(self) -> None:
+        """Empty the tables, which stay as long as they are."""
+        most = max(self.managers * max(self.token_room, self.variable_room), self.edge_room, self.constraint_room)
+        most = max(most, self.restriction_room, len(self.fired_scope), len(self.fired_end))
+        if len(self.zeros) < most:
+            self.zeros = array("q", [0]) * most
+            self.nones = array("q", [NONE]) * most
+            self.no_keys = array("q", [NO_KEY]) * most
+            self.unwatched = array("b", [0]) * most
+        slots, room = self.token_room * self.managers, self.token_room
+        self.token_row[:slots] = self.nones[:slots]
+        self.token_key[:slots] = self.no_keys[:slots]
+        self.token_deferred[:room] = self.zeros[:room]
+        self.token_waiting[:room] = self.nones[:room]
+        self.token_level[:room] = self.zeros[:room]
+        self.active_level[:room] = self.zeros[:room]
+        self.order_level[:room] = self.zeros[:room]
+        slots, room = self.variable_room * self.managers, self.variable_room
+        self.variable_row[:slots] = self.nones[:slots]
+        self.variable_key[:slots] = self.no_keys[:slots]
+        self.variable_deferred[:room] = self.zeros[:room]
+        self.watched[:room] = self.unwatched[:room]
+        self.variable_level[:room] = self.zeros[:room]
+        self.waits_for[:room] = self.nones[:room]
+        self.waiting_next[:room] = self.nones[:room]
+        self.waiting_before[:room] = self.nones[:room]
+        self.edge_level[: self.edge_room] = self.zeros[: self.edge_room]
+        self.constraint_level[: self.constraint_room] = self.zeros[: self.constraint_room]
+        self.restriction_level[: self.restriction_room] = self.zeros[: self.restriction_room]
+        room = len(self.fired_scope)
+        self.fired_scope[:room] = self.nones[:room]
+        room = len(self.fired_end)
+        self.fired_end[:room] = self.zeros[:room]
+        self.waiting_guards[:room] = self.zeros[:room]
+        self.dynamic_count = self.dropped_count = self.rows_seen = self.engine_seen = 0
+        self.relief = None
 
     def reserve(self) -> int:
         """Make the tables as long as those of the plan and the engine."""
@@ -207,7 +224,7 @@ class Agenda:
             heap.clear()
         for heap in self.effects:
             heap.clear()
-        self._make_tables()
+        self._empty_tables()
         self.reserve()
 
     # ---- adding candidates ----
