@@ -117,13 +117,10 @@ class Agenda:
         self.edge_level[: self.edge_room] = self.zeros[: self.edge_room]
         self.constraint_level[: self.constraint_room] = self.zeros[: self.constraint_room]
         self.restriction_level[: self.restriction_room] = self.zeros[: self.restriction_room]
-        room = len(self.fired_scope)
-        self.fired_scope[:room] = self.nones[:room]
-        room = len(self.fired_end)
-        self.fired_end[:room] = self.zeros[:room]
-        self.waiting_guards[:room] = self.zeros[:room]
+        self.fired_scope[:] = self.nones[: len(self.fired_scope)]
+        self.fired_end[:] = self.zeros[: len(self.fired_end)]
+        self.waiting_guards[:] = self.zeros[: len(self.waiting_guards)]
         self.dynamic_count = self.dropped_count = self.rows_seen = self.engine_seen = 0
-        self.relief = None
 
     def reserve(self) -> int:
         """Make the tables as long as those of the plan and the engine."""
