@@ -99,7 +99,7 @@ def faults(dice: Random, spans: int) -> list[Fault]:
 
         return watch
 
-    add("lost wake-up", "deaf argument of a line", posting, "watch", no_watch)
+    add("lost wake-up", "deaf argument of a line", posting, "_watch", no_watch)
 
     def deaf(old: Callable[..., Any]) -> Callable[..., Any]:
         def watch(s: Any, c: int, position: int, v: int, mask: int) -> None:
@@ -107,7 +107,7 @@ def faults(dice: Random, spans: int) -> list[Fault]:
 
         return watch
 
-    add("lost wake-up", "deaf arguments", posting, "watch", deaf)
+    add("lost wake-up", "deaf arguments", posting, "_watch", deaf)
 
     def loose(old: Callable[..., Any]) -> Callable[..., Any]:
         return lambda plan, scope, a, b, w, span: True if span == at else old(plan, scope, a, b, w, span)
@@ -180,12 +180,12 @@ def faults(dice: Random, spans: int) -> list[Fault]:
         return lambda self, t, tick: old(self, t, tick + nth)
 
     add("archived too early", "over before its end", view.PlanView, "is_over", hasty)
-    add("archived too early", "nothing frozen", archive, "keep_domain", lambda old: lambda plan, v, supports: None)
+    add("archived too early", "nothing frozen", archive, "_keep_domain", lambda old: lambda plan, v, supports: None)
     add(
         "archived too early",
         "with what is needed",
         archive,
-        "removable",
+        "_removable",
         lambda old: lambda plan, tokens, tick: dict.fromkeys(tokens),
     )
 
