@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
-from runtime.user.reactor import Now, Reactor, Seen
+from runtime.user.reactor import Now, Reactor, Seen, Value
 from runtime.user.reactor_library import load_reactor
 
 INL = Path(__file__).parents[2] / "models" / "auv" / "inl"
-SETTINGS = {"clusters": "clusters.csv", "prior": 0.05, "stay": 0.97, "enter": 0.9, "leave": 0.1}
+SETTINGS: dict[str, Value] = {"clusters": "clusters.csv", "prior": 0.05, "stay": 0.97, "enter": 0.9, "leave": 0.1}
 
 
 def heard(detector: Reactor, tick: int, cluster: int) -> list[str]:
@@ -27,7 +27,7 @@ def test_the_belief_is_that_of_the_two_state_model() -> None:
         likely = 0.03 + 0.94 * cluster / 38
         inside, outside = inside * likely, outside * (1 - likely)
         inside, outside = inside / (inside + outside), outside / (inside + outside)
-        assert math.isclose(detector.belief, inside, rel_tol=1e-3)
+        assert math.isclose(vars(detector)["belief"], inside, rel_tol=1e-3)
 
 
 def test_it_tells_of_changes_only() -> None:
