@@ -23,7 +23,8 @@ NO_TIMELINE = Code("NDDL716", Severity.ERROR, "name", "the model `{model}` has n
 NO_PREDICATE = Code("NDDL717", Severity.ERROR, "name", "`{class_name}` has no predicate `{predicate}`")
 NO_ARGUMENT = Code("NDDL718", Severity.ERROR, "name", "`{predicate}` has no parameter `{name}`")
 ILL_VALUE = Code("NDDL719", Severity.ERROR, "type", "`{name}` of `{predicate}` must be {wanted}, not {found}")
-OUT_OF_TIME = Code("NDDL720", Severity.ERROR, "domain", "this goal can never be achieved: {reason}")
+# A warning: who writes such a goal may want to see what becomes of it.
+OUT_OF_TIME = Code("NDDL720", Severity.WARNING, "domain", "this goal can never be achieved: {reason}")
 OTHER_ROLE = Code(
     "NDDL721", Severity.ERROR, "rule", "`{timeline}` is {listed} here, and `{mode}` in the model `{model}`"
 )

@@ -2,12 +2,12 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from checker.codes import OUT_OF_RANGE, OUT_OF_TIME
 from checker.mission_table import MissionText
 from compiler.program import DomainConstant, ParameterCode, Program
-from nddl_lang.text.diagnostic import Diagnostic, Severity
+from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
 from runtime.executive.configuration import AgentConfiguration, Bounds, GoalConfiguration, Value
 
@@ -39,11 +39,7 @@ def goals_out_of_time(agent: AgentConfiguration, text: MissionText) -> Iterator[
         late = _out_of_time(goal, agent.final_tick)
         if late is not None:
             key, reason, advice = late
-            found = OUT_OF_TIME.at(text.value_span(("goal", number, key)), reason=reason, help=advice)
-            is_sent = goal.at < agent.final_tick and (goal.start is None or goal.start[0] < agent.final_tick)
-            # What is sent too late may be meant so, to see what happens then; what is never sent may not.
-            is_late = is_sent and goal.start is not None and goal.start[1] <= goal.at
-            yield replace(found, severity=Severity.WARNING) if is_late else found
+            yield OUT_OF_TIME.at(text.value_span(("goal", number, key)), reason=reason, help=advice)
 
 
 def _out_of_time(goal: GoalConfiguration, final_tick: int) -> tuple[str, str, str] | None:

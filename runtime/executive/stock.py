@@ -35,7 +35,7 @@ class _Shelf:
     idle: list[Stocked]
 
 
-_SHELVES: dict[Key, _Shelf] = {}
+SHELVES: dict[Key, _Shelf] = {}
 
 
 class Loans:
@@ -68,11 +68,11 @@ class Loans:
         each = configuration.reactors[number]
         program, solver, constraints = parts
         key = (id(program), id(solver), id(constraints), each, configuration.tick, configuration.final_tick)
-        shelf = _SHELVES.get(key)
+        shelf = SHELVES.get(key)
         if shelf is None:
-            while len(_SHELVES) >= _MOST:
-                _SHELVES.pop(next(iter(_SHELVES)))
-            _SHELVES[key] = _Shelf(parts, [])
+            while len(SHELVES) >= _MOST:
+                SHELVES.pop(next(iter(SHELVES)))
+            SHELVES[key] = _Shelf(parts, [])
             return Stocked(*make(draw), None)
         if shelf.idle:
             loaded = shelf.idle.pop()

@@ -12,6 +12,7 @@ from typing import Any
 from runtime.constraints import engine as engine_module
 from runtime.constraints.propagators import posting
 from runtime.executive import chance, plan_reactor, view, workbench
+from runtime.executive.stock import SHELVES
 from runtime.plan import lifecycle
 from runtime.plan.resources import resources
 from runtime.plan.rules import guards
@@ -53,6 +54,7 @@ def broken(fault: Fault, seconds: float = 3.0) -> Iterator[None]:
                 places += [(module, name) for name, value in list(vars(module).items()) if value is old]
     for owner, name in places:
         setattr(owner, name, new)
+    SHELVES.clear()  # a fault in what loads shows only where it is loaded
     before = signal.signal(signal.SIGVTALRM, _give_up)
     signal.setitimer(signal.ITIMER_VIRTUAL, seconds)
     try:
@@ -62,6 +64,7 @@ def broken(fault: Fault, seconds: float = 3.0) -> Iterator[None]:
         signal.signal(signal.SIGVTALRM, before)
         for owner, name in places:
             setattr(owner, name, old)
+        SHELVES.clear()  # nor may what the fault has loaded reach the next mission
 
 
 def faults(dice: Random, spans: int) -> list[Fault]:
