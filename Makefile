@@ -10,6 +10,7 @@
 #   make format       let ruff format and mend what it can
 #   make plan-proof   MODELS (20000) random whole models beside judges that know only the models
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
+#   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
 #   make rules        the pages of docs/rules, from the tables beside the passes
@@ -19,6 +20,7 @@
 # MISSION=file checks another mission; PYTHON=python3.13 sets up with that one.
 
 MUTATIONS ?= 1000000
+MUTANTS ?= 2000
 MISSION ?= models/gps/mission.toml
 PYTHON := python3.11 python3.12 python3.13 python3.14 python3 python
 BIN := .venv/bin
@@ -26,7 +28,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof conformance corpus rules bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof mutants conformance corpus rules bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -106,6 +108,9 @@ MODELS := 20000
 
 plan-proof: build
 	$(BIN)/python -m tests.solver.whole.proof $(MODELS)
+
+mutants: build
+	$(BIN)/python -m tests.executive.mutants.campaign $(MUTANTS)
 
 conformance: build
 	$(PYTEST) tests/conformance

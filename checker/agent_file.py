@@ -134,7 +134,7 @@ class AgentFile:
         table: TomlTable = {}
         parameters: TomlTable = {}
         self._put(path, element.span)
-        known = {"on": "timeline", "pred": "predicate", "at": "at", "mandatory": "mandatory", "recall": "recall"}
+        known = {"on": "timeline", "pred": "predicate", "at": "at", "mandatory": "mandatory"}
         self._attributes(element, table, path, known, ("config", "id"))
         for child in element.children:
             name = child.find("name")

@@ -34,6 +34,9 @@ def _sequences(judge: ProgramJudge, bench: Bench) -> dict[str, list[Tok]]:
         start, thing = tok.record.start, tok.record.object
         if tok.record.state != "active" or not isinstance(start, int) or start > bench.last_tick:
             continue
+        ends = hull(tok.values[END])
+        if start < 0 and ends is not None and ends[1] <= 0:
+            continue  # what the script tells of the time before the mission
         if isinstance(thing, str) and bench.members.get(thing, ("",))[0] in judge.timelines:
             found.setdefault(thing, []).append(tok)
     for timeline, tokens in found.items():

@@ -150,6 +150,8 @@ class PlanReactor:
                 broke = failures[0]
                 self.goals.note_repair(Repair(tick, event, broke.reason, broke.conflict, broke.deadlock), watched)
                 self.relaxes += 1
+                if attempt == 1:
+                    self.bench.recorder.agreed = None
                 if not relax(self.bench, self.timelines, self.goals.live(), tick, forget=attempt == 2):
                     what = Reason(ReasonKind.CANNOT_RELAX)
                     failures.append(Unsettled(failures[0].code, (), what, conflict_of(self.bench)))
@@ -164,6 +166,7 @@ class PlanReactor:
             failures.append(failure)
             if attempt == 0:
                 watched = self._watched(failure.conflict)
+        self.bench.recorder.is_lost = True
         first = failures[0]
         repairs = _distinct(first.conflict, failures[1:])
         lines = first.timelines or tuple(line.name for line in self.timelines if line.is_internal)

@@ -134,6 +134,8 @@ class Recorder:
         self.tokens: dict[int, TokenRecord] = {}
         self.requests: dict[int, int] = {}  # token -> key; shared with the workbench
         self.settled = NOBODY  # the last tick at which the plan agreed with the present
+        self.agreed: dict[int, TokenRecord] | None = None  # what had begun, as the plan last agreed with the present
+        self.is_lost = False  # no repair has helped: the plan as the last one left it is nobody's
         self.gone: dict[tuple[int, int], int] = {}  # (key of a parent, row of a child that left before it) -> its key
         self.script_tokens = self._script_tokens()
 
@@ -158,9 +160,14 @@ class Recorder:
     def cut(self) -> None:
         """Record what has begun before a repair or a recall takes things away; what stays is recorded again later."""
         rows, engine = self.rows, self.engine
-        for t in range(rows.token_count):
-            if rows.status[t] in (ACTIVE, MERGED) and engine.upper(rows.var0[t] + START) <= self.settled:
-                self.tokens[rows.key[t]] = self._token(t, "cut", self.settled)
+        found = {
+            rows.key[t]: self._token(t, "cut", self.settled)
+            for t in range(rows.token_count)
+            if rows.status[t] in (ACTIVE, MERGED) and engine.upper(rows.var0[t] + START) <= self.settled
+        }
+        self.tokens |= found
+        if self.agreed is None:
+            self.agreed = found
 
     def close(self) -> ReactorRecord:
         """Record what the plan holds when the mission has ended."""
@@ -168,6 +175,10 @@ class Recorder:
         for t in range(rows.token_count):
             if rows.status[t] != FREED:
                 self.tokens[rows.key[t]] = self._token(t, "end", tick)
+        for key, one in (self.agreed or {}).items() if self.is_lost else ():
+            left = self.tokens[key]
+            if (left.state, left.start) != (one.state, one.start):
+                self.tokens[key] = one
         plan, forms, program = self.database.plan, self.forms, self.database.program
         things = []
         for o, name in enumerate(self.database.objects.names):

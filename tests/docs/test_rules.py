@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 import runtime.build_form
+from checker.mission import parse_mission
 from checker.mission_pages import MISSION_PAGES
 from checker.rulebook import PAGES
 from nddl_lang.lint.configuration import read_configuration
@@ -76,4 +77,8 @@ def test_the_configurations_of_a_page_are_bad_and_good(page: RulePage) -> None:
 @pytest.mark.parametrize("page", MISSION_PAGES, ids=by_id)
 def test_the_examples_of_mission_files_differ_in_what_the_code_is_about(page: RulePage) -> None:
     assert page.bad != page.good
-    assert re.match(r"[\[a-z]", page.bad) and page.language == "toml"
+    if page.language == "xml":
+        codes = [{one.code for one in parse_mission(Source("agent.xml", t), Path())[1]} for t in (page.bad, page.good)]
+        assert page.code in codes[0] - codes[1]
+    else:
+        assert re.match(r"[\[a-z]", page.bad) and page.language == "toml"

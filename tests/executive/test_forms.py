@@ -1,28 +1,48 @@
-"""Compiled and interpreted, the executive does the same, also where missions fail, are repaired or cannot begin."""
+"""Mutants of missions fly alike compiled and interpreted, determined or not, and the judge agrees."""
 
-import os
-import subprocess
-import sys
-from pathlib import Path
+import random
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
+from tests.executive.mutants.campaign import departures, flown
+from tests.executive.mutants.flights import FILES
+from tests.executive.mutants.mutations import changes, mutated
+
 COUNT = 60
-
-
-def printed(form: str) -> list[str]:
-    """What the mutants do in one form of the engine."""
-    command = [sys.executable, "-m", "tests.executive.mutants", "0", str(COUNT)]
-    done = subprocess.run(
-        command, cwd=ROOT, env=os.environ | {"NDDLC_INTERPRETED": form}, capture_output=True, text=True, check=True
-    )
-    return done.stdout.splitlines()
+MISSIONS = 2
 
 
 @pytest.mark.slow
 def test_mutants_fly_alike_in_both_forms() -> None:
-    compiled, interpreted = printed(""), printed("1")
-    assert len(compiled) == COUNT
-    assert compiled == interpreted
-    assert {line.split()[2] for line in compiled} >= {"ended", "F1"}
+    compiled, interpreted = (flown(form, 0, COUNT, MISSIONS, seconds) for form, seconds in (("", 20), ("1", 600)))
+    assert [line for line in [*compiled, *interpreted] if line.startswith("WRONG")] == []
+    assert departures(compiled, interpreted) == []
+    codes = {line.split()[4] for line in compiled if len(line.split()) > 5}
+    assert codes >= {"ended", "F1"}
+    assert len({line.split()[0] for line in compiled}) == COUNT
+
+
+def test_departures_are_found() -> None:
+    one, other = "3 repair constant 0 F1 5 ab", "3 repair constant 0 F1 5 cd"
+    assert departures([one], [one]) == []
+    assert len(departures([one], [other])) == 1
+
+
+def test_every_kind_of_fault_is_made() -> None:
+    texts = [model.read_text() for file in FILES for model in sorted(file.parent.glob("*.nddl"))]
+    chance = random.Random(1)
+    found = {kind for text in texts for kind in changes(text, chance)}
+    assert found == {
+        "constant",
+        "off by one",
+        "limit",
+        "relation",
+        "comparison",
+        "sign",
+        "swapped arguments",
+        "dropped constraint",
+        "dropped branch",
+    }
+    for text in texts:
+        other, kind = mutated(text, chance)
+        assert (other != text) == bool(kind)
