@@ -29,7 +29,7 @@ def test_a_failing_model_ends_with_findings_and_a_reason(agent: None, capsys: py
     assert run(["check", str(GPS / "mission.toml")]) == 1
     text = capsys.readouterr().out
     assert "gps: 200 missions, 10 failed" in text
-    assert "34 |   duration <= SURFACE_MAX;" in text
+    assert "34 |     duration <= SURFACE_MAX;" in text
     assert "5 | SURFACE_MAX = 64;" in text
     assert "fails when GPS_HIT_RATE > 3.8" in text
     assert len(text.splitlines()) <= 25

@@ -94,6 +94,7 @@ def flown(
     seed: int = 1,
     overrides: Mapping[str, float] | None = None,
     every_tick: bool = False,
+    compiles: bool = True,
 ) -> Flown:
     """Fly one mission and judge it."""
     agent = AgentConfiguration(
@@ -107,7 +108,9 @@ def flown(
     )
     programs = tuple(program(flyer.configuration.model, flyer.text) for flyer in flyers)
     solvers = tuple(default_configuration() for _ in flyers)
-    outcome, record = record_mission(agent, MissionPrograms(programs, solvers), seed, overrides, every_tick)
+    outcome, record = record_mission(
+        agent, MissionPrograms(programs, solvers), seed, overrides, every_tick, compiles=compiles
+    )
     report = judge_mission(agent, programs, outcome, record, overrides=overrides)
     return Flown(agent, programs, outcome, record, report)
 

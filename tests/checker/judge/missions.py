@@ -132,9 +132,9 @@ def cooking(seed: int) -> Flown:
     )
 
 
-def walking(seed: int, until: int = 60) -> Flown:
+def walking(seed: int, until: int = 60, *, compiles: bool = True) -> Flown:
     """A simulator that makes a token every three ticks, with one that lasts as long as the mission."""
-    return flown(simulator("walk", COUNTER, "walk wind"), until=until, seed=seed)
+    return flown(simulator("walk", COUNTER, "walk wind"), until=until, seed=seed, compiles=compiles)
 
 
 @lru_cache(maxsize=4)
