@@ -17,11 +17,11 @@ from nddl_lang.text.toml_places import Stretch
 from runtime.solver.configuration.element import Attribute, Element
 from runtime.solver.configuration.read_xml import read_xml
 
-CLOCKS = ("StepClock", "RealTimeClock", "FastClock", "LogClock")
-SECONDS = {"hours": 3600.0, "minutes": 60.0, "seconds": 1.0, "millis": 1e-3, "micros": 1e-6}
-AGENT = {"name": "name", "finalTick": "final_tick"}
-AGENT_UNREAD = ("allow_empty", "config")
-MODELLED = {
+_CLOCKS = ("StepClock", "RealTimeClock", "FastClock", "LogClock")
+_SECONDS = {"hours": 3600.0, "minutes": 60.0, "seconds": 1.0, "millis": 1e-3, "micros": 1e-6}
+_AGENT = {"name": "name", "finalTick": "final_tick"}
+_AGENT_UNREAD = ("allow_empty", "config")
+_MODELLED = {
     "name": "name",
     "latency": "latency",
     "lookahead": "lookahead",
@@ -31,15 +31,15 @@ MODELLED = {
     "maxSteps": "max_steps",
     "maxDepth": "max_depth",
 }
-CODED = {"name": "name", "latency": "latency", "code": "code"}
-UNREAD = ("config", "log", "verbose", "all_plans", "relation_gv")  # what T-REX writes beside the mission
-TIMES = ("start", "end", "duration")
-DOMAINS = ("int", "float", "bool", "string", "symbol", "enum", "date", "duration")
-CONTENTS = ("Use", "Plugin", "Goal", "EuropaReactor", "PythonReactor", *CLOCKS)
+_CODED = {"name": "name", "latency": "latency", "code": "code"}
+_UNREAD = ("config", "log", "verbose", "all_plans", "relation_gv")  # what T-REX writes beside the mission
+_TIMES = ("start", "end", "duration")
+_DOMAINS = ("int", "float", "bool", "string", "symbol", "enum", "date", "duration")
+_CONTENTS = ("Use", "Plugin", "Goal", "EuropaReactor", "PythonReactor", *_CLOCKS)
 
 
 @dataclass(slots=True)
-class AgentFile:
+class _AgentFile:
     """An agent file under reading: the values found so far, by the names of `mission.toml`."""
 
     text: MissionText
@@ -57,23 +57,23 @@ class AgentFile:
             return {}
         agent = self._with_config(agent)
         self._put(("mission",), agent.span)
-        self._attributes(agent, self.mission, ("mission",), AGENT, AGENT_UNREAD)
+        self._attributes(agent, self.mission, ("mission",), _AGENT, _AGENT_UNREAD)
         for child in agent.children:
             match child.tag:
                 case "Goal":
                     self._goal(self._with_config(child))
                 case "EuropaReactor":
-                    self._reactor(self._with_config(child), MODELLED)
+                    self._reactor(self._with_config(child), _MODELLED)
                 case "PythonReactor":
-                    self._reactor(self._with_config(child), CODED)
+                    self._reactor(self._with_config(child), _CODED)
                 case "Use":
                     self._use(child)
                 case "Plugin":
-                    self.text.diagnostics.append(NO_EFFECT.at(child.span, what="Plugin", help=NO_PLUGIN))
-                case tag if tag in CLOCKS:
+                    self.text.diagnostics.append(NO_EFFECT.at(child.span, what="Plugin", help=_NO_PLUGIN))
+                case tag if tag in _CLOCKS:
                     self._clock(child)
                 case _:
-                    self._complain_of_element(child, "Agent", CONTENTS)
+                    self._complain_of_element(child, "Agent", _CONTENTS)
         return {"mission": self.mission, "reactor": self.reactors, "goal": self.goals}
 
     def _with_config(self, element: Element) -> Element:
@@ -99,21 +99,21 @@ class AgentFile:
         path: Keys = ("reactor", len(self.reactors))
         table: TomlTable = {}
         self._put(path, element.span)
-        if known is CODED:
+        if known is _CODED:
             settings: TomlTable = {}
-            given = tuple(one for one in element.attributes if one.name not in CODED and one.name not in UNREAD)
+            given = tuple(one for one in element.attributes if one.name not in _CODED and one.name not in _UNREAD)
             for attribute in given:
                 settings[attribute.name] = _value(attribute.value)
                 self._put((*path, "settings", attribute.name), attribute.span)
             if given:
                 table["settings"] = settings
                 self._put((*path, "settings"), element.span)
-            self._attributes(element, table, path, known, (*UNREAD, *(one.name for one in given)))
+            self._attributes(element, table, path, known, (*_UNREAD, *(one.name for one in given)))
         else:
             same = element.find("synch_cfg")
             if same is not None:
-                self.text.diagnostics.append(NO_EFFECT.at(same.span, what="synch_cfg", help=ONE_SOLVER))
-            self._attributes(element, table, path, known, (*UNREAD, "synch_cfg"))
+                self.text.diagnostics.append(NO_EFFECT.at(same.span, what="synch_cfg", help=_ONE_SOLVER))
+            self._attributes(element, table, path, known, (*_UNREAD, "synch_cfg"))
         lines: dict[str, list[str]] = {"internal": [], "external": []}
         for child in element.children:
             key = child.tag.lower()
@@ -143,7 +143,7 @@ class AgentFile:
             elif name is None:
                 self.text.diagnostics.append(MISSING_KEY.at(child.span, table="<Variable>", key="name"))
             else:
-                is_time = name.value in TIMES
+                is_time = name.value in _TIMES
                 keys: Keys = (*path, name.value) if is_time else (*path, "parameters", name.value)
                 self._put(keys, name.span, child.span)
                 (table if is_time else parameters)[name.value] = self._domain(child, name.value)
@@ -154,10 +154,10 @@ class AgentFile:
 
     def _domain(self, variable: Element, name: str) -> object:
         """The value of a variable, or `[min, max]`."""
-        domains = [child for child in variable.children if child.tag in DOMAINS]
+        domains = [child for child in variable.children if child.tag in _DOMAINS]
         for child in variable.children:
             if child not in domains:
-                self._complain_of_element(child, "Variable", DOMAINS)
+                self._complain_of_element(child, "Variable", _DOMAINS)
         if len(domains) != 1:
             found = f"{len(domains)} of them"
             self.text.diagnostics.append(
@@ -197,7 +197,7 @@ class AgentFile:
             return
         seconds = 0.0
         for attribute in element.attributes:
-            factor, value = SECONDS.get(attribute.name), _value(attribute.value)
+            factor, value = _SECONDS.get(attribute.name), _value(attribute.value)
             if factor is not None and isinstance(value, int | float) and not isinstance(value, bool):
                 seconds += factor * value
                 self._put(("mission", "tick"), attribute.span)
@@ -237,8 +237,8 @@ class AgentFile:
         self.places.setdefault(path, Stretch((key.begin, key.end), (stood.begin, stood.end)))
 
 
-NO_PLUGIN = 'reactors in Python are loaded by `<PythonReactor code="file.py:Class"/>`'
-ONE_SOLVER = "the present is settled with the flaw handling of `plan_cfg`"
+_NO_PLUGIN = 'reactors in Python are loaded by `<PythonReactor code="file.py:Class"/>`'
+_ONE_SOLVER = "the present is settled with the flaw handling of `plan_cfg`"
 
 
 def read_agent_file(source: Source, root: Path) -> tuple[MissionText, TomlTable | None]:
@@ -247,7 +247,7 @@ def read_agent_file(source: Source, root: Path) -> tuple[MissionText, TomlTable 
     text = MissionText(source, places)
     agent, diagnostics = read_xml(source)
     text.diagnostics += diagnostics
-    return text, None if agent is None else AgentFile(text, root, places).read(agent)
+    return text, None if agent is None else _AgentFile(text, root, places).read(agent)
 
 
 def _moved(element: Element, span: Span) -> Element:

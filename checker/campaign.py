@@ -31,7 +31,7 @@ class Enough:
     failures: int | None = None
 
 
-NO_BOUND = Enough()
+_NO_BOUND = Enough()
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +75,7 @@ class Campaign:
         store: RunStore | None,
         *,
         fresh: bool = False,
-        enough: Enough = NO_BOUND,
+        enough: Enough = _NO_BOUND,
         progress: Callable[[Progress], None] | None = None,
     ) -> Flown:
         """Fly what is not in the store yet, or with `fresh` all of it again."""

@@ -62,7 +62,7 @@ def failed_by(outcome: Outcome | None) -> Failed:
         if end.conflict is not None or end.deadlock is not None:
             conflict = end.conflict
             if conflict is None and end.deadlock is not None:
-                conflict = in_common(end.deadlock)
+                conflict = _in_common(end.deadlock)
             return Failed(conflict, end.deadlock)
     return Failed()
 
@@ -81,7 +81,7 @@ def lines_that_rule_out(failed: Failed) -> list[ConflictElement]:
     return list(lines.values())
 
 
-def in_common(deadlock: Deadlock) -> Conflict | None:
+def _in_common(deadlock: Deadlock) -> Conflict | None:
     """The conflict that speaks for what was tried in vain: the one whose lines rule out the most, of equals the first.
 
     A line is the same for every token that it is posted for.

@@ -10,7 +10,7 @@ from typing import Any
 from runtime.executive.outcome import Event, EventKind, Outcome
 from runtime.executive.rendering import event_text
 
-TOLD = (
+_TOLD = (
     EventKind.OBSERVATION,
     EventKind.REQUEST,
     EventKind.RECALL,
@@ -21,7 +21,7 @@ TOLD = (
     EventKind.ABORT,
     EventKind.END,
 )
-PHASES = ("start", "synchronise", "repair", "observe", "deliberate", "dispatch", "end")
+_PHASES = ("start", "synchronise", "repair", "observe", "deliberate", "dispatch", "end")
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +44,8 @@ def gold_path(mission: Path, seed: int) -> Path:
 
 def gold_lines(outcome: Outcome) -> tuple[str, ...]:
     """The canonical text: one line per event, within a tick by phase and timeline."""
-    told = [event for event in outcome.events if event.kind in TOLD]
-    told.sort(key=lambda event: (event.tick, PHASES.index(event.phase.value), event.timeline))
+    told = [event for event in outcome.events if event.kind in _TOLD]
+    told.sort(key=lambda event: (event.tick, _PHASES.index(event.phase.value), event.timeline))
     return tuple(map(_line, told))
 
 

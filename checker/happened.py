@@ -2,11 +2,11 @@
 
 from runtime.executive.outcome import EventKind, Outcome
 
-WIDTH = 100
-MOST = 40  # rows
+_WIDTH = 100
+_MOST = 40  # rows
 
 
-def gantt(outcome: Outcome, width: int = WIDTH) -> str:
+def gantt(outcome: Outcome, width: int = _WIDTH) -> str:
     """A row per timeline, each value with its name as far as there is room, `|` where it begins."""
     rows: dict[str, list[tuple[int, str]]] = {}
     for event in outcome.events:
@@ -17,9 +17,9 @@ def gantt(outcome: Outcome, width: int = WIDTH) -> str:
     last = max(outcome.last_tick, 1)
     margin = max(map(len, rows)) + 1
     columns = max(width - margin, 20)
-    shown = [f"{name:<{margin}}{_row(values, last, columns)}" for name, values in list(rows.items())[:MOST]]
-    if len(rows) > MOST:
-        shown.append(f"and {len(rows) - MOST} more timelines")
+    shown = [f"{name:<{margin}}{_row(values, last, columns)}" for name, values in list(rows.items())[:_MOST]]
+    if len(rows) > _MOST:
+        shown.append(f"and {len(rows) - _MOST} more timelines")
     scale = f"{'tick':<{margin}}0{outcome.last_tick!s:>{columns - 1}}"
     return "\n".join([*shown, scale]) + "\n"
 

@@ -21,7 +21,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.nearest import nearest
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 
-Bounds = tuple[float, float]
+_Bounds = tuple[float, float]
 _INFINITE = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
 
 
@@ -135,7 +135,7 @@ def _advice(name: str, known: list[str], what: str) -> str:
     return f"did you mean `{close}`?" if close else f"{what}: {', '.join(known) or 'none'}"
 
 
-def _bounds(domain: DomainConstant | None) -> Bounds | None:
+def _bounds(domain: DomainConstant | None) -> _Bounds | None:
     """A finite range of numbers, if that is what the domain is."""
     if domain is None:
         return None

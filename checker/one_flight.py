@@ -16,7 +16,7 @@ from checker.oracle import Judgement, judge, judge_losses
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import trace_json
 
-HEAD = "mission"  # the kind of the first line of a trace
+_HEAD = "mission"  # the kind of the first line of a trace
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ def trace_text(flight: Flight, mission: Path, trace: Path) -> str:
     head = {
         "tick": 0,
         "phase": "start",
-        "kind": HEAD,
+        "kind": _HEAD,
         "mission": Path(os.path.relpath(mission.resolve(), trace.resolve().parent)).as_posix(),
         "models": flight.models,
         "seed": flight.settings.seed,
@@ -77,7 +77,7 @@ def read_trace(path: Path) -> Recorded:
     """Read a trace; raises OSError, or ValueError where the file is none."""
     lines = path.read_text(encoding="utf-8").splitlines()
     head: dict[str, Any] = json.loads(lines[0]) if lines else {}
-    if not isinstance(head, dict) or head.get("kind") != HEAD:
+    if not isinstance(head, dict) or head.get("kind") != _HEAD:
         raise ValueError("its first line does not say which mission it is of")
     try:
         values = {str(name): float(value) for name, value in head["values"].items()}

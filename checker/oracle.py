@@ -10,10 +10,10 @@ from enum import Enum
 from checker.losses import Exceeded, Limit, Losses, exceeded
 from runtime.executive.outcome import EventKind, Outcome, Reason, ReasonKind
 
-GOALS_OPEN = "F10"
-NO_RECORD = "F7"
-BROKEN = "F11"
-LIMIT_CODES = {Limit.REJECTED: "L1", Limit.LATE: "L2", Limit.REPAIRS: "L3", Limit.UNDELIVERED: "L4"}
+_GOALS_OPEN = "F10"
+_NO_RECORD = "F7"
+_BROKEN = "F11"
+_LIMIT_CODES = {Limit.REJECTED: "L1", Limit.LATE: "L2", Limit.REPAIRS: "L3", Limit.UNDELIVERED: "L4"}
 USER_CODE = "USER"  # of an ERROR: a constraint that the project wrote in Python failed
 
 CODE_NAMES = {
@@ -63,18 +63,18 @@ def judge(outcome: Outcome) -> Judgement:
         return Judgement(Verdict.FAIL, outcome.abort.code, outcome.abort.reason)
     if outcome.ended_early:
         reason = Reason(ReasonKind.NO_RECORD, tick=outcome.last_tick, limit=outcome.final_tick)
-        return Judgement(Verdict.FAIL, NO_RECORD, reason)
+        return Judgement(Verdict.FAIL, _NO_RECORD, reason)
     lost = next((event for event in outcome.events if event.kind is EventKind.KILL), None)
     if lost is not None:
         return Judgement(Verdict.FAIL, lost.code, lost.reason)
     if outcome.open_goals:
-        return Judgement(Verdict.FAIL, GOALS_OPEN, Reason(ReasonKind.GOALS_OPEN))
+        return Judgement(Verdict.FAIL, _GOALS_OPEN, Reason(ReasonKind.GOALS_OPEN))
     if outcome.breaches:
-        return Judgement(Verdict.FAIL, BROKEN, outcome.breaches[0])
+        return Judgement(Verdict.FAIL, _BROKEN, outcome.breaches[0])
     return Judgement(Verdict.PASS)
 
 
 def judge_losses(judgement: Judgement, losses: Losses, limits: tuple[tuple[Limit, int], ...]) -> Judgement:
     """The judgement with the limits of [check] applied: a mission that passed fails where it lost more."""
     over = exceeded(losses, limits) if judgement.verdict is Verdict.PASS else None
-    return judgement if over is None else Judgement(Verdict.FAIL, LIMIT_CODES[over.limit], exceeded=over)
+    return judgement if over is None else Judgement(Verdict.FAIL, _LIMIT_CODES[over.limit], exceeded=over)

@@ -62,14 +62,14 @@ _KINDS = {
 def failure_text(judgement: Judgement, open_goals: Sequence[OpenGoal] = ()) -> str:
     """Why a mission failed, or could not be flown; empty for one that passed."""
     if judgement.exceeded is not None:
-        return exceeded_text(judgement.exceeded)
+        return _exceeded_text(judgement.exceeded)
     if judgement.reason is None:
         return judgement.message
     goals = ", ".join(goal_text(goal) for goal in open_goals)
     return reason_text(judgement.reason) + (f": {goals}" if goals else "")
 
 
-def exceeded_text(exceeded: Exceeded) -> str:
+def _exceeded_text(exceeded: Exceeded) -> str:
     """A limit of [check] that a mission did not keep."""
     what = {
         Limit.REJECTED: "goals were given up",

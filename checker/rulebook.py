@@ -24,7 +24,7 @@ def files() -> Iterator[tuple[str, str]]:
         yield f"{name}.md", markdown(page)
 
 
-def main(directory: Path) -> None:
+def _main(directory: Path) -> None:
     """Write the files, and remove pages of codes that are gone."""
     directory.mkdir(parents=True, exist_ok=True)
     for path in directory.glob("NDDL*.md"):
@@ -35,4 +35,4 @@ def main(directory: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    _main(Path(sys.argv[1]))

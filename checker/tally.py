@@ -96,7 +96,7 @@ class Tally:
         return sum(each.count for each in self.given_up)
 
 
-def goal_places(mission: Mission) -> tuple[SourcePlace, ...]:
+def _goal_places(mission: Mission) -> tuple[SourcePlace, ...]:
     """The line of each goal in the mission file."""
     name = mission.source.name.replace("\\", "/").rpartition("/")[2]
     places = []
@@ -112,7 +112,7 @@ def tally(mission: Mission, results: Sequence[MissionResult]) -> Tally:
     counted = [result for result in results if result.verdict is not Verdict.ERROR]
     goals = tuple(
         _goal(number, goal, place, counted)
-        for number, (goal, place) in enumerate(zip(mission.agent.goals, goal_places(mission), strict=True))
+        for number, (goal, place) in enumerate(zip(mission.agent.goals, _goal_places(mission), strict=True))
     )
     return Tally(
         len(counted),

@@ -20,8 +20,8 @@ from runtime.executive.configuration import AgentConfiguration, ParameterConfigu
 from runtime.executive.distributions import DISTRIBUTIONS
 
 Refly = Callable[[AgentConfiguration, int, int], MissionResult]  # agent, number, seed
-HALVINGS = 30
-NARROW = 1e-5  # of the parameter's range: flights stop there, for floats of the engine are no sharper
+_HALVINGS = 30
+_NARROW = 1e-5  # of the parameter's range: flights stop there, for floats of the engine are no sharper
 _LUCK = 0.01  # a cut of samples alone is believed when chance would bring it less often
 
 
@@ -216,8 +216,8 @@ class _Flights:
 
     def _halve(self, failing: float, passing: float) -> float:
         width = max(self.parameter.upper - self.parameter.lower, 1e-9)
-        for _ in range(HALVINGS):
-            if abs(failing - passing) <= NARROW * width:
+        for _ in range(_HALVINGS):
+            if abs(failing - passing) <= _NARROW * width:
                 break
             middle = (failing + passing) / 2.0
             if self.parameter.is_whole:
@@ -230,7 +230,7 @@ class _Flights:
                 passing = middle
         if self.parameter.is_whole:
             return passing
-        slack = NARROW * width
+        slack = _NARROW * width
         return shortest_decimal(min(failing, passing) - slack, max(failing, passing) + slack)
 
     def _fails(self, value: float) -> bool:

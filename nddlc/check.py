@@ -33,11 +33,11 @@ from nddlc.mission_trust import models_of
 from nddlc.progress import Display
 from nddlc.trust import trust_option
 
-HOLDS, FINDINGS, UNUSABLE, BUG = 0, 1, 2, 3
-SIGNALLED = 128  # and the number of the signal: 130 for Ctrl-C, 143 for SIGTERM
+_HOLDS, _FINDINGS, _UNUSABLE, _BUG = 0, 1, 2, 3
+_SIGNALLED = 128  # and the number of the signal: 130 for Ctrl-C, 143 for SIGTERM
 STORE = Path(".nddlc/runs.sqlite")
-REPORT = Path("nddlc-report")
-STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
+_REPORT = Path("nddlc-report")
+_STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 
 
 @click.command()
@@ -46,8 +46,8 @@ STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 @click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The batch seed, whatever the file says.")
 @click.option("--max-failure-rate", type=click.FloatRange(0.0, 1.0), help="The accepted rate, whatever the file says.")
 @click.option("--workers", type=click.IntRange(1), help="Processes to fly with; by default one per core.")
-@click.option("--format", "style", type=click.Choice(STYLES), default="text", help="What to print.")
-@click.option("--output", type=click.Path(path_type=Path), default=REPORT, help="Where reports go (./nddlc-report).")
+@click.option("--format", "style", type=click.Choice(_STYLES), default="text", help="What to print.")
+@click.option("--output", type=click.Path(path_type=Path), default=_REPORT, help="Where reports go (./nddlc-report).")
 @click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where runs are kept.")
 @click.option("--no-store", is_flag=True, help="Keep nothing but the report.")
 @click.option("--fresh", is_flag=True, help="Fly all missions again, also those that the store has of this run.")
@@ -91,14 +91,14 @@ def command(
         _tell((*gaps, *analysis.diagnostics), style)
         if style == "text" and not analysis.has_errors:
             click.echo(f"the text of `{path}` is in order; missions are flown from a mission file (.toml)")
-        return UNUSABLE if analysis.has_errors else HOLDS
+        return _UNUSABLE if analysis.has_errors else _HOLDS
     campaign = _prepare(file, missions, seed, max_failure_rate, style, is_trusted)
     if campaign is None:
-        return UNUSABLE
+        return _UNUSABLE
     if dry_run:
         if style == "text":
             click.echo(f"`{path}` and its models are in order; nothing was flown")
-        return HOLDS
+        return _HOLDS
     count, enough = workers or _cores(), Enough(seconds, max_failures)
     try:
         with ExitStack() as stack:
@@ -109,7 +109,7 @@ def command(
         raise Unusable(str(problem), problem.advice) from None
     findings = campaign.assess(flown.results, ending=flown.ending)
     code = _report(campaign, findings, style, output)
-    return code if flown.ended_by is None else SIGNALLED + flown.ended_by
+    return code if flown.ended_by is None else _SIGNALLED + flown.ended_by
 
 
 def _prepare(
@@ -195,7 +195,7 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path) ->
     else:
         click.echo(reports[style][1], nl=False)
     if findings.rate.exceeds:
-        return FINDINGS
+        return _FINDINGS
     if any(result.judgement.code != USER_CODE for result in findings.errors):
-        return BUG
-    return UNUSABLE if findings.errors else HOLDS
+        return _BUG
+    return _UNUSABLE if findings.errors else _HOLDS

@@ -9,7 +9,7 @@ from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
 from nddlc.inputs import Unusable, colours, readable, write_text
 
-DONE, UNUSABLE = 0, 2
+_DONE, _UNUSABLE = 0, 2
 
 
 @click.command()
@@ -25,7 +25,7 @@ def command(path: str, output: Path | None) -> int:
     if batch is None:
         for each in complaints:
             click.echo(render(each, colour=colours()), err=True)
-        return UNUSABLE
+        return _UNUSABLE
     text = batch_toml(batch)
     if output is None:
         click.echo(text, nl=False)
@@ -33,4 +33,4 @@ def command(path: str, output: Path | None) -> int:
         raise Unusable(f"there is `{output}` already", "delete it, or name another file")
     else:
         write_text(output, text)
-    return DONE
+    return _DONE

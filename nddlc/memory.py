@@ -9,16 +9,16 @@ from pathlib import Path
 if sys.platform != "win32":
     import resource
 
-MEBIBYTE = 2**20
-USUAL = 4096  # where nobody can tell how much there is
+_MEBIBYTE = 2**20
+_USUAL = 4096  # where nobody can tell how much there is
 
 
 def half_of_the_machine() -> int:
     """Half of the memory there is, in MiB."""
     try:
-        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // MEBIBYTE // 2
+        return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // _MEBIBYTE // 2
     except (AttributeError, ValueError, OSError):
-        return USUAL
+        return _USUAL
 
 
 @contextmanager
@@ -28,7 +28,7 @@ def bounded(mebibytes: int) -> Iterator[None]:
         yield
         return
     before = resource.getrlimit(resource.RLIMIT_AS)
-    limit = _taken() + mebibytes * MEBIBYTE
+    limit = _taken() + mebibytes * _MEBIBYTE
     known = [each for each in before if each != resource.RLIM_INFINITY]
     resource.setrlimit(resource.RLIMIT_AS, (min([limit, *known]), before[1]))
     try:
@@ -42,4 +42,4 @@ def _taken() -> int:
     try:
         return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * os.sysconf("SC_PAGE_SIZE")
     except (OSError, ValueError, IndexError):
-        return 1024 * MEBIBYTE
+        return 1024 * _MEBIBYTE

@@ -43,7 +43,7 @@ class Display:
         if now - self._shown < (_LINE_SECONDS if self._bar is None else _BAR_SECONDS):
             return
         self._shown = now
-        text = progress_text(progress, self._confidence)
+        text = _progress_text(progress, self._confidence)
         if self._bar is None:
             click.echo(text, err=True)
         else:
@@ -51,7 +51,7 @@ class Display:
             self._bar.update(task, total=progress.planned, completed=progress.done, description=text, refresh=True)
 
 
-def progress_text(progress: Progress, confidence: float) -> str:
+def _progress_text(progress: Progress, confidence: float) -> str:
     """Missions, rate, time left, failures with the interval of their rate so far."""
     parts = [f"{progress.done} of {progress.planned} missions"]
     if progress.kept:

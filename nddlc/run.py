@@ -20,7 +20,7 @@ from runtime.executive.rendering import event_text, goal_text, reason_text
 _PASS, _FAIL = 0, 1
 _TOLD = (EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL, EventKind.RELAX, EventKind.KILL, EventKind.ABORT)
 
-MOST_LINES = 8  # of the model that are named for a failure
+_MOST_LINES = 8  # of the model that are named for a failure
 
 
 @click.command()
@@ -80,6 +80,6 @@ def _report(name: str, flight: Flight) -> str:
     )
     lines += [f"  open: {goal_text(goal)}\n" for goal in outcome.open_goals]
     if judgement.verdict is not Verdict.PASS:
-        places = [element.place for element in lines_that_rule_out(failed_by(outcome))[:MOST_LINES]]
+        places = [element.place for element in lines_that_rule_out(failed_by(outcome))[:_MOST_LINES]]
         lines += [f"  ruled out by {one.file}:{one.line}:{one.column}: {one.text}\n" for one in places if one]
     return "".join(lines)

@@ -11,7 +11,7 @@ from checker.batch.store import StoreError
 from nddlc.check import STORE
 from nddlc.inputs import Unusable
 
-WHOLE, DAMAGED = 0, 1
+_WHOLE, _DAMAGED = 0, 1
 _MOST_SHOWN = 20
 
 
@@ -30,7 +30,7 @@ def command(action: str, path: Path, output: Path | None, style: str) -> int:
         if action == "check":
             damage = examine(path)
             _tell(damage, path, style)
-            return WHOLE if damage.is_none else DAMAGED
+            return _WHOLE if damage.is_none else _DAMAGED
         target = output or path.with_name(path.name + ".new")
         if target.exists():
             raise Unusable(f"there is `{target}` already", "delete it, or name another with --output")
@@ -44,7 +44,7 @@ def command(action: str, path: Path, output: Path | None, style: str) -> int:
     _tell(damage, path, style)
     if style == "text":
         click.echo(f"kept: {damage.whole} missions of {damage.runs} runs, in `{output or path}`")
-    return WHOLE
+    return _WHOLE
 
 
 def _replace(path: Path, target: Path) -> None:

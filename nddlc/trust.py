@@ -20,10 +20,10 @@ from nddlc.inputs import Unusable, colours
 from runtime.user.library import Library, library_of
 
 Function = TypeVar("Function", bound=Callable[..., Any])
-HELP = "look at it, then use `--trust` to run it all the same (docs/security.md)"
+_HELP = "look at it, then use `--trust` to run it all the same (docs/security.md)"
 
 
-class Refused(Unusable):
+class _Refused(Unusable):
     """Python that is not run, told where it is asked for."""
 
     def __init__(self, diagnostic: Diagnostic) -> None:
@@ -70,4 +70,4 @@ def permit(files: Iterable[tuple[Path, Span]], folder: Path, is_named: bool) -> 
         else f"`{folder}` was not named, and lies above or beside what was"
     )
     notes = tuple(Note(f"`{each.as_posix()}` neither", where) for each, where in others)
-    raise Refused(NOT_TRUSTED.at(span, notes=notes, help=HELP, path=path.as_posix(), reason=reason))
+    raise _Refused(NOT_TRUSTED.at(span, notes=notes, help=_HELP, path=path.as_posix(), reason=reason))

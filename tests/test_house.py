@@ -252,7 +252,7 @@ def doors(root: Path) -> Iterator[str]:
     """
     trees = {path: ast.parse(path.read_bytes()) for path in sources(root, *LAYERS, *OTHER_FOLDERS)}
     settings, grammar = root / "pyproject.toml", root / "nddl_lang/syntax/grammar.lark"
-    named = [path for path in (settings, root / LAZY) if path.exists()]
+    named = [path for path in (settings, *sorted((root / "nddlc").glob("*.py"))) if path.exists()]
     used = {pair for path in named for pair in re.findall(r'"([\w.]+):(\w+)"', path.read_text())}
     made = re.findall(r"->\s*(\w+)", grammar.read_text()) if grammar.exists() else []
     used |= {(f"nddl_lang.syntax.{module}", name) for module in ("builder", "statements") for name in made}

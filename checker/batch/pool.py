@@ -29,7 +29,7 @@ _SAFE_PATH = "PYTHONSAFEPATH"
 _START_LIMIT = 120.0  # seconds for a worker to load the models
 _FAILED_STARTS = 3  # workers in a row that may die before they are ready
 _MOST_QUIET = 0.25  # seconds without a look at the clock
-ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+_ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 
 class Supervisor(Protocol):
@@ -245,7 +245,7 @@ def _signals_held_back() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, _ENDING)
     try:
         yield
     finally:
@@ -271,21 +271,21 @@ def _signal_pipe() -> Iterator[int]:
     """A file descriptor from which a signal that ends the batch can be read; the second one does what it always did."""
     reading, writing = os.pipe()
     is_main = threading.current_thread() is threading.main_thread()
-    before = {number: signal.getsignal(number) for number in ENDING}
+    before = {number: signal.getsignal(number) for number in _ENDING}
 
     def note(number: int, _frame: FrameType | None) -> None:
         os.write(writing, bytes((number,)))
         signal.signal(number, before[number])
 
     if is_main:
-        for number in ENDING:
+        for number in _ENDING:
             if number != getattr(signal, "SIGHUP", None) or before[number] is not signal.SIG_IGN:  # nohup
                 signal.signal(number, note)
     try:
         yield reading
     finally:
         if is_main:
-            for number in ENDING:
+            for number in _ENDING:
                 signal.signal(number, before[number])
         os.close(reading)
         os.close(writing)

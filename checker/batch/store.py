@@ -19,11 +19,11 @@ from checker.batch.result import MissionResult, read_result, write_result
 from checker.oracle import Verdict
 
 LATEST = "latest"
-FOLDER = ".nddlc"
-VERSION = 3  # of the schema and of `write_result`; other versions are not read
+_FOLDER = ".nddlc"
+_VERSION = 3  # of the schema and of `write_result`; other versions are not read
 _MARK = 0x4E44444C  # `NDDL`: the application id of SQLite's file format
 _FLUSH_SECONDS = 0.5
-SCHEMA = """
+_SCHEMA = """
 CREATE TABLE IF NOT EXISTS runs (
     turn INTEGER PRIMARY KEY AUTOINCREMENT,
     id TEXT NOT NULL UNIQUE,
@@ -62,7 +62,7 @@ class Run:
     missions: int
 
 
-def checksum(run_id: str, number: int, verdict: str, result: str) -> int:
+def _checksum(run_id: str, number: int, verdict: str, result: str) -> int:
     """The CRC-32 of a row."""
     return zlib.crc32(f"{run_id}\0{number}\0{verdict}\0{result}".encode("utf-8", "surrogatepass"))
 
@@ -102,7 +102,7 @@ class RunStore:
     def add(self, run: Run, result: MissionResult) -> None:
         """Keep a result; it is on disk after the next `flush` at the latest."""
         verdict, text = result.verdict.value, write_result(result)
-        self._pending.append((run.id, result.number, verdict, text, checksum(run.id, result.number, verdict, text)))
+        self._pending.append((run.id, result.number, verdict, text, _checksum(run.id, result.number, verdict, text)))
         self.flush_if_due()
 
     def flush_if_due(self) -> None:
@@ -176,7 +176,7 @@ def result_of(row: tuple[object, ...]) -> MissionResult | None:
     run, number, verdict, text, written = row
     if not (isinstance(run, str) and isinstance(number, int) and isinstance(verdict, str) and isinstance(text, str)):
         return None
-    if checksum(run, number, verdict, text) != written:
+    if _checksum(run, number, verdict, text) != written:
         return None
     return read_result(text)
 
@@ -203,7 +203,7 @@ def open_store(path: Path) -> Iterator[RunStore]:
     """Open or make the store at `path`; whatever happens inside, finished missions are written."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        if path.parent.name == FOLDER and not (path.parent / ".gitignore").exists():
+        if path.parent.name == _FOLDER and not (path.parent / ".gitignore").exists():
             (path.parent / ".gitignore").write_text("*\n", encoding="ascii")  # nothing in here is for others
         if path.exists() and not path.is_file():
             raise StoreError(f"`{path}` is no file that a store could be in")
@@ -227,7 +227,7 @@ def _connect(path: Path) -> sqlite3.Connection:
         check_version(connection, path)
         connection.execute("PRAGMA journal_mode = WAL")
         connection.execute("PRAGMA synchronous = NORMAL")
-        connection.executescript(f"PRAGMA application_id = {_MARK};PRAGMA user_version = {VERSION};{SCHEMA}")
+        connection.executescript(f"PRAGMA application_id = {_MARK};PRAGMA user_version = {_VERSION};{_SCHEMA}")
     except (sqlite3.Error, StoreError) as problem:
         if connection is not None:
             connection.close()
@@ -248,8 +248,8 @@ def check_version(connection: sqlite3.Connection, path: Path) -> None:
         return
     if mark != _MARK and not {"runs", "missions"} <= tables:
         raise StoreError(f"`{path}` is a database of something else, not a store of nddlc")
-    if mark == _MARK and version == VERSION:
+    if mark == _MARK and version == _VERSION:
         return
-    age = "a newer" if version > VERSION else "an older"
-    what = f"the store `{path}` is of {age} nddlc: it has format {version or 1}, this one reads format {VERSION}"
+    age = "a newer" if version > _VERSION else "an older"
+    what = f"the store `{path}` is of {age} nddlc: it has format {version or 1}, this one reads format {_VERSION}"
     raise StoreError(what, "delete it, or keep it and name another with --store")

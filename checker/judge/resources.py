@@ -15,7 +15,7 @@ _RESOURCES = frozenset({"Reservoir", "Reusable", "CBReusable", "Unary"})
 
 
 @dataclass(frozen=True, slots=True)
-class ResourceUse:
+class _ResourceUse:
     """Something that changes a level: `amount` is added at `start` and, if it is given back, taken away at `end`."""
 
     start: int
@@ -26,7 +26,7 @@ class ResourceUse:
 
 
 @dataclass(frozen=True, slots=True)
-class ResourceLimits:
+class _ResourceLimits:
     """What the level of a resource and its flows must keep to."""
 
     initial: float
@@ -57,7 +57,7 @@ def judge_resources(judge: ProgramJudge, bench: Bench) -> None:
             _judge_level(bench, thing.name, limits, list(_uses_of(bench, thing.name)))
 
 
-def _limits_of(kind: str, members: dict[str, Value]) -> ResourceLimits | None:
+def _limits_of(kind: str, members: dict[str, Value]) -> _ResourceLimits | None:
     """The limits of a resource; None if one of them was never fixed."""
     found: dict[str, float] = {}
     for name, value in members.items():
@@ -66,15 +66,15 @@ def _limits_of(kind: str, members: dict[str, Value]) -> ResourceLimits | None:
         elif isinstance(value, ValueRange):
             return None
     if kind == "Unary":
-        return ResourceLimits(1.0, 0.0, inf, consumption=found.get("consumptionMax", inf))
+        return _ResourceLimits(1.0, 0.0, inf, consumption=found.get("consumptionMax", inf))
     flows = (found.get("consumptionRateMax", inf), found.get("consumptionMax", inf))
     if kind == "Reservoir":
         levels = (found["initialCapacity"], found["levelLimitMin"], found["levelLimitMax"])
-        return ResourceLimits(*levels, *flows, found.get("productionRateMax", inf), found.get("productionMax", inf))
-    return ResourceLimits(found["capacity"], found["levelLimitMin"], inf, *flows)
+        return _ResourceLimits(*levels, *flows, found.get("productionRateMax", inf), found.get("productionMax", inf))
+    return _ResourceLimits(found["capacity"], found["levelLimitMin"], inf, *flows)
 
 
-def _uses_of(bench: Bench, resource: str) -> Iterator[ResourceUse]:
+def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
     """What was executed on a resource, by tokens of its own and by `uses` in rules."""
     for tok in bench.tokens.values():
         record = tok.record
@@ -90,7 +90,7 @@ def _uses_of(bench: Bench, resource: str) -> Iterator[ResourceUse]:
 
 def _use(
     bench: Bench, kind: str, quantity: Value, start: Value, end: Value, tok: Tok | None, span: Span | None
-) -> Iterator[ResourceUse]:
+) -> Iterator[_ResourceUse]:
     if not isinstance(start, int):
         bench.skip("a use whose start was never fixed")
     elif start > bench.last_tick:
@@ -98,12 +98,12 @@ def _use(
     elif isinstance(quantity, (tuple, str)):
         bench.skip("a use whose quantity was never fixed")
     elif kind in ("produce", "consume"):
-        yield ResourceUse(start, None, float(quantity) if kind == "produce" else -float(quantity), tok, span)
+        yield _ResourceUse(start, None, float(quantity) if kind == "produce" else -float(quantity), tok, span)
     else:
-        yield ResourceUse(start, end if isinstance(end, int) else bench.last_tick + 1, -float(quantity), tok, span)
+        yield _ResourceUse(start, end if isinstance(end, int) else bench.last_tick + 1, -float(quantity), tok, span)
 
 
-def _judge_level(bench: Bench, resource: str, limits: ResourceLimits, uses: list[ResourceUse]) -> None:
+def _judge_level(bench: Bench, resource: str, limits: _ResourceLimits, uses: list[_ResourceUse]) -> None:
     """Judge the level at each instant at which it changes, and the flows."""
     changes: dict[int, float] = {}
     drawn: dict[int, float] = {}
@@ -136,7 +136,14 @@ def _judge_level(bench: Bench, resource: str, limits: ResourceLimits, uses: list
 
 
 def _exceeded(
-    bench: Bench, resource: str, what: str, amount: float, least: float, most: float, tick: int, uses: list[ResourceUse]
+    bench: Bench,
+    resource: str,
+    what: str,
+    amount: float,
+    least: float,
+    most: float,
+    tick: int,
+    uses: list[_ResourceUse],
 ) -> None:
     users = tuple(use.tok for use in uses if use.tok is not None and use.start <= tick)[-4:]
     span = next((use.span for use in reversed(uses) if use.span is not None and use.start <= tick), None)

@@ -11,7 +11,7 @@ from runtime.executive.record import OpenValues, Value, ValueRange
 TOLERANCE = 1e-5
 _RELATIVE = 1e-9  # what sums and products of doubles may lose
 
-Scalar = float | int | bool | str
+_Scalar = float | int | bool | str
 Hull = tuple[float, float]
 UNKNOWN = ValueRange(-inf, inf)  # what the record does not tell
 
@@ -56,7 +56,7 @@ def ends_of(value: Value) -> Hull:
     return hull(value) or (-inf, inf)
 
 
-def _names(value: Value) -> frozenset[Scalar] | None:
+def _names(value: Value) -> frozenset[_Scalar] | None:
     """The names that `value` may stand for; None if it may be any, or is a number."""
     if isinstance(value, OpenValues):
         return frozenset(value.values)

@@ -23,7 +23,7 @@ from runtime.executive.outcome import SourcePlace
 
 _MOST_ROWS = 1000
 _MOST_LOSSES = 40
-COLOURS = 6
+_COLOURS = 6
 
 
 def html_report(findings: Findings, excerpts: Excerpts, stories: Sequence[Story | None]) -> str:
@@ -105,7 +105,7 @@ def _fault(index: int, fault: Fault, findings: Findings, excerpts: Excerpts, sto
     meaning = escape(CODE_NAMES.get(bucket.code, "unknown"))
     why = _words(failure_text(bucket.judgement, bucket.open_goals))
     parts = [
-        f'<section class="card fault" style="--colour: var(--f{index % COLOURS})">',
+        f'<section class="card fault" style="--colour: var(--f{index % _COLOURS})">',
         f"<h3>{missions(len(bucket.missions))} ({percent(bucket.share)}): {why}</h3>",
         f'<p class="soft">{bucket.code}, {meaning}; {escape(bucket.reactor)} gives up {when}</p>',
     ]
@@ -209,7 +209,7 @@ def _rows(findings: Findings, results: Sequence[MissionResult]) -> list[str]:
         last = {draw.parameter: draw.value for draw in (result.outcome.draws if result.outcome else ())}
         values = "".join(f'<td class="n">{number(last[name]) if name in last else ""}</td>' for name in names)
         fault = fault_of.get(result.number)
-        colour = f' style="background: var(--f{fault % COLOURS})"' if fault is not None else ""
+        colour = f' style="background: var(--f{fault % _COLOURS})"' if fault is not None else ""
         tick = result.outcome.last_tick if result.outcome is not None else ""
         word = f"{result.verdict.value} {result.judgement.code}".strip()
         parts.append(

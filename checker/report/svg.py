@@ -9,8 +9,8 @@ from checker.statistics import Rate
 from checker.threshold import Threshold
 from runtime.view.axis import ticks
 
-WIDTH, MARGIN = 760.0, 14.0
-GOLDEN = 0.6180339887498949  # multiples of it spread evenly, so that dots of near values do not hide each other
+_WIDTH, _MARGIN = 760.0, 14.0
+_GOLDEN = 0.6180339887498949  # multiples of it spread evenly, so that dots of near values do not hide each other
 _MOST_DOTS = 1500
 Box = tuple[float, float]
 
@@ -54,10 +54,10 @@ def strip_plot(name: str, dots: Sequence[Dot], box: Box, thresholds: Sequence[Th
         left, width = min(x, far), abs(far - x)
         parts.append(f'<rect class="beyond" x="{left:.1f}" y="8" width="{width:.1f}" height="{floor - 8:.1f}"/>')
         parts.append(f'<line class="edge" x1="{x:.1f}" x2="{x:.1f}" y1="4" y2="{floor:.1f}"/>')
-        anchor, shift = ("end", -5.0) if x > WIDTH / 2 else ("start", 5.0)
+        anchor, shift = ("end", -5.0) if x > _WIDTH / 2 else ("start", 5.0)
         parts.append(_text("label", x + shift, 15.0, threshold.condition, anchor))
     for dot in _drawn(dots):
-        y = 22.0 + (dot.mission * GOLDEN) % 1.0 * (floor - 30.0)
+        y = 22.0 + (dot.mission * _GOLDEN) % 1.0 * (floor - 30.0)
         parts.append(_circle(dot, axis.at(dot.value), y, number(dot.value)))
     return _svg(f"values of {name}", height, parts)
 
@@ -85,10 +85,10 @@ def scatter_plot(names: tuple[str, str], across: Sequence[Dot], up: Sequence[Dot
 def rate_plot(rate: Rate) -> str:
     """The observed rate with its exact interval, and the limit."""
     top = max(rate.exact[1], rate.limit) * 1.15 or 1.0
-    axis = Axis(0.0, min(top, 1.0) * 100.0, MARGIN, WIDTH - MARGIN)
+    axis = Axis(0.0, min(top, 1.0) * 100.0, _MARGIN, _WIDTH - _MARGIN)
     lower, upper, seen, limit = (axis.at(100.0 * share) for share in (*rate.exact, rate.observed, rate.limit))
     word = "bad" if rate.exceeds else "good"
-    anchor, shift = ("end", -5.0) if limit > WIDTH / 2 else ("start", 5.0)
+    anchor, shift = ("end", -5.0) if limit > _WIDTH / 2 else ("start", 5.0)
     parts = [
         *_horizontal(axis, 44.0, " %"),
         f'<line class="interval {word}" x1="{lower:.1f}" x2="{upper:.1f}" y1="28" y2="28"/>',
@@ -99,10 +99,10 @@ def rate_plot(rate: Rate) -> str:
     return _svg("failure rate with its interval", 70.0, parts)
 
 
-def _axis(values: Sequence[float], box: Box, begin: float = MARGIN) -> Axis:
+def _axis(values: Sequence[float], box: Box, begin: float = _MARGIN) -> Axis:
     lower, upper = min([box[0], *values]), max([box[1], *values])
     pad = (upper - lower) * 0.02 or 0.5
-    return Axis(lower - pad, upper + pad, begin, WIDTH - MARGIN)
+    return Axis(lower - pad, upper + pad, begin, _WIDTH - _MARGIN)
 
 
 def _horizontal(axis: Axis, floor: float, unit: str = "") -> Iterator[str]:
@@ -133,5 +133,5 @@ def _text(kind: str, x: float, y: float, text: str, anchor: str = "middle", *, t
 
 
 def _svg(caption: str, height: float, parts: Sequence[str]) -> str:
-    head = f'<svg viewBox="0 0 {WIDTH:.0f} {height:.0f}" role="img" aria-label="{escape(caption)}">'
+    head = f'<svg viewBox="0 0 {_WIDTH:.0f} {height:.0f}" role="img" aria-label="{escape(caption)}">'
     return "\n".join([head, *parts, "</svg>"])

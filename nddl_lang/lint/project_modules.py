@@ -11,7 +11,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Anchor, Source, Span
 
-HELP = "`--trust` runs it; in an editor, trust the workspace"
+_HELP = "`--trust` runs it; in an editor, trust the workspace"
 
 
 def read_callables(
@@ -48,5 +48,5 @@ def _gap(module: ProjectModule, source: Source, gap: Gap) -> Diagnostic:
     finish = begin + len(lines[gap.line - 1].rstrip()) if gap.line <= len(lines) else begin
     note = Note("here", Span(Anchor(source), begin, finish)) if lines else None
     return UNREAD_MODULE.at(
-        module.span, help=HELP, notes=() if note is None else (note,), path=module.path.name, reason=gap.reason
+        module.span, help=_HELP, notes=() if note is None else (note,), path=module.path.name, reason=gap.reason
     )

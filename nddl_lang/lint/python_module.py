@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 from nddl_lang.semantics.described import Description
 
 LIST = "CONSTRAINTS"
-API = "runtime.user.constraint"
-BASES = (f"{API}.Constraint", f"{API}.Function")
-FUNCTION = f"{API}.function"
-FUNCTION_PARAMETERS = ("name", "inputs", "result", "compute", "meaning", "files")
-FIELDS = ("name", "signature", "meaning", "result", "forward_only", "gives")
-LONGEST = 10_000  # characters of a text, or items of a list, that are followed
+_API = "runtime.user.constraint"
+_BASES = (f"{_API}.Constraint", f"{_API}.Function")
+_FUNCTION = f"{_API}.function"
+_FUNCTION_PARAMETERS = ("name", "inputs", "result", "compute", "meaning", "files")
+_FIELDS = ("name", "signature", "meaning", "result", "forward_only", "gives")
+_LONGEST = 10_000  # characters of a text, or items of a list, that are followed
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,7 @@ class _Unknown:
     """A value that only running the module would tell."""
 
 
-UNKNOWN = _Unknown()
+_UNKNOWN = _Unknown()
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +111,7 @@ class _Reader:
                     self.names[alias.asname or first] = _Imported(alias.name if alias.asname else first)
             case ast.ImportFrom(module=str(module), names=names, level=0):
                 for alias in names:
-                    if alias.name == "*" and module == API:
+                    if alias.name == "*" and module == _API:
                         public = ("Constraint", "Function", "View", "function", "near")
                         self.names |= {each: _Imported(f"{module}.{each}") for each in public}
                     else:
@@ -125,7 +125,7 @@ class _Reader:
             case ast.AnnAssign(target=target, value=ast.expr() as value):
                 self._bind(target, self._value(value))
             case ast.AugAssign(target=ast.Name(id=name), op=ast.Add(), value=value):
-                self.names[name] = _joined(self.names.get(name, UNKNOWN), self._value(value))
+                self.names[name] = _joined(self.names.get(name, _UNKNOWN), self._value(value))
             case ast.Expr(
                 value=ast.Call(func=ast.Attribute(value=ast.Name(id=name), attr=attribute), args=[given])
             ) if attribute in ("append", "extend") and name in self.names:
@@ -136,7 +136,7 @@ class _Reader:
             case ast.Expr(value=ast.Constant()) | ast.Pass():
                 pass
             case _:
-                self.names |= dict.fromkeys(_touched(statement), UNKNOWN)
+                self.names |= dict.fromkeys(_touched(statement), _UNKNOWN)
 
     def _bind(self, target: ast.expr, value: object) -> None:
         match target:
@@ -147,20 +147,20 @@ class _Reader:
             ):
                 owner.attributes[attribute] = value
             case _:
-                self.names |= dict.fromkeys(_touched(target), UNKNOWN)
+                self.names |= dict.fromkeys(_touched(target), _UNKNOWN)
 
     def _class(self, node: ast.ClassDef) -> object:
         """A class whose only base is a constraint; of any other one nothing is known."""
         if node.decorator_list or node.keywords or len(node.bases) != 1:
-            return UNKNOWN
+            return _UNKNOWN
         base = self._value(node.bases[0])
         made = _Class(node.name, {}, None)
         if isinstance(base, _Class):
             made = _Class(node.name, dict(base.attributes), base.initialiser, base.hidden)
-        elif base == _Imported(BASES[1]):
+        elif base == _Imported(_BASES[1]):
             made.attributes |= {"result": 0, "forward_only": True}
-        elif base != _Imported(BASES[0]):
-            return UNKNOWN
+        elif base != _Imported(_BASES[0]):
+            return _UNKNOWN
         inner = _Reader()
         inner.names = dict(self.names)
         for statement in node.body:
@@ -170,7 +170,7 @@ class _Reader:
                         made.hidden = frozenset(_fields_set(made.initialiser))
                     made.initialiser = statement
                 case ast.FunctionDef() | ast.AsyncFunctionDef():
-                    made.attributes[statement.name] = UNKNOWN
+                    made.attributes[statement.name] = _UNKNOWN
                 case _:
                     before = dict(inner.names)
                     inner._follow(statement)
@@ -185,7 +185,7 @@ class _Reader:
             case ast.Constant(value=value):
                 return value
             case ast.Name(id=name):
-                return self.names.get(name, UNKNOWN)
+                return self.names.get(name, _UNKNOWN)
             case ast.Tuple(elts=items) | ast.List(elts=items):
                 made: object = ()
                 for item in items:
@@ -200,7 +200,9 @@ class _Reader:
                     else self._value(each)
                     for each in parts
                 ]
-                return "".join(str(each) for each in texts) if all(isinstance(each, str) for each in texts) else UNKNOWN
+                return (
+                    "".join(str(each) for each in texts) if all(isinstance(each, str) for each in texts) else _UNKNOWN
+                )
             case ast.BinOp(left=left, op=ast.Add(), right=right):
                 return _joined(self._value(left), self._value(right))
             case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int() as number)):
@@ -210,47 +212,47 @@ class _Reader:
                 if isinstance(owner, _Imported):
                     return _Imported(f"{owner.name}.{attribute}")
                 if isinstance(owner, _Class | _Object):
-                    return owner.attributes.get(attribute, UNKNOWN)
-                return UNKNOWN
+                    return owner.attributes.get(attribute, _UNKNOWN)
+                return _UNKNOWN
             case ast.Call():
                 return self._call(node)
             case _:
-                return UNKNOWN
+                return _UNKNOWN
 
     def _call(self, node: ast.Call) -> object:
         called = self._value(node.func)
-        if called == _Imported(FUNCTION):
-            given = self._given(node, FUNCTION_PARAMETERS)
-            result, inputs = given.get("result", UNKNOWN), given.get("inputs", UNKNOWN)
-            taken: object = UNKNOWN
+        if called == _Imported(_FUNCTION):
+            given = self._given(node, _FUNCTION_PARAMETERS)
+            result, inputs = given.get("result", _UNKNOWN), given.get("inputs", _UNKNOWN)
+            taken: object = _UNKNOWN
             if isinstance(result, str) and isinstance(inputs, str):
                 taken = f"result:{'bool' if result == 'bool' else 'number'} {inputs}".rstrip()
-            told = {"name": given.get("name", UNKNOWN), "meaning": given.get("meaning", UNKNOWN)}
+            told = {"name": given.get("name", _UNKNOWN), "meaning": given.get("meaning", _UNKNOWN)}
             more = {"signature": taken, "gives": result, "result": 0, "forward_only": True}
             return _Object("function", node.lineno, told | more)
-        if called == _Imported(BASES[1]):
+        if called == _Imported(_BASES[1]):
             return _Object("Function", node.lineno, {"result": 0, "forward_only": True})
         if isinstance(called, _Class):
             return self._made(called, node)
-        return UNKNOWN
+        return _UNKNOWN
 
     def _made(self, class_: _Class, node: ast.Call) -> _Object:
         """What a call of a class makes: its attributes, and what the initialiser sets plainly."""
-        made = _Object(class_.name, node.lineno, class_.attributes | dict.fromkeys(class_.hidden, UNKNOWN))
+        made = _Object(class_.name, node.lineno, class_.attributes | dict.fromkeys(class_.hidden, _UNKNOWN))
         code = class_.initialiser
         if code is None:
             return made
-        made.attributes |= dict.fromkeys(_fields_set(code), UNKNOWN)
+        made.attributes |= dict.fromkeys(_fields_set(code), _UNKNOWN)
         parameters = [each.arg for each in (*code.args.posonlyargs, *code.args.args)]
         first = parameters[0] if parameters else ""
         inner = _Reader()
-        inner.names = dict(self.names) | dict.fromkeys(parameters, UNKNOWN)
+        inner.names = dict(self.names) | dict.fromkeys(parameters, _UNKNOWN)
         defaults = code.args.defaults
         inner.names |= {
             name: self._value(each) for name, each in zip(parameters[-len(defaults) :], defaults, strict=False)
         }
         inner.names |= {
-            each.arg: UNKNOWN if default is None else self._value(default)
+            each.arg: _UNKNOWN if default is None else self._value(default)
             for each, default in zip(code.args.kwonlyargs, code.args.kw_defaults, strict=True)
         }
         inner.names |= self._given(node, parameters[1:])
@@ -266,20 +268,20 @@ class _Reader:
     def _given(self, node: ast.Call, parameters: Sequence[str]) -> dict[str, object]:
         """The arguments of a call by the names of its parameters."""
         if any(isinstance(each, ast.Starred) for each in node.args) or any(each.arg is None for each in node.keywords):
-            return dict.fromkeys(parameters, UNKNOWN)
+            return dict.fromkeys(parameters, _UNKNOWN)
         given = {name: self._value(each) for name, each in zip(parameters, node.args, strict=False)}
         return given | {str(each.arg): self._value(each.value) for each in node.keywords}
 
 
 def _joined(left: object, right: object) -> object:
     """Two texts, or two lists, one behind the other."""
-    if isinstance(left, str) and isinstance(right, str) and len(left) + len(right) <= LONGEST:
+    if isinstance(left, str) and isinstance(right, str) and len(left) + len(right) <= _LONGEST:
         return left + right
-    if isinstance(left, tuple) and isinstance(right, tuple) and len(left) + len(right) <= LONGEST:
+    if isinstance(left, tuple) and isinstance(right, tuple) and len(left) + len(right) <= _LONGEST:
         return left + right
     if isinstance(left, tuple):
-        return (*left, UNKNOWN)
-    return UNKNOWN
+        return (*left, _UNKNOWN)
+    return _UNKNOWN
 
 
 def _touched(node: ast.AST) -> Iterator[str]:
@@ -299,7 +301,7 @@ def _touched(node: ast.AST) -> Iterator[str]:
 def _fields_set(code: ast.FunctionDef) -> Iterator[str]:
     """The fields of a description that an initialiser sets in any way."""
     for each in ast.walk(code):
-        if isinstance(each, ast.Attribute) and isinstance(each.ctx, ast.Store) and each.attr in FIELDS:
+        if isinstance(each, ast.Attribute) and isinstance(each.ctx, ast.Store) and each.attr in _FIELDS:
             yield each.attr
 
 
@@ -310,7 +312,7 @@ def _description(item: object) -> tuple[int, Description] | Gap:
     if not isinstance(item, _Object):
         return Gap(1, f"what `{LIST}` holds is computed")
     told: dict[str, object] = {"result": None, "forward_only": False, "gives": None, "meaning": "", "signature": ""}
-    told |= {"name": ""} | {each: item.attributes[each] for each in FIELDS if each in item.attributes}
+    told |= {"name": ""} | {each: item.attributes[each] for each in _FIELDS if each in item.attributes}
     match told:
         case {
             "name": name,
@@ -319,7 +321,7 @@ def _description(item: object) -> tuple[int, Description] | Gap:
             "result": (int() | None) as result,
             "forward_only": bool(is_forward),
             "gives": (str() | None) as gives,
-        } if name is not UNKNOWN:
+        } if name is not _UNKNOWN:
             return item.line, Description(item.kind, name, taken, meaning, result, is_forward, gives)
-    unclear = next((each for each in FIELDS if told[each] is UNKNOWN), "signature")
+    unclear = next((each for each in _FIELDS if told[each] is _UNKNOWN), "signature")
     return Gap(item.line, f"the `{unclear}` of `{item.kind}` is computed")

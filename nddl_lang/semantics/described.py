@@ -8,7 +8,7 @@ from nddl_lang.semantics.constraints import ConstraintRow, Origin
 from nddl_lang.semantics.functions import FunctionRow, ResultKind
 from nddl_lang.semantics.signature import Argument, ArgumentKind, Signature, signature
 
-KINDS = (
+_KINDS = (
     ArgumentKind.NUMBER,
     ArgumentKind.BOOL,
     ArgumentKind.STRING,
@@ -16,7 +16,7 @@ KINDS = (
     ArgumentKind.ANY,
     ArgumentKind.SAME,
 )
-RESULTS = {"float": ResultKind.FLOAT, "int": ResultKind.INT, "bool": ResultKind.BOOL}
+_RESULTS = {"float": ResultKind.FLOAT, "int": ResultKind.INT, "bool": ResultKind.BOOL}
 
 
 class DescriptionError(ValueError):
@@ -69,10 +69,10 @@ def row_of(place: str, each: Description) -> ConstraintRow:
     try:
         taken = signature(each.signature)
     except KeyError:
-        kinds = ", ".join(kind.name.lower() for kind in KINDS)
+        kinds = ", ".join(kind.name.lower() for kind in _KINDS)
         raise complain(f'needs a `signature` such as "x:number y:number"; kinds are {kinds}') from None
     places = _places(taken)
-    if strange := next((one for one in places if one.kind not in KINDS), None):
+    if strange := next((one for one in places if one.kind not in _KINDS), None):
         raise complain(f"cannot have an argument of the kind {strange.kind.name.lower()} (`{strange.name}`)")
     if not places:
         raise complain("has no arguments")
@@ -89,7 +89,7 @@ def _places(taken: Signature) -> list[Argument]:
 
 
 def _function(place: str, each: Description, row: ConstraintRow) -> FunctionRow:
-    result = RESULTS.get(str(each.gives))
+    result = _RESULTS.get(str(each.gives))
     if result is None or not row.signature.required:
         what = f'gives {each.gives!r}; a function gives "float", "int" or "bool", as its first argument'
         raise DescriptionError(f"{place}: the constraint `{row.name}` {what}")

@@ -23,7 +23,7 @@ def _width(letter: str) -> int:
     return 2 if east_asian_width(letter) in ("W", "F") else 1
 
 
-def shown(line: str) -> tuple[str, list[int]]:
+def _shown(line: str) -> tuple[str, list[int]]:
     """`line` as it can be printed, and the column at which each character, and the end, stands."""
     letters: list[str] = []
     columns: list[int] = []
@@ -45,9 +45,9 @@ def shown(line: str) -> tuple[str, list[int]]:
 
 
 @lru_cache(maxsize=8)  # many findings may stand in one long line
-def shown_line(source: Source, number: int) -> tuple[str, list[int]]:
+def _shown_line(source: Source, number: int) -> tuple[str, list[int]]:
     """A line of a source as it can be printed, and the column of each of its characters."""
-    return shown(source.line(number))
+    return _shown(source.line(number))
 
 
 def _bounds(span: Span) -> tuple[tuple[int, int], tuple[int, int]]:
@@ -73,7 +73,7 @@ def excerpt(span: Span, mark: str = "^") -> Iterator[tuple[int | None, str, str]
         if number == 0:
             yield None, "...", ""
             continue
-        text, columns = shown_line(span.source, number)
+        text, columns = _shown_line(span.source, number)
         if number == first:
             left = columns[min(start - 1, len(columns) - 1)]
             yield number, "  " + _cropped(text), " " + "_" * (left + 1) + mark
@@ -85,7 +85,7 @@ def excerpt(span: Span, mark: str = "^") -> Iterator[tuple[int | None, str, str]
 
 
 def _single(source: Source, number: int, start: int, end: int, mark: str) -> tuple[int, str, str]:
-    text, columns = shown_line(source, number)
+    text, columns = _shown_line(source, number)
     left = columns[min(start - 1, len(columns) - 1)]
     right = columns[min(end - 1, len(columns) - 1)]
     size = max(1, right - left)
@@ -100,10 +100,10 @@ def _single(source: Source, number: int, start: int, end: int, mark: str) -> tup
 def around(line: str, at: int) -> str:
     """`line` as it can be printed; of a long one the stretch around the character `at`."""
     if len(line) <= _LONGEST:
-        return shown(line)[0]
+        return _shown(line)[0]
     cut = max(0, at - _LONGEST // 2)
     rest = "..." if cut + _LONGEST < len(line) else ""
-    return f"{'...' if cut else ''}{shown(line[cut : cut + _LONGEST])[0]}{rest}"
+    return f"{'...' if cut else ''}{_shown(line[cut : cut + _LONGEST])[0]}{rest}"
 
 
 def _cropped(text: str) -> str:

@@ -20,7 +20,7 @@ class BodyReading:
     rule: int
     named: Named
     children: tuple[tuple[int, int, int], ...]  # number of the parent in its block, rule, slot
-    guards: tuple["GuardReading", ...]
+    guards: tuple["_GuardReading", ...]
 
     def run(self, registers: Sequence[float], keys: dict[tuple[int, int, int], int], names: Names) -> BodyRun:
         """What the body did, as the registers tell; `keys` are those of the children."""
@@ -34,7 +34,7 @@ class BodyReading:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class GuardReading:
+class _GuardReading:
     """A guard: the register of its condition, and both branches, None where one is empty."""
 
     register: int
@@ -78,7 +78,7 @@ def _body(block: RegisterBlock, token: int, rule: int, body: tuple[Instruction, 
     registers = {each.span: each.register for each in block.guards if each.token == token and each.rule == rule}
     named: list[tuple[int, str]] = []
     children: list[tuple[int, int, int]] = []
-    guards: list[GuardReading] = []
+    guards: list[_GuardReading] = []
     for step in body:
         match step:
             case NewVariable(name=str(), slot=slot):
@@ -87,7 +87,7 @@ def _body(block: RegisterBlock, token: int, rule: int, body: tuple[Instruction, 
                 children.append((token, rule, slot))
             case Guard(then=then, otherwise=otherwise, span=span):
                 branches = [_body(block, token, rule, branch) if branch else None for branch in (then, otherwise)]
-                guards.append(GuardReading(registers[span], *branches))
+                guards.append(_GuardReading(registers[span], *branches))
             case _:
                 pass
     return BodyReading(rule, tuple(named), tuple(children), tuple(guards))

@@ -26,7 +26,7 @@ class OwnershipError(ValueError):
     """Reactors whose timelines have no owner, several owners, or owners in a cycle."""
 
 
-def in_order(reactors: Sequence[TeleoReactor]) -> list[TeleoReactor]:
+def _in_order(reactors: Sequence[TeleoReactor]) -> list[TeleoReactor]:
     """Reactors with owners before users, otherwise as given (T-REX 1.3).
 
     Raises `OwnershipError` where a timeline has no owner or several, or where owners depend on each other.
@@ -54,7 +54,7 @@ def in_order(reactors: Sequence[TeleoReactor]) -> list[TeleoReactor]:
     return done
 
 
-def tell_owners(reactors: Sequence[TeleoReactor]) -> None:
+def _tell_owners(reactors: Sequence[TeleoReactor]) -> None:
     """Give each reactor its execution latency, and those of the owners it uses; `reactors` has owners first.
 
     The execution latency is a reactor's own and the largest of those it depends on (T-REX 1.1).
@@ -81,8 +81,8 @@ class Agent:
         self.configuration = configuration
         self.every_tick = every_tick
         self.unsent = list(goals)
-        self.reactors = in_order(reactors)
-        tell_owners(self.reactors)
+        self.reactors = _in_order(reactors)
+        _tell_owners(self.reactors)
         self.awake: list[TeleoReactor] = []
         self.killed: list[TeleoReactor] = []
         self.owners = {timeline: reactor for reactor in self.reactors for timeline in reactor.internal}

@@ -12,14 +12,14 @@ from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.distributions import DISTRIBUTIONS
 from runtime.executive.outcome import Draw
 
-MASK = (1 << 64) - 1
-GOLDEN = 0x9E3779B97F4A7C15  # 2**64 / golden ratio: the increment of SplitMix64 (Steele, Lea, Flood 2014)
+_MASK = (1 << 64) - 1
+_GOLDEN = 0x9E3779B97F4A7C15  # 2**64 / golden ratio: the increment of SplitMix64 (Steele, Lea, Flood 2014)
 
 
 def _mix(word: int) -> int:
     """The 64-bit finaliser of SplitMix64: a bijection in which every input bit reaches every output bit."""
-    word = ((word ^ (word >> 30)) * 0xBF58476D1CE4E5B9) & MASK
-    word = ((word ^ (word >> 27)) * 0x94D049BB133111EB) & MASK
+    word = ((word ^ (word >> 30)) * 0xBF58476D1CE4E5B9) & _MASK
+    word = ((word ^ (word >> 27)) * 0x94D049BB133111EB) & _MASK
     return word ^ (word >> 31)
 
 
@@ -28,13 +28,13 @@ def _stream(seed: int, name: str) -> int:
     """Where the stream of `name` starts: FNV-1a of its UTF-8 bytes, stirred together with the seed."""
     digest = 0xCBF29CE484222325
     for byte in name.encode("utf-8"):
-        digest = ((digest ^ byte) * 0x100000001B3) & MASK
-    return _mix((_mix((seed + GOLDEN) & MASK) + digest) & MASK)
+        digest = ((digest ^ byte) * 0x100000001B3) & _MASK
+    return _mix((_mix((seed + _GOLDEN) & _MASK) + digest) & _MASK)
 
 
 def draw_bits(seed: int, name: str, index: int) -> int:
     """64 random bits: output `index` of SplitMix64 started at `_stream(seed, name)`, without the ones before."""
-    return _mix((_stream(seed, name) + (index + 1) * GOLDEN) & MASK)
+    return _mix((_stream(seed, name) + (index + 1) * _GOLDEN) & _MASK)
 
 
 def draw(seed: int, name: str, index: int) -> float:

@@ -14,9 +14,9 @@ from runtime.user.fault import failed
 from runtime.user.limit import watched
 from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen, Ticks
 
-INFINITY = 4503599627370495
-NEVER = 2**62
-Kinds = Callable[[str, str], Mapping[str, tuple[str, str]] | None]  # timeline, predicate: parameters; None: unknown
+_INFINITY = 4503599627370495
+_NEVER = 2**62
+_Kinds = Callable[[str, str], Mapping[str, tuple[str, str]] | None]  # timeline, predicate: parameters; None: unknown
 
 
 class CodedReactor:
@@ -25,7 +25,7 @@ class CodedReactor:
     runs_ahead = False
 
     def __init__(
-        self, configuration: CodeConfiguration, make: Callable[[], Reactor], kinds: Kinds, trace: Trace
+        self, configuration: CodeConfiguration, make: Callable[[], Reactor], kinds: _Kinds, trace: Trace
     ) -> None:
         self.name = configuration.name
         self.internal = configuration.internal
@@ -61,7 +61,7 @@ class CodedReactor:
 
     def next_tick(self, tick: int) -> int:
         """When the code wants to be called."""
-        return tick + 1 if self.refused_numbers else max(tick + 1, min(self.wakes_at, NEVER))
+        return tick + 1 if self.refused_numbers else max(tick + 1, min(self.wakes_at, _NEVER))
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published."""
@@ -79,7 +79,7 @@ class CodedReactor:
         now = Now(tick, dict(self.seen), frozenset(self.news), frozenset(self.refused_numbers), self.count)
         self.news.clear()
         self.refused_numbers = []
-        self.wakes_at = NEVER
+        self.wakes_at = _NEVER
         try:
             with watched(f"the reactor `{self.name}`", self.files):
                 if self.code is None:
@@ -262,13 +262,13 @@ def _domain(name: str, value: object, kind: tuple[str, str] | None) -> DomainCon
 def _number(name: str, value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or isnan(value):
         raise ValueError(f"`{name}` is {value!r}, which is no value of a parameter")
-    return float(max(-INFINITY, min(value, INFINITY)))
+    return float(max(-_INFINITY, min(value, _INFINITY)))
 
 
 def _bounds(given: Ticks) -> tuple[int, int]:
     """Bounds of a time; raises ValueError or TypeError for what are none."""
     if given is None:
-        return (-INFINITY, INFINITY)
+        return (-_INFINITY, _INFINITY)
     lower, upper = (given, given) if isinstance(given, int) else given
     if not isinstance(lower, int) or not isinstance(upper, int) or lower > upper:
         raise ValueError(f"{given!r} are no ticks")

@@ -6,7 +6,7 @@ from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 
-INFINITY = 4503599627370495
+_INFINITY = 4503599627370495
 
 
 class Dispatch:
@@ -102,10 +102,10 @@ class Dispatch:
         causes = tuple(other.event for other in self.timelines if not other.is_internal and other.event != NOTHING)
         # To the world a request is a command: when to begin is the sender's business, how long it takes is not.
         is_command = self.owner_windows.get(line.name, (0, 1))[1] <= 1
-        end = INFINITY if is_command else _whole(bench.upper(bench.end(token)))
+        end = _INFINITY if is_command else _whole(bench.upper(bench.end(token)))
         earliest = max(tick + 1, _whole(bench.lower(bench.start(token))))
         start = (earliest, _whole(bench.upper(bench.start(token))))
-        bounds = TimeBounds(start, (-INFINITY, end), (1, INFINITY))
+        bounds = TimeBounds(start, (-_INFINITY, end), (1, _INFINITY))
         event = self.trace.record(
             EventKind.REQUEST,
             self.name,
@@ -151,4 +151,4 @@ class Dispatch:
 
 def _whole(bound: float) -> int:
     """A whole bound; infinities as NDDL has them."""
-    return int(max(-INFINITY, min(bound, INFINITY)))
+    return int(max(-_INFINITY, min(bound, _INFINITY)))

@@ -15,7 +15,7 @@ _BELOW_RANGE = 0.04163225833177522  # Phi(-sqrt(3)): a moment-matched normal lie
 
 
 @dataclass(frozen=True, slots=True)
-class Distribution:
+class _Distribution:
     """One way to draw a parameter.
 
     `quantile` is the value below which the parameter falls with a probability in [0, 1). `words` describes it, with
@@ -78,9 +78,9 @@ def _inner(share: float) -> float:
 
 
 DISTRIBUTIONS = {
-    "uniform": Distribution(_uniform, "uniform on {box}"),
-    "normal": Distribution(_normal, "normal, matched to {box}"),
-    "truncated_normal": Distribution(_truncated_normal, "normal, truncated to {box}"),
-    "discrete": Distribution(_discrete, "one of {values}", ("values", "weights"), ("values",), has_range=False),
-    "fixed": Distribution(_fixed, "always {value}", ("value",), ("value",), has_range=False, is_constant=True),
+    "uniform": _Distribution(_uniform, "uniform on {box}"),
+    "normal": _Distribution(_normal, "normal, matched to {box}"),
+    "truncated_normal": _Distribution(_truncated_normal, "normal, truncated to {box}"),
+    "discrete": _Distribution(_discrete, "one of {values}", ("values", "weights"), ("values",), has_range=False),
+    "fixed": _Distribution(_fixed, "always {value}", ("value",), ("value",), has_range=False, is_constant=True),
 }

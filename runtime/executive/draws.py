@@ -11,8 +11,8 @@ from runtime.executive.outcome import Draw, Phase
 from runtime.executive.trace import Trace
 from runtime.executive.view import PlanView
 
-NOTHING = -1
-NEVER = 2**52
+_NOTHING = -1
+_NEVER = 2**52
 
 
 class World:
@@ -55,13 +55,13 @@ class World:
             return None
         if name in self.overrides:
             value = self.overrides[name]
-            return Draw(name, 0, value, value), NEVER
-        until = NEVER if parameter.mode == "inter" else (update_index(parameter, tick) + 1) * parameter.update
+            return Draw(name, 0, value, value), _NEVER
+        until = _NEVER if parameter.mode == "inter" else (update_index(parameter, tick) + 1) * parameter.update
         return sample(parameter, self.seed, tick), until
 
 
 @dataclass(frozen=True, slots=True)
-class Drawn:
+class _Drawn:
     """Token `token`, which had `key`, holds the value of `parameter` with update index `index`."""
 
     token: int
@@ -78,7 +78,7 @@ class Draws:
         self.reactor = reactor
         self.world = world
         self.view: PlanView | None = None
-        self.open: list[Drawn] = []
+        self.open: list[_Drawn] = []
 
     def draw(self, name: str, token: int) -> float | None:
         """What the plan database asks: the value of a parameter for a token (NOTHING: for the script)."""
@@ -89,7 +89,7 @@ class Draws:
         if token >= 0 and self.view is not None:
             index = update_index(world.parameters[name], tick)
             rows = self.view.rows
-            self.open.append(Drawn(token, int(rows.key[token]), int(rows.predicate[token]), name, index))
+            self.open.append(_Drawn(token, int(rows.key[token]), int(rows.predicate[token]), name, index))
         return world.draw(self.reactor, name, tick)
 
     def _begin(self, token: int) -> int:

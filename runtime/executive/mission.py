@@ -26,7 +26,7 @@ from runtime.solver.configuration.configuration import Configuration
 from runtime.user.constraint import Constraint
 from runtime.user.reactor import Reactor as UserReactor
 
-INFINITY = 4503599627370495
+_INFINITY = 4503599627370495
 
 
 class UnusableModelError(ValueError):
@@ -99,18 +99,18 @@ def _flown(
     trace = Trace()
     world = World(configuration, seed, overrides or {}, trace)
     try:
-        reactors = make_reactors(configuration, programs, world, compiles, loans)
+        reactors = _make_reactors(configuration, programs, world, compiles, loans)
     except UnusableModelError as problem:
-        return unloaded(configuration, problem, world), []
+        return _unloaded(configuration, problem, world), []
     goals = []
     for number, goal in enumerate(configuration.goals):
-        kinds = goal_kinds(configuration, programs, goal)
+        kinds = _goal_kinds(configuration, programs, goal)
         goals.append((goal.at, request_of(goal, -1 - number, kinds)))
     agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
     return agent.run(until), reactors
 
 
-def unloaded(configuration: AgentConfiguration, problem: UnusableModelError, world: World) -> Outcome:
+def _unloaded(configuration: AgentConfiguration, problem: UnusableModelError, world: World) -> Outcome:
     """The outcome of a mission of which a model does not load."""
     trace = world.trace
     reason = Reason(ReasonKind.UNLOADABLE, tick=0, message=str(problem))
@@ -122,7 +122,7 @@ def unloaded(configuration: AgentConfiguration, problem: UnusableModelError, wor
     return Outcome(world.seed, 0, configuration.final_tick, abort, draws, events, ())
 
 
-def make_reactors(
+def _make_reactors(
     configuration: AgentConfiguration, programs: MissionPrograms, world: World, compiles: bool, loans: Loans
 ) -> list[TeleoReactor]:
     """The reactors of a mission, ready for tick 0."""
@@ -134,25 +134,25 @@ def make_reactors(
         world.learn(program)
         loaded = register_program(configuration, programs, number) if compiles else None
         if loaded is None:
-            reactors.append(plan_reactor(configuration, programs, number, world, loans))
+            reactors.append(_plan_reactor(configuration, programs, number, world, loans))
             continue
 
         def general(shadow: Trace, number: int = number) -> PlanReactor:
             apart = World(configuration, seed, overrides, shadow)
             apart.parameters = world.parameters
-            return plan_reactor(configuration, programs, number, apart, loans)
+            return _plan_reactor(configuration, programs, number, apart, loans)
 
         reactor = DeterminedReactor(each, loaded, world.in_force, general, configuration.final_tick, trace)
         reactor.watched = sum(1 << reactor.numbers[line] for line in each.internal if line in users)
         reactors.append(reactor)
-    kinds_of = partial(parameter_kinds, configuration, programs)
+    kinds_of = partial(_parameter_kinds, configuration, programs)
     for coded, cls in zip(configuration.coded, programs.code, strict=True):
         make = partial(cls, {**dict(coded.settings), "seed": seed})
         reactors.append(CodedReactor(coded, make, kinds_of, trace))
     return reactors
 
 
-def plan_reactor(
+def _plan_reactor(
     configuration: AgentConfiguration, programs: MissionPrograms, number: int, world: World, loans: Loans
 ) -> PlanReactor:
     """A reactor with a plan database of its own."""
@@ -202,14 +202,14 @@ def loaded_bench(
     return bench
 
 
-def goal_kinds(
+def _goal_kinds(
     configuration: AgentConfiguration, programs: MissionPrograms, goal: GoalConfiguration
 ) -> Mapping[str, tuple[str, str]]:
     """Kind and type name of each parameter of a goal's predicate, in the model of the timeline's owner."""
-    return parameter_kinds(configuration, programs, goal.timeline, goal.predicate) or {}
+    return _parameter_kinds(configuration, programs, goal.timeline, goal.predicate) or {}
 
 
-def parameter_kinds(
+def _parameter_kinds(
     configuration: AgentConfiguration, programs: MissionPrograms, timeline: str, predicate: str
 ) -> Mapping[str, tuple[str, str]] | None:
     """Kind and type name of each parameter of a predicate, as the owner of its timeline, or else a user, has them."""
@@ -246,12 +246,12 @@ def request_of(goal: GoalConfiguration, number: int, kinds: Mapping[str, tuple[s
 
 def _bounds(given: tuple[float, float] | None) -> tuple[int, int]:
     if given is None:
-        return (-INFINITY, INFINITY)
+        return (-_INFINITY, _INFINITY)
     return (_whole(given[0]), _whole(given[1]))
 
 
 def _whole(bound: float) -> int:
-    return int(max(-INFINITY, min(bound, INFINITY)))
+    return int(max(-_INFINITY, min(bound, _INFINITY)))
 
 
 def _domain(value: Value | tuple[float, float], kind: str, type_name: str) -> DomainConstant:

@@ -5,7 +5,7 @@ Only `+ - * /`, `sqrt` and `frexp` are used, which IEEE 754 fixes to the last bi
 
 from math import frexp, sqrt
 
-LN_2_HIGH, LN_2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # ln 2 in two parts
+_LN_2_HIGH, _LN_2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10  # ln 2 in two parts
 
 
 def normal_quantile(share: float) -> float:
@@ -34,7 +34,7 @@ def natural_logarithm(x: float) -> float:
     total = 0.0
     for odd in range(21, 1, -2):
         total = (total + 1.0 / odd) * square
-    return exponent * LN_2_HIGH + (exponent * LN_2_LOW + 2.0 * s * total + 2.0 * s)
+    return exponent * _LN_2_HIGH + (exponent * _LN_2_LOW + 2.0 * s * total + 2.0 * s)
 
 
 def _ratio(r: float, coefficients: tuple[tuple[float, ...], tuple[float, ...]]) -> float:

@@ -19,7 +19,7 @@ from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import VariableName
 
 
-class HistoryError(RuntimeError):
+class _HistoryError(RuntimeError):
     """Forgetting what is over changed the plan: a mistake of the engine, no verdict about the model."""
 
 
@@ -85,7 +85,7 @@ class PlanReactor:
         self.bench.archive(self.timelines, self.tick)
         self.bench.tidy()
         if not self.bench.is_consistent():
-            raise HistoryError(f"what is over at tick {tick} contradicts the plan of `{self.name}`")
+            raise _HistoryError(f"what is over at tick {tick} contradicts the plan of `{self.name}`")
         self.tick = tick
         self.work_since = tick
         self.steps_made = 0

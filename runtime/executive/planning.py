@@ -12,16 +12,16 @@ from runtime.solver.flaws.filters import PlanningScope
 from runtime.solver.search import Solver
 from runtime.solver.tags import EXHAUSTED, PLAN
 
-NO_LIMIT = 2**62
-MOST_STEPS = 1_000_000  # decisions about one present that the engine makes, if nobody sets a limit
-MOST_EXPLAINED = 2_000  # decisions of a search that is repeated to find out why it failed
+_NO_LIMIT = 2**62
+_MOST_STEPS = 1_000_000  # decisions about one present that the engine makes, if nobody sets a limit
+_MOST_EXPLAINED = 2_000  # decisions of a search that is repeated to find out why it failed
 
 
 class LimitError(RuntimeError):
     """A limit of the engine itself was reached: no verdict about the model."""
 
 
-class Window(PlanningScope):
+class _Window(PlanningScope):
     """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7); for the present, those that hold now.
 
     Who looks one tick ahead plans what was asked for and what others are to do, no more: what else its own timelines
@@ -72,7 +72,7 @@ class Planner:
         max_depth: int | None = None,
     ) -> None:
         self.bench = bench
-        self.window = Window(bench)
+        self.window = _Window(bench)
         self.window.final = final_tick
         # The window replaces the horizon that a configuration may filter by.
         filters = tuple(f for f in configuration.filters if f.component != "HorizonFilter")
@@ -124,10 +124,10 @@ class Planner:
         solver = self.solver
         solver.refresh()
         self.is_fresh = True
-        steps = MOST_STEPS if self.max_steps is None else self.max_steps
-        depth = MOST_STEPS if self.max_depth is None else self.max_depth
+        steps = _MOST_STEPS if self.max_steps is None else self.max_steps
+        depth = _MOST_STEPS if self.max_depth is None else self.max_depth
         outcome = solver.solve(steps, depth)
-        solver.max_steps = solver.max_depth = NO_LIMIT
+        solver.max_steps = solver.max_depth = _NO_LIMIT
         if outcome == PLAN:
             self._explain_rejections()
             return "done"
@@ -136,7 +136,7 @@ class Planner:
         if outcome == EXHAUSTED:
             return "exhausted"
         if (self.max_depth if is_deep else self.max_steps) is None:
-            raise LimitError(f"more than {MOST_STEPS} decisions about what holds at tick {tick}")
+            raise LimitError(f"more than {_MOST_STEPS} decisions about what holds at tick {tick}")
         return "deep" if is_deep else "steps"
 
     def deadlock(self) -> Deadlock | None:
@@ -149,10 +149,10 @@ class Planner:
         log = SearchLog(self.bench, solver)
         solver.failure_log = log.log
         solver.refresh()
-        solver.solve(MOST_EXPLAINED, MOST_EXPLAINED)
+        solver.solve(_MOST_EXPLAINED, _MOST_EXPLAINED)
         solver.undo_all()
         solver.failure_log = None
-        solver.max_steps = solver.max_depth = NO_LIMIT
+        solver.max_steps = solver.max_depth = _NO_LIMIT
         self.is_fresh = True
         return log
 
@@ -168,7 +168,7 @@ class Planner:
             if found is not None:
                 self.rejections[token] = found
         self.solver.refresh()
-        self.solver.solve(NO_LIMIT, NO_LIMIT)
+        self.solver.solve(_NO_LIMIT, _NO_LIMIT)
 
     def reason(self) -> tuple[Reason, Conflict | None]:
         """Why the search cannot go on: the first token that must hold and cannot, and what stands against it."""

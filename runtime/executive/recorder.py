@@ -47,18 +47,18 @@ from runtime.plan.tags import (
     STATE_NAMES,
 )
 
-STATES = tuple(name.lower() for name in STATE_NAMES)
-INT, FLOAT, BOOL, SYMBOL, STRING, THING = range(6)
-SHAPES = {"int": INT, "float": FLOAT, "bool": BOOL, "string": STRING, "object": THING}
-OF_KIND = {
-    KIND_BOOL: BOOL,
-    KIND_INT: INT,
-    KIND_FLOAT: FLOAT,
-    KIND_SYMBOL: SYMBOL,
-    KIND_OBJECT: THING,
-    KIND_STRING: STRING,
+_STATES = tuple(name.lower() for name in STATE_NAMES)
+_INT, _FLOAT, _BOOL, _SYMBOL, _STRING, _THING = range(6)
+_SHAPES = {"int": _INT, "float": _FLOAT, "bool": _BOOL, "string": _STRING, "object": _THING}
+_OF_KIND = {
+    KIND_BOOL: _BOOL,
+    KIND_INT: _INT,
+    KIND_FLOAT: _FLOAT,
+    KIND_SYMBOL: _SYMBOL,
+    KIND_OBJECT: _THING,
+    KIND_STRING: _STRING,
 }
-LEAST_ENDLESS = 2.0**51  # integers from here on stand for infinity
+_LEAST_ENDLESS = 2.0**51  # integers from here on stand for infinity
 
 
 class Outline(NamedTuple):
@@ -70,10 +70,10 @@ class Outline(NamedTuple):
     has_loop: bool
 
 
-LOOSE = Outline((), (), (), True)  # of what stands in or beside a loop
+_LOOSE = Outline((), (), (), True)  # of what stands in or beside a loop
 
 
-def outline(body: tuple[Instruction, ...]) -> Outline:
+def _outline(body: tuple[Instruction, ...]) -> Outline:
     """The outline of a rule's body or of a branch."""
     named: list[tuple[int, int]] = []
     children: list[int] = []
@@ -81,13 +81,13 @@ def outline(body: tuple[Instruction, ...]) -> Outline:
     for step in body:
         match step:
             case NewVariable(name=str(), slot=slot, type=type_):
-                named.append((slot, SHAPES.get(type_.kind, SYMBOL)))
+                named.append((slot, _SHAPES.get(type_.kind, _SYMBOL)))
             case Child(slot=slot):
                 children.append(slot)
             case Guard(then=then, otherwise=otherwise):
-                guards.append((outline(then), outline(otherwise)))
+                guards.append((_outline(then), _outline(otherwise)))
             case ObjectLoop():
-                return LOOSE
+                return _LOOSE
             case _:
                 pass
     return Outline(tuple(named), tuple(children), tuple(guards), False)
@@ -106,7 +106,7 @@ class Forms(NamedTuple):
 _FORMS: dict[int, Forms] = {}
 
 
-def forms_of(program: Program) -> Forms:
+def _forms_of(program: Program) -> Forms:
     """The forms of `program`, kept as long as the program is."""
     known = _FORMS.get(id(program))
     if known is None or known.program is not program:
@@ -114,10 +114,10 @@ def forms_of(program: Program) -> Forms:
             _FORMS.clear()
         known = _FORMS[id(program)] = Forms(
             program,
-            tuple(outline(rule.body) for rule in program.rules),
-            tuple(tuple(SHAPES.get(p.type.kind, SYMBOL) for p in code.parameters) for code in program.predicates),
-            tuple(SHAPES.get(type_.kind, SYMBOL) for _, type_ in program.globals),
-            tuple(tuple(SHAPES.get(m.type.kind, SYMBOL) for m in code.members) for code in program.classes),
+            tuple(_outline(rule.body) for rule in program.rules),
+            tuple(tuple(_SHAPES.get(p.type.kind, _SYMBOL) for p in code.parameters) for code in program.predicates),
+            tuple(_SHAPES.get(type_.kind, _SYMBOL) for _, type_ in program.globals),
+            tuple(tuple(_SHAPES.get(m.type.kind, _SYMBOL) for m in code.members) for code in program.classes),
         )
     return known
 
@@ -130,7 +130,7 @@ class Recorder:
         self.name = name
         self.rows = database.plan.rows
         self.engine = database.engine
-        self.forms = forms_of(database.program)
+        self.forms = _forms_of(database.program)
         self.tokens: dict[int, TokenRecord] = {}
         self.requests: dict[int, int] = {}  # token -> key; shared with the workbench
         self.settled = NOBODY  # the last tick at which the plan agreed with the present
@@ -210,11 +210,11 @@ class Recorder:
         return TokenRecord(
             rows.key[t],
             self.database.program.predicates[number].name,
-            value(first + OBJECT, THING),
-            STATES[status],
-            value(first + OBJECT + 1, INT),
-            value(first + START, INT),
-            value(first + START + 1, INT),
+            value(first + OBJECT, _THING),
+            _STATES[status],
+            value(first + OBJECT + 1, _INT),
+            value(first + START, _INT),
+            value(first + START + 1, _INT),
             tuple([value(first + FIRST_PARAMETER + k, shape) for k, shape in enumerate(shapes)]) if shapes else (),
             rows.key[rows.merged_into[t]] if status == MERGED else NOBODY,
             self._origin(t),
@@ -277,7 +277,7 @@ class Recorder:
         branch = self.rows.scope_branch[g]
         if branch == BRANCH_WAITING:
             return GuardRun("waiting", self._is_decided(g), None)
-        sides = (LOOSE, LOOSE) if form.has_loop else form.guards[k]
+        sides = (_LOOSE, _LOOSE) if form.has_loop else form.guards[k]
         ran = [self._run(b, key, sides[0 if branch == BRANCH_THEN else 1], inner) for b in inner.get(g, ())]
         return GuardRun("then" if branch == BRANCH_THEN else "else", True, ran[-1] if ran else None)
 
@@ -306,7 +306,7 @@ class Recorder:
 
     def _shape(self, v: int) -> int:
         """The shape of a local variable."""
-        return OF_KIND[self.engine.kind[v]]
+        return _OF_KIND[self.engine.kind[v]]
 
     def _made_children(self, s: int) -> tuple[int, ...]:
         """The children that a scope made, in that order; those that left before their parent are missing."""
@@ -325,34 +325,34 @@ class Recorder:
         lower, upper = engine.lower(v), engine.upper(v)
         if lower == upper:
             return self._scalar(lower, shape)
-        if shape == FLOAT:
+        if shape == _FLOAT:
             if engine.is_singleton(v):
                 return lower + (upper - lower) * 0.5
             return ValueRange(lower, upper)
-        if shape == INT:
+        if shape == _INT:
             return ValueRange(_bound(lower), _bound(upper))
         if not engine.is_finite(v) and (isinf(lower) or isinf(upper)):
             return ValueRange(lower, upper)
         return OpenValues(tuple([self._scalar(each, shape) for each in engine.values_of(v)]))
 
     def _scalar(self, number: float, shape: int) -> float | int | bool | str:
-        if shape == FLOAT:
+        if shape == _FLOAT:
             return number
         if isinf(number):
             return number
         whole = int(number)
-        if shape == INT:
+        if shape == _INT:
             return whole
-        if shape == BOOL:
+        if shape == _BOOL:
             return bool(whole)
-        if shape == THING:
+        if shape == _THING:
             return self.database.objects.names[whole]
-        names = self.database.prototypes.texts if shape == STRING else self.database.prototypes.symbols
+        names = self.database.prototypes.texts if shape == _STRING else self.database.prototypes.symbols
         return str(names.text(whole))
 
 
 def _bound(number: float) -> float:
     """A bound of whole numbers; NDDL's infinity is infinite."""
-    if number >= LEAST_ENDLESS:
+    if number >= _LEAST_ENDLESS:
         return float("inf")
-    return float("-inf") if number <= -LEAST_ENDLESS else number
+    return float("-inf") if number <= -_LEAST_ENDLESS else number

@@ -59,7 +59,7 @@ _REASONS = {
 # ---- names and values ----
 
 
-def domain_text(domain: DomainConstant) -> str:
+def _domain_text(domain: DomainConstant) -> str:
     """A domain: the value if there is one, `[lo hi]` or `{a, b}` otherwise."""
     if domain.interval is not None:
         lower, upper = domain.interval
@@ -70,7 +70,7 @@ def domain_text(domain: DomainConstant) -> str:
 
 def token_text(predicate: str, arguments: Arguments) -> str:
     """What holds, or is to hold, on a timeline: `Run(distance=240.0)`."""
-    inside = ", ".join(f"{name}={domain_text(domain)}" for name, domain in arguments)
+    inside = ", ".join(f"{name}={_domain_text(domain)}" for name, domain in arguments)
     return f"{predicate}({inside})" if inside else predicate
 
 

@@ -47,7 +47,7 @@ def conflict_of(bench: Workbench) -> Conflict | None:
     engine = bench.engine
     if engine.consistent:
         return None
-    reader = ElementReader(bench)
+    reader = _ElementReader(bench)
     return Conflict(tuple(reader.element(cause) for cause in minimise(engine, engine.explain())))
 
 
@@ -56,7 +56,7 @@ def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
 
     The root comes first; that a token lasts as long as it may comes right after the limit that it uses up.
     """
-    reader = ElementReader(bench)
+    reader = _ElementReader(bench)
     elements: dict[ConflictElement, None] = {}
     tight: list[Term] = []
     for link in bench.engine.support_chain(v, SIDE_UPPER):
@@ -88,7 +88,7 @@ def _used_up(element: ConflictElement) -> list[Term]:
     return found
 
 
-class ElementReader(TermReader):
+class _ElementReader(TermReader):
     """Reads elements of conflicts off the plan of one reactor as it stands."""
 
     def __init__(self, bench: Workbench) -> None:
@@ -176,7 +176,7 @@ class SearchLog:
     """The failure log of a reactor's solver, and what it says in the outcome's terms."""
 
     def __init__(self, bench: Workbench, solver: Solver) -> None:
-        self.reader = ElementReader(bench)
+        self.reader = _ElementReader(bench)
         self.log = FailureLog(bench.database, solver.agenda, solver.stack, lambda: self.reader)
 
     def deadlock(self) -> Deadlock | None:

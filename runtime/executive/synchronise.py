@@ -15,10 +15,10 @@ from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
 
-PATIENCE = 100  # tries beyond those that a present without conflicts takes
-MOST_TRIES = 100_000
-EXTEND, NEXT, NEW, FACT, MEET = "extend", "next", "new", "fact", "meet"
-UNDEFINED = "undefined"
+_PATIENCE = 100  # tries beyond those that a present without conflicts takes
+_MOST_TRIES = 100_000
+_EXTEND, _NEXT, _NEW, _FACT, _MEET = "extend", "next", "new", "fact", "meet"
+_UNDEFINED = "undefined"
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +41,7 @@ class Unsettled:
     deadlock: Deadlock | None = None
 
 
-OUT_OF_PATIENCE = Unsettled("", (), Reason(ReasonKind.UNMET), None)
+_OUT_OF_PATIENCE = Unsettled("", (), Reason(ReasonKind.UNMET), None)
 
 
 def settle(
@@ -65,7 +65,7 @@ def settle(
             return Unsettled("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
     if not bench.set_clock(tick):
         return Unsettled("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
-    failed = persist(bench, timelines, tick, is_refused)
+    failed = _persist(bench, timelines, tick, is_refused)
     if failed is not None:
         return failed
     mark = bench.mark()
@@ -76,7 +76,7 @@ def settle(
     return _Search(bench, planner, timelines, tick, final_tick, is_refused, True).run()
 
 
-def persist(
+def _persist(
     bench: Workbench, timelines: list[TimelineState], tick: int, is_refused: Callable[[int], bool]
 ) -> Unsettled | None:
     """No news means no change: what is observed on other reactors' timelines goes on; a new value ends it."""
@@ -126,14 +126,14 @@ class _Search:
         """Try choices until all timelines and the flaws of the present are settled."""
         mark = self.bench.mark()
         stuck: dict[str, None] = {}
-        patience = PATIENCE
+        patience = _PATIENCE
         tries = 0
         while True:
             outcome = self._walk(patience + len(self.lines), stuck)
-            if outcome is not OUT_OF_PATIENCE:
+            if outcome is not _OUT_OF_PATIENCE:
                 return outcome
             tries += patience
-            if tries > MOST_TRIES:
+            if tries > _MOST_TRIES:
                 raise LimitError(f"no present was found at tick {self.tick} in {tries} tries")
             patience *= 2
             # What nothing fits comes first from now on: either it is settled, or there is no present at all.
@@ -166,7 +166,7 @@ class _Search:
             while True:
                 tries += 1
                 if tries > patience:
-                    return OUT_OF_PATIENCE
+                    return _OUT_OF_PATIENCE
                 depth = len(open_choices) - 1
                 if not open_choices[depth]:
                     stuck.pop(self.lines[depth].name, None)
@@ -202,31 +202,31 @@ class _Search:
             if predicate == NOTHING:
                 return []
             meets = [
-                Continuation(MEET, token, predicate)
+                Continuation(_MEET, token, predicate)
                 for token in bench.planned_after(line.object_id, current)
                 if bench.predicate_of(token) == predicate
                 and bench.lower(bench.start(token)) <= tick <= bench.upper(bench.start(token))
             ]
-            return [*meets, Continuation(FACT, NOTHING, predicate)]
+            return [*meets, Continuation(_FACT, NOTHING, predicate)]
         extend: list[Continuation] = []
         if current != NOTHING:
             if bench.lower(bench.end(current)) > tick:
-                return [Continuation(EXTEND, current, NOTHING)]
+                return [Continuation(_EXTEND, current, NOTHING)]
             if bench.upper(bench.end(current)) > tick:
-                extend = [Continuation(EXTEND, current, NOTHING)]
+                extend = [Continuation(_EXTEND, current, NOTHING)]
         starts = [
-            Continuation(NEXT, token, NOTHING)
+            Continuation(_NEXT, token, NOTHING)
             for token in bench.planned_after(line.object_id, current)[:1]
             if bench.lower(bench.start(token)) <= tick <= bench.upper(bench.start(token))
         ]
         if not starts or not bench.is_requested(starts[0].token):
-            starts = [Continuation(NEXT, token, NOTHING) for token in bench.must_begin(line.object_id, tick)] + starts
+            starts = [Continuation(_NEXT, token, NOTHING) for token in bench.must_begin(line.object_id, tick)] + starts
         is_asked = bool(starts) and bench.is_requested(starts[0].token)
         if is_asked and self.is_last:
             starts = []  # what can begin at the end at the earliest is not begun
         is_due = bool(starts) and (line.is_early or is_asked)
         new = [
-            Continuation(NEW, NOTHING, p) for p in ([line.default, *line.others] if line.default >= 0 else line.others)
+            Continuation(_NEW, NOTHING, p) for p in ([line.default, *line.others] if line.default >= 0 else line.others)
         ]
         if is_due:
             return [*starts, *extend, *new]
@@ -248,13 +248,13 @@ class _Search:
                 return predicate
         elif predicate != NOTHING:
             return predicate
-        return line.predicates.get(UNDEFINED, NOTHING)
+        return line.predicates.get(_UNDEFINED, NOTHING)
 
     def apply(self, line: TimelineState, choice: Continuation) -> bool:
         """Carry out `choice`; False on conflict."""
         bench, tick = self.bench, self.tick
         token = choice.token
-        if line.is_internal and line.current != NOTHING and choice.kind != EXTEND:
+        if line.is_internal and line.current != NOTHING and choice.kind != _EXTEND:
             # Something holds at every tick: what held until now ends as the next thing begins.
             if not bench.fix(bench.end(line.current), tick, SPAN_EXECUTIVE, line.current):
                 return False
@@ -294,7 +294,7 @@ class _Search:
             holds = holds and bench.restrict_parameters(fact, news.arguments, SPAN_OBSERVATION)
         if not holds:
             return NOTHING
-        if choice.kind == MEET:
+        if choice.kind == _MEET:
             return choice.token if bench.merge(fact, choice.token) else NOTHING
         if bench.activate(fact) and bench.place_after(line.object_id, fact, line.current):
             return fact

@@ -36,15 +36,15 @@ from runtime.plan.tags import (
 
 # Spans of what no line of the model says: the executive's own reasons.
 SPAN_OBSERVATION, SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_REQUEST, SPAN_MISSION = -2, -3, -4, -5, -6
-INFINITY = 4503599627370495
+_INFINITY = 4503599627370495
 
 
 def _whole(bound: float) -> int:
     """A whole bound; infinities as NDDL has them."""
-    return int(max(-INFINITY, min(bound, INFINITY)))
+    return int(max(-_INFINITY, min(bound, _INFINITY)))
 
 
-class MissingTimelineError(ValueError):
+class _MissingTimelineError(ValueError):
     """A timeline of the configuration that the model does not have."""
 
 
@@ -72,7 +72,7 @@ class PlanView:
         objects = self.database.objects.names
         if name not in objects:
             known = ", ".join(f"`{other}`" for other in objects) or "none"
-            raise MissingTimelineError(f"the model of `{self.name}` has no object `{name}`; it has {known}")
+            raise _MissingTimelineError(f"the model of `{self.name}` has no object `{name}`; it has {known}")
         o = objects.index(name)
         code = self.database.program.classes[self.database.plan.object_class[o]]
         predicates: dict[str, int] = {}
@@ -159,9 +159,9 @@ class PlanView:
                 return DomainConstant(kind, type_name, None, tuple(bool(x) for x in range(int(lower), int(upper) + 1)))
             if shape == KIND_INT:
                 return DomainConstant(kind, type_name, (_whole(lower), _whole(upper)), None)
-            return DomainConstant(kind, type_name, (max(lower, -INFINITY) + 0, min(upper, INFINITY) + 0), None)
+            return DomainConstant(kind, type_name, (max(lower, -_INFINITY) + 0, min(upper, _INFINITY) + 0), None)
         if not engine.is_finite(v) and engine.lower(v) != engine.upper(v):
-            return DomainConstant(kind, type_name, (-INFINITY, INFINITY), None)
+            return DomainConstant(kind, type_name, (-_INFINITY, _INFINITY), None)
         single = engine.lower(v) == engine.upper(v)
         values = [int(engine.lower(v))] if single else [int(value) for value in engine.values_of(v)]
         if shape == KIND_STRING:

@@ -23,8 +23,8 @@ from runtime.plan.tokens import retraction, timelines
 from runtime.plan.tokens.tokens import make_token
 from runtime.user.constraint import Constraint
 
-GROUNDED = "GroundedProfile"
-OF_TOKENS = (ROLE_TOKEN, ROLE_LOCAL, ROLE_INTERNAL)
+_GROUNDED = "GroundedProfile"
+_OF_TOKENS = (ROLE_TOKEN, ROLE_LOCAL, ROLE_INTERNAL)
 Environment = Callable[[str, int], float | None]  # a parameter's name, and the token (NONE: the script) that asks
 
 
@@ -57,7 +57,7 @@ class PlanDatabase:
         load_code(self.plan, self.code)
         self.plan.services = self
         self.plan.envelope = Envelope(self.plan.engine, self.plan.resources)
-        self.plan.resources.grounded_text = self.prototypes.texts.number(GROUNDED)
+        self.plan.resources.grounded_text = self.prototypes.texts.number(_GROUNDED)
         self.environment = environment
         self.ranges = {
             self.names.number(site.name): self.prototypes.of_domain(site.default)
@@ -74,7 +74,7 @@ class PlanDatabase:
 
     def draw(self, parameter: int, v: int) -> int:
         """A constant with the value that the environment draws for a parameter, of the kind of `v`; or NONE."""
-        token = int(self.plan.variable_owner[v]) if self.plan.variable_role[v] in OF_TOKENS else NONE
+        token = int(self.plan.variable_owner[v]) if self.plan.variable_role[v] in _OF_TOKENS else NONE
         value = None if self.environment is None else self.environment(self.names.text(parameter), token)
         return NONE if value is None else self.engine.new_constant(self.engine.kind[v], value, value)
 

@@ -30,13 +30,13 @@ from runtime.plan.tags import (
     START,
 )
 
-DURATIONS = {
+_DURATIONS = {
     DurationRule.NONE: DURATION_FREE,
     DurationRule.EQUAL: DURATION_EQUAL,
     DurationRule.TARGET_SHORTER: DURATION_TARGET_SHORTER,
     DurationRule.ORIGIN_SHORTER: DURATION_ORIGIN_SHORTER,
 }
-POINTS = {
+_POINTS = {
     Point.ORIGIN_START: (0, START),
     Point.ORIGIN_END: (0, END),
     Point.TARGET_START: (1, START),
@@ -97,8 +97,8 @@ def load_relations(plan: Plan) -> None:
     for row in RELATIONS.values():
         starts.append(len(cells))
         for distance in row.distances:
-            cells += [*POINTS[distance.earlier], *POINTS[distance.later], distance.lower, distance.upper]
-        durations.append(DURATIONS[row.duration])
+            cells += [*_POINTS[distance.earlier], *_POINTS[distance.later], distance.lower, distance.upper]
+        durations.append(_DURATIONS[row.duration])
     plan.relation_start = _packed([*starts, len(cells)])
     plan.relation_distance = _packed(cells)
     plan.relation_duration = _packed(durations)

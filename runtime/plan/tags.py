@@ -5,7 +5,7 @@ NONE = -1
 # ---- states of a token; the symbols of its state variable have ids of their own ----
 INACTIVE, ACTIVE, MERGED, REJECTED, FREED = range(5)
 STATE_NAMES = ("INACTIVE", "ACTIVE", "MERGED", "REJECTED", "FREED")
-SYMBOL_ACTIVE, SYMBOL_MERGED, SYMBOL_REJECTED, SYMBOL_INACTIVE = range(4)
+SYMBOL_ACTIVE, SYMBOL_MERGED, SYMBOL_REJECTED, _SYMBOL_INACTIVE = range(4)
 STATE_SYMBOLS = ("ACTIVE", "MERGED", "REJECTED", "INACTIVE")
 
 # ---- flags of a token ----

@@ -75,14 +75,14 @@ def _read_globals(database: PlanDatabase, domains: dict[str, DomainText]) -> Non
     plan = database.plan
     for index, (name, type_) in enumerate(database.program.globals):
         if plan.globals[index] >= 0:
-            domains[name] = text(database, plan.globals[index], type_.kind, type_.type_name)
+            domains[name] = _text(database, plan.globals[index], type_.kind, type_.type_name)
     for o, name in enumerate(database.objects.names):
         for k, member in enumerate(database.program.classes[plan.object_class[o]].members):
             v = plan.object_var0[o] + k
-            domains[f"{name}.{member.name}"] = text(database, v, member.type.kind, member.type.type_name)
+            domains[f"{name}.{member.name}"] = _text(database, v, member.type.kind, member.type.type_name)
 
 
-def text(database: PlanDatabase, v: int, kind: str, type_name: str) -> DomainText:
+def _text(database: PlanDatabase, v: int, kind: str, type_name: str) -> DomainText:
     """The domain of a variable whose type is known."""
     shown = "symbol" if kind == "symbol" else type_name
     return domain_text(database.prototypes, database.plan.engine, v, database.objects.names, shown)
@@ -93,17 +93,17 @@ def _read_token_domains(database: PlanDatabase, t: int, name: str, domains: dict
     rows = database.plan.rows
     first = rows.var0[t]
     predicate = database.program.predicates[rows.predicate[t]]
-    domains[f"{name}.state"] = text(database, first + STATE, "symbol", "symbol")
-    domains[f"{name}.object"] = text(database, first + OBJECT, "object", predicate.class_name)
-    domains[f"{name}.duration"] = text(database, first + DURATION, "int", "int")
+    domains[f"{name}.state"] = _text(database, first + STATE, "symbol", "symbol")
+    domains[f"{name}.object"] = _text(database, first + OBJECT, "object", predicate.class_name)
+    domains[f"{name}.duration"] = _text(database, first + DURATION, "int", "int")
     if rows.flags[t] & FLAG_EVENT:
-        domains[f"{name}.time"] = text(database, first + START, "int", "int")
+        domains[f"{name}.time"] = _text(database, first + START, "int", "int")
     else:
-        domains[f"{name}.start"] = text(database, first + START, "int", "int")
-        domains[f"{name}.end"] = text(database, first + END, "int", "int")
+        domains[f"{name}.start"] = _text(database, first + START, "int", "int")
+        domains[f"{name}.end"] = _text(database, first + END, "int", "int")
     for k, parameter in enumerate(predicate.parameters):
         v = first + FIRST_PARAMETER + k
-        domains[f"{name}.{parameter.name}"] = text(database, v, parameter.type.kind, parameter.type.type_name)
+        domains[f"{name}.{parameter.name}"] = _text(database, v, parameter.type.kind, parameter.type.type_name)
 
 
 def _read_locals(database: PlanDatabase, t: int, name: str, domains: dict[str, DomainText]) -> None:
@@ -144,12 +144,12 @@ def _token_extent(database: PlanDatabase, t: int, predicate: PredicateCode) -> T
     """The variables of a token."""
     first = database.plan.rows.var0[t]
     return TokenExtent(
-        text(database, first + OBJECT, "object", predicate.class_name),
+        _text(database, first + OBJECT, "object", predicate.class_name),
         _interval(database, first + START),
         _interval(database, first + DURATION),
         _interval(database, first + END),
         {
-            parameter.name: text(database, first + FIRST_PARAMETER + k, parameter.type.kind, parameter.type.type_name)
+            parameter.name: _text(database, first + FIRST_PARAMETER + k, parameter.type.kind, parameter.type.type_name)
             for k, parameter in enumerate(predicate.parameters)
         },
     )

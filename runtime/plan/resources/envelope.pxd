@@ -5,7 +5,7 @@ from runtime.constraints.engine cimport Engine
 from runtime.plan.resources.profile cimport Profile
 from runtime.plan.resources.resources cimport Resources
 
-cdef long long NONE, ROOM, SIDE_LOWER, SIDE_UPPER
+cdef long long NONE, _ROOM, SIDE_LOWER, SIDE_UPPER
 cdef double FLOAT_TOLERANCE
 
 

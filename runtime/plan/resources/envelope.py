@@ -13,7 +13,7 @@ from runtime.plan.resources.profile import Profile
 from runtime.plan.resources.resources import Resources
 from runtime.plan.tags import NONE
 
-ROOM = 64
+_ROOM = 64
 
 
 class Envelope:
@@ -31,28 +31,28 @@ class Envelope:
         self.is_low = 1
         self.grounded = False
         self.amount = 0.0
-        self.pair_room = ROOM
+        self.pair_room = _ROOM
         self.pair_count = 0
-        self.pair_before = blank(ROOM)
-        self.pair_after = blank(ROOM)
-        self.use_before = blank(ROOM)
-        self.use_after = blank(ROOM)
-        self.variable_room = ROOM
-        self.marks = blank(ROOM)
+        self.pair_before = blank(_ROOM)
+        self.pair_after = blank(_ROOM)
+        self.use_before = blank(_ROOM)
+        self.use_after = blank(_ROOM)
+        self.variable_room = _ROOM
+        self.marks = blank(_ROOM)
         self.mark = 0
-        self.stack = blank(ROOM)
-        self.via = blank(ROOM)
-        self.use_room = ROOM
-        self.takes = blank(ROOM)  # the timepoint at which use i takes from the level, or gives to it
-        self.gives = blank(ROOM)
-        self.instants = blank(ROOM)
-        self.supply = blank(ROOM, "d")
-        self.demand = blank(ROOM, "d")
-        self.from_taker = blank(ROOM)
-        self.from_giver = blank(ROOM)
-        self.queue = blank(ROOM)
-        self.flow = blank(ROOM * ROOM, "d")
-        self.ordered = blank(ROOM * ROOM)  # [taker * use_room + giver]: the giver gives before the taker takes
+        self.stack = blank(_ROOM)
+        self.via = blank(_ROOM)
+        self.use_room = _ROOM
+        self.takes = blank(_ROOM)  # the timepoint at which use i takes from the level, or gives to it
+        self.gives = blank(_ROOM)
+        self.instants = blank(_ROOM)
+        self.supply = blank(_ROOM, "d")
+        self.demand = blank(_ROOM, "d")
+        self.from_taker = blank(_ROOM)
+        self.from_giver = blank(_ROOM)
+        self.queue = blank(_ROOM)
+        self.flow = blank(_ROOM * _ROOM, "d")
+        self.ordered = blank(_ROOM * _ROOM)  # [taker * use_room + giver]: the giver gives before the taker takes
 
     # ---- flaws ----
 

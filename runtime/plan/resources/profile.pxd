@@ -2,7 +2,7 @@
 
 cimport cython
 
-cdef long long ROOM, TOO_FAST, TOO_HIGH, TOO_LOW, TOO_MUCH, TOO_TIGHT, HALF_INF, MOST_WINDOWS
+cdef long long _ROOM, TOO_FAST, TOO_HIGH, TOO_LOW, TOO_MUCH, TOO_TIGHT, HALF_INF, _MOST_WINDOWS
 cdef double FLOAT_TOLERANCE, inf
 
 

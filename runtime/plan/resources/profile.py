@@ -9,8 +9,8 @@ from runtime.constraints.domains.arrays import blank, grown
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, HALF_INF
 from runtime.plan.tags import TOO_FAST, TOO_HIGH, TOO_LOW, TOO_MUCH, TOO_TIGHT
 
-ROOM = 16
-MOST_WINDOWS = 64  # above so many uses only windows from the earliest start on are looked at
+_ROOM = 16
+_MOST_WINDOWS = 64  # above so many uses only windows from the earliest start on are looked at
 
 
 class Profile:
@@ -21,18 +21,18 @@ class Profile:
     """
 
     def __init__(self) -> None:
-        self.room = ROOM
+        self.room = _ROOM
         self.count = 0
-        self.use = blank(ROOM)
-        self.sign = blank(ROOM)
-        self.lasting = blank(ROOM)
-        self.start_low = blank(ROOM)
-        self.start_high = blank(ROOM)
-        self.end_low = blank(ROOM)
-        self.end_high = blank(ROOM)
-        self.length = blank(ROOM)  # how long a use lasts at least
-        self.least = blank(ROOM, "d")
-        self.most = blank(ROOM, "d")
+        self.use = blank(_ROOM)
+        self.sign = blank(_ROOM)
+        self.lasting = blank(_ROOM)
+        self.start_low = blank(_ROOM)
+        self.start_high = blank(_ROOM)
+        self.end_low = blank(_ROOM)
+        self.end_high = blank(_ROOM)
+        self.length = blank(_ROOM)  # how long a use lasts at least
+        self.least = blank(_ROOM, "d")
+        self.most = blank(_ROOM, "d")
         self.set_limits(0.0, 0.0, -inf, inf)
         self.set_flows(inf, inf, inf, inf)
         self.wrong = 0
@@ -246,13 +246,13 @@ class Profile:
             return TOO_TIGHT
         for i in range(self.count):
             start = self.start_low[i]
-            if start <= -HALF_INF or (self.count > MOST_WINDOWS and start > first):
+            if start <= -HALF_INF or (self.count > _MOST_WINDOWS and start > first):
                 continue
             for j in range(self.count):
                 end = self.end_high[j]
                 if self._is_overloaded(start, end, room):
                     return TOO_TIGHT
-            if self.count > MOST_WINDOWS:
+            if self.count > _MOST_WINDOWS:
                 break
         return 0
 

@@ -4,7 +4,7 @@ cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.resources.profile cimport Profile
 
-cdef long long INITIAL, LIMITS, MAXIMUM, MINIMUM, NONE, PRODUCTION_RATE, PRODUCTION_TOTAL, RATE, ROOM, SIDE_LOWER
+cdef long long INITIAL, LIMITS, MAXIMUM, MINIMUM, NONE, PRODUCTION_RATE, PRODUCTION_TOTAL, RATE, _ROOM, SIDE_LOWER
 cdef long long SIDE_UPPER, TOO_HIGH, TOO_LOW, TOO_TIGHT, TOTAL
 cdef double inf
 

@@ -27,7 +27,7 @@ from runtime.plan.tags import (
     TOTAL,
 )
 
-ROOM = 32
+_ROOM = 32
 
 
 class Resources:
@@ -36,31 +36,31 @@ class Resources:
     def __init__(self, engine: Engine) -> None:
         self.engine = engine
         self.profile = Profile()
-        self.room = ROOM
+        self.room = _ROOM
         self.count = 0
         self.free: list[int] = []
-        self.token = blank(ROOM)
-        self.sign = blank(ROOM)
-        self.holder = blank(ROOM)
-        self.quantity = blank(ROOM)
-        self.start = blank(ROOM)
-        self.end = blank(ROOM)
-        self.duration = blank(ROOM)
-        self.on = blank(ROOM)
-        self.start_low = blank(ROOM)
-        self.start_high = blank(ROOM)
-        self.end_low = blank(ROOM)
-        self.end_high = blank(ROOM)
-        self.least = blank(ROOM, "d")
-        self.most = blank(ROOM, "d")
+        self.token = blank(_ROOM)
+        self.sign = blank(_ROOM)
+        self.holder = blank(_ROOM)
+        self.quantity = blank(_ROOM)
+        self.start = blank(_ROOM)
+        self.end = blank(_ROOM)
+        self.duration = blank(_ROOM)
+        self.on = blank(_ROOM)
+        self.start_low = blank(_ROOM)
+        self.start_high = blank(_ROOM)
+        self.end_low = blank(_ROOM)
+        self.end_high = blank(_ROOM)
+        self.least = blank(_ROOM, "d")
+        self.most = blank(_ROOM, "d")
         # Resources: the variables of their limits, and whether one of their uses has changed.
-        self.object_room = ROOM
-        self.is_resource = blank(ROOM)
-        self.is_energetic = blank(ROOM)  # also refuse what cannot fit into a window
-        self.profile_choice = blank(ROOM)  # the variable that chooses how levels are computed
+        self.object_room = _ROOM
+        self.is_resource = blank(_ROOM)
+        self.is_energetic = blank(_ROOM)  # also refuse what cannot fit into a window
+        self.profile_choice = blank(_ROOM)  # the variable that chooses how levels are computed
         self.grounded_text = NONE
-        self.changed = blank(ROOM)
-        self.limits = blank(ROOM * LIMITS)
+        self.changed = blank(_ROOM)
+        self.limits = blank(_ROOM * LIMITS)
         self.steps: dict[int, list[tuple[int, float, float]]] = {}  # set_capacity: from when on, between what
         self.limit_steps: dict[int, list[tuple[int, float, float]]] = {}  # set_limit: the same of the level
         self.pending = 0

@@ -11,7 +11,7 @@ from runtime.constraints.propagators.external import External, argument, refuse
 from runtime.plan.resources.profile import Profile
 from runtime.plan.tags import AS_IT_IS, LIMITS, TOO_HIGH, TOO_LOW, TOO_TIGHT
 
-Step = tuple[int, float, float]  # set_capacity: from when on, between what
+_Step = tuple[int, float, float]  # set_capacity: from when on, between what
 
 
 class Violation(External):
@@ -39,7 +39,7 @@ class Violation(External):
         self.helper = 0
         self.until = at  # where the window ends that is too tight, and what must lie in it in part:
         self.parts: list[tuple[int, int, int, float]] = []  # start, end, least duration, least quantity
-        self.limit_steps: list[Step] = []  # set_limit: from when on, between what
+        self.limit_steps: list[_Step] = []  # set_limit: from when on, between what
         self.room = 0.0  # what there is of it, at once
         self.limit = 0.0  # the level that it falls short of, or exceeds
         self.charged: list[tuple[int, float]] = []  # tokens that use it there, and how much for certain

@@ -67,7 +67,7 @@ from runtime.plan.tags import (
 )
 
 # b - a lies in [lower, upper]: temporal constraints on two timepoints are edges, not propagators.
-DISTANCES = {"precedes": (0, INFINITY), "strictlyPrecedes": (1, INFINITY), "concurrent": (0, 0)}
+_DISTANCES = {"precedes": (0, INFINITY), "strictlyPrecedes": (1, INFINITY), "concurrent": (0, 0)}
 
 
 class RuleBytecode:
@@ -176,7 +176,7 @@ class RuleBytecode:
         if self.operations.get(name) == OP_NOTHING:
             return
         pairs = [self.operand(operand) for operand in operands]
-        distance = DISTANCES.get(name)
+        distance = _DISTANCES.get(name)
         if name == "temporalDistance" and (given := _fixed_distance(operands[1])) is not None:
             distance = given
             del pairs[1]

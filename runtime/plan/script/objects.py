@@ -18,7 +18,7 @@ from runtime.plan.store.prototypes import Prototypes
 from runtime.plan.store.scopes import make_variable
 from runtime.plan.tags import INITIAL, MINIMUM, NONE, ROLE_INTERNAL, ROLE_MEMBER, SCOPE_SCRIPT
 
-DEEPEST = 100  # objects within objects; no model means more
+_DEEPEST = 100  # objects within objects; no model means more
 
 OperandCode = tuple[int, int]  # an operand in bytecode
 
@@ -182,7 +182,7 @@ class Objects:
         if self.prototypes.is_closed[new.class_number]:
             return CLOSED_CLASS.at(new.span, name=self.program.classes[new.class_number].name)
         o = self._allocate(new.class_number, new.name if parent is None or new.name is None else f"{parent}.{new.name}")
-        if self.depth == DEEPEST:
+        if self.depth == _DEEPEST:
             return ENDLESS_OBJECT.at(new.span, name=self.program.classes[new.class_number].name)
         self.depth += 1
         fault = self._construct(new.class_number, new.constructor, o, arguments)

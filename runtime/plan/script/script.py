@@ -33,7 +33,7 @@ from runtime.plan.tags import FLAG_FACT, FLAG_GOAL, FLAG_REJECTABLE, NONE, ROLE_
 from runtime.plan.tokens.retraction import withdraw_refusals
 from runtime.plan.tokens.tokens import make_token
 
-KINDS = {"goal": FLAG_GOAL, "fact": FLAG_FACT, "rejectable": FLAG_REJECTABLE}
+_KINDS = {"goal": FLAG_GOAL, "fact": FLAG_FACT, "rejectable": FLAG_REJECTABLE}
 Action = Callable[[], Diagnostic | None]
 
 
@@ -153,7 +153,7 @@ class Script:
             if not self.prototypes.objects[number]:
                 return NO_OBJECT.at(new.span, name=class_name)
             given = NONE if kind < 0 else operand(plan, self.scope, kind, value, span)
-            t = make_token(plan, predicate, KINDS[new.kind], NONE, NONE, given, span)
+            t = make_token(plan, predicate, _KINDS[new.kind], NONE, NONE, given, span)
             if new.label is not None:
                 self.labels[t] = new.label
             rows = plan.rows

@@ -18,7 +18,7 @@ from runtime.constraints.domains.tags import (
 from runtime.constraints.engine import Engine
 from runtime.plan.store.prototypes import STATES, Prototypes
 
-NAMES = {KIND_BOOL: "bool", KIND_INT: "int", KIND_FLOAT: "float", KIND_STRING: "string"}
+_NAMES = {KIND_BOOL: "bool", KIND_INT: "int", KIND_FLOAT: "float", KIND_STRING: "string"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ def domain_text(
 ) -> DomainText:
     """The derived domain of a variable."""
     kind = engine.kind[v]
-    name = NAMES.get(kind, type_name)
+    name = _NAMES.get(kind, type_name)
     if is_growing(engine, v):
         values = engine.values_of(v)
         return DomainText(set_text(prototypes, kind, values, names), str(name), len(values) > 1, is_open=True)

@@ -11,7 +11,7 @@ from runtime.plan.store.rows import Rows
 from runtime.plan.tags import NONE
 
 
-class Services(Protocol):
+class _Services(Protocol):
     """What rules ask of the world outside the arrays."""
 
     def make_object(self, scope: int, number: int) -> int:
@@ -156,7 +156,7 @@ class Plan:
         self.statement = 0
         self.self_object = NONE
         self.unions: list[tuple[tuple[int, int], ...]] = []
-        self.services: Services
+        self.services: _Services
         self.resources = Resources(engine)
         self.envelope: UseOrder
 

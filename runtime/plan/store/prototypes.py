@@ -16,7 +16,7 @@ from runtime.constraints.engine import Engine
 from runtime.plan.store.names import Names
 from runtime.plan.tags import NONE, STATE_SYMBOLS
 
-KINDS = {
+_KINDS = {
     "bool": KIND_BOOL,
     "int": KIND_INT,
     "float": KIND_FLOAT,
@@ -112,7 +112,7 @@ class Prototypes:
         """The shared variable of a constant with a single value."""
         value = domain.values[0] if domain.values is not None else domain.interval[0] if domain.interval else 0
         number = self.value(value, domain.kind)
-        return self.engine.new_constant(KINDS[domain.kind], number, number)
+        return self.engine.new_constant(_KINDS[domain.kind], number, number)
 
     def _full(self, kind: str, name: str) -> int:
         """A variable with all values of a type."""

@@ -31,7 +31,7 @@ from runtime.plan.tags import (
 from runtime.plan.tokens.timelines import await_order, drop_pair, has_any_pair, leave_sequence
 
 
-class Sweep:
+class _Sweep:
     """What is to go: collected first, then handed to the engine at once."""
 
     def __init__(self) -> None:
@@ -47,21 +47,21 @@ class Sweep:
 
 def cancel(plan: Plan, t: int) -> bool:
     """Make `t` inactive again, with all that followed from its state."""
-    sweep = Sweep()
+    sweep = _Sweep()
     _deactivate(plan, t, sweep)
     return _finish(plan, sweep)
 
 
 def remove_tokens(plan: Plan, tokens: list[int]) -> bool:
     """Take tokens away with all that came with them."""
-    sweep = Sweep()
+    sweep = _Sweep()
     sweep.tokens += tokens
     return _finish(plan, sweep)
 
 
 def retract_branch(plan: Plan, s: int) -> bool:
     """Take back the branch that guard `s` runs."""
-    sweep = Sweep()
+    sweep = _Sweep()
     rows = plan.rows
     t = rows.scope_token[s]
     doomed = {s}
@@ -76,14 +76,14 @@ def retract_branch(plan: Plan, s: int) -> bool:
 
 def reset(plan: Plan, v: int) -> bool:
     """Undo the decision of a variable."""
-    sweep = Sweep()
+    sweep = _Sweep()
     sweep.undecided.append(v)
     return _finish(plan, sweep)
 
 
 def free(plan: Plan, first: int, second: int, span: int) -> bool:
     """Undo that `first` was put in front of `second` on a timeline."""
-    sweep = Sweep()
+    sweep = _Sweep()
     rows = plan.rows
     p = rows.pairs_out[first]
     while p >= 0:
@@ -119,7 +119,7 @@ def scopes_of(plan: Plan, t: int) -> list[int]:
     return found
 
 
-def _deactivate(plan: Plan, t: int, sweep: Sweep) -> None:
+def _deactivate(plan: Plan, t: int, sweep: _Sweep) -> None:
     """Collect what the state of `t` brought: rules, merge, insertion into a timeline, tokens merged into it."""
     rows = plan.rows
     status = rows.status[t]
@@ -151,7 +151,7 @@ def wake_guards(plan: Plan, v: int) -> None:
                 plan.enqueue(plan.guard_of[c])
 
 
-def _drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: Sweep) -> None:
+def _drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: _Sweep) -> None:
     """Collect what scopes of `t` hold, and the children that they made; take the scopes off the token's list."""
     if not doomed:
         return
@@ -177,7 +177,7 @@ def _drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: Sweep) -> None:
         child = rows.sibling[child]
 
 
-def _collect_holds(plan: Plan, s: int, sweep: Sweep) -> None:
+def _collect_holds(plan: Plan, s: int, sweep: _Sweep) -> None:
     """Collect what one scope holds, and give the holds back."""
     rows = plan.rows
     if rows.scope_watch[s] >= 0:
@@ -207,7 +207,7 @@ def _decisions_of(plan: Plan, v: int) -> list[int]:
     return [r for r in plan.engine.restrictions_of(v) if plan.engine.restriction_flags[r] & FLAG_DECISION]
 
 
-def _finish(plan: Plan, sweep: Sweep) -> bool:
+def _finish(plan: Plan, sweep: _Sweep) -> bool:
     """Take tokens apart, one after the other with all their children; then let the engine forget everything."""
     rows = plan.rows
     done = 0

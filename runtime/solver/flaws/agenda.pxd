@@ -13,8 +13,8 @@ from runtime.solver.configuration.handler_table cimport HandlerTable
 from runtime.solver.flaws.uses cimport Uses
 from runtime.solver.flaws.restarts cimport Restarts
 
-cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FLAG_GOAL, FREED, LATEST, NONE, NO_KEY, OBJECT, ROLE_TOKEN
-cdef long long START, UNBOUND_VARIABLE, UNDO_BRANCH, UNDO_INPUTS, YOUNGEST
+cdef long long DROPPED_TOKEN, DROPPED_VARIABLE, END, FLAG_GOAL, FREED, _LATEST, NONE, NO_KEY, OBJECT, ROLE_TOKEN
+cdef long long START, UNBOUND_VARIABLE, UNDO_BRANCH, UNDO_INPUTS, _YOUNGEST
 
 
 cdef class Agenda:

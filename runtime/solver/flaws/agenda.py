@@ -21,8 +21,8 @@ from runtime.solver.flaws.supports import Supports
 from runtime.solver.flaws.uses import Uses
 from runtime.solver.tags import DROPPED_TOKEN, DROPPED_VARIABLE, NO_KEY, NONE, UNBOUND_VARIABLE
 
-LATEST = 2**38  # starts beyond count as equal
-YOUNGEST = 2**22  # and so do tokens
+_LATEST = 2**38  # starts beyond count as equal
+_YOUNGEST = 2**22  # and so do tokens
 
 
 class Agenda:
@@ -246,8 +246,8 @@ class Agenda:
 
     def earliness(self, t: int) -> int:
         """What puts goals before other tokens: the earliest start first, of equal ones the oldest."""
-        start = min(max(self.engine.lb[self.rows.var0[t] + START], 0), LATEST)
-        return start * YOUNGEST + min(self.rows.key[t], YOUNGEST - 1) - LATEST * YOUNGEST - YOUNGEST
+        start = min(max(self.engine.lb[self.rows.var0[t] + START], 0), _LATEST)
+        return start * _YOUNGEST + min(self.rows.key[t], _YOUNGEST - 1) - _LATEST * _YOUNGEST - _YOUNGEST
 
     def offer_effect(self, slot: int) -> int:
         """Add an effect of an action, which is selected before anything else."""

@@ -115,17 +115,17 @@ def faults(dice: Random, spans: int) -> list[Fault]:
     def loose(old: Callable[..., Any]) -> Callable[..., Any]:
         return lambda plan, scope, a, b, w, span: True if span == at else old(plan, scope, a, b, w, span)
 
-    add("skipped propagation", "no edge of a line", scopes, "edge", loose)
+    add("skipped propagation", "no edge of a line", scopes, "_edge", loose)
 
     def turned(old: Callable[..., Any]) -> Callable[..., Any]:
         return lambda plan, scope, a, b, w, span: old(plan, scope, *((b, a) if span == at else (a, b)), w, span)
 
-    add("wrong bound side", "edges of a line turned round", scopes, "edge", turned)
+    add("wrong bound side", "edges of a line turned round", scopes, "_edge", turned)
 
     def shifted(old: Callable[..., Any]) -> Callable[..., Any]:
         return lambda plan, scope, a, b, w, span: old(plan, scope, a, b, w + by if span == at else w, span)
 
-    add("wrong bound side", "edges of a line shifted", scopes, "edge", shifted)
+    add("wrong bound side", "edges of a line shifted", scopes, "_edge", shifted)
 
     def every_edge(old: Callable[..., Any]) -> Callable[..., Any]:
         calls = [0]
@@ -136,7 +136,7 @@ def faults(dice: Random, spans: int) -> list[Fault]:
 
         return edge
 
-    add("wrong bound side", "an edge now and then shifted", scopes, "edge", every_edge)
+    add("wrong bound side", "an edge now and then shifted", scopes, "_edge", every_edge)
 
     def no_relation(old: Callable[..., Any]) -> Callable[..., Any]:
         calls = [0]
