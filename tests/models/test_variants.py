@@ -59,10 +59,8 @@ def test_a_variant_passes_where_it_must(variant: Variant, case: Case, tmp_path: 
     assert outcome.abort is None
 
 
-@pytest.mark.parametrize("variant", VARIANTS, ids=lambda variant: variant.name)
+@pytest.mark.parametrize("variant", [one for one in VARIANTS if one.fails], ids=lambda variant: variant.name)
 def test_the_model_without_the_mistake_does_not_fail_there(variant: Variant) -> None:
-    if not variant.fails:
-        pytest.skip("no values are known at which it fails")
     outcome = fly(BUGS / variant.mission, variant.fails[0], 1500)
     assert outcome.abort is None
 
