@@ -238,7 +238,7 @@ class _AgentFile:
 
 
 _NO_PLUGIN = 'reactors in Python are loaded by `<PythonReactor code="file.py:Class"/>`'
-_ONE_SOLVER = "the present is settled with the flaw handling of `plan_cfg`"
+_ONE_SOLVER = "the present is synchronised with the flaw handling of `plan_cfg`"
 
 
 def read_agent_file(source: Source, root: Path) -> tuple[MissionText, TomlTable | None]:

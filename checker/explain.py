@@ -7,7 +7,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Fault
 from checker.oracle import CODE_NAMES
 from checker.rendering import confirmation_text, failure_text, step_label, step_text, threshold_text
-from checker.sampling.wording import number
+from checker.sampling.rendering import number
 from checker.story import Step, StepKind, Story
 from checker.threshold import Threshold
 from runtime.executive.outcome import SourcePlace

@@ -9,7 +9,7 @@ from typing import assert_never
 from checker.findings import Fault
 from checker.losses import Exceeded, Limit
 from checker.oracle import CODE_NAMES, Judgement
-from checker.sampling.wording import describe, number
+from checker.sampling.rendering import describe, number
 from checker.smt.confirm import Finding
 from checker.story import Step, StepKind, Story
 from checker.threshold import Threshold, Witness
@@ -54,7 +54,7 @@ _KINDS = {
     ReasonKind.NONE_CAN_START: "no token could start",
     ReasonKind.DID_NOT_START: "a token did not start in time",
     ReasonKind.UNMET: "what was asked of the present could not be met",
-    ReasonKind.NO_PLACE: "no place for a token",
+    ReasonKind.NO_INSERTION: "no place for a token",
     ReasonKind.NO_PLAN: "no plan inside the window",
 }
 

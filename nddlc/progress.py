@@ -10,7 +10,7 @@ from rich.progress import BarColumn, TextColumn
 from rich.progress import Progress as Bar
 
 from checker.batch.progress import Progress
-from checker.report.wording import percent
+from checker.report.sentences import percent
 from checker.statistics import exact_interval
 
 _BAR_SECONDS = 0.2  # between two looks of the bar

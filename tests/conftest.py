@@ -1,4 +1,4 @@
-"""Settle, before any test imports the engine, in which form it is tested, and make chance reproducible."""
+"""Choose, before any test imports the engine, in which form it is tested, and make chance reproducible."""
 
 import os
 import signal

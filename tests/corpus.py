@@ -25,7 +25,7 @@ from runtime.solver.search import Solver
 from runtime.solver.tags import RESULT_NAMES
 
 Answer = TypeVar("Answer")
-PATIENCE = 20.0  # seconds for one model
+TIMEOUT = 20.0  # seconds for one model
 EUROPA_FOLDERS = ("src/PLASMA/NDDL/base", "src/PLASMA/Resource/component/NDDL", "src/PLASMA/NDDL/test/nddl")
 TREX_FOLDERS = ("extra/europa/cfg", "extra/third_party/lsts/cfg", "extra/third_party/lsts/cfg/auv")
 TESTS = "src/PLASMA/System/test"
@@ -169,10 +169,10 @@ class Worker:
         """What went wrong, and the answer."""
         self.end.send((function, arguments))
         try:
-            if self.end.poll(PATIENCE):
+            if self.end.poll(TIMEOUT):
                 complaint, answer = self.end.recv()
                 return complaint, answer
-            complaint = f"not done after {PATIENCE:.0f} s"
+            complaint = f"not done after {TIMEOUT:.0f} s"
         except EOFError:
             complaint = "the process died"
         self.process.kill()

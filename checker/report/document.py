@@ -14,7 +14,7 @@ from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES, Verdict
 from checker.rendering import failure_text
 from checker.report.losses import mission_losses, tally_data
-from checker.report.wording import verdict_word
+from checker.report.sentences import verdict_word
 from checker.tally import Tally
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.rendering import element_text

@@ -4,7 +4,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.rendering import failure_text, threshold_text
 from checker.report.losses import damage_words, goal_text, repair_text
-from checker.report.wording import decision, fault_title, headline
+from checker.report.sentences import decision, fault_title, headline
 from nddl_lang.text.github import command_line
 from runtime.executive.outcome import SourcePlace
 

@@ -12,9 +12,9 @@ from checker.losses import Limit, amount
 from checker.oracle import CODE_NAMES, Verdict
 from checker.rendering import confirmation_text, failure_text, step_text, threshold_evidence
 from checker.report.losses import damage_words, goal_line, goal_text, repair_text, request_line, unmet_text
+from checker.report.sentences import blamed, decision, missions, percent, rate_line, verdict_word
 from checker.report.svg import Dot, rate_plot, scatter_plot, strip_plot
-from checker.report.wording import blamed, decision, missions, percent, rate_line, verdict_word
-from checker.sampling.wording import describe, number
+from checker.sampling.rendering import describe, number
 from checker.story import Step, StepKind, Story
 from checker.tally import Tally
 from runtime.executive.configuration import ParameterConfiguration

@@ -7,7 +7,7 @@ from checker.excerpts import Excerpts
 from checker.explain import place_data
 from checker.losses import GoalFate
 from checker.rendering import kind_text
-from checker.report.wording import counted, missions
+from checker.report.sentences import counted, missions
 from checker.tally import GoalTally, RepairTally, Tally, UnmetTally
 from runtime.executive.rendering import reason_text
 

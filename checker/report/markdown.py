@@ -4,8 +4,8 @@ from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.rendering import failure_text, threshold_text
 from checker.report.losses import goal_line, goal_text, repair_text, request_line, unmet_text
-from checker.report.wording import blamed, decision, fault_title, headline, percent, rate_line, verdict_word
-from checker.sampling.wording import describe
+from checker.report.sentences import blamed, decision, fault_title, headline, percent, rate_line, verdict_word
+from checker.sampling.rendering import describe
 
 _MARKS = str.maketrans({**{mark: f"\\{mark}" for mark in "\\*_|[]#"}, "<": "&lt;", ">": "&gt;"})
 _MOST_FAULTS = 20

@@ -6,7 +6,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES
 from checker.rendering import failure_text, threshold_text
-from checker.report.wording import missions, percent
+from checker.report.sentences import missions, percent
 from nddl_lang.text.sarif import sarif_log, uri_of
 from runtime.executive.outcome import SourcePlace
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
 
-from checker.sampling.wording import number
+from checker.sampling.rendering import number
 from checker.statistics import Rate
 from checker.threshold import Threshold
 from runtime.view.axis import ticks

@@ -5,8 +5,8 @@ from checker.explain import excerpt_lines
 from checker.findings import Findings
 from checker.rendering import confirmation_text, failure_text, threshold_text
 from checker.report.losses import damage_words, loss_lines
-from checker.report.wording import blamed, decision, fault_title, headline, rate_line
-from checker.sampling.wording import describe
+from checker.report.sentences import blamed, decision, fault_title, headline, rate_line
+from checker.sampling.rendering import describe
 
 _MOST_FAULTS = 5
 _MOST_ERRORS = 3

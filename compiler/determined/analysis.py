@@ -14,7 +14,7 @@ _MOST_PARAMETERS = 62  # as many bits has the mask of what is given
 
 @dataclass(frozen=True, slots=True)
 class DeterminismAnalysis:
-    """What was found: the order in which timelines are settled, and the reasons against, if any."""
+    """What was found: the order in which timelines are synchronised, and the reasons against, if any."""
 
     model: ReactorModel
     layout: RegisterLayout
@@ -76,7 +76,7 @@ def _everything(predicate: PredicateCode) -> int:
 
 
 def _order_of(model: ReactorModel, blocks: list[RegisterBlock]) -> tuple[int, ...]:
-    """Timelines in the order in which they are settled.
+    """Timelines in the order in which they are synchronised.
 
     Who starts a token on another one, or lets one follow there, comes before it; who reads what holds there, after it.
     """

@@ -344,7 +344,7 @@ class Elaboration:
                 k = variable - FIRST_PARAMETER
                 parameter = record.predicate.parameters[k]
                 if record.how == PREVIOUS:
-                    # What starts unplanned looks for its predecessor only after the present is settled.
+                    # What starts unplanned looks for its predecessor only after the present is synchronised.
                     layout.remembered.add(record.line)
                     self._act((code.PLANNED,), record.context, span, parameter.name, -1)
                 if self.model.lines[record.line].role != "own" and record.how != MERGED and record.how != ROOT:

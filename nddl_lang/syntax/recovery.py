@@ -59,7 +59,7 @@ class Recovery:
 
     def recover(self, states: list[int], values: list[Any], index: int) -> int:
         """Mend at the lexeme `index`, which does not fit; returns where to go on."""
-        self._settle(states, values)
+        self._reduce(states, values)
         depth = len(states) - 1
         while "statement" not in GOTOS[states[depth]]:
             depth -= 1
@@ -85,7 +85,7 @@ class Recovery:
             return first
         return self._give_up(states, values, depth, first, index)
 
-    def _settle(self, states: list[int], values: list[Any]) -> None:
+    def _reduce(self, states: list[int], values: list[Any]) -> None:
         """Finish what is complete whatever follows: the tables wait for a lexeme that fits."""
         while True:
             row = ACTIONS[states[-1]]

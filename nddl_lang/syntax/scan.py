@@ -135,7 +135,7 @@ class Scanner:
     # ---- the end of a piece ----
 
     def _finish(self) -> None:
-        """Settle where the piece ends and make its offsets relative to that place."""
+        """Find where the piece ends and make its offsets relative to that place."""
         piece, base = self._piece, self._base
         if self._end < 0:
             self._end = len(self._source.text)

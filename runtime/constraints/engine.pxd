@@ -19,7 +19,7 @@ from runtime.constraints.domains.variables cimport (
     start_interval, start_values, take_row,
 )
 
-cdef long long FLAG_DECISION, FLAG_VALUES, KIND_FLOAT, _MOST_RUNS, OP_ELEMENT, OP_EXTERNAL, _PATIENCE
+cdef long long FLAG_DECISION, FLAG_VALUES, KIND_FLOAT, _MOST_RUNS, OP_ELEMENT, OP_EXTERNAL, _COARSE_AFTER
 cdef long long SUPPORT_RESTRICTION
 cdef double FLOAT_TOLERANCE, inf
 

@@ -46,7 +46,7 @@ from runtime.constraints.relaxation.retract import decisions_of, edges_of, follo
 from runtime.constraints.relaxation.trail import commit_trail, undo_to
 from runtime.constraints.stn.network import insert_edge, propagate_edges
 
-_PATIENCE = 200  # runs of one constraint in one propagation, before steps of less than a hundredth are left out
+_COARSE_AFTER = 200  # runs of one constraint in one propagation, before steps of less than a hundredth are left out
 _MOST_RUNS = 5000  # and before it is left out itself
 
 
@@ -330,10 +330,10 @@ class Engine(Store):
             self.run_epoch[c] = self.epoch
             self.run_count[c] = 0
         self.run_count[c] += 1
-        # A circle that creeps is slowed down, then left alone: what is not narrowed away loses no solution.
+        # A cycle that creeps is slowed down, then left alone: what is not narrowed away loses no solution.
         if self.run_count[c] > _MOST_RUNS:
             return True
-        self.coarse = self.run_count[c] > _PATIENCE
+        self.coarse = self.run_count[c] > _COARSE_AFTER
         self.running = c if self.idempotent[c] else -1
         holding = propagate_constraint(self, c)
         self.coarse = False

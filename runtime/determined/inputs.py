@@ -34,15 +34,15 @@ class _CatchUpError(RuntimeError):
     """The general engine does not get through what the register machine carried out: a mistake of ours."""
 
 
-def catch_up(reactor: PlanReactor, shadow: Trace, inputs: Inputs, until: int, is_settled: bool) -> None:
-    """Have a fresh reactor live through what came in before tick `until`, or until that tick is settled."""
+def catch_up(reactor: PlanReactor, shadow: Trace, inputs: Inputs, until: int, is_synchronised: bool) -> None:
+    """Have a fresh reactor live through what came in before tick `until`, or until that tick is synchronised."""
     waiting = list(inputs.received)
     tick = 0
     while True:
         shadow.tick, shadow.phase = tick, Phase.SYNCHRONISE
         _give(reactor, waiting, tick, True)
         reactor.start_tick(tick)
-        if tick == until and not is_settled:
+        if tick == until and not is_synchronised:
             return
         failure = reactor.synchronise(tick)
         reactor.observations(tick)

@@ -188,7 +188,7 @@ class Present:
                 return False
             if not self.has_room(i, tick):
                 return False
-        # An order whose first end is settled has said what it has to say.
+        # An order whose first end is past has said what it has to say.
         left = 0
         for k in range(count):
             at = pairs + 1 + 4 * k

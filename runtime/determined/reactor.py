@@ -355,20 +355,20 @@ class DeterminedReactor:
 
     # ---- the general reactor ----
 
-    def _hand_over(self, tick: int, is_settled: bool) -> PlanReactor:
-        """Become a general reactor that knows what came from outside; `is_settled`: the present of `tick` too."""
-        self.general = general = self._witness(tick, is_settled)
+    def _hand_over(self, tick: int, is_synchronised: bool) -> PlanReactor:
+        """Become a general reactor that knows what came from outside; `is_synchronised`: the present of `tick` too."""
+        self.general = general = self._witness(tick, is_synchronised)
         take_over(general, self.trace)
         for name in self.internal:
             general.by_name[name].event = self.publisher.events[self.numbers[name]]
         return general
 
-    def _witness(self, tick: int, is_settled: bool) -> PlanReactor:
+    def _witness(self, tick: int, is_synchronised: bool) -> PlanReactor:
         """A general reactor that has lived through the same."""
         shadow = Trace()
         general = self.make_general(shadow)
         general.set_owners(self.windows, self.execution_latency)
-        catch_up(general, shadow, self.inputs, tick, is_settled)
+        catch_up(general, shadow, self.inputs, tick, is_synchronised)
         return general
 
     def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:

@@ -143,19 +143,19 @@ class Agent:
     # ---- the present ----
 
     def _synchronise(self) -> Abort | None:
-        """Let reactors settle the present, owners first, each seeing the values of this very tick."""
+        """Let reactors synchronise the present, owners first, each seeing the values of this very tick."""
         self.awake = []
         is_last = self.tick == self.configuration.final_tick
         for reactor in list(self.reactors):
             if reactor.due > self.tick and not is_last and not self.every_tick and not reactor.runs_ahead:
                 continue
-            abort = self._settle(reactor)
+            abort = self._synchronise_one(reactor)
             if abort is not None:
                 return abort
         return None
 
-    def _settle(self, reactor: TeleoReactor) -> Abort | None:
-        """Let one reactor settle the present, and tell what its timelines begin to hold."""
+    def _synchronise_one(self, reactor: TeleoReactor) -> Abort | None:
+        """Let one reactor synchronise the present, and tell what its timelines begin to hold."""
         self.awake.append(reactor)
         self.trace.phase = Phase.START
         reactor.start_tick(self.tick)
@@ -282,7 +282,7 @@ class Agent:
         if reactor not in self.reactors:
             return None
         if reactor not in self.awake:
-            abort = self._settle(reactor)
+            abort = self._synchronise_one(reactor)
             if abort is not None or reactor not in self.reactors:
                 return abort
         if reactor not in busy:

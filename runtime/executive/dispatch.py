@@ -126,7 +126,7 @@ class Dispatch:
         return [request.number for request in self.sent.values()]
 
     def recalls(self, tick: int) -> list[int]:
-        """Numbers of the requests whose token has lost its place, begun or not; what is over is forgotten."""
+        """Numbers of the requests whose token left the plan, begun or not; what is over is forgotten."""
         numbers = []
         for key, request in list(self.sent.items()):
             token = self.sent_tokens[key]

@@ -93,14 +93,14 @@ class Draws:
         return world.draw(self.reactor, name, tick)
 
     def _begin(self, token: int) -> int:
-        """When a token begins, as far as is known: what has not begun does so now, or next if now is settled."""
+        """When a token begins, as far as is known: what has not begun does so now, or next if now is synchronised."""
         assert self.view is not None
         start = self.view.start(token)
         now = self.world.trace.tick
         if self.view.upper(start) <= now:
             return int(max(self.view.lower(start), 0))
-        is_settled = self.world.trace.phase in (Phase.DELIBERATE, Phase.DISPATCH)
-        return int(max(self.view.lower(start), now + 1 if is_settled else now))
+        is_synchronised = self.world.trace.phase in (Phase.DELIBERATE, Phase.DISPATCH)
+        return int(max(self.view.lower(start), now + 1 if is_synchronised else now))
 
     def outdated(self, view: PlanView, tick: int) -> list[int]:
         """Tokens that have not begun by `tick` and hold a value that is no longer, or not yet, in force then."""

@@ -59,7 +59,7 @@ class Goals:
         return self.is_changed
 
     def _post(self, request: Request, tick: int) -> None:
-        """Make a rejectable token of a request, or refuse it; what has begun is settled, so it starts after `tick`."""
+        """Make a rejectable token of a request, or refuse it; it starts after `tick`, for what has begun stays."""
         bench, line = self.bench, self.lines[request.timeline]
         predicate = line.predicates.get(request.predicate, NOTHING)
         if predicate == NOTHING:
@@ -187,7 +187,7 @@ class Goals:
                 self._forgive(goal.request)
 
     def _forgive(self, request: Request) -> None:
-        """A mandatory goal that was given up has a place again."""
+        """A mandatory goal that was given up is in the plan again."""
         same = (request.timeline, request.predicate, request.arguments)
         for number, left in enumerate(self.given_up):
             if (left.timeline, left.predicate, left.arguments) == same:

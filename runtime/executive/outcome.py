@@ -90,7 +90,7 @@ class Conflict:
 
 
 class ChoiceKind(StrEnum):
-    """A way to settle a timeline now (T-REX 1.4)."""
+    """A way to synchronise a timeline now (T-REX 1.4)."""
 
     EXTEND = "extend"  # the present token goes on
     NEXT = "next"  # the planned token starts
@@ -160,7 +160,7 @@ class ReasonKind(StrEnum):
     UNMET = "unmet"
     CANNOT_RELAX = "cannot relax"
     # of the plan
-    NO_PLACE = "no place"
+    NO_INSERTION = "no place"
     NO_PLAN = "no plan"
     # of limits and code
     STEPS = "steps"
@@ -179,7 +179,7 @@ class Reason:
     """Why something happened, with what it is about; `limit` is a number of tries, steps or decisions.
 
     `message` is text of others, such as that of an exception in a user's reactor. `because` is the reason of the repair
-    in which a goal lost its place.
+    in which a goal left the plan.
     """
 
     kind: ReasonKind
@@ -307,7 +307,7 @@ class Abort:
 class OpenGoal:
     """A mandatory goal that was not achieved; `event` is the index of what became of it last (-1: nothing).
 
-    `conflict` is what made a repair necessary in which it lost its place, `deadlock` what the planner tried in vain.
+    `conflict` is what made a repair necessary in which it left the plan, `deadlock` what the planner tried in vain.
     """
 
     timeline: str

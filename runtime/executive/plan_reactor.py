@@ -12,7 +12,7 @@ from runtime.executive.reactor import Failure, Refusal, Watched
 from runtime.executive.record import ReactorRecord
 from runtime.executive.repair import relax
 from runtime.executive.story import conflict_of, latest
-from runtime.executive.synchronise import Unsettled, settle
+from runtime.executive.synchronise import SyncFailure, synchronise
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
@@ -67,7 +67,7 @@ class PlanReactor:
         self.work_since = 0
         self.broken: Failure | None = None
         self.dispatch = Dispatch(self.name, bench, self.timelines, trace)
-        self.is_stirred = False  # something came from outside after the present was settled
+        self.is_stirred = False  # something came from outside after the present was synchronised
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
         """Take note of when owners want to be asked; its own window counts what they need (T-REX 1.1)."""
@@ -131,10 +131,10 @@ class PlanReactor:
         return int(max(tick + 1, min([self.final_tick, *times])))
 
     def synchronise(self, tick: int) -> Failure | None:
-        """Settle the present; if that fails, repair: first keep the past, then forget it (T-REX 1.4, 1.9)."""
+        """Synchronise the present; if that fails, repair: first keep the past, then forget it (T-REX 1.4, 1.9)."""
         causes = tuple(line.news.event for line in self.timelines if line.news is not None)
         events = tuple(line.event for line in self.timelines if line.event != NOTHING and not line.is_internal)
-        failures: list[Unsettled] = []
+        failures: list[SyncFailure] = []
         watched: tuple[Watched, ...] = ()
         for attempt in range(3):
             if attempt:
@@ -154,14 +154,14 @@ class PlanReactor:
                     self.bench.recorder.agreed = None
                 if not relax(self.bench, self.timelines, self.goals.live(), tick, forget=attempt == 2):
                     what = Reason(ReasonKind.CANNOT_RELAX)
-                    failures.append(Unsettled(failures[0].code, (), what, conflict_of(self.bench)))
+                    failures.append(SyncFailure(failures[0].code, (), what, conflict_of(self.bench)))
                     continue
-            failure = self._prepare(tick) or self._settle(tick)
+            failure = self._prepare(tick) or self._synchronise(tick)
             if failure is None:
                 self.goals.report_rejected(tick)
                 if self.goals.close(tick, self.dispatch.is_cut_off):
                     self.goals.reopen()
-                self.bench.recorder.settled = tick
+                self.bench.recorder.synchronised = tick
                 return None
             failures.append(failure)
             if attempt == 0:
@@ -176,17 +176,17 @@ class PlanReactor:
             first.code, first.reason, lines, first.conflict, self.relaxes, repairs, causes, watched, first.deadlock
         )
 
-    def _prepare(self, tick: int) -> Unsettled | None:
+    def _prepare(self, tick: int) -> SyncFailure | None:
         """Draw anew what was drawn for a tick at which its token does not begin."""
         for token in self.draws.outdated(self.bench, tick):
             if not self.bench.renew(token):
-                return Unsettled("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
+                return SyncFailure("F3", (), Reason(ReasonKind.UNMET), conflict_of(self.bench))
         return None
 
-    def _settle(self, tick: int) -> Unsettled | None:
-        """Settle the present, or leave the plan as it was."""
+    def _synchronise(self, tick: int) -> SyncFailure | None:
+        """Synchronise the present, or leave the plan as it was."""
         mark = self.bench.mark()
-        failure = settle(self.bench, self.planner, self.timelines, tick, self.final_tick, self.dispatch.is_refused)
+        failure = synchronise(self.bench, self.planner, self.timelines, tick, self.final_tick, self.dispatch.is_refused)
         if failure is None:
             self.planner.keep()
             return None
@@ -331,7 +331,7 @@ class PlanReactor:
         return self.dispatch.open_requests()
 
     def recalls(self) -> list[int]:
-        """Numbers of the requests whose token has lost its place in the plan."""
+        """Numbers of the requests whose token left the plan in the plan."""
         return self.dispatch.recalls(self.tick)
 
     def refused(self, refusal: Refusal) -> None:
@@ -346,7 +346,7 @@ class PlanReactor:
         return (line.event,) if line.event != NOTHING else ()
 
 
-def _distinct(first: Conflict | None, failures: list[Unsettled]) -> tuple[Conflict, ...]:
+def _distinct(first: Conflict | None, failures: list[SyncFailure]) -> tuple[Conflict, ...]:
     """The conflicts of later attempts that differ from the first."""
     found: list[Conflict] = []
     for failure in failures:

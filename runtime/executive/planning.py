@@ -1,4 +1,4 @@
-"""Let a reactor's solver plan ahead, or settle the flaws of the present, each within its window of time."""
+"""Let a reactor's solver plan ahead, or resolve the flaws of the present, each within its window of time."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -25,7 +25,7 @@ class _Window(PlanningScope):
     """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7); for the present, those that hold now.
 
     Who looks one tick ahead plans what was asked for and what others are to do, no more: what else its own timelines
-    begin to hold is settled when the time comes, by what holds then.
+    begin to hold is decided when the time comes, by what holds then.
     """
 
     def __init__(self, bench: Workbench) -> None:
@@ -115,7 +115,7 @@ class Planner:
         self.solver.keep()
         self.is_fresh = True
 
-    def settle_present(self, tick: int) -> str:
+    def resolve_present(self, tick: int) -> str:
         """Mend all flaws of what holds at `tick`, or none; the decisions wait for `keep`.
 
         Gives "done", "exhausted", or what ran out: "steps" or "deep".
@@ -180,5 +180,5 @@ class Planner:
             conflict = None if bench.activate(t) else conflict_of(bench)
             bench.rewind_to(mark)
             bench.release(mark)
-            return Reason(ReasonKind.NO_PLACE, bench.name_of(t)), conflict
+            return Reason(ReasonKind.NO_INSERTION, bench.name_of(t)), conflict
         return Reason(ReasonKind.NO_PLAN), None

@@ -133,7 +133,7 @@ class Recorder:
         self.forms = _forms_of(database.program)
         self.tokens: dict[int, TokenRecord] = {}
         self.requests: dict[int, int] = {}  # token -> key; shared with the workbench
-        self.settled = NOBODY  # the last tick at which the plan agreed with the present
+        self.synchronised = NOBODY  # the last tick at which the plan agreed with the present
         self.agreed: dict[int, TokenRecord] | None = None  # what had begun, as the plan last agreed with the present
         self.is_lost = False  # no repair has helped: the plan as the last one left it is nobody's
         self.gone: dict[tuple[int, int], int] = {}  # (key of a parent, row of a child that left before it) -> its key
@@ -161,9 +161,9 @@ class Recorder:
         """Record what has begun before a repair or a recall takes things away; what stays is recorded again later."""
         rows, engine = self.rows, self.engine
         found = {
-            rows.key[t]: self._token(t, "cut", self.settled)
+            rows.key[t]: self._token(t, "cut", self.synchronised)
             for t in range(rows.token_count)
-            if rows.status[t] in (ACTIVE, MERGED) and engine.upper(rows.var0[t] + START) <= self.settled
+            if rows.status[t] in (ACTIVE, MERGED) and engine.upper(rows.var0[t] + START) <= self.synchronised
         }
         self.tokens |= found
         if self.agreed is None:
@@ -171,7 +171,7 @@ class Recorder:
 
     def close(self) -> ReactorRecord:
         """Record what the plan holds when the mission has ended."""
-        rows, tick = self.rows, self.settled
+        rows, tick = self.rows, self.synchronised
         for t in range(rows.token_count):
             if rows.status[t] != FREED:
                 self.tokens[rows.key[t]] = self._token(t, "end", tick)

@@ -43,7 +43,7 @@ _REASONS = {
     ReasonKind.DID_NOT_START: "{token} was to start by tick {tick} and did not",
     ReasonKind.UNMET: "what is asked of the present cannot be met",
     ReasonKind.CANNOT_RELAX: "the plan cannot be relaxed",
-    ReasonKind.NO_PLACE: "no place for {token}",
+    ReasonKind.NO_INSERTION: "no place for {token}",
     ReasonKind.NO_PLAN: "no plan inside the window",
     ReasonKind.STEPS: "more than {limit} decisions are needed about what holds at tick {tick}",
     ReasonKind.DEPTH: "more than {limit} decisions are needed at once",

@@ -15,7 +15,7 @@ from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
 
-_PATIENCE = 100  # tries beyond those that a present without conflicts takes
+_FREE_TRIES = 100  # tries beyond those that a present without conflicts takes
 _MOST_TRIES = 100_000
 _EXTEND, _NEXT, _NEW, _FACT, _MEET = "extend", "next", "new", "fact", "meet"
 _UNDEFINED = "undefined"
@@ -23,7 +23,7 @@ _UNDEFINED = "undefined"
 
 @dataclass(frozen=True, slots=True)
 class Continuation:
-    """One way to settle a timeline: `token` is kept, started or met; `predicate` is that of a new token."""
+    """One way to synchronise a timeline: `token` is kept, started or met; `predicate` is that of a new token."""
 
     kind: str
     token: int
@@ -31,7 +31,7 @@ class Continuation:
 
 
 @dataclass(frozen=True, slots=True)
-class Unsettled:
+class SyncFailure:
     """The present cannot be explained: the failure code, where, why, and the conflict."""
 
     code: str
@@ -41,18 +41,18 @@ class Unsettled:
     deadlock: Deadlock | None = None
 
 
-_OUT_OF_PATIENCE = Unsettled("", (), Reason(ReasonKind.UNMET), None)
+_TRIES_EXHAUSTED = SyncFailure("", (), Reason(ReasonKind.UNMET), None)
 
 
-def settle(
+def synchronise(
     bench: Workbench,
     planner: Planner,
     timelines: list[TimelineState],
     tick: int,
     final_tick: int,
     is_refused: Callable[[int], bool],
-) -> Unsettled | None:
-    """Settle all `timelines` at `tick`; on success each has its current token and the plan is consistent.
+) -> SyncFailure | None:
+    """Synchronise all `timelines` at `tick`; on success each has its current token and the plan is consistent.
 
     The present token is kept as long as it may; but a token that somebody asked for starts as soon as it may, and so
     does any on a timeline that is early. `is_refused` tells what an owner will not do. On failure the caller rewinds.
@@ -62,9 +62,9 @@ def settle(
         span = SPAN_EXECUTIVE if line.is_internal else SPAN_OBSERVATION
         if line.current != NOTHING and not bench.at_least(bench.end(line.current), tick, span, line.current):
             what = Reason(ReasonKind.CANNOT_GO_ON, bench.name_of(line.current), tick=tick)
-            return Unsettled("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
+            return SyncFailure("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
     if not bench.set_clock(tick):
-        return Unsettled("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
+        return SyncFailure("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
     failed = _persist(bench, timelines, tick, is_refused)
     if failed is not None:
         return failed
@@ -78,7 +78,7 @@ def settle(
 
 def _persist(
     bench: Workbench, timelines: list[TimelineState], tick: int, is_refused: Callable[[int], bool]
-) -> Unsettled | None:
+) -> SyncFailure | None:
     """No news means no change: what is observed on other reactors' timelines goes on; a new value ends it."""
     for line in timelines:
         if line.is_internal or line.current == NOTHING:
@@ -88,10 +88,10 @@ def _persist(
                 what = Reason(ReasonKind.GOES_ON, bench.name_of(line.current), tick=tick)
                 following = bench.next_of(line.object_id, line.current)
                 code = "F6" if following >= 0 and is_refused(following) else "F1"
-                return Unsettled(code, (line.name,), what, conflict_of(bench))
+                return SyncFailure(code, (line.name,), what, conflict_of(bench))
         elif not bench.fix(bench.end(line.current), tick, SPAN_OBSERVATION, line.current):
             what = Reason(ReasonKind.ENDED, bench.name_of(line.current), tick=tick)
-            return Unsettled("F2", (line.name,), what, conflict_of(bench))
+            return SyncFailure("F2", (line.name,), what, conflict_of(bench))
     return None
 
 
@@ -118,30 +118,30 @@ class _Search:
         self.lines = [line for line in timelines if not line.is_internal and line.news is not None]
         self.lines += [line for line in timelines if line.is_internal]
         self.made: list[int] = []
-        self.first: Unsettled | None = None
+        self.first: SyncFailure | None = None
         self.first_depth = NOTHING
         self.is_out_of_budget = False
 
-    def run(self) -> Unsettled | None:
-        """Try choices until all timelines and the flaws of the present are settled."""
+    def run(self) -> SyncFailure | None:
+        """Try choices until all timelines and the flaws of the present are resolved."""
         mark = self.bench.mark()
         stuck: dict[str, None] = {}
-        patience = _PATIENCE
+        max_tries = _FREE_TRIES
         tries = 0
         while True:
-            outcome = self._walk(patience + len(self.lines), stuck)
-            if outcome is not _OUT_OF_PATIENCE:
+            outcome = self._walk(max_tries + len(self.lines), stuck)
+            if outcome is not _TRIES_EXHAUSTED:
                 return outcome
-            tries += patience
+            tries += max_tries
             if tries > _MOST_TRIES:
                 raise LimitError(f"no present was found at tick {self.tick} in {tries} tries")
-            patience *= 2
-            # What nothing fits comes first from now on: either it is settled, or there is no present at all.
+            max_tries *= 2
+            # What nothing fits comes first from now on: either it is synchronised, or there is no present at all.
             self.bench.rewind_to(mark)
             order = {name: place for place, name in enumerate(reversed(stuck))}
             self.lines.sort(key=lambda line: order.get(line.name, len(order)))
 
-    def _walk(self, patience: int, stuck: dict[str, None]) -> Unsettled | None:
+    def _walk(self, max_tries: int, stuck: dict[str, None]) -> SyncFailure | None:
         """Decide the timelines in their order, up to a number of tries; note those on which nothing fitted."""
         bench = self.bench
         open_choices: list[list[Continuation]] = []
@@ -165,8 +165,8 @@ class _Search:
                 self.made.append(NOTHING)
             while True:
                 tries += 1
-                if tries > patience:
-                    return _OUT_OF_PATIENCE
+                if tries > max_tries:
+                    return _TRIES_EXHAUSTED
                 depth = len(open_choices) - 1
                 if not open_choices[depth]:
                     stuck.pop(self.lines[depth].name, None)
@@ -182,7 +182,7 @@ class _Search:
                     if self.first_depth == depth:
                         self.first = None  # another choice did for this timeline: it is not where things go wrong
                     break
-                self._blame(self.lines[depth], choice)
+                self._note_failure(self.lines[depth], choice)
                 bench.rewind_to(marks[depth])
 
     def _back(self, marks: list[int]) -> bool:
@@ -301,7 +301,7 @@ class _Search:
         return NOTHING
 
     def _finish(self) -> bool:
-        """Let what has not started start later, and settle the flaws of the present."""
+        """Let what has not started start later, and resolve the flaws of the present."""
         bench, tick = self.bench, self.tick
         for token in self.waiting():
             if self.is_last:
@@ -310,19 +310,19 @@ class _Search:
                 code = "F6" if self.is_refused(token) else "F1"
                 self._fail(code, (), Reason(ReasonKind.DID_NOT_START, bench.name_of(token), tick=tick))
                 return False
-        outcome = self.planner.settle_present(tick)
+        outcome = self.planner.resolve_present(tick)
         if outcome in ("steps", "deep"):
             self.is_out_of_budget = True
             is_deep = outcome == "deep"
             limit = self.planner.max_depth if is_deep else self.planner.max_steps
             what = Reason(ReasonKind.DEPTH if is_deep else ReasonKind.STEPS, tick=tick, limit=limit)
-            self.first = Unsettled("F5", (), what, None)
+            self.first = SyncFailure("F5", (), what, None)
             return False
         if outcome != "done":
             if self.first is None:
                 what, conflict = self.planner.reason() if self.explains else (Reason(ReasonKind.NO_PLAN), None)
                 deadlock = self.planner.deadlock() if self.explains else None
-                self.first = Unsettled("F3", (), what, conflict, deadlock)
+                self.first = SyncFailure("F3", (), what, conflict, deadlock)
             return False
         return True
 
@@ -339,7 +339,7 @@ class _Search:
         for line, token in zip(self.lines, self.made, strict=True):
             line.current = token
 
-    def _blame(self, line: TimelineState, choice: Continuation) -> None:
+    def _note_failure(self, line: TimelineState, choice: Continuation) -> None:
         code = "F3" if line.is_internal else "F8" if line.news and line.news.predicate == "Failed" else "F2"
         match choice.kind:
             case "extend":
@@ -354,5 +354,5 @@ class _Search:
     def _fail(self, code: str, timelines: tuple[str, ...], what: Reason, depth: int = NOTHING) -> None:
         """Remember what went wrong, unless something did before."""
         if self.first is None:
-            self.first = Unsettled(code, timelines, what, conflict_of(self.bench) if self.explains else None)
+            self.first = SyncFailure(code, timelines, what, conflict_of(self.bench) if self.explains else None)
             self.first_depth = depth

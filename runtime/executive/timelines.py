@@ -49,4 +49,4 @@ class Goal:
         self.token = token
         self.token_key = token_key
         self.is_closed = False
-        self.is_rejected = False  # the planner has found no place for it, so far
+        self.is_rejected = False  # the planner has could not insert it, so far

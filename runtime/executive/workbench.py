@@ -23,7 +23,7 @@ from runtime.plan.tokens.retraction import wake_guards
 
 
 class Workbench(PlanView):
-    """A plan database under execution; every narrowing is settled at once, so False always means a conflict."""
+    """A plan database under execution; every narrowing is propagated at once, so False always means a conflict."""
 
     # ---- going back ----
 

@@ -191,7 +191,7 @@ def test_whatever_an_event_carries_survives_json() -> None:
     deadlock = Deadlock(None, "rover", (FailedChoice(choice, None, inner),))
     bounds = TimeBounds((0, 3), (-4503599627370495, 5), (1, 9))
     domain = DomainConstant("int", "int", (3, 4), None)
-    reason = Reason(ReasonKind.NO_PLACE, spot.token, tick=3)
+    reason = Reason(ReasonKind.NO_INSERTION, spot.token, tick=3)
     events = (
         Event(3, Phase.REPAIR, EventKind.RELAX, "rover", stage=RepairStage.REPLAN, reason=reason, conflict=conflict),
         Event(

@@ -88,7 +88,7 @@ def test_nothing_fits_and_the_agent_says_so() -> None:
     assert outcome.abort.timelines == ("cell",)
 
 
-def test_a_private_timeline_is_settled_like_any_other() -> None:
+def test_a_private_timeline_is_synchronised_like_any_other() -> None:
     rules = "Cell::A { duration == 3; meets(B b); }"
     assert lived(rules, objects=CELL.replace("Internal", "Private")) == ["0 A", "3 B"]
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-PATIENCE = 60  # seconds; only a server that never answers uses them up
+TIMEOUT = 60  # seconds; only a server that never answers uses them up
 Message = dict[str, Any]
 
 
@@ -78,7 +78,7 @@ class Client:
     def wait(self, is_wanted: Callable[[Message], bool]) -> Message:
         """The next message of that kind; others that come before it are passed over."""
         while True:
-            message = self._messages.get(timeout=PATIENCE)
+            message = self._messages.get(timeout=TIMEOUT)
             assert message is not None, b"".join(self._errors).decode()
             if is_wanted(message):
                 return message
@@ -128,7 +128,7 @@ class Client:
         """Say goodbye; the exit code."""
         self.ask("shutdown")
         self.send(method="exit")
-        return self.process.wait(PATIENCE)
+        return self.process.wait(TIMEOUT)
 
     def kill(self) -> None:
         """End the process if it still runs."""

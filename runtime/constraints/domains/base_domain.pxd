@@ -25,7 +25,7 @@ cpdef list base_set(Store s, long long v)
 @cython.locals(k="long long", x=double)
 cpdef list in_order(list values)
 
-@cython.locals(place="long long")
+@cython.locals(index="long long")
 cpdef int insert_value(list values, double value) except -1
 
 @cython.locals(hi=double, lo=double, r="long long", values=list)

@@ -79,11 +79,11 @@ def in_order(values: list[float]) -> list[float]:
 
 def insert_value(values: list[float], value: float) -> None:
     """Put a value into its place in a sorted list, unless it is there; the greatest, as a rule, goes to the end."""
-    place = len(values)
-    if place and values[place - 1] >= value:
-        place = bisect_left(values, value)
-    if place == len(values) or values[place] != value:
-        values.insert(place, value)
+    index = len(values)
+    if index and values[index - 1] >= value:
+        index = bisect_left(values, value)
+    if index == len(values) or values[index] != value:
+        values.insert(index, value)
 
 
 def is_base_single(s: Store, v: int) -> bool:

@@ -28,29 +28,29 @@ cpdef int attach_words(Store s, long long v, long long base, long long values) e
 
 cpdef int detach_words(Store s, long long v) except -1
 
-cpdef long long place_above(Store s, long long v, long long x) except? -1
+cpdef long long index_above(Store s, long long v, long long x) except? -1
 
-@cython.locals(place="long long")
-cpdef long long place_below(Store s, long long v, long long x) except? -1
+@cython.locals(index="long long")
+cpdef long long index_below(Store s, long long v, long long x) except? -1
 
 @cython.locals(first="long long", high="long long", low="long long", middle="long long")
-cpdef long long table_place(Store s, long long v, double x) except? -1
+cpdef long long table_index(Store s, long long v, double x) except? -1
 
 @cython.locals(k="long long", x="unsigned long long")
-cpdef long long next_place(Store s, long long v, long long place) except? -1
+cpdef long long next_index(Store s, long long v, long long index) except? -1
 
 @cython.locals(k="long long", x="unsigned long long")
-cpdef long long previous_place(Store s, long long v, long long place) except? -1
+cpdef long long previous_index(Store s, long long v, long long index) except? -1
 
-cpdef long long value_at(Store s, long long v, long long place) except? -1
+cpdef long long value_at(Store s, long long v, long long index) except? -1
 
-@cython.locals(place="long long")
+@cython.locals(index="long long")
 cpdef long long next_value(Store s, long long v, long long x) except? -1
 
-@cython.locals(place="long long")
+@cython.locals(index="long long")
 cpdef long long previous_value(Store s, long long v, long long x) except? -1
 
-@cython.locals(place="long long")
+@cython.locals(index="long long")
 cpdef bint has_value(Store s, long long v, long long x) except -1
 
 @cython.locals(entry="long long")
@@ -71,6 +71,6 @@ cpdef int attach_table(Store s, long long v, list values) except -1
 cpdef int _release_table(Store s, long long first, long long count) except -1
 
 @cython.locals(
-    last="long long", place="long long", rest="long long", total="long long", x="unsigned long long"
+    last="long long", index="long long", rest="long long", total="long long", x="unsigned long long"
 )
 cpdef long long count_values(Store s, long long v) except? -1

@@ -18,7 +18,7 @@ from runtime.constraints.domains.tags import (
 
 
 def _lowest_bit(x: int) -> int:
-    """Give the place of the lowest set bit, which is how many zeros stand behind it; x is not 0."""
+    """Give the index of the lowest set bit, which is how many zeros stand behind it; x is not 0."""
     return _bits_in((x & -x) - 1)
 
 
@@ -34,7 +34,7 @@ def _bits_in(x: int) -> int:
 
 
 def _highest_bit(x: int) -> int:
-    """Give the place of the highest set bit; x is not 0."""
+    """Give the index of the highest set bit; x is not 0."""
     n = 0
     if x >> 32:
         n += 32
@@ -86,7 +86,7 @@ def _release_words(s: Store, first: int, count: int) -> None:
 
 
 def attach_words(s: Store, v: int, base: int, values: int) -> None:
-    """Give `v` a full bit set for the `values` places that start at `base`."""
+    """Give `v` a full bit set for the `values` indices that start at `base`."""
     count = (values + 63) >> 6
     first = _allocate_words(s, count)
     for k in range(count):
@@ -109,25 +109,25 @@ def detach_words(s: Store, v: int) -> None:
     s.table[v] = -1
 
 
-def place_above(s: Store, v: int, x: int) -> int:
-    """Give the first place whose value is at least x; it may lie beyond the last place."""
+def index_above(s: Store, v: int, x: int) -> int:
+    """Give the first index whose value is at least x; it may lie beyond the last index."""
     if s.table[v] < 0:
         return x - s.bit_base[v] if x > s.bit_base[v] else 0
-    return table_place(s, v, float(x))
+    return table_index(s, v, float(x))
 
 
-def place_below(s: Store, v: int, x: int) -> int:
-    """Give the last place whose value is at most x; -1 if there is none."""
+def index_below(s: Store, v: int, x: int) -> int:
+    """Give the last index whose value is at most x; -1 if there is none."""
     if s.table[v] < 0:
         return x - s.bit_base[v] if x >= s.bit_base[v] else -1
-    place = table_place(s, v, float(x))
-    if place < s.table_length[v] and s.table_values[s.table[v] + place] <= x:
-        return place
-    return place - 1
+    index = table_index(s, v, float(x))
+    if index < s.table_length[v] and s.table_values[s.table[v] + index] <= x:
+        return index
+    return index - 1
 
 
-def table_place(s: Store, v: int, x: float) -> int:
-    """Find by halving the first place of a table whose value is at least x, less the tolerance of a float."""
+def table_index(s: Store, v: int, x: float) -> int:
+    """Find by halving the first index of a table whose value is at least x, less the tolerance of a float."""
     first = s.table[v]
     low = 0
     high = s.table_length[v]
@@ -142,14 +142,14 @@ def table_place(s: Store, v: int, x: float) -> int:
     return low
 
 
-def next_place(s: Store, v: int, place: int) -> int:
-    """Give the first set place from `place` on; -1 if there is none."""
-    if place < 0:
-        place = 0
-    k = place >> 6
+def next_index(s: Store, v: int, index: int) -> int:
+    """Give the first set index from `index` on; -1 if there is none."""
+    if index < 0:
+        index = 0
+    k = index >> 6
     if k >= s.words_of[v]:
         return -1
-    x = s.bits[s.word[v] + k] & (ALL_BITS << (place & 63) & ALL_BITS)
+    x = s.bits[s.word[v] + k] & (ALL_BITS << (index & 63) & ALL_BITS)
     while x == 0:
         k += 1
         if k >= s.words_of[v]:
@@ -158,15 +158,15 @@ def next_place(s: Store, v: int, place: int) -> int:
     return (k << 6) + _lowest_bit(x)
 
 
-def previous_place(s: Store, v: int, place: int) -> int:
-    """Give the last set place up to `place`; -1 if there is none."""
-    if place < 0:
+def previous_index(s: Store, v: int, index: int) -> int:
+    """Give the last set index up to `index`; -1 if there is none."""
+    if index < 0:
         return -1
-    k = place >> 6
+    k = index >> 6
     if k >= s.words_of[v]:
         k = s.words_of[v] - 1
-        place = (k << 6) + 63
-    x = s.bits[s.word[v] + k] & (ALL_BITS >> (63 - (place & 63)))
+        index = (k << 6) + 63
+    x = s.bits[s.word[v] + k] & (ALL_BITS >> (63 - (index & 63)))
     while x == 0:
         k -= 1
         if k < 0:
@@ -175,23 +175,23 @@ def previous_place(s: Store, v: int, place: int) -> int:
     return (k << 6) + _highest_bit(x)
 
 
-def value_at(s: Store, v: int, place: int) -> int:
-    """Give the whole number at a place."""
+def value_at(s: Store, v: int, index: int) -> int:
+    """Give the whole number at a index."""
     if s.table[v] < 0:
-        return s.bit_base[v] + place
-    return int(s.table_values[s.table[v] + place])
+        return s.bit_base[v] + index
+    return int(s.table_values[s.table[v] + index])
 
 
 def next_value(s: Store, v: int, x: int) -> int:
     """Give the first value from x on that is no hole; NEVER if there is none."""
-    place = next_place(s, v, place_above(s, v, x))
-    return NEVER if place < 0 else value_at(s, v, place)
+    index = next_index(s, v, index_above(s, v, x))
+    return NEVER if index < 0 else value_at(s, v, index)
 
 
 def previous_value(s: Store, v: int, x: int) -> int:
     """Give the last value up to x that is no hole; -NEVER if there is none."""
-    place = previous_place(s, v, place_below(s, v, x))
-    return -NEVER if place < 0 else value_at(s, v, place)
+    index = previous_index(s, v, index_below(s, v, x))
+    return -NEVER if index < 0 else value_at(s, v, index)
 
 
 def has_value(s: Store, v: int, x: int) -> bool:
@@ -200,14 +200,14 @@ def has_value(s: Store, v: int, x: int) -> bool:
         return False
     if s.word[v] < 0:
         return True
-    place = place_above(s, v, x)
-    if s.table[v] >= 0 and (place >= s.table_length[v] or value_at(s, v, place) != x):
+    index = index_above(s, v, x)
+    if s.table[v] >= 0 and (index >= s.table_length[v] or value_at(s, v, index) != x):
         return False
-    return (s.bits[s.word[v] + (place >> 6)] >> (place & 63)) & 1 != 0
+    return (s.bits[s.word[v] + (index >> 6)] >> (index & 63)) & 1 != 0
 
 
 def clear_bits(s: Store, v: int, k: int, mask: int, support: int) -> None:
-    """Remove the places of `mask` in the k-th word of `v`, log who did it, and wake the watches of holes."""
+    """Remove the indices of `mask` in the k-th word of `v`, log who did it, and wake the watches of holes."""
     entry = s.hole_free
     if entry >= 0:
         s.hole_free = s.hole_next[entry]
@@ -285,16 +285,16 @@ def count_values(s: Store, v: int) -> int:
     if s.word[v] < 0:
         return s.ub[v] - s.lb[v] + 1
     total = 0
-    place = place_above(s, v, s.lb[v])
-    last = place_below(s, v, s.ub[v])
+    index = index_above(s, v, s.lb[v])
+    last = index_below(s, v, s.ub[v])
     if last >= 64 * s.words_of[v]:
         last = 64 * s.words_of[v] - 1
-    while place <= last:
-        # A word at a time: the places below its first one and above its last one are shifted out.
-        x = s.bits[s.word[v] + (place >> 6)] >> (place & 63)
-        rest = last - place
+    while index <= last:
+        # A word at a time: the indices below its first one and above its last one are shifted out.
+        x = s.bits[s.word[v] + (index >> 6)] >> (index & 63)
+        rest = last - index
         if rest < 63:
             x &= (ONE_BIT << (rest + 1)) - 1
         total += _bits_in(x)
-        place = (place | 63) + 1
+        index = (index | 63) + 1
     return total

@@ -3,8 +3,8 @@
 cimport cython
 from libc cimport math
 from runtime.constraints.domains.bitset cimport (
-    attach_words, clear_bits, has_value, next_place, next_value, place_above, previous_place, previous_value,
-    table_place,
+    attach_words, clear_bits, has_value, next_index, next_value, index_above, previous_index, previous_value,
+    table_index,
 )
 from runtime.constraints.domains.store cimport Store
 
@@ -20,16 +20,16 @@ cpdef bint set_upper(Store s, long long v, long long x, long long support) excep
 
 cpdef bint assign(Store s, long long v, long long x, long long support) except -1
 
-@cython.locals(place="long long")
+@cython.locals(index="long long")
 cpdef bint remove_value(Store s, long long v, long long x, long long support) except -1
 
 @cython.locals(x="long long")
 cpdef bint round_bounds(Store s, long long v, long long support) except -1
 
-@cython.locals(place="long long")
+@cython.locals(index="long long")
 cpdef bint _set_real_lower(Store s, long long v, double x, long long support) except -1
 
-@cython.locals(place="long long")
+@cython.locals(index="long long")
 cpdef bint _set_real_upper(Store s, long long v, double x, long long support) except -1
 
 cpdef double low(Store s, long long v) except? -1.0

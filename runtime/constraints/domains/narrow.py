@@ -7,12 +7,12 @@ from runtime.constraints.domains.bitset import (
     attach_words,
     clear_bits,
     has_value,
-    next_place,
+    index_above,
+    next_index,
     next_value,
-    place_above,
-    previous_place,
+    previous_index,
     previous_value,
-    table_place,
+    table_index,
 )
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
@@ -86,8 +86,8 @@ def remove_value(s: Store, v: int, x: int, support: int) -> bool:
         attach_words(s, v, s.lb[v], s.ub[v] - s.lb[v] + 1)
     elif not has_value(s, v, x):
         return True
-    place = place_above(s, v, x)
-    clear_bits(s, v, place >> 6, ONE_BIT << (place & 63), support)
+    index = index_above(s, v, x)
+    clear_bits(s, v, index >> 6, ONE_BIT << (index & 63), support)
     return round_bounds(s, v, support)
 
 
@@ -107,8 +107,8 @@ def _set_real_lower(s: Store, v: int, x: float, support: int) -> bool:
     if x <= s.flo[v]:
         return True
     if s.word[v] >= 0:
-        place = next_place(s, v, table_place(s, v, x))
-        x = s.table_values[s.table[v] + place] if place >= 0 else inf
+        index = next_index(s, v, table_index(s, v, x))
+        x = s.table_values[s.table[v] + index] if index >= 0 else inf
         if x <= s.flo[v]:
             return True
     if x > s.fhi[v]:
@@ -129,10 +129,10 @@ def _set_real_upper(s: Store, v: int, x: float, support: int) -> bool:
     if x >= s.fhi[v]:
         return True
     if s.word[v] >= 0:
-        place = previous_place(s, v, table_place(s, v, x + 3 * FLOAT_TOLERANCE))
-        while place >= 0 and s.table_values[s.table[v] + place] > x + FLOAT_TOLERANCE:
-            place = previous_place(s, v, place - 1)
-        x = s.table_values[s.table[v] + place] if place >= 0 else -inf
+        index = previous_index(s, v, table_index(s, v, x + 3 * FLOAT_TOLERANCE))
+        while index >= 0 and s.table_values[s.table[v] + index] > x + FLOAT_TOLERANCE:
+            index = previous_index(s, v, index - 1)
+        x = s.table_values[s.table[v] + index] if index >= 0 else -inf
         if x >= s.fhi[v]:
             return True
     if x < s.flo[v]:

@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.domains.base_domain cimport base_set, is_growing
-from runtime.constraints.domains.bitset cimport count_values, has_value, next_place, place_above, place_below, value_at
+from runtime.constraints.domains.bitset cimport count_values, has_value, next_index, index_above, index_below, value_at
 from runtime.constraints.domains.narrow cimport is_near, is_single
 from runtime.constraints.domains.store cimport Store
 

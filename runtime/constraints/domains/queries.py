@@ -1,7 +1,7 @@
 """List and test the values of derived domains."""
 
 from runtime.constraints.domains.base_domain import base_set, is_growing
-from runtime.constraints.domains.bitset import count_values, has_value, next_place, place_above, place_below, value_at
+from runtime.constraints.domains.bitset import count_values, has_value, index_above, index_below, next_index, value_at
 from runtime.constraints.domains.narrow import is_near, is_single
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, HALF_INF, KIND_FLOAT
@@ -41,21 +41,21 @@ def listed(s: Store, v: int) -> list[float]:
     if s.word[v] < 0:
         return list(range(s.lb[v], s.ub[v] + 1))
     found: list[float] = []
-    last = place_below(s, v, s.ub[v])
-    place = next_place(s, v, place_above(s, v, s.lb[v]))
+    last = index_below(s, v, s.ub[v])
+    place = next_index(s, v, index_above(s, v, s.lb[v]))
     while 0 <= place <= last:
         found.append(value_at(s, v, place))
-        place = next_place(s, v, place + 1)
+        place = next_index(s, v, place + 1)
     return found
 
 
 def _listed_reals(s: Store, v: int) -> list[float]:
     """List the values of a float that has a set."""
     found: list[float] = []
-    place = next_place(s, v, 0)
+    place = next_index(s, v, 0)
     while place >= 0:
         x = s.table_values[s.table[v] + place]
         if s.flo[v] - FLOAT_TOLERANCE <= x <= s.fhi[v] + FLOAT_TOLERANCE:
             found.append(x)
-        place = next_place(s, v, place + 1)
+        place = next_index(s, v, place + 1)
     return found

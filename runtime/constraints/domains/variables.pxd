@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.domains.bitset cimport (
-    attach_table, attach_words, clear_bits, detach_words, drop_log, next_place, place_above, value_at,
+    attach_table, attach_words, clear_bits, detach_words, drop_log, next_index, index_above, value_at,
 )
 from runtime.constraints.domains.narrow cimport is_near, raise_to, reduce_to, round_bounds
 from runtime.constraints.domains.store cimport Store

@@ -9,8 +9,8 @@ from runtime.constraints.domains.bitset import (
     clear_bits,
     detach_words,
     drop_log,
-    next_place,
-    place_above,
+    index_above,
+    next_index,
     value_at,
 )
 from runtime.constraints.domains.narrow import (
@@ -244,7 +244,7 @@ def keep_values(s: Store, v: int, values: list[float], support: int) -> bool:
         attach_words(s, v, s.lb[v], s.ub[v] - s.lb[v] + 1)
     # Bounds that stand in a hole now are rounded, but keep their support: the log of holes has this one.
     wanted = set(values)
-    place = next_place(s, v, place_above(s, v, s.lb[v]))
+    place = next_index(s, v, index_above(s, v, s.lb[v]))
     while place >= 0 and value_at(s, v, place) <= s.ub[v]:
         k = place >> 6
         mask = 0
@@ -252,7 +252,7 @@ def keep_values(s: Store, v: int, values: list[float], support: int) -> bool:
             x = value_at(s, v, place)
             if x <= s.ub[v] and x not in wanted:
                 mask |= ONE_BIT << (place & 63)
-            place = next_place(s, v, place + 1)
+            place = next_index(s, v, place + 1)
         if mask:
             clear_bits(s, v, k, mask, support)
     return round_bounds(s, v, support)
@@ -267,13 +267,13 @@ def _keep_reals(s: Store, v: int, values: list[float], support: int) -> bool:
         if len(inside) > 1:
             attach_table(s, v, inside)
         return raise_to(s, v, inside[0], support) and reduce_to(s, v, inside[len(inside) - 1], support)
-    place = next_place(s, v, 0)
+    place = next_index(s, v, 0)
     while place >= 0:
         x = s.table_values[s.table[v] + place]
         if not is_near(x, values):
             clear_bits(s, v, place >> 6, ONE_BIT << (place & 63), support)
-        place = next_place(s, v, place + 1)
-    place = next_place(s, v, 0)
+        place = next_index(s, v, place + 1)
+    place = next_index(s, v, 0)
     if place < 0:
         return s.fail(v, SIDE_HOLES, support)
     return raise_to(s, v, s.flo[v], support) and reduce_to(s, v, s.fhi[v], support)

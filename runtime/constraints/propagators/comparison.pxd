@@ -2,7 +2,7 @@
 
 cimport cython
 from libc cimport math
-from runtime.constraints.domains.bitset cimport attach_words, clear_bits, has_value, next_place, value_at
+from runtime.constraints.domains.bitset cimport attach_words, clear_bits, has_value, next_index, value_at
 from runtime.constraints.propagators.all_different cimport has_hall_violation
 from runtime.constraints.domains.narrow cimport (
     high, is_single, low, raise_to, reduce_to, remove_value, round_bounds, set_lower, set_upper,

@@ -6,7 +6,7 @@ from runtime.constraints.domains.bitset import (
     attach_words,
     clear_bits,
     has_value,
-    next_place,
+    next_index,
     value_at,
 )
 from runtime.constraints.domains.narrow import (
@@ -174,11 +174,11 @@ def exclude_missing(s: Store, a: int, b: int, support: int) -> bool:
             if mask:
                 clear_bits(s, b, k, mask, support)
     else:
-        place = next_place(s, b, 0)
+        place = next_index(s, b, 0)
         while place >= 0:
             if not has_value(s, a, value_at(s, b, place)):
                 clear_bits(s, b, place >> 6, ONE_BIT << (place & 63), support)
-            place = next_place(s, b, place + 1)
+            place = next_index(s, b, place + 1)
     return round_bounds(s, b, support)
 
 

@@ -1,7 +1,7 @@
 # The C types of `sets.py`.
 
 cimport cython
-from runtime.constraints.domains.bitset cimport clear_bits, count_values, has_value, next_place, next_value
+from runtime.constraints.domains.bitset cimport clear_bits, count_values, has_value, next_index, next_value
 from runtime.constraints.propagators.comparison cimport equate, exclude_missing
 from runtime.constraints.propagators.all_different cimport is_subset
 from runtime.constraints.propagators.logic cimport may_be_equal

@@ -2,7 +2,7 @@
 
 from math import inf
 
-from runtime.constraints.domains.bitset import clear_bits, count_values, has_value, next_place, next_value
+from runtime.constraints.domains.bitset import clear_bits, count_values, has_value, next_index, next_value
 from runtime.constraints.domains.narrow import (
     high,
     is_single,
@@ -197,7 +197,7 @@ def _remove_unsupported(s: Store, first: int, count: int, support: int) -> bool:
                 return False
         x += 1
     # From here on by words, so that the log of holes gets one entry for many values.
-    place = next_place(s, result, x - s.bit_base[result]) if x <= s.ub[result] else -1
+    place = next_index(s, result, x - s.bit_base[result]) if x <= s.ub[result] else -1
     while place >= 0:
         k = place >> 6
         mask = 0
@@ -205,7 +205,7 @@ def _remove_unsupported(s: Store, first: int, count: int, support: int) -> bool:
             x = s.bit_base[result] + place - base
             if base + x <= s.ub[result] and not (s.supported[x >> 5] >> (x & 31)) & 1:
                 mask |= ONE_BIT << (place & 63)
-            place = next_place(s, result, place + 1)
+            place = next_index(s, result, place + 1)
         if mask:
             clear_bits(s, result, k, mask, support)
     return s.word[result] < 0 or round_bounds(s, result, support)

@@ -35,7 +35,7 @@ def select_resource(agenda: Agenda, manager: int, is_last: bool) -> int:
     is_mine = False
     at = 0
     low = 0
-    excess = 0.0
+    amount = 0.0
     for o in range(agenda.plan.object_count):
         if o >= agenda.plan.resources.object_room or not agenda.plan.resources.is_resource[o]:
             continue
@@ -52,13 +52,13 @@ def select_resource(agenda: Agenda, manager: int, is_last: bool) -> int:
         if not is_last and agenda.relief is not None and agenda.relief.may_come(o, 1 if uses.found_low else -1):
             continue
         is_rival = is_mine and priority == agenda.found_priority
-        if is_rival and (not agenda.exact or not _is_better(agenda, manager, at, low, excess)):
+        if is_rival and (not agenda.exact or not _is_better(agenda, manager, at, low, amount)):
             continue
         agenda.note_flaw(manager, o, handler, priority)
         is_mine = True
         at = uses.found_at
         low = uses.found_low
-        excess = uses.found_excess
+        amount = uses.found_amount
         if priority == BEST_PRIORITY:
             break
     if is_mine:
@@ -77,11 +77,11 @@ def _is_in_scope(agenda: Agenda, row: int, o: int) -> bool:
     return False
 
 
-def _is_better(agenda: Agenda, manager: int, other_at: int, other_low: int, other_excess: float) -> bool:
+def _is_better(agenda: Agenda, manager: int, other_at: int, other_low: int, other_amount: float) -> bool:
     """Whether the flaw found last comes before another one in the order of a manager."""
     at = agenda.uses.found_at
     low = agenda.uses.found_low
-    excess = agenda.uses.found_excess
+    amount = agenda.uses.found_amount
     for k in range(agenda.table.resource_orders[manager], agenda.table.resource_orders[manager + 1]):
         code = agenda.table.resource_order[k]
         difference = 0.0
@@ -90,9 +90,9 @@ def _is_better(agenda: Agenda, manager: int, other_at: int, other_low: int, othe
         elif code == PREFER_LATEST:
             difference = at - other_at
         elif code == PREFER_MOST:
-            difference = excess - other_excess
+            difference = amount - other_amount
         elif code == PREFER_LEAST:
-            difference = other_excess - excess
+            difference = other_amount - amount
         elif code == PREFER_LOWER:
             difference = low - other_low
         elif code == PREFER_UPPER:

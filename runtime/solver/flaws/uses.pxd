@@ -22,7 +22,7 @@ cdef class Uses:
     cdef public Envelope envelope
     cdef public Heap events
     cdef public long long found_at, found_low, count
-    cdef public double found_excess
+    cdef public double found_amount
     cdef public double[::1] amount_least, amount_most
 
     @cython.locals(u="long long", uses=Resources)
@@ -39,7 +39,7 @@ cdef class Uses:
     cpdef bint worst_flaw(self, long long o) except -1
 
     @cython.locals(
-        events=Heap, capacity_high="double", capacity_low="double", engine=Engine, excess="double", high="double",
+        events=Heap, capacity_high="double", capacity_low="double", engine=Engine, amount="double", high="double",
         k="long long", low="double", lower="double", maximum="double", minimum="double", time="long long",
         upper="double"
     )

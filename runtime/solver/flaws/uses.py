@@ -31,7 +31,7 @@ class Uses:
         self.events = Heap()
         self.found_at = 0
         self.found_low = 0
-        self.found_excess = 0.0
+        self.found_amount = 0.0
         # The timepoints of one resource: when something is taken (1) or given (0), and whose it is.
         self.count = 0
         self.point = array("q", [0]) * 64
@@ -82,7 +82,7 @@ class Uses:
             return False
         self.found_at = self.envelope.at
         self.found_low = self.envelope.is_low
-        self.found_excess = self.envelope.amount
+        self.found_amount = self.envelope.amount
         return True
 
     def worst_flaw(self, o: int) -> bool:
@@ -105,7 +105,7 @@ class Uses:
         maximum = self.limit(o, MAXIMUM, 1)
         capacity_low = low
         capacity_high = high
-        self.found_excess = 0.0
+        self.found_amount = 0.0
         while events.length:
             time = events.top_key()
             while events.length and events.top_key() == time:
@@ -123,14 +123,14 @@ class Uses:
                 else:
                     low += self.amount_least[k]
                     high += self.amount_most[k]
-            excess = max(minimum - low, high - maximum)
-            if excess > FLOAT_TOLERANCE and excess > self.found_excess + FLOAT_TOLERANCE:
+            amount = max(minimum - low, high - maximum)
+            if amount > FLOAT_TOLERANCE and amount > self.found_amount + FLOAT_TOLERANCE:
                 self.found_at = time
                 self.found_low = 1 if minimum - low >= high - maximum else 0
-                self.found_excess = excess
+                self.found_amount = amount
                 if not whole:
                     return True
-        return self.found_excess > 0.0
+        return self.found_amount > 0.0
 
     # ---- precedences ----
 

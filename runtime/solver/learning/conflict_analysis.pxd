@@ -82,7 +82,7 @@ cdef class ConflictAnalysis(SupportWalk):
     @cython.locals(
         end="long long", needed="long long", start="long long", t="long long", var0="long long[::1]"
     )
-    cdef long long _explain_window(self, excess) except? -1
+    cdef long long _explain_window(self, violation) except? -1
 
     @cython.locals(first="long long", agenda=Agenda)
     cdef long long _explain_ordering(self, long long t) except? -1

@@ -322,19 +322,19 @@ class ConflictAnalysis(SupportWalk):
         self.is_local = True  # in another order it may come before what it would have helped
         return True
 
-    def _explain_window(self, excess: Violation) -> int:
+    def _explain_window(self, violation: Violation) -> int:
         """Why tokens lie in a window that is too narrow: the widest such, that of before the search if it will do."""
         var0 = self.agenda.rows.var0
-        needed = int(excess.amount) + excess.until - excess.at
-        start = excess.at
-        end = excess.until
-        for t in excess.tokens:
+        needed = int(violation.amount) + violation.until - violation.at
+        start = violation.at
+        end = violation.until
+        for t in violation.tokens:
             start = min(start, self.base_bound(var0[t] + START, SIDE_LOWER))
             end = max(end, self.base_bound(var0[t] + END, SIDE_UPPER))
         if end - start >= needed:
-            start = max(start, excess.until + 1 - needed)
+            start = max(start, violation.until + 1 - needed)
             end = min(end, start + needed - 1)
-        for t in excess.tokens:
+        for t in violation.tokens:
             self._explain_ordering(t)
             self.ask_enough(var0[t] + START, SIDE_LOWER, start)
             self.ask_enough(var0[t] + END, SIDE_UPPER, end)
@@ -353,24 +353,24 @@ class ConflictAnalysis(SupportWalk):
 
     def _explain_violation(self, c: int, d: int) -> bool:
         """Why constraint `c` says that a resource is exceeded; False if that has no simple reason."""
-        excess = self.engine.externals[c]
-        for key, enough in zip(excess.read, excess.enough, strict=True):
+        violation = self.engine.externals[c]
+        for key, enough in zip(violation.read, violation.enough, strict=True):
             self.ask_enough(key >> 2, key & 3, enough)
-        slack = excess.amount - FLOAT_TOLERANCE
-        for start, end, length, least in excess.parts:
-            share = excess.share(self.engine.lb[start], self.engine.ub[end], length)
+        slack = violation.amount - FLOAT_TOLERANCE
+        for start, end, length, least in violation.parts:
+            share = violation.share(self.engine.lb[start], self.engine.ub[end], length)
             loss = least * (
-                share - excess.share(self.base_bound(start, SIDE_LOWER), self.base_bound(end, SIDE_UPPER), length)
+                share - violation.share(self.base_bound(start, SIDE_LOWER), self.base_bound(end, SIDE_UPPER), length)
             )
             if loss < slack:
                 slack -= loss  # it is too tight also with the times that it had before the search
                 continue
             self.ask(start, SIDE_LOWER, NOW)
             self.ask(end, SIDE_UPPER, NOW)
-        for u in excess.uses:
+        for u in violation.uses:
             self.explain_use(u, d)
-        if excess.tokens:
-            self._explain_window(excess)
-        for e in excess.edges:
+        if violation.tokens:
+            self._explain_window(violation)
+        for e in violation.edges:
             self._ask_path_edge(e)
-        return excess.helper == 0 or self.explain_helpers(excess.resource, excess.helper, d)
+        return violation.helper == 0 or self.explain_helpers(violation.resource, violation.helper, d)

@@ -178,10 +178,10 @@ class Disjunctive:
         if self.one < 0:
             self.one = engine.new_constant(KIND_FLOAT, 1.0, 1.0)
             self.zero = engine.new_constant(KIND_FLOAT, 0.0, 0.0)
-        excess = Violation(o, TOO_TIGHT, self.found_start, 0.0, [])
-        excess.until = self.found_end
-        excess.room = 1.0
-        excess.limits = [INITIAL, MINIMUM]
+        violation = Violation(o, TOO_TIGHT, self.found_start, 0.0, [])
+        violation.until = self.found_end
+        violation.room = 1.0
+        violation.limits = [INITIAL, MINIMUM]
         variables = [self.one, self.zero]
         inside = [
             k
@@ -196,11 +196,11 @@ class Disjunctive:
                 continue
             t = self.token[k]
             v = self.rows.var0[t]
-            excess.tokens.append(t)
-            excess.charged.append((t, float(self.length[k])))
-            excess.signs.append(-3)
-            excess.note(4 * (v + DURATION) + SIDE_LOWER)
+            violation.tokens.append(t)
+            violation.charged.append((t, float(self.length[k])))
+            violation.signs.append(-3)
+            violation.note(4 * (v + DURATION) + SIDE_LOWER)
             variables += [v + OBJECT, self.one, v + START, v + END, v + DURATION]
-        excess.amount = float(spare)
-        engine.post_external(excess, variables, NONE, excess.tokens[0])
+        violation.amount = float(spare)
+        engine.post_external(violation, variables, NONE, violation.tokens[0])
         return engine.propagate()

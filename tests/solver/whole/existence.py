@@ -97,7 +97,7 @@ class Layout:
             self.solver.add(self.said(claim, outside))
         for node in aims.values():
             self.run_rules(node, ())
-        self.settle_states()
+        self.fix_states()
         self.keep_apart()
         self.solver.add(within_limits(model, self.uses))
 
@@ -205,7 +205,7 @@ class Layout:
 
     # ---- between tokens ----
 
-    def settle_states(self) -> None:
+    def fix_states(self) -> None:
         """Each token that is there stands for itself, is merged with one that does, or is rejected."""
         for k, node in enumerate(self.nodes):
             ways = [node.is_active]

@@ -2,7 +2,7 @@
 
 from checker.findings import Ending, Findings
 from checker.oracle import CODE_NAMES, USER_CODE, Verdict
-from checker.sampling.wording import number
+from checker.sampling.rendering import number
 from checker.statistics import Rate
 
 _ENDINGS = {Ending.SECONDS: "time was over", Ending.FAILURES: "failures enough"}
