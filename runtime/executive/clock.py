@@ -24,5 +24,7 @@ def next_reading(bench: PlanView, tick: int) -> float:
             return tick + 1
         if engine.op[c] == OP_WATCH or (engine.is_singleton(result) and engine.lower(result) == 1.0):
             continue  # a guard waits for the test, which says all there is to say
-        found = min([found, *(max(engine.upper(v), tick + 1) for v in compared if v != clock)])
+        for v in compared:
+            if v != clock:
+                found = min(found, max(engine.upper(v), tick + 1))
     return found

@@ -33,7 +33,7 @@ class Dispatch:
 
     def refusals(self) -> tuple[int, ...]:
         """The events in which owners gave up what still is in the plan."""
-        return tuple(self.refused[one.number] for one in self.sent.values() if one.number in self.refused)
+        return tuple([self.refused[one.number] for one in self.sent.values() if one.number in self.refused])
 
     def is_cut_off(self, token: int) -> bool:
         """Whether an owner has given up what `token` needs, begun or not."""
@@ -99,7 +99,7 @@ class Dispatch:
         bench = self.bench
         predicate = bench.short_name(token)
         arguments = bench.arguments(token)
-        causes = tuple(other.event for other in self.timelines if not other.is_internal and other.event != NOTHING)
+        causes = tuple([other.event for other in self.timelines if not other.is_internal and other.event != NOTHING])
         # To the world a request is a command: when to begin is the sender's business, how long it takes is not.
         is_command = self.owner_windows.get(line.name, (0, 1))[1] <= 1
         end = _INFINITY if is_command else _whole(bench.upper(bench.end(token)))

@@ -6,7 +6,7 @@ the order of execution. A body with a loop fills slots anew; there the variables
 
 from typing import NamedTuple
 
-from compiler.program import Child, Guard, Instruction, NewVariable, ObjectLoop, Program
+from compiler.program import Child, Guard, Instruction, NewVariable, ObjectLoop, Program, TypeCode
 
 SHAPE_INT, SHAPE_FLOAT, SHAPE_BOOL, SHAPE_SYMBOL, SHAPE_STRING, SHAPE_OBJECT = range(6)
 _SHAPES = {
@@ -16,6 +16,11 @@ _SHAPES = {
     "string": SHAPE_STRING,
     "object": SHAPE_OBJECT,
 }
+
+
+def _shape(type_: TypeCode) -> int:
+    """The shape of the values of a type."""
+    return _SHAPES.get(type_.kind, SHAPE_SYMBOL)
 
 
 class Outline(NamedTuple):
@@ -38,7 +43,7 @@ def _outline(body: tuple[Instruction, ...]) -> Outline:
     for step in body:
         match step:
             case NewVariable(name=str(), slot=slot, type=type_):
-                named.append((slot, _SHAPES.get(type_.kind, SHAPE_SYMBOL)))
+                named.append((slot, _shape(type_)))
             case Child(slot=slot):
                 children.append(slot)
             case Guard(then=then, otherwise=otherwise):
@@ -72,8 +77,8 @@ def forms_of(program: Program) -> Forms:
         known = _FORMS[id(program)] = Forms(
             program,
             tuple(_outline(rule.body) for rule in program.rules),
-            tuple(tuple(_SHAPES.get(p.type.kind, SHAPE_SYMBOL) for p in code.parameters) for code in program.predicates),
-            tuple(_SHAPES.get(type_.kind, SHAPE_SYMBOL) for _, type_ in program.globals),
-            tuple(tuple(_SHAPES.get(m.type.kind, SHAPE_SYMBOL) for m in code.members) for code in program.classes),
+            tuple(tuple(_shape(p.type) for p in code.parameters) for code in program.predicates),
+            tuple(_shape(type_) for _, type_ in program.globals),
+            tuple(tuple(_shape(m.type) for m in code.members) for code in program.classes),
         )
     return known

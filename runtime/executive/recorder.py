@@ -222,10 +222,8 @@ class Recorder:
         """Whether everything that decides a guard is given."""
         rows, engine = self.rows, self.engine
         inputs = rows.scope_inputs[g]
-        for i in range(inputs + 2, inputs + 2 + rows.cells[inputs]):
-            if not engine.is_decided(rows.cells[i]):
-                return False
-        return True
+        given = range(inputs + 2, inputs + 2 + rows.cells[inputs])
+        return not [i for i in given if not engine.is_decided(rows.cells[i])]
 
     def _child(self, t: int, parent: int, key: int) -> int:
         if t >= 0 and self.rows.parent[t] == parent:

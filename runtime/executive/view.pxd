@@ -97,6 +97,8 @@ cdef class PlanView:
 
     cpdef long long next_of(self, long long o, long long current) except? -1
 
+    cpdef long long following(self, long long t) except? -1
+
     @cython.locals(found=list, t="long long")
     cpdef list planned_after(self, long long o, long long current)
 

@@ -157,7 +157,9 @@ class PlanView:
         if shape in (KIND_INT, KIND_FLOAT, KIND_BOOL):
             lower, upper = engine.lower(v), engine.upper(v)
             if shape == KIND_BOOL:
-                return DomainConstant(kind, type_name, None, tuple([bool(x) for x in range(int(lower), int(upper) + 1)]))
+                return DomainConstant(
+                    kind, type_name, None, tuple([bool(x) for x in range(int(lower), int(upper) + 1)])
+                )
             if shape == KIND_INT:
                 return DomainConstant(kind, type_name, (_whole(lower), _whole(upper)), None)
             return DomainConstant(kind, type_name, (max(lower, -_INFINITY) + 0, min(upper, _INFINITY) + 0), None)
@@ -257,6 +259,10 @@ class PlanView:
         if current < 0:
             return int(self.rows.head_first[self.plan.object_head[o]])
         return int(self.rows.link_after[LISTS * current + LIST_ORDER])
+
+    def following(self, t: int) -> int:
+        """The token behind another one in the sequence of their timeline; NONE behind the last."""
+        return int(self.rows.link_after[LISTS * t + LIST_ORDER])
 
     def planned_after(self, o: int, current: int) -> list[int]:
         """The sequence of a timeline behind the current token."""

@@ -1,0 +1,12 @@
+# The C types of `clock.py`.
+
+cimport cython
+from runtime.constraints.engine cimport Engine
+from runtime.executive.view cimport PlanView
+
+cdef long long OP_TEST_LEQ, OP_TEST_LT, OP_WATCH
+cdef double inf
+
+
+@cython.locals(c="long long", clock="long long", engine=Engine, found=double, tested=set, v="long long")
+cpdef double next_reading(PlanView bench, long long tick) except? -1.0
