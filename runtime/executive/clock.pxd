@@ -8,5 +8,8 @@ cdef long long OP_TEST_LEQ, OP_TEST_LT, OP_WATCH
 cdef double inf
 
 
-@cython.locals(c="long long", clock="long long", engine=Engine, found=double, tested=set, v="long long")
+@cython.locals(
+    c="long long", clock="long long", engine=Engine, first="long long", found=double, k="long long",
+    result="long long", tested=set,
+)
 cpdef double next_reading(PlanView bench, long long tick) except? -1.0

@@ -53,7 +53,7 @@ class Dispatch:
 
     def takes_requests(self, line: TimelineState) -> bool:
         """Whether the owner of a timeline may be asked: the model must allow it, and who looks ahead by 0 never is."""
-        return self.bench.accepts_requests(line.object_id) and self.owner_windows.get(line.name, (0, 1))[1] > 0
+        return line.accepts_requests and self.owner_windows.get(line.name, (0, 1))[1] > 0
 
     def requests(self, tick: int, final_tick: int) -> list[Request]:
         """Planned tokens on others' timelines that are due to be asked for (T-REX 1.8).

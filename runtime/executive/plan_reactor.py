@@ -52,6 +52,7 @@ class PlanReactor:
         self.timelines = [bench.timeline(name, True) for name in self.internal]
         self.timelines += [bench.timeline(name, False) for name in self.external]
         for line in self.timelines:
+            line.accepts_requests = bench.accepts_requests(line.object_id)
             line.is_early = line.name in configuration.early
             line.is_late = line.name in configuration.late
         bench.late_objects = {line.object_id for line in self.timelines if line.is_internal and not line.is_early}

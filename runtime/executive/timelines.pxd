@@ -4,7 +4,7 @@
 cdef class TimelineState:
     cdef public str name
     cdef public long long object_id, default, current, event
-    cdef public bint is_internal, is_early, is_late
+    cdef public bint accepts_requests, is_internal, is_early, is_late
     cdef public dict predicates
     cdef public list others
     cdef public object news, source

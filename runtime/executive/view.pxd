@@ -19,7 +19,7 @@ cdef class PlanView:
     cdef public Engine engine
     cdef public Rows rows
     cdef public str name
-    cdef public dict predicates, globals, requested, moved
+    cdef public dict predicates, parameters, globals, requested, moved
     cdef public set external_objects, internal_objects, late_objects
     cdef public Recorder recorder
 
@@ -56,6 +56,9 @@ cdef class PlanView:
 
     @cython.locals(engine=Engine, lower=double, shape="long long", single=bint, upper=double)
     cpdef object domain(self, long long v, str kind, str type_name)
+
+    @cython.locals(found=dict)
+    cpdef dict parameter_numbers(self, long long predicate)
 
     cpdef long long key(self, long long t) except? -1
 

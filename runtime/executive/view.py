@@ -58,6 +58,7 @@ class PlanView:
         self.rows = database.plan.rows
         self.name = name
         self.predicates = {predicate.name: number for number, predicate in enumerate(database.program.predicates)}
+        self.parameters: dict[int, dict[str, int]] = {}  # by predicate: the parameters' numbers by name
         self.globals = {name: number for number, (name, _) in enumerate(database.program.globals)}
         self.requested: dict[int, int] = {}  # token -> key
         self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
@@ -172,6 +173,14 @@ class PlanView:
         if kind == "object":
             return DomainConstant(kind, type_name, None, tuple([self.database.objects.names[x] for x in values]))
         return DomainConstant(kind, type_name, None, tuple([prototypes.symbols.text(x) for x in values]))
+
+    def parameter_numbers(self, predicate: int) -> dict[str, int]:
+        """The numbers of a predicate's parameters, by name."""
+        found = self.parameters.get(predicate)
+        if found is None:
+            parameters = self.database.program.predicates[predicate].parameters
+            found = self.parameters[predicate] = {parameter.name: k for k, parameter in enumerate(parameters)}
+        return found
 
     # ---- asking ----
 

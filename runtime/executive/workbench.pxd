@@ -39,7 +39,7 @@ cdef class Workbench(PlanView):
     @cython.locals(was_decided=bint)
     cpdef bint _narrow(self, long long v, double lower, double upper, long long span, long long t) except -1
 
-    @cython.locals(v="long long")
+    @cython.locals(names=dict, v="long long")
     cpdef bint restrict_parameters(self, long long t, tuple arguments, long long span) except -1
 
     cpdef bint _restrict(self, long long v, domain, long long span, long long t) except -1

@@ -85,8 +85,7 @@ class Workbench(PlanView):
 
     def restrict_parameters(self, t: int, arguments: Arguments, span: int) -> bool:
         """Narrow parameters to what somebody else knows of them; a name that `t` does not have is a misfit."""
-        parameters = self.database.program.predicates[self.rows.predicate[t]].parameters
-        names = {parameter.name: k for k, parameter in enumerate(parameters)}
+        names = self.parameter_numbers(self.rows.predicate[t])
         for name, domain in arguments:
             if name not in names:
                 return False
