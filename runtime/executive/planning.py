@@ -17,7 +17,7 @@ _MOST_STEPS = 1_000_000  # decisions about one present that the engine makes, if
 _MOST_EXPLAINED = 2_000  # decisions of a search that is repeated to find out why it failed
 
 # How an episode of planning stands: a decision was made, nothing is left to do, there is no plan, or what ran out.
-EPISODE_MOVED, EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, EPISODE_OUT_OF_STEPS = range(5)
+EPISODE_MOVED, EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, _EPISODE_OUT_OF_STEPS = range(5)
 
 
 class LimitError(RuntimeError):
@@ -128,7 +128,7 @@ class Planner:
             return EPISODE_EXHAUSTED
         if (self.max_depth if is_deep else self.max_steps) is None:
             raise LimitError(f"more than {_MOST_STEPS} decisions about what holds at tick {tick}")
-        return EPISODE_TOO_DEEP if is_deep else EPISODE_OUT_OF_STEPS
+        return EPISODE_TOO_DEEP if is_deep else _EPISODE_OUT_OF_STEPS
 
     def deadlock(self) -> Deadlock | None:
         """Why the search that was exhausted found nothing: it is made again, with a log."""

@@ -28,7 +28,6 @@ from runtime.solver.tags import (
     PREFER_EARLIEST,
 )
 
-
 _UNKNOWN = -2  # a row that nobody has asked for yet
 _FEW = 32  # variables of a token whose rows are looked up by number
 _TOKEN, _LOCAL, _MEMBER, _RESOURCE, _GLOBAL = range(5)
