@@ -20,6 +20,7 @@ from runtime.user.fault import UserCodeError
 
 # A subcommand is one file, imported only when it is used; a new one needs a line here and nothing else.
 COMMANDS = {
+    "new": ("nddlc.new", "Begin a project: a model, its simulator and a mission."),
     "lint": ("nddlc.lint", "Report everything that is wrong with models."),
     "fmt": ("nddlc.fmt", "Put models into the one style."),
     "load": ("nddlc.load", "Load models and show their tokens and variables."),
