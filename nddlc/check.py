@@ -178,6 +178,7 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path) ->
         "html": ("report.html", html_report(findings, excerpts, campaign.stories(findings))),
         "junit": ("junit.xml", junit_report(findings, excerpts)),
         "sarif": ("report.sarif", sarif_report(findings, excerpts)),
+        "markdown": ("report.md", markdown_report(findings, excerpts)),
     }
     try:
         for name, text in reports.values():
@@ -188,11 +189,9 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path) ->
         ) from None
     if style == "github":
         click.echo(github_report(findings, excerpts), nl=False)
-    elif style == "markdown":
-        click.echo(markdown_report(findings, excerpts), nl=False)
     elif style == "text":
         click.echo(text_report(findings, excerpts), nl=False)
-        click.echo(f"\nreport: {output / 'report.html'} (beside it report.json, junit.xml, report.sarif)")
+        click.echo(f"\nreport: {output / 'report.html'} (beside it report.json, report.md, junit.xml, report.sarif)")
     else:
         click.echo(reports[style][1], nl=False)
     if findings.rate.exceeds:

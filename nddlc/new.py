@@ -42,7 +42,9 @@ def command(name: str, template: str | None) -> int:
         except OSError as problem:
             raise Unusable(f"cannot make `{(folder / path).parent}`: {problem.strerror or problem}") from None
         write_text(folder / path, text)
-    click.echo(f"made `{folder}` with {len(texts)} files: {', '.join(sorted(texts))}")
+    models = sorted(path for path in texts if path.endswith(".nddl"))
+    click.echo(f"made `{folder}`:\n  models: {', '.join(models)}\n  mission: mission.toml")
+    click.echo(f"  beside: {', '.join(sorted({*texts} - {*models, 'mission.toml'}))}")
     click.echo(f"\nnext:\n  cd {folder}\n  nddlc run       # one mission\n  nddlc check     # many")
     return 0
 
