@@ -14,7 +14,7 @@ from runtime.solver.flaws.resource_selection cimport is_resource_managed
 from runtime.solver.flaws.agenda cimport Agenda
 from runtime.solver.flaws.selection cimport select
 from runtime.solver.learning.dead_end cimport explain_dead_end
-from runtime.solver.flaws.agenda_updates cimport update, rebuild, note_levels
+from runtime.solver.flaws.agenda_updates cimport note_levels, rebuild, reopen, update
 
 cdef long long ACTIVATE_ONLY, HANDLER_LISTED, KIND_FLOAT, MERGE_ONLY
 cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, _NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
@@ -37,6 +37,8 @@ cdef class Solver:
 
     @cython.locals(o="long long")
     cpdef int refresh(self) except -1
+
+    cpdef int resume(self) except -1
 
     cpdef int keep(self) except -1
 

@@ -13,7 +13,7 @@ from runtime.solver.configuration.handler_matching import HandlerMatching
 from runtime.solver.configuration.handler_table import HandlerTable
 from runtime.solver.configuration.vocabulary import PlanVocabulary, grounded
 from runtime.solver.flaws.agenda import Agenda
-from runtime.solver.flaws.agenda_updates import note_levels, rebuild, update
+from runtime.solver.flaws.agenda_updates import note_levels, rebuild, reopen, update
 from runtime.solver.flaws.decisions import Decisions
 from runtime.solver.flaws.filters import Filters, PlanningScope
 from runtime.solver.flaws.relief import Relief
@@ -119,6 +119,12 @@ class Solver:
         if self.is_exhausted and self.failure_log is not None:
             self.failure_log.note_contradiction()
         rebuild(self.agenda)
+
+    def resume(self) -> None:
+        """Look again at what was out of scope: the plan is as `refresh` found it, and no decision was made since."""
+        assert self.stack.depth == 0 and self.relief is None and self.failure_log is None
+        self.is_started = True
+        reopen(self.agenda)
 
     def keep(self) -> None:
         """Commit all decisions: the stack is empty, and nothing of it can be undone."""

@@ -105,8 +105,12 @@ def _has_begun(plan: Plan, t: int, tick: int) -> bool:
 def _has_waiting_guard(plan: Plan, t: int) -> bool:
     """Whether a part of the rules of `t` may still come."""
     rows = plan.rows
-    guards = [s for s in scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_GUARD]
-    return bool([s for s in guards if rows.scope_branch[s] == BRANCH_WAITING])
+    s = rows.scopes[t]
+    while s >= 0:
+        if rows.scope_kind[s] == SCOPE_GUARD and rows.scope_branch[s] == BRANCH_WAITING:
+            return True
+        s = rows.scope_next[s]
+    return False
 
 
 def _orphan(plan: Plan, t: int, doomed: dict[int, None]) -> None:
@@ -158,7 +162,8 @@ def _freeze(plan: Plan, doomed: dict[int, None]) -> list[int]:
         near[engine.edge_source[e]] = None
         near[engine.edge_target[e]] = None
     for c in constraints:
-        near.update(dict.fromkeys(engine.arguments(c)))
+        for k in range(engine.first[c], engine.first[c] + engine.arity[c]):
+            near[engine.slot_variable[k]] = None
     for r in restrictions:
         near[engine.restriction_variable[r]] = None
     supports: set[int] = set()
@@ -215,8 +220,18 @@ def _belongings(
                     gone[rows.hold_id[h]] = None
                 h = rows.hold_next[h]
     for v in gone:
-        constraints.update(dict.fromkeys(engine.constraints_of(v)))
-        edges.update(dict.fromkeys(engine.edges_of(v)))
+        for slot in (engine.watch_head[v], engine.mute_head[v]):
+            while slot >= 0:
+                constraints[engine.slot_constraint[slot]] = None
+                slot = engine.slot_next[slot]
+        e = engine.out_head[v]
+        while e >= 0:
+            edges[e] = None
+            e = engine.out_next[e]
+        e = engine.in_head[v]
+        while e >= 0:
+            edges[e] = None
+            e = engine.in_next[e]
     for c in constraints:
         if engine.link_a[c] >= 0:
             edges[engine.link_a[c]] = None

@@ -15,6 +15,12 @@ cdef long long UNDO_NEW_TOKEN, UNDO_STATUS
 cpdef long long rebuild(Agenda agenda) except? -1
 
 
+cpdef long long reopen(Agenda agenda) except? -1
+
+
+cpdef long long _begin(Agenda agenda) except? -1
+
+
 @cython.locals(
     at="long long", code="long long", engine=Engine, name="long long", rows=Rows, slot="long long", t="long long"
 )
