@@ -60,7 +60,7 @@ def _answer_actions(session: Session) -> None:
             elif only is not None and _is_wanted(_FIX_ALL, only):
                 action.edit = fix_all(documents, view)
                 found.append(action)
-        return [each for each in found if only is None or _is_wanted(str(each.kind), only)]
+        return [each for each in found if only is None or _is_wanted(_name(each.kind), only)]
 
     options = types.CodeActionOptions(kinds, resolve_provider=True)
     session.answer(types.TEXT_DOCUMENT_CODE_ACTION, actions, options, nothing=list)
@@ -75,8 +75,11 @@ def _answer_actions(session: Session) -> None:
 
 
 def _is_wanted(kind: str, only: Sequence[types.CodeActionKind | str]) -> bool:
-    names = [str(each.value if isinstance(each, _Kind) else each) for each in only]
-    return any(not name or kind == name or kind.startswith(f"{name}.") for name in names)
+    return any(not name or kind == name or kind.startswith(f"{name}.") for name in map(_name, only))
+
+
+def _name(kind: types.CodeActionKind | str | None) -> str:
+    return str(kind.value if isinstance(kind, _Kind) else kind)
 
 
 def _answer_formatting(session: Session) -> None:

@@ -99,13 +99,23 @@ def formatting_of_lines(parse: Parse, lines: Lines, first: int, last: int) -> li
     if wanted == lines.text:
         return []
     old, new = _cut(lines), _cut(Lines(wanted, lines.encoding))
-    matcher = SequenceMatcher(None, old, new, autojunk=False)
     edits = []
-    for tag, begin, finish, start, end in matcher.get_opcodes():
-        if tag != "equal" and begin <= last and (finish > first or begin == finish >= first):
-            place = Range(Position(begin, 0), _line_start(lines, finish))
-            edits.append(TextEdit(place, "".join(new[start:end])))
+    for begin, finish, start, end in _hunks(old, new):
+        if begin <= last and (finish > first or begin == finish >= first):
+            edits.append(TextEdit(Range(Position(begin, 0), _line_start(lines, finish)), "".join(new[start:end])))
     return edits
+
+
+def _hunks(old: list[str], new: list[str]) -> Iterator[tuple[int, int, int, int]]:
+    """What lines of the old text become what lines of the new one; a line whose words stay becomes one line."""
+    before, after = (["".join(line.split()) for line in lines] for lines in (old, new))
+    for tag, begin, finish, start, end in SequenceMatcher(None, before, after, autojunk=False).get_opcodes():
+        if tag != "equal":
+            yield begin, finish, start, end
+            continue
+        for shift in range(finish - begin):
+            if old[begin + shift] != new[start + shift]:
+                yield begin + shift, begin + shift + 1, start + shift, start + shift + 1
 
 
 def formatting_of_statement(parse: Parse, lines: Lines, offset: int) -> list[TextEdit]:
