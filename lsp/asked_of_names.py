@@ -1,13 +1,17 @@
 """What editors ask about names: hover, navigation, references, rename, hierarchies, symbols and completion."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 from lsprotocol import types
 
 from lsp.completion import completions, resolved
-from lsp.documents import DocumentContext
+from lsp.diagnostics import Conversion
+from lsp.documents import DocumentContext, Documents
 from lsp.hierarchies import incoming_calls, outgoing_calls, prepare_calls, prepare_types, subtypes, supertypes
 from lsp.hover import hover_at, link
+from lsp.mission_answers import mission_completions, mission_definition, mission_hover
+from lsp.mission_texts import OpenMission
 from lsp.navigation import declaration, definition, implementations, type_definition
 from lsp.references import highlights, references
 from lsp.rename import RenameError, TextChange, prepare_rename, rename
@@ -39,6 +43,15 @@ def _answer_navigation(session: Session) -> None:
         conversion = session.documents.conversion()
         return [conversion.location(span) for span in spans]
 
+    def of_mission(
+        answer: Callable[[Documents, OpenMission, int, Conversion], Any],
+    ) -> Callable[[OpenMission, Any], Any]:
+        def answered(mission: OpenMission, params: Any) -> Any:
+            offset = mission.lines.offset(params.position)
+            return answer(session.documents, mission, offset, session.documents.conversion())
+
+        return answered
+
     def find_references(view: DocumentContext, params: types.ReferenceParams) -> list[types.Location]:
         conversion = session.documents.conversion()
         with_declaration = params.context.include_declaration
@@ -47,9 +60,12 @@ def _answer_navigation(session: Session) -> None:
     session.answer(
         types.TEXT_DOCUMENT_HOVER,
         lambda view, params: hover_at(view, params.position, session.documents.conversion()),
+        of_mission=of_mission(mission_hover),
     )
     session.answer(
-        types.TEXT_DOCUMENT_DEFINITION, lambda view, params: location(definition(view, _offset(view, params)))
+        types.TEXT_DOCUMENT_DEFINITION,
+        lambda view, params: location(definition(view, _offset(view, params))),
+        of_mission=of_mission(mission_definition),
     )
     session.answer(
         types.TEXT_DOCUMENT_DECLARATION, lambda view, params: location(declaration(view, _offset(view, params)))
@@ -136,7 +152,15 @@ def _answer_completion(session: Session) -> None:
         return types.CompletionList(is_incomplete=False, items=found)
 
     options = types.CompletionOptions(trigger_characters=[".", ":", '"'], resolve_provider=True)
-    session.answer(types.TEXT_DOCUMENT_COMPLETION, complete, options, nothing=list)
+    session.answer(
+        types.TEXT_DOCUMENT_COMPLETION,
+        complete,
+        options,
+        nothing=list,
+        of_mission=lambda mission, params: mission_completions(
+            session.documents, mission, mission.lines.offset(params.position)
+        ),
+    )
 
     @session.feature(types.COMPLETION_ITEM_RESOLVE)
     async def resolve(item: types.CompletionItem) -> types.CompletionItem:

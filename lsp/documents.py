@@ -215,6 +215,18 @@ class Documents:
                 found.append(project)
         return found
 
+    def model(self, path: Path) -> Snapshot | None:
+        """The model whose root is the file at `path`, with texts as they are open; None where there is no such file."""
+        key = key_of(path)
+        project = self._projects.get(key) or self._closed.get(key)
+        if project is None:
+            if not path.is_file():
+                return None
+            project = self._closed[key] = Project(key, self.settings)
+        if key not in self._projects:
+            self._read(project)
+        return project.snapshot
+
     def probe(self, key: str, text: str) -> Snapshot:
         """The model that the text at `key` belongs to, read from the beginning, as if that text read `text`."""
         root = next(self._around(key), None)

@@ -13,7 +13,7 @@ from nddl_lang.semantics.schema import Predicate
 from nddl_lang.syntax.nodes import ClassDecl, Identifier, PredicateDecl, Statement
 from nddl_lang.text.source import Span
 
-SHOW_REFERENCES = "nddlc.showReferences"
+_SHOW_REFERENCES = "nddlc.showReferences"
 _DECLARES = (SymbolType.CLASS, SymbolType.PREDICATE)
 
 
@@ -45,7 +45,7 @@ def _declared(statement: Statement) -> Iterator[Identifier]:
 
 def _shown(title: str, uri: str, at: Span, found: list[Span], conversion: Conversion) -> Command:
     arguments: list[Any] = [uri, conversion.range(at).start, [conversion.location(span) for span in found]]
-    return Command(title, SHOW_REFERENCES, arguments=arguments)
+    return Command(title, _SHOW_REFERENCES, arguments=arguments)
 
 
 def _count(found: list[Span], word: str) -> str:

@@ -73,29 +73,39 @@ def _answer_edits(session: Session) -> None:
     @session.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def did_open(params: types.DidOpenTextDocumentParams) -> None:
         document = params.text_document
-        session.publish(session.documents.open(document.uri, document.version, document.text))
+        if session.missions.is_mission(document.uri):
+            mission = session.missions.open(document.uri, document.version, document.text)
+            if mission is not None:
+                session.judge_mission(mission)
+        else:
+            session.publish(session.documents.open(document.uri, document.version, document.text))
 
     @session.feature(types.TEXT_DOCUMENT_DID_CHANGE)
     def did_change(params: types.DidChangeTextDocumentParams) -> None:
         edits = [(getattr(change, "range", None), change.text) for change in params.content_changes]
         document = params.text_document
-        if session.documents.edit(document.uri, document.version, edits):
+        if (mission := session.missions.change(document.uri, document.version, edits)) is not None:
+            session.judge_soon(mission)
+        elif session.documents.edit(document.uri, document.version, edits):
             session.settle_soon()
 
     @session.feature(types.TEXT_DOCUMENT_DID_SAVE)
     def did_save(params: types.DidSaveTextDocumentParams) -> None:
         session.publish(session.documents.save(params.text_document.uri))
+        session.judge_missions()
 
     @session.feature(types.TEXT_DOCUMENT_DID_CLOSE)
     def did_close(params: types.DidCloseTextDocumentParams) -> None:
         session.token_memory.forget(params.text_document.uri)
-        session.publish(session.documents.close(params.text_document.uri))
+        if not session.close_mission(params.text_document.uri):
+            session.publish(session.documents.close(params.text_document.uri))
 
 
 def _answer_surroundings(session: Session) -> None:
     @session.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
     def did_change_files(params: types.DidChangeWatchedFilesParams) -> None:
         session.publish(session.documents.refresh())
+        session.judge_missions()
 
     @session.feature(types.WORKSPACE_DID_CHANGE_WORKSPACE_FOLDERS)
     def did_change_folders(params: types.DidChangeWorkspaceFoldersParams) -> None:

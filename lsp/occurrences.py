@@ -104,7 +104,7 @@ class Occurrence:
     kind: VariableKind | None = None
 
 
-class Names:
+class NameIndex:
     """The occurrences of one analysis, statement by statement in the order of execution."""
 
     def __init__(self, by_statement: Iterable[tuple[Occurrence, ...]]) -> None:
@@ -156,7 +156,7 @@ class NameIndexer:
     def __init__(self) -> None:
         self._known: dict[SideTables, tuple[Occurrence, ...]] = {}
 
-    def index(self, analysis: Analysis) -> Names:
+    def index(self, analysis: Analysis) -> NameIndex:
         """The names of `analysis`."""
         known: dict[SideTables, tuple[Occurrence, ...]] = {}
         for statement in analysis.statements:
@@ -164,7 +164,7 @@ class NameIndexer:
             found = self._known.get(tables)
             known[tables] = found if found is not None else tuple(_occurrences(statement, tables))
         self._known = known
-        return Names(known.values())
+        return NameIndex(known.values())
 
 
 def symbol_of_predicate(predicate: Predicate) -> Symbol:
@@ -205,7 +205,7 @@ def _symbol_of_type(name: str, type_: Type) -> Symbol | None:
             return None
 
 
-def symbol_of(reference: Reference) -> Symbol | None:
+def _symbol_of(reference: Reference) -> Symbol | None:
     """The symbol that a reference leads to; None for what the language brings along, such as `this` and `start`."""
     match reference:
         case EnumValue():
@@ -260,7 +260,7 @@ def _occurrences(statement: Statement, tables: SideTables) -> Iterator[Occurrenc
 
 
 class _Walk:
-    """Names what stands in the nodes of one statement, each node after those that it is part of."""
+    """NameIndex what stands in the nodes of one statement, each node after those that it is part of."""
 
     def __init__(self, statement: Statement, tables: SideTables) -> None:
         self._tables = tables
@@ -290,7 +290,7 @@ class _Walk:
             case Relation(origin=origin, relation=relation):
                 yield relation, Symbol(SymbolType.RELATION, relation.name), Role.READS, None
                 if origin is not None and (reference := tables.references.get(origin)) is not None:
-                    yield origin, symbol_of(reference), Role.READS, None
+                    yield origin, _symbol_of(reference), Role.READS, None
             case CallConstraint(name=name) | CallExpr(function=name) | MethodCall(method=name):
                 yield name, Symbol(SymbolType.CALLABLE, name.name), Role.READS, None
             case NewExpr(class_name=name):
@@ -352,6 +352,6 @@ class _Walk:
             if reference is None and len(path.parts) == 1:
                 reference = whole
             if reference is not None:
-                yield part, symbol_of(reference), role, _KINDS.get(type(reference))
+                yield part, _symbol_of(reference), role, _KINDS.get(type(reference))
             elif isinstance(whole, EnumValue) and len(path.parts) == 2 and part is path.parts[0]:
                 yield part, Symbol(SymbolType.ENUM, part.name), role, None

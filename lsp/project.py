@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from lsp.occurrences import NameIndexer, Names
+from lsp.occurrences import NameIndex, NameIndexer
 from lsp.uris import key_of
 from nddl_lang.analysis import Analyser, Analysis
 from nddl_lang.lint.configuration import find_configuration, read_configuration
@@ -50,7 +50,7 @@ class Snapshot:
     analysis: Analysis
     diagnostics: tuple[Diagnostic, ...]
     parses: dict[str, Parse]
-    names: Names
+    names: NameIndex
     keys: dict[Source, str]
 
 

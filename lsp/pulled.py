@@ -18,8 +18,9 @@ from lsp.documents import Documents
 class PulledDiagnostics:
     """Numbers what it tells about each file, so that the same need not be told twice."""
 
-    def __init__(self, documents: Documents) -> None:
+    def __init__(self, documents: Documents, of_missions: Mapping[str, tuple[Diagnostic, ...]]) -> None:
         self._documents = documents
+        self._of_missions = of_missions
         self._count = 0
         self._told: dict[str, tuple[str, tuple[Diagnostic, ...]]] = {}
 
@@ -33,7 +34,7 @@ class PulledDiagnostics:
     def workspace_report(self, known: Mapping[str, str]) -> WorkspaceDiagnosticReport:
         """What is wrong with all files of open models, and with those that were asked about before."""
         items: list[WorkspaceFullDocumentDiagnosticReport | WorkspaceUnchangedDocumentDiagnosticReport] = []
-        for uri in dict.fromkeys((*self._documents.complained(), *known)):
+        for uri in dict.fromkeys((*self._documents.complained(), *self._of_missions, *known)):
             number, found = self._number(uri)
             document = self._documents.find(uri)
             version = document.version if document is not None else None
@@ -44,7 +45,7 @@ class PulledDiagnostics:
         return WorkspaceDiagnosticReport(items)
 
     def _number(self, uri: str) -> tuple[str, tuple[Diagnostic, ...]]:
-        found = self._documents.complaints(uri)
+        found = self._of_missions.get(uri) or self._documents.complaints(uri)
         known = self._told.get(uri)
         if known is None or known[1] != found:
             self._count += 1

@@ -3,26 +3,28 @@
 from lsp.asked_of_names import answer_names
 from lsp.asked_of_text import answer_text
 from lsp.life import answer_life
+from lsp.mission_texts import Examine
 from lsp.project import ServerSettings
 from lsp.session import Session
 from lsp.transport import serve_standard_streams, serve_tcp
 
 
-def make_session(settings: ServerSettings) -> Session:
+def _make_session(settings: ServerSettings, examine: Examine) -> Session:
     """A session that knows what to answer."""
-    session = Session(settings)
+    session = Session(settings, examine)
     answer_life(session)
     answer_names(session)
     answer_text(session)
     return session
 
 
-def serve(settings: ServerSettings, port: int | None = None) -> bool:
+def serve(settings: ServerSettings, examine: Examine, port: int | None = None) -> bool:
     """Serve until the editor leaves or is gone; whether it said goodbye first, as it should.
 
-    Over standard input and output, or, with a port, over a connection that another program on this machine opens.
+    `examine` tells what is wrong with a mission file. Over standard input and output, or, with a port, over a
+    connection that another program on this machine opens.
     """
-    session = make_session(settings)
+    session = _make_session(settings, examine)
     try:
         if port is None:
             serve_standard_streams(session)

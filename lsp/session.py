@@ -19,6 +19,7 @@ from pygls.protocol import LanguageServerProtocol, default_converter
 from lsp.diagnostics import Conversion
 from lsp.documents import DocumentContext, Documents, Publication
 from lsp.inlay_hints import HintSettings
+from lsp.mission_texts import Examine, MissionTexts, OpenMission
 from lsp.project import ServerSettings
 from lsp.pulled import PulledDiagnostics
 from lsp.semantic_tokens import TokenMemory
@@ -54,10 +55,12 @@ class _Protocol(LanguageServerProtocol):
 class Session(LanguageServer):
     """The server, with the documents that it speaks about."""
 
-    def __init__(self, settings: ServerSettings) -> None:
+    def __init__(self, settings: ServerSettings, examine: Examine = lambda *_: ()) -> None:
         super().__init__("nddlc", _version(), protocol_cls=_Protocol, converter_factory=default_converter)
         self.settings = settings
+        self._examine = examine
         self.begin(Documents(settings))
+        self._due_missions: dict[str, OpenMission] = {}
         self.is_dismissed = False
         self.is_pulled = False  # the editor asks for diagnostics, so none are pushed
         self.has_snippets = False
@@ -76,7 +79,9 @@ class Session(LanguageServer):
     def begin(self, documents: Documents) -> None:
         """Speak about these documents."""
         self.documents = documents
-        self.pulled = PulledDiagnostics(documents)
+        self.missions = MissionTexts(self._examine, documents.encoding, is_trusted=documents.settings.is_trusted)
+        self.mission_complaints: dict[str, tuple[types.Diagnostic, ...]] = {}
+        self.pulled = PulledDiagnostics(documents, self.mission_complaints)
 
     def configure(self, told: Any) -> None:
         """Take over what the user has set: `{"inlayHints": {"relations": false}}`."""
@@ -110,6 +115,9 @@ class Session(LanguageServer):
         self._is_due = False
         try:
             self.publish(self.documents.settle())
+            due, self._due_missions = self._due_missions, {}
+            for mission in due.values():
+                self.judge_mission(mission)
         except Exception as mistake:
             self.report_server_error(mistake, None)
 
@@ -130,6 +138,34 @@ class Session(LanguageServer):
         await self.turn()
         return self.documents.view(uri)
 
+    def judge_missions(self) -> None:
+        """Tell what is wrong with the open mission files now that their models may have changed."""
+        for mission in self.missions.all():
+            self.judge_mission(mission)
+
+    def judge_soon(self, mission: OpenMission) -> None:
+        """Judge a mission file after whatever has arrived by now."""
+        self._due_missions[mission.uri] = mission
+        self.settle_soon()
+
+    def close_mission(self, uri: str) -> bool:
+        """A mission file is no longer open; whether it was one."""
+        if not self.missions.close(uri):
+            return False
+        del self.mission_complaints[uri]
+        self._due_missions.pop(uri, None)
+        if not self.is_pulled:
+            self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
+        return True
+
+    def judge_mission(self, mission: OpenMission) -> None:
+        """Tell what is wrong with a mission file."""
+        found = self.missions.complaints(mission, self.documents.conversion())
+        self.mission_complaints[mission.uri] = found
+        if not self.is_pulled:
+            told = types.PublishDiagnosticsParams(mission.uri, found, mission.version)
+            self.text_document_publish_diagnostics(told)
+
     def answer_item(self, feature: str, answer: Callable[[DocumentContext, int, Conversion], list[Any]]) -> None:
         """Answer a question about an item of a hierarchy, which stands where its name does."""
 
@@ -149,12 +185,17 @@ class Session(LanguageServer):
         answer: Callable[[DocumentContext, Any], Any],
         options: Any = None,
         nothing: Callable[[], Any] = lambda: None,
+        of_mission: Callable[[OpenMission, Any], Any] | None = None,
     ) -> None:
-        """Answer a question about an open text; `nothing` makes the answer about any other."""
+        """Answer a question about an open text or mission file; `nothing` makes the answer about any other."""
 
         async def handler(params: Any) -> Any:
-            view = await self.view(params.text_document.uri)
-            return answer(view, params) if view is not None else nothing()
+            uri = params.text_document.uri
+            view = await self.view(uri)
+            if view is not None:
+                return answer(view, params)
+            mission = self.missions.find(uri) if of_mission is not None else None
+            return of_mission(mission, params) if of_mission is not None and mission is not None else nothing()
 
         self.feature(feature, options)(handler)
 

@@ -77,7 +77,7 @@ class _Reader:
         return bool(part)
 
 
-def read_messages(raw: RawIOBase, take: Callable[[bytes], None]) -> None:
+def _read_messages(raw: RawIOBase, take: Callable[[bytes], None]) -> None:
     """Hand over the body of each message of a stream, to its end.
 
     Names of header fields are written in any case. A header without a length is passed over, up to the next one.
@@ -116,7 +116,7 @@ async def _pump(session: Session, stream: RawIOBase) -> None:
 
     def read() -> None:
         try:
-            read_messages(stream, take)
+            _read_messages(stream, take)
         except (OSError, ValueError):
             _logger.debug("the editor is gone")
         loop.call_soon_threadsafe(finish)

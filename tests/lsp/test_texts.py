@@ -269,6 +269,11 @@ def test_diagnostics_are_pulled_by_editors_that_ask(client: Any, tmp_path: Path)
     assert "LIMITS" in "".join(each["message"] for each in report["items"])
     client.send(id=99, method="shutdown")
     # Nothing was pushed in all that time.
-    seen = []
-    client.wait(lambda message: seen.append(message.get("method")) or message.get("id") == 99)
+    seen: list[str] = []
+
+    def is_answer(message: dict[str, Any]) -> bool:
+        seen.append(str(message.get("method")))
+        return message.get("id") == 99
+
+    client.wait(is_answer)
     assert "textDocument/publishDiagnostics" not in seen
