@@ -147,6 +147,6 @@ def _answer_shape(session: Session) -> None:
     )
     session.answer(
         types.TEXT_DOCUMENT_CODE_LENS,
-        lambda view, params: code_lenses(view, session.documents.conversion()),
+        lambda view, params: code_lenses(view),
         nothing=list,
     )

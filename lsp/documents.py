@@ -15,10 +15,13 @@ from lsp.project import Project, ServerSettings, Snapshot
 from lsp.roots import all_roots, root_of
 from lsp.uris import key_of, path_of, uri_of
 from nddl_lang.syntax.parser import Parse
+from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Source
 
 _T = TypeVar("_T")
+# A text, what was found in it, and what the editor shows of that, by URI.
+_Converted = tuple[str, list[Diagnostic], dict[str, tuple[Shown, ...]]]
 
 
 @dataclass(slots=True)
@@ -67,6 +70,7 @@ class Documents:
         self._edited: dict[str, None] = {}  # keys of texts that were edited and not analysed since
         self._closed: dict[str, Project] = {}  # models of which no text is open, read when somebody asks
         self._found: dict[str, dict[str, tuple[Shown, ...]]] = {}  # project -> URI -> complaints
+        self._shown: dict[str, dict[str, _Converted]] = {}  # project -> name of a source -> what became of it
         self._published: dict[str, tuple[Shown, ...]] = {}
 
     # ---- what the editor does ----
@@ -80,6 +84,7 @@ class Documents:
             self._uris.pop(other.uri, None)
         self._open[key] = Document(uri, key, name, path, version, Lines(text, self.encoding))
         self._uris[uri] = key
+        self._shown.clear()  # the editor may call the file otherwise
         return self._follow({key}, key)
 
     def edit(self, uri: str, version: int, edits: list[tuple[Range | None, str]]) -> bool:
@@ -131,6 +136,7 @@ class Documents:
         if document is None:
             return []
         del self._open[document.key], self._uris[document.uri]
+        self._shown.clear()
         # What was understood as a part of it looks for its model afresh.
         self._drop(document.key)
         return self._follow({document.key}, None)
@@ -294,6 +300,7 @@ class Documents:
     def _drop(self, key: str) -> None:
         self._projects.pop(key, None)
         self._found.pop(key, None)
+        self._shown.pop(key, None)
 
     def _is_held(self, key: str, projects: list[Project]) -> bool:
         return any(key in project.snapshot.parses and project.key in self._open for project in projects)
@@ -301,7 +308,7 @@ class Documents:
     def _analyse(self, project: Project) -> bool:
         """Take a new snapshot of a project; whether its text could be read."""
         is_readable = self._read(project)
-        self._found[project.key] = self._complaints(project.snapshot)
+        self._found[project.key] = self._complaints(project)
         return is_readable
 
     def _read(self, project: Project, texts: Mapping[str, str] = MappingProxyType({})) -> bool:
@@ -333,8 +340,25 @@ class Documents:
         """What turns our places into the editor's."""
         return Conversion(self.encoding, self.uri, {one.uri: one.lines for one in self._open.values()})
 
-    def _complaints(self, snapshot: Snapshot) -> dict[str, tuple[Shown, ...]]:
-        return self.conversion().by_file(snapshot.diagnostics)
+    def _complaints(self, project: Project) -> dict[str, tuple[Shown, ...]]:
+        """What the editor shows of each file; of files that stay as they are it is what it showed before."""
+        by_source: dict[Source, list[Diagnostic]] = {}
+        for diagnostic in project.snapshot.diagnostics:
+            by_source.setdefault(diagnostic.span.source, []).append(diagnostic)
+        before = self._shown.get(project.key, {})
+        known: dict[str, _Converted] = {}
+        conversion = self.conversion()
+        for source, found in by_source.items():
+            old = before.get(source.name)
+            if old is None or old[0] != source.text or old[1] != found or _leads_elsewhere(found):
+                old = source.text, found, conversion.by_file(found)
+            known[source.name] = old
+        self._shown[project.key] = known
+        merged: dict[str, tuple[Shown, ...]] = {}
+        for _, _, shown in known.values():
+            for uri, complaints in shown.items():
+                merged[uri] = (*merged.get(uri, ()), *complaints)
+        return merged
 
     def _news(self, edited: list[str]) -> Iterator[Publication]:
         """What differs from what the editor was told; of texts that were edited always, for their versions."""
@@ -351,6 +375,13 @@ class Documents:
             document = self.find(uri)
             yield Publication(uri, document.version if document is not None else None, complaints)
         self._published = merged
+
+
+def _leads_elsewhere(found: list[Diagnostic]) -> bool:
+    """Whether a note of the diagnostics of one text stands in another, which may have changed."""
+    return any(
+        note.span is not None and note.span.source is not each.span.source for each in found for note in each.notes
+    )
 
 
 def _plain(uri: str) -> str:

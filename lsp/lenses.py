@@ -5,7 +5,6 @@ from typing import Any
 
 from lsprotocol.types import CodeLens, Command
 
-from lsp.diagnostics import Conversion
 from lsp.documents import DocumentContext
 from lsp.navigation import rules_of
 from lsp.occurrences import Role, SymbolType
@@ -13,27 +12,25 @@ from nddl_lang.semantics.schema import Predicate
 from nddl_lang.syntax.nodes import ClassDecl, Identifier, PredicateDecl, Statement
 from nddl_lang.text.source import Span
 
+# Carried out by the editor, which asks for the places then.
 _SHOW_REFERENCES = "nddlc.showReferences"
+_SHOW_RULES = "nddlc.showRules"
 _DECLARES = (SymbolType.CLASS, SymbolType.PREDICATE)
 
 
-def code_lenses(view: DocumentContext, conversion: Conversion) -> list[CodeLens]:
+def code_lenses(view: DocumentContext) -> list[CodeLens]:
     """How often each class and predicate is named, and how many rules it has; a click shows where."""
     lenses = []
-    lines = view.document.lines
-    uri = view.document.uri
     for statement in view.parse.module.statements:
         for name in _declared(statement):
             here = view.snapshot.names.at(name.span.anchor, name.span.begin)
             if here is None or here.symbol.type not in _DECLARES:
                 continue
-            place = lines.range(name.span.begin, name.span.finish)
-            found = [each.span for each in view.snapshot.names.of(here.symbol) if each.role is not Role.DECLARES]
-            lenses.append(CodeLens(place, _shown(_count(found, "reference"), uri, name.span, found, conversion)))
+            count = sum(each.role is not Role.DECLARES for each in view.snapshot.names.of(here.symbol))
+            lenses.append(_lens(view, name.span, _count(count, "reference"), _SHOW_REFERENCES))
             predicate = view.snapshot.analysis.tables.declared.get(name)
             if isinstance(predicate, Predicate):
-                rules = rules_of(view, predicate)
-                lenses.append(CodeLens(place, _shown(_count(rules, "rule"), uri, name.span, rules, conversion)))
+                lenses.append(_lens(view, name.span, _count(len(rules_of(view, predicate)), "rule"), _SHOW_RULES))
     return lenses
 
 
@@ -43,10 +40,11 @@ def _declared(statement: Statement) -> Iterator[Identifier]:
         yield from (member.name for member in statement.members if isinstance(member, PredicateDecl))
 
 
-def _shown(title: str, uri: str, at: Span, found: list[Span], conversion: Conversion) -> Command:
-    arguments: list[Any] = [uri, conversion.range(at).start, [conversion.location(span) for span in found]]
-    return Command(title, _SHOW_REFERENCES, arguments=arguments)
+def _lens(view: DocumentContext, at: Span, title: str, command: str) -> CodeLens:
+    place = view.document.lines.range(at.begin, at.finish)
+    arguments: list[Any] = [view.document.uri, place.start]
+    return CodeLens(place, Command(title, command, arguments=arguments))
 
 
-def _count(found: list[Span], word: str) -> str:
-    return f"{len(found)} {word}" if len(found) == 1 else f"{len(found)} {word}s"
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}" if number == 1 else f"{number} {word}s"

@@ -9,7 +9,7 @@ from lsp.session import Session
 from lsp.transport import serve_standard_streams, serve_tcp
 
 
-def _make_session(settings: ServerSettings, examine: Examine) -> Session:
+def make_session(settings: ServerSettings, examine: Examine) -> Session:
     """A session that knows what to answer."""
     session = Session(settings, examine)
     answer_life(session)
@@ -24,7 +24,7 @@ def serve(settings: ServerSettings, examine: Examine, port: int | None = None) -
     `examine` tells what is wrong with a mission file. Over standard input and output, or, with a port, over a
     connection that another program on this machine opens.
     """
-    session = _make_session(settings, examine)
+    session = make_session(settings, examine)
     try:
         if port is None:
             serve_standard_streams(session)

@@ -27,6 +27,14 @@ from lsp.semantic_tokens import TokenMemory
 _logger = logging.getLogger(__name__)
 
 
+def _is_worth_a_line(record: logging.LogRecord) -> bool:
+    """Whether a record of pygls tells of a mistake; a question without an answer is none."""
+    return record.exc_info is None or not isinstance(record.exc_info[1], RequestFailed)
+
+
+logging.getLogger("pygls.protocol.json_rpc").addFilter(_is_worth_a_line)
+
+
 class RequestFailed(JsonRpcException):
     """A question that has no answer, for a reason that the user should read."""
 

@@ -112,7 +112,7 @@ async def _pump(session: Session, stream: RawIOBase) -> None:
         is_over.set()
 
     def take(body: bytes) -> None:
-        loop.call_soon_threadsafe(_receive, session, body)
+        loop.call_soon_threadsafe(receive, session, body)
 
     def read() -> None:
         try:
@@ -126,7 +126,7 @@ async def _pump(session: Session, stream: RawIOBase) -> None:
     await is_over.wait()
 
 
-def _receive(session: Session, body: bytes) -> None:
+def receive(session: Session, body: bytes) -> None:
     """Look at one message."""
     try:
         session.protocol.handle_message(json.loads(body, object_hook=session.protocol.structure_message))
