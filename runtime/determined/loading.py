@@ -132,8 +132,11 @@ class RegisterProgram:
         machine.block_mask = array("q", [0 if each is None else each.mask for each in self.blocks])
         count = max(len(layout.samples), 1)
         if len(machine.sample_value) < count:
-            machine.sample_value = array("d", bytes(8 * count))
-            machine.sample_until = array("q", [NONE] * count)
+            missing = count - len(machine.sample_value)
+            machine.sample_value = array("d", machine.sample_value) + array("d", bytes(8 * missing))
+            machine.sample_until = array("q", machine.sample_until) + array("q", [NONE] * missing)
+            machine.kept_value = array("d", machine.kept_value) + array("d", bytes(8 * missing))
+            machine.kept_until = array("q", machine.kept_until) + array("q", [NONE] * missing)
 
 
 def load_determined(

@@ -51,7 +51,7 @@ class Machine:
         self.lines = lines
         self.world = world  # draws the sampled parameters
         self.present = Present(lines)
-        self.log = Log()
+        self.log = Log(lines)
         self.registers = array("d", [0.0])
         self.kept = array("d", [0.0])
         self.current = array("q", bytes(8 * lines))  # banks of registers
@@ -72,6 +72,8 @@ class Machine:
         self.block_mask = array("q", [0])
         self.sample_value = array("d", [0.0])
         self.sample_until = array("q", [NONE])
+        self.kept_value = array("d", [0.0])
+        self.kept_until = array("q", [NONE])
         self.root_row = 0
         self.why = RUNS_ON
 
@@ -79,12 +81,16 @@ class Machine:
         """Take a snapshot."""
         self.present.kept[:] = self.present.state
         self.kept[:] = self.registers
+        self.kept_value[:] = self.sample_value
+        self.kept_until[:] = self.sample_until
         return 0
 
     def go_back(self) -> int:
         """Return to the snapshot."""
         self.present.state[:] = self.present.kept
         self.registers[:] = self.kept
+        self.sample_value[:] = self.kept_value
+        self.sample_until[:] = self.kept_until
         return 0
 
     def run(self, tick: int, limit: int, watched: int) -> int:

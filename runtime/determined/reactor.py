@@ -13,7 +13,7 @@ from runtime.determined.inputs import Inputs, catch_up, take_over
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
 from runtime.determined.publish import Publisher, Wish
-from runtime.determined.tags import FAR, NONE, STOPS
+from runtime.determined.tags import FAR, NONE, ROW, STOPS
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, Draw, EventKind, OpenGoal, Reason, ReasonKind
@@ -53,7 +53,7 @@ class DeterminedReactor:
         self.machine = program.machine(self)
         self.numbers = program.model.line_numbers
         self.watched = sum(1 << n for n in program.internal)  # timelines whose changes others see
-        self.publisher = Publisher(self.name, program, trace)
+        self.publisher = Publisher(self.name, program, self.machine.log, trace)
         self.inputs = Inputs()
         self.asked: list[PendingRequest] = []  # all that the machine was asked, for the record
         self.wishes: list[Wish] = []  # requests that have not started
@@ -132,19 +132,14 @@ class DeterminedReactor:
         """Take back what was carried out ahead of `tick`."""
         if self.reached <= tick:
             return
-        row, draw_row = self.publisher.row, self.publisher.draw_row
         self._forget_ahead(self.base)
         self.reached = int(self.machine.run(self.base, tick, 0))
-        assert self.reached == tick and row <= self.machine.log.row_count
-        self.publisher.row, self.publisher.draw_row = row, min(draw_row, self.machine.log.draw_count)
+        assert self.reached == tick and self.machine.log.told_rows <= self.machine.log.row_count
 
     def _forget_ahead(self, tick: int) -> None:
-        """Go back to the snapshot, which was taken at `tick`; draws are made anew."""
-        machine = self.machine
-        machine.go_back()
-        machine.log.forget_from(tick + 1)
-        for k in range(len(machine.sample_until)):
-            machine.sample_until[k] = NONE
+        """Go back to the snapshot, which was taken at `tick`."""
+        self.machine.go_back()
+        self.machine.log.forget_from(tick + 1)
 
     def record(self) -> ReactorRecord:
         """All tokens that were executed, with their children and runs of rules."""
@@ -169,14 +164,14 @@ class DeterminedReactor:
         """What its own timelines have begun to hold at `tick`; what has begun before is only put on record."""
         if self.general is not None:
             return self.general.observations(tick)
-        found = self.publisher.tell(self.machine.log, tick)
+        found = self.publisher.tell(tick, self.watched)
         self.wishes = [wish for wish in self.wishes if wish.started < 0]
         return found
 
     def pass_over(self, tick: int) -> None:
         """Put on record what was carried out for ticks before `tick`."""
         if self.general is None:
-            self.publisher.tell(self.machine.log, tick - 1)
+            self.publisher.tell(tick - 1, 0)
 
     # ---- the future ----
 
@@ -255,6 +250,7 @@ class DeterminedReactor:
         machine = self.machine
         present = machine.present
         self.publisher.asked = chosen
+        self.publisher.look()
         asks = []
         for line, wish in chosen.items():
             request = wish.request
@@ -297,6 +293,7 @@ class DeterminedReactor:
         wish = Wish(request, line, given[0], given[1])
         self.wishes.append(wish)
         self.publisher.wishes.append(wish)
+        self.publisher.look()
 
     def _refuse(self, request: Request) -> None:
         why, line, what = Reason(ReasonKind.NO_LOOKAHEAD), request.timeline, request.predicate
@@ -320,6 +317,7 @@ class DeterminedReactor:
                 if wish.request.is_mandatory:
                     request, why = wish.request, Reason(ReasonKind.RECALLED)
                     self.refused_goals.append(OpenGoal(request.timeline, request.predicate, request.arguments, why))
+        self.publisher.look()
         self.wishes = [wish for wish in self.wishes if wish.request.number != number]
 
     def refusals(self) -> list[Refusal]:
@@ -360,7 +358,7 @@ class DeterminedReactor:
         self.general = general = self._witness(tick, is_synchronised)
         take_over(general, self.trace)
         for name in self.internal:
-            general.by_name[name].event = self.publisher.events[self.numbers[name]]
+            general.by_name[name].event = self.machine.log.latest[self.numbers[name]]
         return general
 
     def _witness(self, tick: int, is_synchronised: bool) -> PlanReactor:
@@ -375,7 +373,7 @@ class DeterminedReactor:
         """What sets the end of a token that was published: asked of a general reactor, as this one has no causes."""
         general = self.general or self._witness(self.tick, True)
         row = (
-            self.machine.log.rows[5 * token : 5 * token + 2]
+            self.machine.log.rows[ROW * token : ROW * token + 2]
             if 0 <= token < self.machine.log.row_count
             else (NONE, NONE)
         )

@@ -125,7 +125,7 @@ class Agent:
             last,
             abort,
             tuple(self.trace.draws),
-            tuple(self.trace.events),
+            self.trace.events,
             tuple(left),
         )
 

@@ -118,7 +118,7 @@ def _unloaded(configuration: AgentConfiguration, problem: UnusableModelError, wo
         EventKind.ABORT, problem.reactor, causes=tuple(range(len(trace.events))), code="F9", reason=reason
     )
     abort = Abort("F9", 0, problem.reactor, (), reason, None, 0, event)
-    draws, events = tuple(trace.draws), tuple(trace.events)
+    draws, events = tuple(trace.draws), trace.events
     return Outcome(world.seed, 0, configuration.final_tick, abort, draws, events, ())
 
 
