@@ -53,7 +53,7 @@ class Publisher:
                 trace.events.extend(self, first, count)
             if log.next_tick() <= until:
                 self._tell_tick(log.next_tick())
-        return self._seen(until, watched)
+        return self._seen(until, watched) if watched else []
 
     def look(self) -> None:
         """Take note of which timelines have requests."""

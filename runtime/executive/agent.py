@@ -83,9 +83,14 @@ class Agent:
         self.unsent = list(goals)
         self.reactors = _in_order(reactors)
         _tell_owners(self.reactors)
+        self.ahead = [reactor for reactor in self.reactors if reactor.runs_ahead]
         self.awake: list[TeleoReactor] = []
         self.killed: list[TeleoReactor] = []
         self.owners = {timeline: reactor for reactor in self.reactors for timeline in reactor.internal}
+        self.users: dict[str, list[TeleoReactor]] = {}
+        for reactor in self.reactors:
+            for timeline in reactor.external:
+                self.users.setdefault(timeline, []).append(reactor)
         self.senders: dict[int, TeleoReactor] = {}  # who made a request, by its number
         self.takers: dict[int, TeleoReactor] = {}  # who was asked
         self.made: dict[int, Request] = {}  # requests of reactors that have not been taken back
@@ -102,7 +107,7 @@ class Agent:
         abort: Abort | None = None
         while True:
             self.trace.tick = self.tick
-            for reactor in self.reactors:
+            for reactor in self.ahead:
                 reactor.pass_over(self.tick)
             abort = self._synchronise()
             # At the final tick there is no future to plan for.
@@ -169,8 +174,8 @@ class Agent:
 
     def _publish(self, observations: list[Observation]) -> None:
         for observation in observations:
-            for reactor in self.reactors:
-                if observation.timeline in reactor.external:
+            for reactor in self.users.get(observation.timeline, ()):
+                if reactor in self.reactors:
                     reactor.notify(observation)
 
     # ---- the future ----
