@@ -2,7 +2,7 @@
 
 cimport cython
 
-cdef long long CAUSE, EVENT, FAR, ROW
+cdef long long CAUSE, EVENT, FAR, ROW, SHOWN
 
 
 cdef class Log:
@@ -16,6 +16,9 @@ cdef class Log:
 
     @cython.locals(at="long long")
     cpdef long long take(self, long long row, long long width) except? -1
+
+    @cython.locals(at="long long")
+    cpdef long long show(self, long long row, long long width) except? -1
 
     cpdef int note_draw(self, long long tick, long long parameter) except -1
 

@@ -2,7 +2,7 @@
 
 from array import array
 
-from runtime.determined.tags import CAUSE, EVENT, FAR, ROW
+from runtime.determined.tags import CAUSE, EVENT, FAR, ROW, SHOWN
 
 
 class Log:
@@ -45,6 +45,15 @@ class Log:
             self.grow_values()
         at = self.value_count
         self.rows[ROW * row + 4] = at
+        self.value_count = at + width
+        return at
+
+    def show(self, row: int, width: int) -> int:
+        """Make room for the values that the block of a row shows; where they go."""
+        while self.value_count + width > self.value_capacity:
+            self.grow_values()
+        at = self.value_count
+        self.rows[ROW * row + SHOWN] = at
         self.value_count = at + width
         return at
 

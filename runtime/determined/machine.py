@@ -75,6 +75,9 @@ class Machine:
         self.kept_value = array("d", [0.0])
         self.kept_until = array("q", [NONE])
         self.root_row = 0
+        self.shows = False  # whether the values of rules are logged too, for the record
+        self.shown = array("q", [0])  # registers, block after block
+        self.shown_first = array("q", [0])
         self.why = RUNS_ON
 
     def keep(self) -> int:
@@ -205,6 +208,11 @@ class Machine:
                 if value >= _LARGEST or value <= -_LARGEST:
                     return False  # as good as infinite
                 log.values[at + j] = value
+        if self.shows:
+            first = self.shown_first[block]
+            at = log.show(self.root_row, self.shown_first[block + 1] - first)
+            for j in range(self.shown_first[block + 1] - first):
+                log.values[at + j] = self.registers[self.shown[first + j]]
         return True
 
     def start(self, i: int, predicate: int) -> int:

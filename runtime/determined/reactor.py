@@ -7,7 +7,7 @@ that came from outside so far, and goes on from there. The general engine is the
 from collections.abc import Callable
 
 from runtime.determined.arguments import given_block
-from runtime.determined.asking import Ask, PendingRequest, ask, ask_instead
+from runtime.determined.asking import Ask, ask, ask_instead
 from runtime.determined.expand import expand, record_of
 from runtime.determined.inputs import Inputs, catch_up, take_over
 from runtime.determined.loading import RegisterProgram
@@ -55,7 +55,6 @@ class DeterminedReactor:
         self.watched = sum(1 << n for n in program.internal)  # timelines whose changes others see
         self.publisher = Publisher(self.name, program, self.machine.log, trace)
         self.inputs = Inputs()
-        self.asked: list[PendingRequest] = []  # all that the machine was asked, for the record
         self.wishes: list[Wish] = []  # requests that have not started
         self.news: dict[int, Observation] = {}
         self.windows: dict[str, tuple[int, int]] = {}
@@ -70,7 +69,7 @@ class DeterminedReactor:
         self.refused_goals: list[OpenGoal] = []
         self.refusals_made: list[Refusal] = []
         for fact in program.first:
-            ask(self.machine, Ask(fact.line, fact.block, fact.values, (0, 0), fact.end, (1, FAR), "fact"))
+            ask(self.machine, Ask(fact.line, fact.block, fact.values, (0, 0), fact.end, (1, FAR)))
         self.machine.keep()
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
@@ -119,9 +118,10 @@ class DeterminedReactor:
             given = given_block(self.program, self.machine, line, news.predicate, news.arguments)
             if given is None:
                 return False
-            asks.append(Ask(line, *given, (tick, tick), (tick + 1, FAR), (1, FAR), "observation"))
+            asks.append(Ask(line, *given, (tick, tick), (tick + 1, FAR), (1, FAR)))
         if asks:
-            self._note_asked(PendingRequest(tick, tuple(asks), True))
+            for wanted in asks:
+                ask(self.machine, wanted)
         if (self.news or machine.present.next_event(tick - 1) <= tick) and not machine.tick(tick):
             return False
         self.news.clear()
@@ -145,9 +145,8 @@ class DeterminedReactor:
         """All tokens that were executed, with their children and runs of rules."""
         if self.general is not None:
             return self.general.bench.recorder.close()
-        machine = self.program.machine(self)
-        tokens = expand(self.program, machine, self.asked, self.machine.present.reach, self.tick)
-        return record_of(self.program.frame, self.name, tokens, self.tick)
+        self._return_to(self.tick)
+        return record_of(self.program.frame, self.name, expand(self.program, self.machine, self.tick), self.tick)
 
     def draw(self, machine: Machine, parameter: int, tick: int) -> bool:
         """Give a machine the value of a parameter that is in force at `tick`; false if the mission has none."""
@@ -241,11 +240,6 @@ class DeterminedReactor:
         """Whether a request might start at the final tick, when the planner begins nothing that was asked for."""
         return tick >= self.final_tick - 1 and wish.request.start[0] <= self.final_tick
 
-    def _note_asked(self, asked: PendingRequest) -> None:
-        """Ask the machine, and keep what was asked for the record."""
-        ask_instead(self.machine, asked)
-        self.asked.append(asked)
-
     def _choose(self, tick: int, chosen: dict[int, Wish]) -> None:
         machine = self.machine
         present = machine.present
@@ -255,8 +249,8 @@ class DeterminedReactor:
         for line, wish in chosen.items():
             request = wish.request
             start = (max(request.start[0], tick + 1), request.start[1])
-            asks.append(Ask(line, wish.block, wish.values, start, request.end, request.duration, "request"))
-        self._note_asked(PendingRequest(tick, tuple(asks), False))
+            asks.append(Ask(line, wish.block, wish.values, start, request.end, request.duration))
+        ask_instead(machine, asks)
         self.is_beyond = self.is_beyond or not all(present.has_room(line, tick) for line in chosen)
         machine.keep()
         self.base = tick

@@ -11,7 +11,7 @@ from compiler.program import DomainConstant, PredicateCode
 from runtime.executive.messages import Observation
 from runtime.executive.record import NOBODY, TokenRecord, Value
 from runtime.executive.timelines import NOTHING, TimelineState
-from runtime.executive.view import SPAN_OBSERVATION
+from runtime.executive.view import SPAN_EXECUTIVE, SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
 
 _LARGEST = 2.0**51  # what is larger counts as infinite
@@ -69,6 +69,15 @@ class Deferral:
         for _, _, each, end, is_kept in sorted(found, key=lambda one: one[:2]):
             (self._observe if is_kept else self._pass)(self.lines[each.timeline], each, end)
         self.waiting.clear()
+        return last
+
+    def close(self) -> int:
+        """Fold in what has waited when the mission ends; what holds then went on. The tick of the last one."""
+        last = self.fold(NOTHING)
+        for line in self.lines.values():
+            if last != NOTHING and line.current != NOTHING:
+                span = SPAN_EXECUTIVE if line.is_internal else SPAN_OBSERVATION
+                self.bench.at_least(self.bench.end(line.current), last + 1, span, line.current)
         return last
 
     def _observe(self, line: TimelineState, observation: Observation, end: int) -> None:
