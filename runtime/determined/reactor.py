@@ -167,10 +167,14 @@ class DeterminedReactor:
         self.wishes = [wish for wish in self.wishes if wish.started < 0]
         return found
 
+    def untold(self) -> int:
+        """The first tick of what it has carried out ahead and not put on record."""
+        return int(self.machine.log.next_tick()) if self.general is None else FAR
+
     def pass_over(self, tick: int) -> None:
-        """Put on record what was carried out for ticks before `tick`."""
+        """Put on record what was carried out ahead, up to a tick that has passed."""
         if self.general is None:
-            self.publisher.tell(tick - 1, 0)
+            self.publisher.tell(tick, 0)
 
     # ---- the future ----
 
@@ -349,6 +353,7 @@ class DeterminedReactor:
 
     def _hand_over(self, tick: int, is_synchronised: bool) -> PlanReactor:
         """Become a general reactor that knows what came from outside; `is_synchronised`: the present of `tick` too."""
+        self.publisher.tell(tick if is_synchronised else tick - 1, 0)
         self.general = general = self._witness(tick, is_synchronised)
         take_over(general, self.trace)
         for name in self.internal:

@@ -55,6 +55,10 @@ class CodedReactor:
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
         """Nothing that it does depends on the windows of owners."""
 
+    def untold(self) -> int:
+        """It never runs ahead."""
+        return _NEVER
+
     def pass_over(self, tick: int) -> None:
         """It never runs ahead."""
 

@@ -19,6 +19,8 @@ from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import VariableName
 
+_NEVER = 2**62
+
 
 class _HistoryError(RuntimeError):
     """Forgetting what is over changed the plan: a mistake of the engine, no verdict about the model."""
@@ -78,6 +80,10 @@ class PlanReactor:
         self.planner.window.is_reactive = self.lookahead <= 1
 
     # ---- the tick ----
+
+    def untold(self) -> int:
+        """It never runs ahead."""
+        return _NEVER
 
     def pass_over(self, tick: int) -> None:
         """It never runs ahead."""

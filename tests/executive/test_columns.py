@@ -15,6 +15,7 @@ from runtime.executive.mission import record_mission
 from runtime.executive.outcome import EventKind, Outcome
 from runtime.executive.record import BodyRun, GuardRun, MissionRecord, Value, ValueRange
 from tests.executive.determined_models import random_case
+from tests.executive.flying import fly, simulator
 
 INL = Path(__file__).resolve().parents[2] / "models/auv/inl/mission.toml"
 
@@ -118,3 +119,20 @@ def test_a_sent_trace_is_the_same_trace() -> None:
     assert pickle.loads(pickle.dumps(events)) == events
     assert single_events(events) == [event for event in events if event in single_events(events)]
     assert len(single_events(events)) < len(events) / 4
+
+
+COUNTER = """
+class Count extends AgentTimeline { predicate At { int n; int m; } Count(Mode m) { super(m, "At"); } }
+Count::At { duration == SPAN; meets(object.At next); m == n + 1; next.n == m; }
+Count count = new Count(Internal);
+close();
+fact(count.At a); a.start == 0; a.n == 0;
+"""
+
+
+def test_two_simulators_that_run_ahead_tell_in_the_order_of_time() -> None:
+    one = simulator("one", COUNTER.replace("SPAN", "2").replace("count", "one"), "one")
+    two = simulator("two", COUNTER.replace("SPAN", "3").replace("count", "two"), "two")
+    ticks = [event.tick for event in fly(one, two, until=600).events]
+    assert ticks == sorted(ticks) and len(ticks) > 500
+    assert fly(one, two, until=600, every_tick=True).events == fly(one, two, until=600).events
