@@ -88,9 +88,9 @@ class CodedReactor:
         self.wakes_at = _NEVER
         try:
             self._call(now)
-        except KeyboardInterrupt:
-            raise
         except BaseException as problem:
+            if isinstance(problem, KeyboardInterrupt) and WATCH.was_pressed:
+                raise
             said = str(failed(f"the reactor `{self.name}`", problem, self.files))
             return Failure("F7", Reason(ReasonKind.RAISED, tick=tick, message=said), self.internal, None, 0)
         try:
