@@ -19,7 +19,8 @@ from checker.judge.values import UNKNOWN
 from checker.judge.written import meanings_of
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.outcome import EventKind, Outcome, Phase, Reason, ReasonKind
+from runtime.executive.events import single_events
+from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
 from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, Value
 from runtime.user.constraint import Constraint
 
@@ -48,8 +49,10 @@ def judge_mission(
     """Judge everything that the models say of an executed mission; programs are in the order of the reactors."""
     chance = Chance(agent, tuple(programs), outcome.seed, overrides or {})
     by_name = {each.reactor: each for each in record.reactors}
-    failed = {event.reactor for event in outcome.events if event.kind in (EventKind.KILL, EventKind.ABORT)}
+    failed = {event.reactor for event in single_events(outcome.events) if event.kind in (EventKind.KILL, EventKind.ABORT)}
     desks: dict[str, tuple[ProgramJudge, Bench]] = {}
+    told = [event for event in outcome.events if event.kind is EventKind.OBSERVATION]
+    deaths = {(e.tick, e.reactor) for e in single_events(outcome.events) if e.kind is EventKind.KILL}
     for place, program in zip(agent.reactors, programs, strict=True):
         written = by_name.get(place.name)
         if written is None:
@@ -58,7 +61,7 @@ def judge_mission(
         bench = Bench(written, outcome.final_tick, chance.draw, place.name in failed)
         desks[place.name] = (judge, bench)
         _judge_model(judge, bench)
-        judge_timelines(judge, bench, _published(outcome, place.name), place.internal, place.external)
+        judge_timelines(judge, bench, _published(told, deaths, place.name), place.internal, place.external)
     judge_goals(agent, outcome, desks)
     return _summary([bench for _, bench in desks.values()])
 
@@ -117,13 +120,10 @@ def _judge_script(judge: ProgramJudge, bench: Bench) -> None:
         step(frame)
 
 
-def _published(outcome: Outcome, reactor: str) -> History:
+def _published(told: Sequence[Event], deaths: set[tuple[int, str]], reactor: str) -> History:
     """What was published, as `reactor` came to see it: news of a late death come with the next tick."""
     found: dict[str, dict[int, PublishedValue]] = {}
-    deaths = {(e.tick, e.reactor) for e in outcome.events if e.kind is EventKind.KILL}
-    for event in outcome.events:
-        if event.kind is not EventKind.OBSERVATION:
-            continue
+    for event in told:
         tick = event.tick
         if (tick, event.reactor) in deaths and event.predicate == "Failed":
             if event.reactor == reactor:

@@ -281,6 +281,10 @@ class PlanView:
         found = [t for t in self.undecided() if rows.flags[t] & FLAG_GOAL] + self._listed(HEAD_THREAT, LIST_THREAT)
         return [t for t in found if engine.lower(self.start(t)) <= tick < engine.upper(self.start(t))]
 
+    def unordered(self) -> list[int]:
+        """Active tokens that are in no sequence yet."""
+        return self._listed(HEAD_THREAT, LIST_THREAT)
+
     def _listed(self, head: int, kind: int) -> list[int]:
         """The tokens of one list."""
         found = []
