@@ -25,7 +25,8 @@ def judge_goals(agent: AgentConfiguration, outcome: Outcome, desks: dict[str, tu
 def _judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration) -> None:
     """Judge one goal that counts as achieved."""
     bench.judged += 1
-    fitting = [tok for tok in bench.tokens.values() if _is_answer(judge, bench, goal, tok)]
+    named = [one for one in bench.tokens.records() if one.predicate.rpartition(".")[2] == goal.predicate]
+    fitting = [tok for tok in bench.tokens.of(named) if _is_answer(judge, bench, goal, tok)]
     if any(not tok.is_cut for tok in fitting):
         return
     values: tuple[tuple[str, Value], ...] = (("timeline", goal.timeline), ("asked from", goal.at))
@@ -36,9 +37,7 @@ def _judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration) -> N
 
 def _is_answer(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, tok: Tok) -> bool:
     """Whether a token is what a goal asks for, executed to its end."""
-    if not tok.is_planned or tok.record.predicate.rpartition(".")[2] != goal.predicate:
-        return False
-    if not may_be_equal(tok.record.object, goal.timeline) or not bench.is_over(tok):
+    if not tok.is_planned or not may_be_equal(tok.record.object, goal.timeline) or not bench.is_over(tok):
         return False
     spans = ((START, goal.start), (END, goal.end))
     if any(given is not None and not lies_within(tok.values[place], *given) for place, given in spans):
