@@ -60,7 +60,7 @@ def judge_mission(
         if written is None:
             continue
         judge = _judge_of(program, constraints)
-        bench = Bench(written, outcome.final_tick, chance.draws, place.name in failed)
+        bench = Bench(written, agent.final_tick, chance.draws, place.name in failed)
         desks[place.name] = (judge, bench)
         tables = Tables(written)
         _judge_model(judge, bench, tables)
