@@ -156,6 +156,7 @@ class PlanReactor:
                     what = Reason(ReasonKind.CANNOT_RELAX)
                     failures.append(SyncFailure(failures[0].code, (), what, conflict_of(self.bench)))
                     continue
+                self.goals.give_up_failed_starts(tick)
             failure = self._prepare(tick) or self._synchronise(tick)
             if failure is None:
                 self.goals.report_rejected(tick)
@@ -166,6 +167,7 @@ class PlanReactor:
             failures.append(failure)
             if attempt == 0:
                 watched = self._watched(failure.conflict)
+                self.goals.note_failed_starts(self.dispatch.answered())
         self.bench.recorder.is_lost = True
         first = failures[0]
         repairs = _distinct(first.conflict, failures[1:])
@@ -186,7 +188,7 @@ class PlanReactor:
     def _synchronise(self, tick: int) -> SyncFailure | None:
         """Synchronise the present, or leave the plan as it was."""
         mark = self.bench.mark()
-        failure = synchronise(self.bench, self.planner, self.timelines, tick, self.final_tick, self.dispatch.is_refused)
+        failure = synchronise(self.bench, self.planner, self.timelines, tick, self.final_tick, self.dispatch)
         if failure is None:
             self.planner.keep()
             return None

@@ -7,6 +7,7 @@ chronologically. Where that takes long, a timeline on which nothing fits is deci
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Observation
 from runtime.executive.outcome import Conflict, Deadlock, Reason, ReasonKind
 from runtime.executive.planning import LimitError, Planner
@@ -50,12 +51,12 @@ def synchronise(
     timelines: list[TimelineState],
     tick: int,
     final_tick: int,
-    is_refused: Callable[[int], bool],
+    dispatch: Dispatch,
 ) -> SyncFailure | None:
     """Synchronise all `timelines` at `tick`; on success each has its current token and the plan is consistent.
 
     The present token is kept as long as it may; but a token that somebody asked for starts as soon as it may, and so
-    does any on a timeline that is early. `is_refused` tells what an owner will not do. On failure the caller rewinds.
+    does any on a timeline that is early. `dispatch` tells what was asked of owners. On failure the caller rewinds.
     """
     for line in timelines:
         # While the reactor slept, what holds has gone on.
@@ -65,15 +66,15 @@ def synchronise(
             return SyncFailure("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
     if not bench.set_clock(tick):
         return SyncFailure("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
-    failed = _persist(bench, timelines, tick, is_refused)
+    failed = _persist(bench, timelines, tick, dispatch.is_refused)
     if failed is not None:
         return failed
     mark = bench.mark()
-    if _Search(bench, planner, timelines, tick, final_tick, is_refused, False).run() is None:
+    if _Search(bench, planner, timelines, tick, final_tick, dispatch, False).run() is None:
         return None
     # Choices fail all the time; only when all have failed is it worth while to find out why.
     bench.rewind_to(mark)
-    return _Search(bench, planner, timelines, tick, final_tick, is_refused, True).run()
+    return _Search(bench, planner, timelines, tick, final_tick, dispatch, True).run()
 
 
 def _persist(
@@ -105,7 +106,7 @@ class _Search:
         timelines: list[TimelineState],
         tick: int,
         final_tick: int,
-        is_refused: Callable[[int], bool],
+        dispatch: Dispatch,
         explains: bool,
     ) -> None:
         self.explains = explains
@@ -113,7 +114,7 @@ class _Search:
         self.planner = planner
         self.tick = tick
         self.is_last = tick == final_tick
-        self.is_refused = is_refused
+        self.dispatch = dispatch
         self.timelines = timelines
         self.lines = [line for line in timelines if not line.is_internal and line.news is not None]
         self.lines += [line for line in timelines if line.is_internal]
@@ -207,6 +208,8 @@ class _Search:
                 if bench.predicate_of(token) == predicate
                 and bench.lower(bench.start(token)) <= tick <= bench.upper(bench.start(token))
             ]
+            if any(self.dispatch.is_answered(meet.token, line.news.event) for meet in meets):
+                return meets  # what was asked for has come: that is how the plan has to go on
             return [*meets, Continuation(_FACT, NOTHING, predicate)]
         extend: list[Continuation] = []
         if current != NOTHING:
@@ -307,7 +310,7 @@ class _Search:
             if self.is_last:
                 break  # there is no later
             if not bench.at_least(bench.start(token), tick + 1, SPAN_CLOCK, token):
-                code = "F6" if self.is_refused(token) else "F1"
+                code = "F6" if self.dispatch.is_refused(token) else "F1"
                 self._fail(code, (), Reason(ReasonKind.DID_NOT_START, bench.name_of(token), tick=tick))
                 return False
         outcome = self.planner.resolve_present(tick)

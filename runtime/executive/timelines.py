@@ -42,11 +42,12 @@ class TimelineState:
 class Goal:
     """A request that its owner has turned into a token."""
 
-    __slots__ = ("is_closed", "is_rejected", "request", "token", "token_key")
+    __slots__ = ("failed_starts", "is_closed", "is_rejected", "request", "token", "token_key")
 
     def __init__(self, request: Request, token: int, token_key: int) -> None:
         self.request = request
         self.token = token
         self.token_key = token_key
         self.is_closed = False
-        self.is_rejected = False  # the planner has could not insert it, so far
+        self.is_rejected = False  # the planner could not insert it, so far
+        self.failed_starts = 0  # how often the present failed when what it had asked for began
