@@ -172,6 +172,7 @@ class PlanReactor:
                     what = Reason(ReasonKind.CANNOT_RELAX)
                     failures.append(SyncFailure(failures[0].code, (), what, conflict_of(self.bench)))
                     continue
+                self.goals.give_up_failed_starts(tick)
             failure = self._prepare(tick) or self._synchronise(tick)
             if failure is None:
                 self.goals.report_rejected(tick)
@@ -182,6 +183,7 @@ class PlanReactor:
             failures.append(failure)
             if attempt == 0:
                 watched = self._watched(failure.conflict)
+                self.goals.note_failed_starts(self.dispatch.answered())
         self.bench.recorder.is_lost = True
         first = failures[0]
         repairs = _distinct(first.conflict, failures[1:])

@@ -255,6 +255,12 @@ class PlanView:
         """The token whose rule asked for `t`; NONE where there is none."""
         return int(self.rows.parent[t])
 
+    def root(self, t: int) -> int:
+        """The token that `t` goes back to, rule by rule; itself if no rule asked for it."""
+        while self.rows.parent[t] >= 0:
+            t = int(self.rows.parent[t])
+        return t
+
     def stands_for(self, t: int) -> int:
         """The token of the plan that `t` is, or is merged into."""
         return int(self.rows.merged_into[t] if self.rows.status[t] == MERGED else t)
