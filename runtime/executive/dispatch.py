@@ -31,6 +31,17 @@ class Dispatch:
         request = self.sent.get(self.bench.key(token))
         return request is not None and request.number in self.refused
 
+    def is_answered(self, token: int, event: int) -> bool:
+        """Whether what was published in `event` is what a token was asked for."""
+        request = self.sent.get(self.bench.key(token))
+        return request is not None and request.event in self.trace.events[event].causes
+
+    def answered(self) -> list[int]:
+        """The tokens whose owners have just begun what they were asked for."""
+        news = [line.news.event for line in self.timelines if line.news is not None]
+        tokens = [self.sent_tokens[key] for key in self.sent if self.bench.is_alive(self.sent_tokens[key], key)]
+        return [token for token in tokens if any(self.is_answered(token, event) for event in news)]
+
     def refusals(self) -> tuple[int, ...]:
         """The events in which owners gave up what still is in the plan."""
         return tuple([self.refused[one.number] for one in self.sent.values() if one.number in self.refused])

@@ -205,6 +205,21 @@ class Goals:
         self.is_changed = self.is_changed or found
         return found
 
+    def note_failed_starts(self, tokens: list[int]) -> None:
+        """Count that the present failed when the owner of `tokens` had just begun what goals asked for."""
+        roots = {self.bench.root(token) for token in tokens}
+        for goal in self.live():
+            if self.bench.is_alive(goal.token, goal.token_key) and self.bench.stands_for(goal.token) in roots:
+                goal.failed_starts += 1
+
+    def give_up_failed_starts(self, tick: int) -> None:
+        """Give up goals that could not begin, and could not when they were asked for once more."""
+        for goal in self.live():
+            if goal.failed_starts > 1 and self.bench.is_alive(goal.token, goal.token_key):
+                goal.is_closed = True
+                self._drop(goal, ReasonKind.REJECTED, tick)
+                self.bench.remove([goal.token])
+
     # ---- the tick ----
 
     def close(self, tick: int, asked: Dispatch) -> bool:

@@ -2,6 +2,7 @@
 
 from runtime.executive.clock import next_reading
 from runtime.executive.configuration import ReactorConfiguration
+from runtime.executive.deferral import Deferral
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.draws import Draws
 from runtime.executive.goals import Goals, Repair
@@ -17,6 +18,8 @@ from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import VariableName
+
+_NEVER = 2**62
 
 
 class _HistoryError(RuntimeError):
@@ -67,6 +70,7 @@ class PlanReactor:
         self.steps_made = 0
         self.work_since = 0
         self.broken: Failure | None = None
+        self.deferral = Deferral(bench, self.timelines)
         self.dispatch = Dispatch(self.name, bench, self.timelines, trace)
         self.is_stirred = False  # something came from outside after the present was synchronised
 
@@ -78,11 +82,16 @@ class PlanReactor:
 
     # ---- the tick ----
 
+    def untold(self) -> int:
+        """It never runs ahead."""
+        return _NEVER
+
     def pass_over(self, tick: int) -> None:
         """It never runs ahead."""
 
     def start_tick(self, tick: int) -> None:
         """Set "now", and forget what is over."""
+        self.tick = max(self.tick, self.deferral.fold(tick))
         self.bench.archive(self.timelines, self.tick)
         self.bench.tidy()
         if not self.bench.is_consistent():
@@ -93,7 +102,9 @@ class PlanReactor:
         self.is_stirred = False
 
     def notify(self, observation: Observation) -> None:
-        """Take note of what an owner published this tick; the last word counts."""
+        """Take note of what an owner published this tick; the last word counts. What cannot matter waits."""
+        if self.tick < observation.tick and self.deferral.takes(observation):
+            return
         self.by_name[observation.timeline].news = observation
         self.is_stirred = True
         self.due = observation.tick
@@ -161,6 +172,7 @@ class PlanReactor:
                     what = Reason(ReasonKind.CANNOT_RELAX)
                     failures.append(SyncFailure(failures[0].code, (), what, conflict_of(self.bench)))
                     continue
+                self.goals.give_up_failed_starts(tick)
             failure = self._prepare(tick) or self._synchronise(tick)
             if failure is None:
                 self.goals.report_rejected(tick)
@@ -171,6 +183,7 @@ class PlanReactor:
             failures.append(failure)
             if attempt == 0:
                 watched = self._watched(failure.conflict)
+                self.goals.note_failed_starts(self.dispatch.answered())
         self.bench.recorder.is_lost = True
         first = failures[0]
         repairs = _distinct(first.conflict, failures[1:])
@@ -248,7 +261,10 @@ class PlanReactor:
 
     def record(self) -> ReactorRecord:
         """What its plan held over the mission."""
-        return self.bench.recorder.close()
+        self.bench.recorder.synchronised = max(self.bench.recorder.synchronised, self.deferral.close())
+        found = self.bench.recorder.close()
+        passed = self.deferral.passed
+        return found._replace(tokens=tuple(sorted([*found.tokens, *passed]))) if passed else found
 
     # ---- planning ----
 

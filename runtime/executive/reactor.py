@@ -72,8 +72,11 @@ class TeleoReactor(Protocol):
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
         """Take note of the execution latency and look-ahead of the owner of each timeline, and of its own."""
 
+    def untold(self) -> int:
+        """The first tick of what it has carried out ahead and not put on record."""
+
     def pass_over(self, tick: int) -> None:
-        """Put on record what it has carried out for ticks before this one."""
+        """Put on record what it has carried out ahead, up to a tick that has passed."""
 
     def start_tick(self, tick: int) -> None:
         """Set "now"."""

@@ -186,6 +186,9 @@ class _Search:
                 if bench.predicate_of(token) == predicate and self._may_start(token):
                     found.append((_MEET, token, predicate))
                 token = bench.following(token)
+            for _, token, _ in found:
+                if self.asked.is_answered(token, line.news.event):
+                    return found  # what was asked for has come: that is how the plan has to go on
             found.append((_FACT, NOTHING, predicate))
             return found
         if current != NOTHING and bench.lower(bench.end(current)) > tick:

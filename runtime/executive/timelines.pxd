@@ -12,5 +12,5 @@ cdef class TimelineState:
 
 cdef class Goal:
     cdef public object request
-    cdef public long long token, token_key
+    cdef public long long token, token_key, failed_starts
     cdef public bint is_closed, is_rejected

@@ -255,6 +255,12 @@ class PlanView:
         """The token whose rule asked for `t`; NONE where there is none."""
         return int(self.rows.parent[t])
 
+    def root(self, t: int) -> int:
+        """The token that `t` goes back to, rule by rule; itself if no rule asked for it."""
+        while self.rows.parent[t] >= 0:
+            t = int(self.rows.parent[t])
+        return t
+
     def stands_for(self, t: int) -> int:
         """The token of the plan that `t` is, or is merged into."""
         return int(self.rows.merged_into[t] if self.rows.status[t] == MERGED else t)
@@ -297,6 +303,10 @@ class PlanView:
         rows, engine = self.rows, self.engine
         found = [t for t in self.undecided() if rows.flags[t] & FLAG_GOAL] + self._listed(HEAD_THREAT, LIST_THREAT)
         return [t for t in found if engine.lower(self.start(t)) <= tick < engine.upper(self.start(t))]
+
+    def unordered(self) -> list[int]:
+        """Active tokens that are in no sequence yet."""
+        return self._listed(HEAD_THREAT, LIST_THREAT)
 
     def _listed(self, head: int, kind: int) -> list[int]:
         """The tokens of one list."""
