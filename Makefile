@@ -12,6 +12,7 @@
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
 #   make renames      rename every name of every model, and compare what the models mean
+#   make vsix         the extension for Visual Studio Code (npm fetches its tools; what it makes loads nothing)
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
 #   make rules        the pages of docs/rules, from the tables beside the passes
@@ -29,7 +30,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof mutants renames conformance corpus rules bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof mutants renames vsix conformance corpus rules bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -115,6 +116,9 @@ mutants: build
 
 renames: build
 	NDDLC_RENAMES=all $(PYTEST) tests/lsp/test_rename_everything.py
+
+vsix:
+	cd editors/vscode && npm ci --no-audit --no-fund && npm run -s types && npm run -s bundle && npm test -s && npm run -s package
 
 conformance: build
 	$(PYTEST) tests/conformance
