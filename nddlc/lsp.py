@@ -12,6 +12,7 @@ from nddl_lang.text.source import Source
 from nddlc.inputs import chosen_dialect, readable
 from nddlc.main import named
 from runtime.user.fault import UserCodeError
+from runtime.user.output import keep_output_apart
 
 
 @click.command("lsp")
@@ -34,6 +35,7 @@ def command(
     """Serve an editor over standard input and output: complaints while typing, and what is under the cursor."""
     del stdio
     readable((), directories)
+    keep_output_apart()  # what a trusted project prints must not get into what the editor reads
     settings = ServerSettings(chosen_dialect(ctx, dialect), directories, is_trusted)
     return 0 if serve(settings, _examine, port) else 1
 
