@@ -10,6 +10,7 @@
 #   make format       let ruff format and mend what it can
 #   make plan-proof   MODELS (20000) random whole models beside judges that know only the models
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
+#   make sampling-study  BATCHES (10000) simulated batches per sampler: how often each interval covers the true rate
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
@@ -28,7 +29,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof mutants conformance corpus rules bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study mutants conformance corpus rules bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -108,6 +109,11 @@ MODELS := 20000
 
 plan-proof: build
 	$(BIN)/python -m tests.solver.whole.proof $(MODELS)
+
+BATCHES := 10000
+
+sampling-study: build
+	$(BIN)/python -m tests.checker.sampling_study $(BATCHES)
 
 mutants: build
 	$(BIN)/python -m tests.executive.mutants.campaign $(MUTANTS)

@@ -89,7 +89,7 @@ def find_thresholds(
     example = by_number[bucket.example]
     found: list[Threshold] = []
     for parameter in agent.parameters:
-        if DISTRIBUTIONS[parameter.distribution].is_constant:
+        if DISTRIBUTIONS[parameter.distribution].is_determined:
             continue
         failing = [_in_force(by_number[number], parameter.name) for number in bucket.missions]
         passing = [
@@ -235,7 +235,7 @@ class _Flights:
 
     def _fails(self, value: float) -> bool:
         self.count += 1
-        changed = replace(self.parameter, distribution="fixed", values=(value,), weights=(), clip=None)
+        changed = replace(self.parameter, distribution="fixed", values=(value,), weights=(), clip=None, share=None)
         parameters = tuple(changed if one.name == changed.name else one for one in self.agent.parameters)
         result = self.refly(replace(self.agent, parameters=parameters), self.example.number, self.example.seed)
         if result.verdict is Verdict.ERROR:

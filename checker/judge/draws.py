@@ -4,6 +4,8 @@ The stream of a parameter is SplitMix64 started at a mix of the seed and the FNV
 index is reached without those before. Normal distributions have the mean and the variance of the uniform one.
 """
 
+import ast
+import math
 from collections.abc import Mapping
 from functools import lru_cache
 from math import floor
@@ -17,6 +19,7 @@ from runtime.executive.record import Value
 _WORD = 2**64
 _STEP = 0x9E3779B97F4A7C15
 _STANDARD = NormalDist()
+_CALLABLE = {"abs": abs, "min": min, "max": max, "floor": floor, "ceil": math.ceil, "sqrt": math.sqrt}
 
 
 def _stir(word: int) -> int:
@@ -38,8 +41,12 @@ def _share(seed: int, name: str, index: int) -> float:
 def drawn(parameter: ParameterConfiguration, seed: int, tick: int) -> Value:
     """The value of a parameter for a token that begins at `tick`; unknown for a distribution that the judge lacks."""
     index = 0 if parameter.mode == "inter" else max(tick, 0) // parameter.update
-    part = _share(seed, parameter.name, index)
+    part = _share(seed, parameter.stream or parameter.name, index)
+    if parameter.share is not None and index == 0:
+        part = parameter.share
     lower, width = parameter.lower, parameter.upper - parameter.lower
+    mean = lower + width / 2 if parameter.mean is None else parameter.mean
+    deviation = width / 12**0.5 if parameter.deviation is None else parameter.deviation
     inner = (floor(part * 2**52) + 0.5) / 2**52
     match parameter.distribution:
         case "uniform" if parameter.is_whole:
@@ -47,17 +54,23 @@ def drawn(parameter: ParameterConfiguration, seed: int, tick: int) -> Value:
         case "uniform":
             value = lower + part * width
         case "normal":
-            value = lower + width / 2 + width / 12**0.5 * _STANDARD.inv_cdf(inner)
+            value = mean + deviation * _STANDARD.inv_cdf(inner)
         case "truncated_normal":
-            outside = _STANDARD.cdf(-(3**0.5))
-            value = lower + width / 2 + width / 12**0.5 * _STANDARD.inv_cdf(outside + inner * (1 - 2 * outside))
+            below, above = (_STANDARD.cdf((end - mean) / deviation) for end in (lower, parameter.upper))
+            inside = min(max(below + inner * (above - below), 2**-53), 1 - 2**-53)
+            value = mean + deviation * _STANDARD.inv_cdf(inside)
             value = min(max(value, lower), parameter.upper)
-        case "discrete":
+        case "discrete" | "choice":
             value = _picked(parameter, part)
         case "fixed":
             value = parameter.values[0]
         case _:
             return UNKNOWN
+    return _settled(parameter, value)
+
+
+def _settled(parameter: ParameterConfiguration, value: float) -> float:
+    """The value after rounding and clipping."""
     if parameter.is_whole:
         value = float(floor(value + 0.5))
     if parameter.clip is not None:
@@ -97,4 +110,13 @@ class Chance:
         if name in self.overrides:
             return self.overrides[name]
         parameter = self.parameters.get(name)
-        return UNKNOWN if parameter is None else drawn(parameter, self.seed, tick)
+        if parameter is None:
+            return UNKNOWN
+        if not parameter.expression:
+            return drawn(parameter, self.seed, tick)
+        names = {node.id for node in ast.walk(ast.parse(parameter.expression.strip())) if isinstance(node, ast.Name)}
+        given = {other: self.draw(other, tick) for other in names & self.parameters.keys()}
+        if not all(isinstance(value, float | int) for value in given.values()):
+            return UNKNOWN
+        found = eval(parameter.expression.strip(), {"__builtins__": _CALLABLE}, given)  # read by checker.mission before
+        return _settled(parameter, float(found))
