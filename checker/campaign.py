@@ -36,6 +36,7 @@ class Enough:
     seconds: float | None = None
     failures: int | None = None
     rule: StopRule | None = None
+    missions: int | None = None  # the first ones of those planned
 
 
 _NO_BOUND = Enough()
@@ -96,12 +97,17 @@ class Campaign:
         fresh: bool = False,
         enough: Enough = _NO_BOUND,
         progress: Callable[[Progress], None] | None = None,
+        keeps_failures: bool = True,
     ) -> Flown:
-        """Fly what is not in the store yet, or with `fresh` all of it again."""
+        """Fly what is not in the store yet, or with `fresh` all of it again.
+
+        With `keeps_failures` those of earlier runs come first, and those of this one are kept.
+        """
         run, check = self.run, self.mission.check
         kept = store.begin(run, keep=not fresh) if store is not None else {}
-        kept = {number: result for number, result in kept.items() if number <= check.missions}
-        failures = store.failures(run) if store is not None else ()
+        planned = min(check.missions, enough.missions or check.missions)
+        kept = {number: result for number, result in kept.items() if number <= planned}
+        failures = store.failures(run) if store is not None and keeps_failures else ()
         watch = _Watch(self, run, kept, store, enough, progress, failures)
         ended_by = None
         if not watch.is_enough():
@@ -113,7 +119,7 @@ class Campaign:
         if store is not None:
             store.flush()
         flown = watch.flown(ended_by)
-        if store is not None:
+        if store is not None and keeps_failures:
             store.keep_failures(run, _worth_keeping(flown.results))
         return flown
 
@@ -197,7 +203,8 @@ class _Watch:
         self.campaign, self.run, self.store, self.enough, self.progress = campaign, run, store, enough, progress
         self.results = {number: campaign.judged(result) for number, result in kept.items()}
         self.kept = sum(number > 0 for number in kept)
-        self.planned = campaign.mission.check.missions
+        planned = campaign.mission.check.missions
+        self.planned = min(planned, enough.missions or planned)
         self.begun = time.monotonic()
         self.reached = 0  # missions 1 to `reached` are finished
         self.failures_reached = 0

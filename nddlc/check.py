@@ -114,7 +114,7 @@ def command(
         if style == "text":
             click.echo(f"`{path}` and its models are in order; nothing was flown")
         return _HOLDS
-    count, enough = workers or _cores(), Enough(seconds, max_failures, rule)
+    count, enough = workers or cores(), Enough(seconds, max_failures, rule)
     try:
         with ExitStack() as stack:
             store = None if no_store else stack.enter_context(open_store(store_path))
@@ -179,7 +179,7 @@ def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
         click.echo(f"{errors} error{'' if errors == 1 else 's'}: nothing was flown")
 
 
-def _cores() -> int:
+def cores() -> int:
     """How many cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
