@@ -1,7 +1,7 @@
 """Which rules and branches missions exercise: programs and records in, numbers of features out; unexercised sites out.
 
 A feature below `_EVENTS` is a site of a program: a rule that fired, or a branch of a guard that was taken. Those above
-are kinds of events: what was observed, asked for, refused or repaired on which timeline.
+are kinds of events: what held, was asked for, refused or repaired on which timeline.
 """
 
 import zlib
@@ -9,16 +9,20 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from checker.batch.result import MissionResult
 from checker.models import ModelSet
 from checker.names import relative_name
 from compiler.program import Guard, Instruction, ObjectLoop, Program, RuleCode
 from nddl_lang.text.source import Span
+from runtime.executive.columns import GuardColumns, RunColumns, TokenColumns
+from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, SourcePlace
-from runtime.executive.record import BodyRun, MissionRecord
+from runtime.executive.record import BodyRun, GuardRun, MissionRecord, ReactorRecord
 
 _EVENTS = 1 << 32
-_TOLD = (EventKind.OBSERVATION, EventKind.REQUEST, EventKind.REFUSE, EventKind.REJECT, EventKind.RELAX, EventKind.KILL)
+_TOLD = (EventKind.REQUEST, EventKind.REFUSE, EventKind.REJECT, EventKind.RELAX, EventKind.KILL)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +79,7 @@ class _Sites:
         self.sites.append(site)
         return self.first + len(self.sites) - 1
 
-    def note(self, run: BodyRun, at: _Branch, found: set[int]) -> None:
+    def note(self, run: BodyRun | RunColumns, at: _Branch, found: set[int]) -> None:
         """Add the sites that a run of a body reached."""
         found.add(at.site)
         forks = list(at.guards)
@@ -84,7 +88,8 @@ class _Sites:
             before = next(number for number, fork in enumerate(forks) if fork.is_looped)
             rounds = (len(run.guards) - (len(forks) - loops)) // loops
             forks = [*forks[:before], *forks[before : before + loops] * max(rounds, 0), *forks[before + loops :]]
-        for fork, guard in zip(forks, run.guards, strict=False):
+        guards: Sequence[GuardRun | GuardColumns] = run.guards
+        for fork, guard in zip(forks, guards, strict=False):
             branch = {"then": fork.then, "else": fork.otherwise}.get(guard.branch)
             if branch is not None:
                 found.add(branch.site)
@@ -113,15 +118,33 @@ class Universe:
         found: set[int] = set()
         for program, reactor in zip(self.programs, record.reactors, strict=False):
             sites = self._of[id(program)]
-            for token in reactor.tokens:
-                for run in token.runs:
-                    sites.note(run, sites.rules[run.rule], found)
-        shapes = {
-            (event.kind, event.reactor, event.timeline, event.predicate, event.stage or "")
-            for event in events
+            for run in _runs(reactor):
+                sites.note(run, sites.rules[run.rule], found)
+        shapes: set[tuple[str, ...]] = {
+            (event.kind.value, event.reactor, event.timeline, event.predicate, str(event.stage or ""))
+            for event in single_events(events)
             if event.kind in _TOLD
         }
+        for reactor in record.reactors:
+            shapes |= {("token", reactor.reactor, *pair) for pair in _held(reactor)}
         return (*sorted(found), *sorted(_EVENTS + zlib.crc32("\0".join(shape).encode()) for shape in shapes))
+
+
+def _runs(reactor: ReactorRecord) -> Iterator[BodyRun | RunColumns]:
+    """The runs of rules of a reactor; of tokens that are alike, one for all."""
+    tokens = reactor.tokens
+    bearers = tokens.groups if isinstance(tokens, TokenColumns) else tokens
+    for bearer in bearers:
+        yield from bearer.runs
+
+
+def _held(reactor: ReactorRecord) -> set[tuple[str, str]]:
+    """Which predicates were on which timelines."""
+    tokens = reactor.tokens
+    if not isinstance(tokens, TokenColumns):
+        return {(str(token.object), token.predicate) for token in tokens}
+    pairs = np.unique(np.stack([tokens.times.objects, tokens.times.predicates]), axis=1)
+    return {(tokens.names[timeline], tokens.names[predicate]) for timeline, predicate in pairs.T.tolist()}
 
 
 _KNOWN: list[Universe] = []  # the last one: a worker flies one set of programs

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from checker.betting import betting_interval
-from checker.sampling.sampler import Role, SamplePoint
+from checker.sampling.sampler import MissionRole, SamplePoint
 from checker.statistics import DIGITS, Interval, confidence_sequence, exact_interval
 
 
@@ -61,7 +61,7 @@ def judge_missions(
 ) -> Rate:
     """The rate of missions, each with whether it failed; `is_sequential` if what was seen decided when to stop."""
     failures = sum(failed for failed, _ in flown)
-    counted = [(failed, point) for failed, point in flown if point.role is not Role.DESIGNED] or list(flown)
+    counted = [(failed, point) for failed, point in flown if point.role is not MissionRole.DESIGNED] or list(flown)
     hits = sum(failed for failed, _ in counted)
     observed = _estimate(counted)
     interval, method = rate_interval(flown, confidence, most_weight=most_weight, is_sequential=is_sequential)
@@ -85,10 +85,10 @@ def rate_interval(
     is_sequential: bool = False,
 ) -> tuple[Interval | None, Method]:
     """The interval of the failure rate, and how it was found; None where none would be honest."""
-    counted = [(failed, point) for failed, point in flown if point.role is not Role.DESIGNED]
+    counted = [(failed, point) for failed, point in flown if point.role is not MissionRole.DESIGNED]
     if flown and not counted:
         return None, Method.NONE
-    if any(point.role is Role.WEIGHTED for _, point in counted):
+    if any(point.role is MissionRole.WEIGHTED for _, point in counted):
         values = [point.weight if failed else 0.0 for failed, point in counted]
         return betting_interval(values, max(most_weight, 1.0), confidence), Method.WEIGHTED
     failures = sum(failed for failed, _ in counted)

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from checker.batch.result import KeptFailure, MissionResult
 from checker.batch.worker import Task
 from checker.oracle import Verdict
-from checker.sampling.sampler import Role, SamplePoint, Sampler, Trial, with_point
+from checker.sampling.sampler import MissionRole, SamplePoint, Sampler, Trial, with_point
 from checker.sampling.seeds import mission_seed
 from runtime.executive.configuration import AgentConfiguration
 
@@ -98,4 +98,4 @@ def counted(results: Sequence[MissionResult]) -> list[tuple[bool, SamplePoint]]:
 
 def is_random(points: Sequence[SamplePoint]) -> bool:
     """Whether all missions are plain random ones."""
-    return all(point.role is Role.RANDOM for point in points)
+    return all(point.role is MissionRole.RANDOM for point in points)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from checker.batch.result import MissionResult
 from checker.oracle import Verdict
-from checker.sampling.sampler import Role, axes_of
+from checker.sampling.sampler import MissionRole, axes_of
 from checker.statistics import DIGITS, Interval
 from runtime.executive.chance import draw
 from runtime.executive.configuration import AgentConfiguration
@@ -32,7 +32,7 @@ def sensitivities(
     agent: AgentConfiguration, results: Sequence[MissionResult], confidence: float
 ) -> tuple[Sensitivity, ...]:
     """Of each parameter that is drawn once per mission, the greatest distance first; from plain random missions."""
-    seeds = [one.seed for one in results if one.verdict is Verdict.FAIL and one.point.role is Role.RANDOM]
+    seeds = [one.seed for one in results if one.verdict is Verdict.FAIL and one.point.role is MissionRole.RANDOM]
     if len(seeds) < _FEWEST:
         return ()
     found = [

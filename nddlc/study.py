@@ -11,7 +11,7 @@ from checker.campaign import Campaign, Enough, Flown
 from checker.flight import load
 from checker.mission import read_mission
 from checker.report.study import study_data, study_page, study_svg, study_text
-from checker.study.cells import Cell, campaign_of, cell_of, lay_out, with_beyond
+from checker.study.cells import StudyCell, campaign_of, cell_of, lay_out, with_beyond
 from checker.study.reading import StudyFile, Variant, read_study
 from nddl_lang.text.render import render
 from nddl_lang.text.write import write_whole
@@ -65,7 +65,7 @@ def command(
     chosen = [one for one in study.variants if not names or one.name in names]
     wanted = [one for one in study.samplings if not samplings or one in samplings]
     flight = _Study(study, is_trusted, workers or cores(), None if seconds is None else time.monotonic() + seconds)
-    cells: list[Cell] = []
+    cells: list[StudyCell] = []
     ended_by = 0
     try:
         with open_store(store_path) as store:
@@ -118,7 +118,7 @@ class _Study:
 
     def fly(
         self, base: Campaign, variant: Variant, sampling: str, missions: int | None, store: RunStore, *, stops: bool
-    ) -> tuple[Cell, int]:
+    ) -> tuple[StudyCell, int]:
         """Fly what a cell lacks, unless the study `stops`; the cell, and the signal that ended it.
 
         That is -1 where no time was left.

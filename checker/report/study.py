@@ -8,7 +8,7 @@ from typing import Any
 
 from checker.report.sentences import percent
 from checker.sampling.rendering import number
-from checker.study.cells import Cell, Finding, findings_of
+from checker.study.cells import StudyCell, StudyFinding, findings_of
 from checker.study.reading import StudyFile
 
 _PANELS = (("(a) drawn once per mission", "inter"), ("(b) redrawn every few ticks", "intra"))
@@ -16,7 +16,7 @@ _COLOURS = {"uniform": "f3", "normal": "f1"}
 _LEFT, _TOP, _HEIGHT, _BAR, _GAP = 58.0, 34.0, 200.0, 18.0, 20.0
 
 
-def study_text(study: StudyFile, cells: Sequence[Cell]) -> str:
+def study_text(study: StudyFile, cells: Sequence[StudyCell]) -> str:
     """The table of rates with their intervals, and what finds each variant."""
     level = number(study.confidence * 100.0)
     lines = [f"{study.name}: % of missions that failed, with exact {level} % intervals; seed {study.seed}", ""]
@@ -39,7 +39,7 @@ def study_text(study: StudyFile, cells: Sequence[Cell]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _entry(cell: Cell | None, study: StudyFile) -> str:
+def _entry(cell: StudyCell | None, study: StudyFile) -> str:
     if cell is None or not cell.missions:
         return "-"
     lower, upper = cell.interval(study.confidence)
@@ -48,7 +48,7 @@ def _entry(cell: Cell | None, study: StudyFile) -> str:
     return f"{number(round(100 * cell.rate, 1))} {span} n={cell.missions}{mark}"
 
 
-def _finding_text(finding: Finding) -> str:
+def _finding_text(finding: StudyFinding) -> str:
     """Which sampling finds a variant."""
     head = f"{finding.variant.name} ({finding.variant.title or 'no mistake'}): "
     if not finding.finds:
@@ -62,7 +62,7 @@ def _finding_text(finding: Finding) -> str:
     return text + (f"; not by {missed}" if missed else "")
 
 
-def study_data(study: StudyFile, cells: Sequence[Cell]) -> str:
+def study_data(study: StudyFile, cells: Sequence[StudyCell]) -> str:
     """The study as JSON text."""
     data: dict[str, Any] = {
         "format": "nddlc-study/1",
@@ -94,7 +94,7 @@ def study_data(study: StudyFile, cells: Sequence[Cell]) -> str:
     return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
 
 
-def study_svg(study: StudyFile, cells: Sequence[Cell]) -> str:
+def study_svg(study: StudyFile, cells: Sequence[StudyCell]) -> str:
     """Figure 12: bars with intervals, a panel per mode, a pair of bars per variant."""
     panels = [one for one in _PANELS if any(sampling.endswith(one[1]) for sampling in study.samplings)]
     shapes = list(dict.fromkeys(sampling.split()[0] for sampling in study.samplings))
@@ -129,7 +129,7 @@ def study_svg(study: StudyFile, cells: Sequence[Cell]) -> str:
     return "\n".join([*parts, "</svg>"]) + "\n"
 
 
-def _bar(cell: Cell, study: StudyFile, x: float, top: float, colour: str) -> list[str]:
+def _bar(cell: StudyCell, study: StudyFile, x: float, top: float, colour: str) -> list[str]:
     lower, upper = cell.interval(study.confidence)
     rise = _HEIGHT * cell.rate
     middle = x + _BAR / 2
@@ -146,7 +146,7 @@ def _bar(cell: Cell, study: StudyFile, x: float, top: float, colour: str) -> lis
     ]
 
 
-def study_page(study: StudyFile, cells: Sequence[Cell]) -> str:
+def study_page(study: StudyFile, cells: Sequence[StudyCell]) -> str:
     """One self-contained page: picture, table, findings."""
     style = files("checker.report").joinpath("page.css").read_text(encoding="utf-8")
     head = "".join(f'<th class="n">{escape(one)}</th>' for one in study.samplings)

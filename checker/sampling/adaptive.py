@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from checker.sampling.sampler import RANDOM_POINT, Role, SamplePoint, Setting, Trial
+from checker.sampling.sampler import RANDOM_POINT, MissionRole, SamplePoint, Setting, Trial
 
 _UNIFORM = 0.35  # kept elsewhere
 _EDGES = 0.30  # while nothing has failed; 0.10 afterwards
@@ -79,7 +79,7 @@ class Adaptive:
                 density += edges * _edge_density(shares)
             if kernels is not None:
                 density += local * kernels.density(shares)
-            points.append(setting.point(shares, Role.WEIGHTED, 1.0 / density))
+            points.append(setting.point(shares, MissionRole.WEIGHTED, 1.0 / density))
         return points
 
 

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from checker.sampling.sampler import RANDOM_POINT, Role, SamplePoint, Setting, Trial
+from checker.sampling.sampler import RANDOM_POINT, MissionRole, SamplePoint, Setting, Trial
 from checker.sampling.spread import is_kept_random
 
 _GENERATION = 20
@@ -46,7 +46,7 @@ class Guided:
                 moved = np.abs(start + width * (2.0 * shares - 1.0))
                 keep = generator.random(len(start)) < 0.5
                 shares = np.where(keep, start, np.where(moved > 1.0, 2.0 - moved, moved))
-            points.append(setting.point(shares, Role.DESIGNED))
+            points.append(setting.point(shares, MissionRole.DESIGNED))
         return points
 
 

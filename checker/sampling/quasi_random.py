@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.stats import qmc
 
-from checker.sampling.sampler import Role, SamplePoint, Setting, Trial
+from checker.sampling.sampler import MissionRole, SamplePoint, Setting, Trial
 
 _MOST_AXES = 21_201  # of scipy's table of direction numbers
 
@@ -29,7 +29,7 @@ class _Design:
             return [SamplePoint()] * count
         rows = self._rows(len(setting.axes), max(setting.planned, len(trials) + count))
         chosen = rows[len(trials) : len(trials) + count]
-        return [setting.point(row, Role.DESIGNED) for row in chosen]
+        return [setting.point(row, MissionRole.DESIGNED) for row in chosen]
 
     def _rows(self, axes: int, count: int) -> np.ndarray:
         raise NotImplementedError

@@ -20,7 +20,7 @@ _MATCHED_TAIL = 0.04163225833177522  # of a normal beyond the range that it is m
 _ALMOST_ONE = 1.0 - 2.0**-53
 
 
-class Role(StrEnum):
+class MissionRole(StrEnum):
     """What a mission says about the failure rate."""
 
     RANDOM = "random"  # drawn as the mission file says, whatever was flown before
@@ -33,7 +33,7 @@ class SamplePoint:
     """The shares of a mission by stream, its role, and its weight: 1 / density under the sampler."""
 
     shares: tuple[tuple[str, float], ...] = ()
-    role: Role = Role.RANDOM
+    role: MissionRole = MissionRole.RANDOM
     weight: float = 1.0
 
 
@@ -90,7 +90,7 @@ class Setting:
         """A stream of chance of its own for each purpose and turn."""
         return np.random.Generator(np.random.PCG64(draw_bits(self.seed, f"sampler {purpose}", turn)))
 
-    def point(self, shares: Iterable[float], role: Role, weight: float = 1.0) -> SamplePoint:
+    def point(self, shares: Iterable[float], role: MissionRole, weight: float = 1.0) -> SamplePoint:
         """A point from its shares in the order of the axes."""
         held = [min(max(float(share), 0.0), _ALMOST_ONE) for share in shares]
         return SamplePoint(tuple(zip((axis.name for axis in self.axes), held, strict=True)), role, weight)

@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from checker.sampling.sampler import RANDOM_POINT, Role, SamplePoint, Setting, Trial
+from checker.sampling.sampler import RANDOM_POINT, MissionRole, SamplePoint, Setting, Trial
 
 _CANDIDATES = 10  # Chen, Leung, Mak 2004: more of them gain little
 _EVERY = 4
@@ -51,7 +51,7 @@ class Corners:
             signs = generator.random((2**_MOST_CORNERS, len(axes))) < 0.5
         low, high = np.array([axis.low for axis in axes]), np.array([axis.high for axis in axes])
         rows = [np.full(len(axes), 0.5), *np.where(signs, high, low)]
-        return [setting.point(row, Role.DESIGNED) for row in rows[: max(1, setting.planned // 2)]]
+        return [setting.point(row, MissionRole.DESIGNED) for row in rows[: max(1, setting.planned // 2)]]
 
 
 class AdaptiveRandom:
@@ -81,7 +81,7 @@ class AdaptiveRandom:
                 nearest = ((candidates[:, None, :] - rows[None, :, :]) ** 2).sum(axis=2).min(axis=1)
                 best = candidates[int(nearest.argmax())]
             rows = np.vstack([rows, best])
-            chosen.append(setting.point(best, Role.DESIGNED))
+            chosen.append(setting.point(best, MissionRole.DESIGNED))
         return chosen
 
 
@@ -114,7 +114,7 @@ class AdaptivePartition:
             cuts += 1
         designed = iter(rows)
         points = [
-            RANDOM_POINT if is_kept_random(number) else setting.point(next(designed), Role.DESIGNED)
+            RANDOM_POINT if is_kept_random(number) else setting.point(next(designed), MissionRole.DESIGNED)
             for number in range(total)
         ]
         return points[len(trials) :]

@@ -19,7 +19,7 @@ _SURE = 0.05  # of McNemar's test, below which two samplings are told apart
 
 
 @dataclass(frozen=True, slots=True)
-class Cell:
+class StudyCell:
     """A variant under one sampling: the missions flown, whether each failed, by seed.
 
     `beyond` counts the failures whose seed does not fail in the variant that this one contains; None where it
@@ -60,13 +60,13 @@ class Cell:
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class StudyFinding:
     """Which samplings find a variant, the best first, and which of the others are surely worse than the best."""
 
     variant: Variant
-    finds: tuple[Cell, ...]
-    worse: tuple[Cell, ...]
-    missed: tuple[Cell, ...]  # in which no mission failed
+    finds: tuple[StudyCell, ...]
+    worse: tuple[StudyCell, ...]
+    missed: tuple[StudyCell, ...]  # in which no mission failed
 
 
 def lay_out(study: StudyFile, variant: Variant, folder: Path) -> Path:
@@ -83,7 +83,7 @@ def lay_out(study: StudyFile, variant: Variant, folder: Path) -> Path:
     return copy / study.mission
 
 
-def sampled_as(agent: AgentConfiguration, sampling: str) -> AgentConfiguration:
+def _sampled_as(agent: AgentConfiguration, sampling: str) -> AgentConfiguration:
     """The agent with every parameter that chance has a part in drawn in one way, such as `normal intra`."""
     shape, _, mode = sampling.partition(" ")
     return replace(agent, parameters=tuple(_drawn(one, shape, mode) for one in agent.parameters))
@@ -100,7 +100,7 @@ def _drawn(parameter: ParameterConfiguration, shape: str, mode: str) -> Paramete
 
 def campaign_of(study: StudyFile, variant: Variant, sampling: str, base: Campaign) -> Campaign:
     """The batch of a cell, from that of its mission file; the seeds are those of every other cell."""
-    agent = sampled_as(base.models.agent, sampling)
+    agent = _sampled_as(base.models.agent, sampling)
     check = replace(
         base.mission.check,
         seed=study.seed,
@@ -115,7 +115,7 @@ def campaign_of(study: StudyFile, variant: Variant, sampling: str, base: Campaig
     return replace(base, mission=mission, models=models)
 
 
-def cell_of(variant: Variant, sampling: str, planned: int, results: Sequence[MissionResult]) -> Cell:
+def cell_of(variant: Variant, sampling: str, planned: int, results: Sequence[MissionResult]) -> StudyCell:
     """What the results of a cell come to."""
     flown = [one for one in results if one.number > 0]
     counted = [one for one in flown if one.verdict is not Verdict.ERROR]
@@ -124,14 +124,14 @@ def cell_of(variant: Variant, sampling: str, planned: int, results: Sequence[Mis
         if one.verdict is Verdict.FAIL:
             codes[one.judgement.code] = codes.get(one.judgement.code, 0) + 1
     failed = tuple((one.seed, one.verdict is Verdict.FAIL) for one in counted)
-    return Cell(variant, sampling, planned, failed, len(flown) - len(counted), tuple(sorted(codes.items())))
+    return StudyCell(variant, sampling, planned, failed, len(flown) - len(counted), tuple(sorted(codes.items())))
 
 
-def with_beyond(cells: Sequence[Cell]) -> tuple[Cell, ...]:
+def with_beyond(cells: Sequence[StudyCell]) -> tuple[StudyCell, ...]:
     """The cells, with failures beyond those of the variants that they contain."""
     found = {(one.variant.name, one.sampling): one for one in cells}
 
-    def counted(cell: Cell) -> Cell:
+    def counted(cell: StudyCell) -> StudyCell:
         inner = found.get((cell.variant.beyond, cell.sampling))
         if inner is None:
             return cell
@@ -141,17 +141,17 @@ def with_beyond(cells: Sequence[Cell]) -> tuple[Cell, ...]:
     return tuple(counted(cell) for cell in cells)
 
 
-def findings_of(cells: Sequence[Cell]) -> Iterator[Finding]:
+def findings_of(cells: Sequence[StudyCell]) -> Iterator[StudyFinding]:
     """For each variant the samplings that find it."""
     for variant in dict.fromkeys(one.variant.name for one in cells):
         own = [one for one in cells if one.variant.name == variant and one.missions]
         if own:
             finds = tuple(sorted((one for one in own if one.failures), key=lambda one: -one.rate))
             worse = tuple(one for one in own if finds and one is not finds[0] and _is_worse(one, finds[0]))
-            yield Finding(own[0].variant, finds, worse, tuple(one for one in own if not one.failures))
+            yield StudyFinding(own[0].variant, finds, worse, tuple(one for one in own if not one.failures))
 
 
-def _is_worse(cell: Cell, best: Cell) -> bool:
+def _is_worse(cell: StudyCell, best: StudyCell) -> bool:
     """McNemar's test on the seeds that both have flown: the draws of one seed are shares of the same streams."""
     own, other = dict(cell.failed), dict(best.failed)
     common = own.keys() & other.keys()

@@ -13,12 +13,12 @@ from nddl_lang.text.read import read_source
 from nddl_lang.text.source import Source
 from nddl_lang.text.toml_places import find_places, split_error, toml_of
 
-DISTRIBUTIONS = ("uniform", "normal")
-MODES = ("inter", "intra")
+_DISTRIBUTIONS = ("uniform", "normal")
+_MODES = ("inter", "intra")
 
 
 @dataclass(frozen=True, slots=True)
-class Edit:
+class FileEdit:
     """A change of one place in a file; `old` stands there exactly once."""
 
     file: str  # relative to the folder of the study
@@ -36,7 +36,7 @@ class Variant:
 
     name: str
     title: str
-    edits: tuple[Edit, ...]
+    edits: tuple[FileEdit, ...]
     expected: Mapping[str, float]
     missions: int
     beyond: str = ""
@@ -69,8 +69,8 @@ def read_study(path: Path) -> tuple[StudyFile | None, tuple[Diagnostic, ...]]:
     top = Table(text, (), values, "a study file")
     head = top.table("study", "[study]", needed=True)
     missions = head.whole("missions", 200, 1)
-    distributions = _chosen(head, "distributions", DISTRIBUTIONS)
-    modes = _chosen(head, "modes", MODES)
+    distributions = _chosen(head, "distributions", _DISTRIBUTIONS)
+    modes = _chosen(head, "modes", _MODES)
     samplings = tuple(f"{shape} {mode}" for mode in modes for shape in distributions)
     mission = head.string("mission")
     variants = _read_variants(top.tables("variant", needed=True), path.parent, samplings, missions)
@@ -119,7 +119,7 @@ def _read_variants(tables: list[Table], root: Path, samplings: tuple[str, ...], 
         beyond = table.string("beyond", "")
         if beyond and beyond not in [one.name for one in variants]:
             table.complain_of_value("beyond", beyond, "a variant named before")
-        edits: tuple[Edit, ...] = ()
+        edits: tuple[FileEdit, ...] = ()
         if file and not (root / file).is_file():
             span = table.text.value_span((*table.path, "file"))
             table.text.diagnostics.append(NO_FILE.at(span, path=file))
@@ -130,7 +130,7 @@ def _read_variants(tables: list[Table], root: Path, samplings: tuple[str, ...], 
     return tuple(variants)
 
 
-def _read_bug(table: Table, root: Path, file: str, title: str) -> tuple[str, tuple[Edit, ...]]:
+def _read_bug(table: Table, root: Path, file: str, title: str) -> tuple[str, tuple[FileEdit, ...]]:
     """The title and the edits of a bug file, with files relative to the study."""
     span = table.text.value_span((*table.path, "file"))
     try:
@@ -138,7 +138,7 @@ def _read_bug(table: Table, root: Path, file: str, title: str) -> tuple[str, tup
         edits = []
         for one in bug["edit"]:
             name = (root / file).parent.joinpath(str(one["file"])).resolve().relative_to(root.resolve()).as_posix()
-            edit = Edit(name, str(one["old"]), str(one["new"]))
+            edit = FileEdit(name, str(one["old"]), str(one["new"]))
             if (root / name).read_text(encoding="utf-8").count(edit.old) != 1:
                 raise ValueError(f"`{name}` does not have the text to replace at exactly one place")
             edits.append(edit)

@@ -7,7 +7,7 @@ from scipy import stats
 from checker.betting import betting_interval
 from checker.rate import Method, judge_missions
 from checker.sampling.adaptive import Adaptive
-from checker.sampling.sampler import Role, SamplePoint, Setting, ShareAxis, Trial, axes_of, with_point
+from checker.sampling.sampler import MissionRole, SamplePoint, Setting, ShareAxis, Trial, axes_of, with_point
 from checker.sensitivity import sensitivity
 from checker.statistics import confidence_sequence, exact_interval, mcnemar
 from checker.stopping import parse_rule
@@ -232,7 +232,7 @@ def test_bets_on_equal_weights_are_not_much_wider_than_the_exact_interval() -> N
 
 
 def test_designed_missions_are_in_no_rate_and_still_fail_the_check() -> None:
-    flown = [(True, SamplePoint((("A", 0.99),), Role.DESIGNED)), *[(False, SamplePoint())] * 30]
+    flown = [(True, SamplePoint((("A", 0.99),), MissionRole.DESIGNED)), *[(False, SamplePoint())] * 30]
     rate = judge_missions(flown, 0.0, 0.95)
     assert (rate.observed, rate.counted, rate.failures, rate.method) == (0.0, 30, 1, Method.EXACT)
     assert rate.exceeds
@@ -261,7 +261,7 @@ def test_a_rule_is_shown_refuted_or_open() -> None:
     assert rule.outcome([passing] * 10, 1.0) is None
     assert rule.outcome([passing] * 200, 1.0) is True
     assert rule.outcome([failing] * 10, 1.0) is False
-    designed = SamplePoint(role=Role.DESIGNED)
+    designed = SamplePoint(role=MissionRole.DESIGNED)
     assert rule.outcome([(True, designed)] * 100, 1.0) is None
 
 

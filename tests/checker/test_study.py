@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 from checker.sampling.seeds import mission_seed
-from checker.study.cells import Cell, findings_of, with_beyond
+from checker.study.cells import StudyCell, findings_of, with_beyond
 from checker.study.reading import Variant, read_study
 from nddlc.main import run
 from runtime.executive.chance import draw
@@ -117,9 +117,9 @@ def test_an_edit_without_its_place_is_named(folder: Path) -> None:
     assert "exactly one place" in (found[0].help or "")
 
 
-def cell(name: str, sampling: str, failing: range, beyond: str = "") -> Cell:
+def cell(name: str, sampling: str, failing: range, beyond: str = "") -> StudyCell:
     variant = Variant(name, "", (), {}, 40, beyond)
-    return Cell(variant, sampling, 40, tuple((seed, seed in failing) for seed in range(40)), 0, ())
+    return StudyCell(variant, sampling, 40, tuple((seed, seed in failing) for seed in range(40)), 0, ())
 
 
 def test_the_best_sampling_is_told_from_worse_ones_by_common_seeds() -> None:
