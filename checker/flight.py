@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import overload
 
 from checker.batch.worker import Fly
+from checker.coverage import universe_of
 from checker.judge.judge import breaches, judge_mission
 from checker.judge.rendering import DisagreementError
 from checker.names import relative_name
@@ -53,7 +54,8 @@ def fly_once(
         report = judge_mission(agent, programs.programs, outcome, record, programs.constraints, values)
     if report.errors:
         raise DisagreementError(report)
-    return _relative(replace(outcome, breaches=breaches(report)), root)
+    behaviour = universe_of(programs.programs).features(record, outcome.events)
+    return _relative(replace(outcome, breaches=breaches(report), behaviour=behaviour), root)
 
 
 def programs_of(agent: AgentConfiguration) -> MissionPrograms:

@@ -21,6 +21,7 @@ from checker.oracle import Verdict
 from nddlc.check import STORE
 from nddlc.inputs import Unusable
 from nddlc.mission_trust import models_of
+from nddlc.samplers import SAMPLERS, find_sampler
 from nddlc.trust import trust_option
 from runtime.executive.rendering import event_data, trace_line
 
@@ -37,15 +38,20 @@ def command(what: str, style: str, store_path: Path, events: bool, is_trusted: b
     RUN is the id that `nddlc check` printed, or `latest`. Without a mission the first failed one is explained.
     """
     name, _, number = what.partition("#")
-    if number and not number.isdigit():
+    if number and not number.removeprefix("k").isdigit():
         raise Unusable(f"`{number}` is no number of a mission", "write RUN#MISSION, such as latest#37")
     if not store_path.exists():
         raise Unusable(f"there is no store `{store_path}`", "`nddlc check` makes one; --store names another")
     try:
         with open_store(store_path) as store:
-            return _explain(store, name or LATEST, int(number) if number else None, style, events, is_trusted)
+            return _explain(store, name or LATEST, _number(number) if number else None, style, events, is_trusted)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
+
+
+def _number(text: str) -> int:
+    """`12` as it stands; `k3`, the third of the kept failures, as -3."""
+    return -int(text[1:]) if text.startswith("k") else int(text)
 
 
 def _explain(store: RunStore, name: str, number: int | None, style: str, events: bool, is_trusted: bool) -> int:
@@ -97,6 +103,11 @@ def _campaign(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
     campaign = Campaign(mission, models, load)
     if models.has_errors:
         return Campaign(mission, ModelSet(mission.agent, {}, {}, {}, ()), load), False
+    if run.sampler in SAMPLERS:
+        name, make_sampler = find_sampler(run.sampler)
+        campaign = replace(campaign, sampler_name=name, make_sampler=make_sampler)
+    else:
+        campaign = replace(campaign, sampler_name=run.sampler)
     return campaign, campaign.run.id == run.id
 
 
@@ -104,11 +115,14 @@ def _result(run: Run, number: int | None, campaign: Campaign, findings: Findings
     """The mission asked for, flown again from its seed where its trace was not kept."""
     if number is None:
         raise Unusable(f"no mission of run {run.id} failed", f"{run.id}#N shows mission N all the same")
-    if not 1 <= number <= run.missions:
+    stored = next((result for result in (*findings.results, *findings.kept) if result.number == number), None)
+    if stored is None and not 1 <= number <= run.missions:
         raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number}")
-    stored = next((result for result in findings.results if result.number == number), None)
     if stored is not None and (stored.has_trace or not is_same):
         return stored
     if not is_same:
         raise Unusable(f"mission {number} of run {run.id} was not flown, and the model or nddlc has changed since")
-    return campaign.judged(fly_one(load(campaign.models.agent), campaign.task(number), keep_trace=True))
+    if stored is None and run.sampler != "random":
+        raise Unusable(f"mission {number} of run {run.id} was not flown, and only the sampler knows where it is")
+    task = campaign.task(number, stored)
+    return campaign.judged(fly_one(load(task.agent or campaign.models.agent), task, keep_trace=True))
