@@ -30,18 +30,14 @@ cdef class Engine(Store):
 
     cpdef long long reserve(self, long long count) except? -1
 
-    @cython.locals(v="long long")
     cpdef long long new_interval(
         self, long long kind, double lo, double hi, long long span, long long owner
     ) except? -1
 
-    @cython.locals(r="long long", v="long long")
     cpdef long long new_values(self, long long kind, list values, long long span, long long owner) except? -1
 
-    @cython.locals(r="long long", v="long long")
     cpdef long long new_like(self, long long other, long long span, long long owner) except? -1
 
-    @cython.locals(r="long long", v="long long")
     cpdef long long new_open(self, long long kind, list values, long long span, long long owner) except? -1
 
     @cython.locals(r="long long")
@@ -53,16 +49,12 @@ cdef class Engine(Store):
 
     cpdef long long new_constant_values(self, long long kind, list values) except? -1
 
-    @cython.locals(r="long long", support="long long")
     cpdef bint restrict_base(self, long long v, double lo, double hi, long long span, long long owner) except -1
 
-    @cython.locals(r="long long")
     cpdef bint restrict_base_values(self, long long v, list values, long long span, long long owner) except -1
 
-    @cython.locals(values=list)
     cpdef bint restrict_base_to(self, long long v, long long other, long long span, long long owner) except -1
 
-    @cython.locals(r="long long")
     cpdef bint decide(self, long long v, double value, long long span, long long owner) except -1
 
     cpdef double lower(self, long long v) except? -1.0
@@ -97,12 +89,10 @@ cdef class Engine(Store):
 
     cpdef long long post(self, long long op, list arguments, long long span, long long owner) except? -1
 
-    @cython.locals(c="long long")
     cpdef long long post_element(
         self, long long result, long long index, list keys, list variables, long long span, long long owner
     ) except? -1
 
-    @cython.locals(c="long long")
     cpdef long long post_external(self, external, list arguments, long long span, long long owner) except? -1
 
     cpdef int set_parent(self, long long value, long long parent) except -1
@@ -111,21 +101,19 @@ cdef class Engine(Store):
 
     cpdef list keys(self, long long c)
 
-    @cython.locals(found=dict, head="long long", slot="long long")
+    @cython.locals(head="long long", slot="long long")
     cpdef list constraints_of(self, long long v)
 
     cpdef list edges_of(self, long long v)
 
-    @cython.locals(found=list, r="long long")
+    @cython.locals(r="long long")
     cpdef list restrictions_of(self, long long v)
 
     @cython.locals(c="long long", v="long long")
     cpdef bint propagate(self) except -1
 
-    @cython.locals(holding=bint)
     cpdef bint run(self, long long c) except -1
 
-    @cython.locals(i="long long")
     cpdef int clear_woken(self) except -1
 
     cpdef long long mark(self) except? -1
@@ -134,7 +122,6 @@ cdef class Engine(Store):
 
     cpdef int commit(self) except -1
 
-    @cython.locals(again=list)
     cpdef bint retract(self, constraints=*, edges=*, restrictions=*, variables=*) except -1
 
     cpdef bint undecide(self, long long v) except -1

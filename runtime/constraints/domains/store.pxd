@@ -57,22 +57,16 @@ cdef class Store:
     @cython.locals(room="long long")
     cpdef int grow_trail(self) except -1
 
-    @cython.locals(i="long long")
     cpdef long long save_real(self, double x) except -1
 
-    @cython.locals(i="long long")
     cpdef int save(self, long long name, long long code, long long value, long long support) except -1
 
-    @cython.locals(i="long long")
     cpdef int write_lower(self, long long v, long long x, long long support) except -1
 
-    @cython.locals(i="long long")
     cpdef int write_upper(self, long long v, long long x, long long support) except -1
 
-    @cython.locals(i="long long")
     cpdef int write_real_lower(self, long long v, double x, long long support) except -1
 
-    @cython.locals(i="long long")
     cpdef int write_real_upper(self, long long v, double x, long long support) except -1
 
     cpdef bint fail(self, long long v, long long side, long long support) except -1

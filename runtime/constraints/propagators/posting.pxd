@@ -17,22 +17,18 @@ cpdef int _grow_constraints(Store s) except -1
 @cython.locals(room="long long")
 cpdef int _grow_slots(Store s, long long need) except -1
 
-@cython.locals(first="long long")
 cpdef long long _allocate_slots(Store s, long long count) except? -1
 
-@cython.locals(c="long long")
 cpdef long long _new_constraint(Store s, long long op, long long arity, long long span, long long owner) except? -1
 
-@cython.locals(slot="long long")
 cpdef void _watch(Store s, long long c, long long position, long long v, long long mask) except *
 
 @cython.locals(count="long long", first="long long", slot="long long")
 cpdef int release_constraint(Store s, long long c) except -1
 
-@cython.locals(c="long long", position="long long")
+@cython.locals(position="long long")
 cpdef long long post_constraint(Store s, long long op, list arguments, long long span, long long owner) except? -1
 
-@cython.locals(c="long long")
 cpdef long long start_element(
     Store s, long long result, long long index, long long rows, long long span, long long owner
 ) except? -1

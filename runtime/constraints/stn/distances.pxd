@@ -15,10 +15,7 @@ cdef class Distances:
     cdef public long long[::1] stamped, distance, via
     cdef public bint by_bounds, temporal_only
 
-    @cython.locals(
-        e="long long", engine=Engine, heap=Heap, is_shorter=bint, length="long long", limit="long long", longer="long long",
-        u="long long", v="long long"
-    )
+    @cython.locals(e="long long", engine=Engine, is_shorter=bint, u="long long")
     cpdef bint admits(self, long long source, long long target, long long weight) except -1
 
     @cython.locals(c="long long")

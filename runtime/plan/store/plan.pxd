@@ -1,6 +1,5 @@
 # The C types of `plan.py`.
 
-cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.resources.resources cimport Resources
 from runtime.plan.store.rows cimport Rows
@@ -44,18 +43,14 @@ cdef class Plan:
 
     cpdef int set_globals(self, long long count) except -1
 
-    @cython.locals(o="long long")
     cpdef long long new_object(self, long long number, bint is_timeline) except? -1
 
-    @cython.locals(top="long long")
     cpdef int push(self, long long start, long long end, long long scope, long long slot, long long value) except -1
 
     cpdef int enqueue(self, long long guard) except -1
 
-    @cython.locals(engine=Engine, i="long long")
     cpdef int gather_woken(self) except -1
 
-    @cython.locals(i="long long", left="long long")
     cpdef int keep_queued(self, long long done) except -1
 
     cpdef int add_operand(self, long long v) except -1

@@ -32,19 +32,17 @@ cdef class Rows:
     @cython.locals(size="long long")
     cpdef int _grow_tokens(self) except -1
 
-    @cython.locals(at="long long", t="long long")
+    @cython.locals(at="long long")
     cpdef long long new_token(
         self, long long predicate, long long flags, long long parent, long long creator, long long span
     ) except? -1
 
-    @cython.locals(child="long long", parent="long long")
     cpdef int release_token(self, long long t) except -1
 
     cpdef int set_status(self, long long t, long long status) except -1
 
     cpdef int set_merged(self, long long t, long long other) except -1
 
-    @cython.locals(other="long long", previous="long long")
     cpdef int unset_merged(self, long long t) except -1
 
     cpdef int _make_scopes(self, long long capacity) except -1
@@ -52,31 +50,25 @@ cdef class Rows:
     @cython.locals(size="long long")
     cpdef int _grow_scopes(self) except -1
 
-    @cython.locals(frame="long long", offset="long long", s="long long", source="long long")
     cpdef long long new_scope(
         self, long long kind, long long token, long long rule, long long parent, long long slots, long long size
     ) except? -1
 
-    @cython.locals(inputs="long long")
     cpdef int release_scope(self, long long s) except -1
 
     cpdef int set_branch(self, long long s, long long branch) except -1
 
     cpdef int set_inputs(self, long long s, long long inputs, long long watch) except -1
 
-    @cython.locals(h="long long")
     cpdef int hold(self, long long s, long long kind, long long identity, long long extent) except -1
 
-    @cython.locals(h="long long")
     cpdef int drop_hold(self, long long s) except -1
 
     @cython.locals(size="long long")
     cpdef int grow_pairs(self) except -1
 
-    @cython.locals(start="long long")
     cpdef long long new_cells(self, long long size) except? -1
 
     cpdef int _release_cells(self, long long start, long long size) except -1
 
-    @cython.locals(at="long long")
     cpdef int log(self, long long code, long long index, long long old) except -1

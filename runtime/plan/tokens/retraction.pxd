@@ -20,22 +20,18 @@ cpdef bint cancel(Plan plan, long long t) except -1
 cpdef bint remove_tokens(Plan plan, list tokens) except -1
 
 
-@cython.locals(doomed=set, rows=Rows, t="long long")
 cpdef bint retract_branch(Plan plan, long long s) except -1
 
 
 cpdef bint reset(Plan plan, long long v) except -1
 
 
-@cython.locals(after="long long", p="long long", rows=Rows)
 cpdef bint free(Plan plan, long long first, long long second, long long span) except -1
 
 
-@cython.locals(found=list, rows=Rows, s="long long")
 cpdef list scopes_of(Plan plan, long long t)
 
 
-@cython.locals(rows=Rows, status="long long", v="long long")
 cpdef void _deactivate(Plan plan, long long t, sweep) except *
 
 
@@ -43,30 +39,24 @@ cpdef void _deactivate(Plan plan, long long t, sweep) except *
 cpdef void wake_guards(Plan plan, long long v) except *
 
 
-@cython.locals(child="long long", following="long long", last="long long", rows=Rows, s="long long")
 cpdef void _drop_scopes(Plan plan, long long t, set doomed, sweep) except *
 
 
-@cython.locals(c="long long", h="long long", kind="long long", rows=Rows)
 cpdef int _collect_holds(Plan plan, long long s, sweep) except -1
 
 
 cpdef list _decisions_of(Plan plan, long long v)
 
 
-@cython.locals(done="long long", freed=list, gone=set, r="long long", restrictions=list, rows=Rows)
+@cython.locals(done="long long", r="long long")
 cpdef bint _finish(Plan plan, sweep) except -1
 
 
 @cython.locals(
-    c="long long", constraints=set, e="long long", edges=set, engine=Engine, owner="long long", owners=dict,
-    r="long long", restrictions=set, s="long long", t="long long", v="long long",
+    c="long long", e="long long", owner="long long", r="long long", s="long long", t="long long", v="long long"
 )
 cpdef int _forget_foreign(Plan plan, list gone) except -1
 
 
-@cython.locals(
-    following="long long", h="long long", identity="long long", kind="long long", last="long long", rows=Rows,
-    v="long long", watch="long long",
-)
+@cython.locals(v="long long")
 cpdef int _drop_held(Plan plan, long long s, set edges, set constraints, set restrictions) except -1

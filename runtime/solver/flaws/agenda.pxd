@@ -44,19 +44,14 @@ cdef class Agenda:
 
     cpdef int _make_tables(self) except -1
 
-    @cython.locals(most="long long", room="long long", slots="long long")
     cpdef int _empty_tables(self) except -1
 
-    @cython.locals(room="long long")
     cpdef long long reserve(self) except? -1
 
-    @cython.locals(at="long long", count="long long", waiting="long long")
     cpdef long long note_fired(self, long long level) except? -1
 
-    @cython.locals(objects="long long", t="long long")
     cpdef bint is_decided(self, long long v) except -1
 
-    @cython.locals(at="long long", last="long long")
     cpdef long long handler_now(self, long long row, long long t) except? -1
 
     cpdef int note_flaw(self, long long manager, long long item, long long handler, double priority) except -1
@@ -64,21 +59,19 @@ cdef class Agenda:
     @cython.locals(heap=Heap)
     cpdef int clear(self) except -1
 
-    @cython.locals(heap="long long", key="long long", target=Heap)
+    @cython.locals(target=Heap)
     cpdef long long offer_token(self, long long slot) except? -1
 
-    @cython.locals(start="long long")
     cpdef long long earliness(self, long long t) except? -1
 
-    @cython.locals(target=Heap, t="long long")
+    @cython.locals(target=Heap)
     cpdef long long offer_effect(self, long long slot) except? -1
 
-    @cython.locals(heap="long long", key="long long", target=Heap, v="long long")
+    @cython.locals(target=Heap)
     cpdef long long offer_variable(self, long long slot) except? -1
 
     cpdef long long rank(self, long long v) except? -1
 
-    @cython.locals(heap="long long", slot="long long")
     cpdef long long resize(self, long long v) except? -1
 
     cpdef long long _add_dynamic(self, long long slot, long long is_variable) except? -1
@@ -87,21 +80,16 @@ cdef class Agenda:
 
     cpdef long long defer_token(self, long long slot) except? -1
 
-    @cython.locals(first="long long", v="long long")
     cpdef long long defer_variable(self, long long slot, long long t) except? -1
 
     cpdef int _watch_times(self, long long t) except -1
 
-    @cython.locals(after="long long", before="long long", t="long long")
     cpdef long long forget_waiting(self, long long v) except? -1
 
-    @cython.locals(slot="long long")
     cpdef long long resume_token(self, long long t) except? -1
 
-    @cython.locals(slot="long long")
     cpdef long long resume_variable(self, long long v) except? -1
 
-    @cython.locals(at="long long", slot="long long", kind="long long")
     cpdef long long backtrack(
         self, long long dropped, long long dynamic, long long rows_seen, long long engine_seen
     ) except? -1

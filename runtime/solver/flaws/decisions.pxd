@@ -14,7 +14,6 @@ cdef class Decisions:
     cdef public long long[::1] pool_after, reasons, is_local, reason_level, reason_next
     cdef public dict lists
 
-    @cython.locals(d="long long")
     cpdef long long open(self, Agenda agenda, long long mark) except? -1
 
     cpdef long long close(self, long long d) except? -1
@@ -32,13 +31,10 @@ cdef class Decisions:
 
     cpdef long long drop_pool(self, long long d) except? -1
 
-    @cython.locals(at="long long")
     cpdef long long add_to_pool(self, long long d, long long o, long long before, long long after) except? -1
 
-    @cython.locals(reason="long long")
     cpdef long long add_reason(self, long long d, long long level) except? -1
 
-    @cython.locals(after="long long", reason="long long")
     cpdef long long drop_reasons(self, long long d) except? -1
 
     cpdef long long rest_on_everything(self, long long d) except? -1

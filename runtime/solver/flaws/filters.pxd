@@ -30,26 +30,21 @@ cdef class Filters:
     cdef public bint has_scope
     cdef public PlanningScope scope
 
-    @cython.locals(code="long long", f="long long", first="long long", parent="long long")
     cpdef bint keeps_token(self, long long row, long long t) except -1
 
-    @cython.locals(code="long long", f="long long", first="long long", t="long long")
     cpdef bint keeps_variable(self, long long row, long long v) except -1
 
-    @cython.locals(code="long long", f="long long", first="long long")
     cpdef bint waits_for_times(self, long long row) except -1
 
-    @cython.locals(end="long long", engine=Engine, start="long long")
     cpdef bint _is_outside(self, long long t, long long policy) except -1
 
     cpdef bint _is_assigned(self, long long t) except -1
 
-    @cython.locals(role="long long")
     cpdef long long token_of(self, long long v) except? -1
 
     cpdef bint is_single(self, long long v) except -1
 
-    @cython.locals(engine=Engine, kind="long long")
+    @cython.locals(kind="long long")
     cpdef bint is_finite(self, long long v) except -1
 
     cpdef long long size(self, long long v) except? -1

@@ -13,12 +13,11 @@ cdef class Restarts:
 
     cpdef int clear(self) except -1
 
-    @cython.locals(weight="long long")
     cpdef long long rank(self, long long v, long long size) except? -1
 
     cpdef long long _add(self, long long v) except? -1
 
-    @cython.locals(engine=Store, k="long long", kind="long long", support="long long")
+    @cython.locals(k="long long")
     cpdef long long note_failure(self) except? -1
 
     cpdef bint is_due(self) except -1
