@@ -9,9 +9,10 @@ from runtime.constraints.propagators.dispatch cimport propagate_constraint
 from runtime.constraints.propagators.logic cimport may_be_equal
 from runtime.constraints.domains.narrow cimport high, is_single, low, raise_to, reduce_to, round_bounds
 from runtime.constraints.stn.network cimport insert_edge, propagate_edges
+from runtime.constraints.stn.watch_lists cimport watchers_of
 from runtime.constraints.propagators.posting cimport post_constraint
 from runtime.constraints.domains.queries cimport has_finitely_many, listed, may_be, number_of_values
-from runtime.constraints.relaxation.retract cimport decisions_of, edges_of, follow_again, retract
+from runtime.constraints.relaxation.retract cimport edges_of, follow_again, retract
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.relaxation.trail cimport commit_trail, undo_to
 from runtime.constraints.domains.variables cimport (
@@ -101,7 +102,6 @@ cdef class Engine(Store):
 
     cpdef list keys(self, long long c)
 
-    @cython.locals(head="long long", slot="long long")
     cpdef list constraints_of(self, long long v)
 
     cpdef list edges_of(self, long long v)
@@ -123,8 +123,6 @@ cdef class Engine(Store):
     cpdef int commit(self) except -1
 
     cpdef bint retract(self, constraints=*, edges=*, restrictions=*, variables=*) except -1
-
-    cpdef bint undecide(self, long long v) except -1
 
     cpdef list explain(self)
 

@@ -1,6 +1,5 @@
 # The C types of `lifecycle.py`.
 
-from runtime.constraints.engine cimport Engine
 from runtime.constraints.stn.entailment cimport entail_distance
 from runtime.plan.rules.rule_interpreter cimport run
 from runtime.plan.rules.guards cimport choice, follow
@@ -8,7 +7,6 @@ from runtime.plan.store.scopes cimport between, decide, equate
 from runtime.plan.store.links cimport unlink
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.tokens.retraction cimport retract_branch
-from runtime.plan.store.rows cimport Rows
 from runtime.plan.tokens.tokens cimport activation
 
 cdef long long BRANCH_THEN, BRANCH_WAITING, DURATION, END, LIST_OPEN, MERGED, NONE, OBJECT, REJECTED, SCOPE_BRANCH

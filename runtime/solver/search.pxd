@@ -50,27 +50,26 @@ cdef class Solver:
 
     cpdef bint _holds(self) except -1
 
-    cpdef long long fail(self, long long d) except? -1
+    cpdef int fail(self, long long d) except -1
 
     @cython.locals(level="long long")
     cpdef bint _is_nogood(self, long long d) except -1
 
-    cpdef long long _retry(self, long long d) except? -1
+    cpdef int _retry(self, long long d) except -1
 
     cpdef bint _is_reordered(self, long long d) except -1
 
-    cpdef long long restart(self) except? -1
+    cpdef int restart(self) except -1
 
     cpdef int check_overload(self) except -1
 
     cpdef bint _left_some(self, long long d, long long most) except -1
 
-    cpdef long long _enter(self) except? -1
+    cpdef int _enter(self) except -1
 
-    cpdef long long _undo(self, long long d) except? -1
+    cpdef int _undo(self, long long d) except -1
 
-    @cython.locals(stack=Decisions)
-    cpdef long long _backjump(self, long long d, bint is_explained) except? -1
+    cpdef int _backjump(self, long long d, bint is_explained) except -1
 
 
 cpdef bint _is_rejection(Agenda agenda, Decisions stack, long long d) except -1

@@ -15,9 +15,6 @@ cpdef long long _bits_in(unsigned long long x) except? -1
 @cython.locals(n="long long")
 cpdef long long _highest_bit(unsigned long long x) except? -1
 
-@cython.locals(room="long long")
-cpdef int _grow_bits(Store s, long long need) except -1
-
 cpdef long long _allocate_words(Store s, long long count) except? -1
 
 cpdef int _release_words(Store s, long long first, long long count) except -1
@@ -52,9 +49,6 @@ cpdef int restore_bits(Store s, long long v) except -1
 
 @cython.locals(entry="long long")
 cpdef int drop_log(Store s, long long v) except -1
-
-@cython.locals(room="long long")
-cpdef int _grow_log(Store s) except -1
 
 @cython.locals(count="long long", k="long long")
 cpdef int attach_table(Store s, long long v, list values) except -1

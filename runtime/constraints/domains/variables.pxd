@@ -24,9 +24,6 @@ cpdef int clear_row(Store s, long long v, long long kind) except -1
 @cython.locals(count="long long", first="long long")
 cpdef int drop_variable(Store s, long long v) except -1
 
-@cython.locals(room="long long")
-cpdef int _grow_restrictions(Store s) except -1
-
 cpdef long long add_restriction(
     Store s, long long v, double lo, double hi, long long flags, long long span, long long owner
 ) except? -1
@@ -36,7 +33,7 @@ cpdef int drop_restriction(Store s, long long r) except -1
 
 cpdef void start_interval(Store s, long long v, double lo, double hi, long long r) except *
 
-@cython.locals(k="long long", place="long long", value=double)
+@cython.locals(k="long long", index="long long", value=double)
 cpdef void start_values(Store s, long long v, list values, long long r) except *
 
 cpdef bint keep_values(Store s, long long v, list values, long long support) except -1

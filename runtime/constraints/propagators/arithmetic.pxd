@@ -37,10 +37,7 @@ cpdef bint _add_all(Store s, long long first, long long count, long long support
 cpdef bint _multiply_all(Store s, long long first, long long count, long long support) except -1
 
 @cython.locals(able="long long", r="long long", v="long long")
-cpdef bint _hold_maximum(Store s, long long first, long long count, long long support) except -1
-
-@cython.locals(able="long long", r="long long", v="long long")
-cpdef bint _hold_minimum(Store s, long long first, long long count, long long support) except -1
+cpdef bint _hold_extreme(Store s, long long first, long long count, bint is_most, long long support) except -1
 
 cpdef bint _hold_absolute(Store s, long long r, long long x, long long support) except -1
 

@@ -27,9 +27,7 @@ cpdef bint _hold_root(Store s, long long r, long long x, long long support) exce
 
 cpdef bint _be_whole(Store s, long long r, long long support) except -1
 
-cpdef bint _hold_floor(Store s, long long r, long long x, long long support) except -1
-
-cpdef bint _hold_ceiling(Store s, long long r, long long x, long long support) except -1
+cpdef bint _hold_rounded(Store s, long long r, long long x, bint is_down, long long support) except -1
 
 cpdef bint _hold_exponential(Store s, long long r, long long x, long long support) except -1
 

@@ -11,12 +11,6 @@ cdef const short[:] WAKES_OTHERS
 cdef unsigned long long _MASK
 
 
-@cython.locals(room="long long")
-cpdef int _grow_constraints(Store s) except -1
-
-@cython.locals(room="long long")
-cpdef int _grow_slots(Store s, long long need) except -1
-
 cpdef long long _allocate_slots(Store s, long long count) except? -1
 
 cpdef long long _new_constraint(Store s, long long op, long long arity, long long span, long long owner) except? -1

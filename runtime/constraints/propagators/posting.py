@@ -1,6 +1,6 @@
 """Keep constraints in rows and their arguments in slots; put them on the watch lists of their variables."""
 
-from runtime.constraints.domains.arrays import grow_rows, next_room
+from runtime.constraints.domains.arrays import lengthen
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     EVENT_DOMAIN,
@@ -36,32 +36,15 @@ from runtime.constraints.stn.watch_lists import link_slot, unlink_slot
 _MASK = 2**64 - 1
 
 
-def _grow_constraints(s: Store) -> None:
-    """Lengthen the rows of constraints, and the queues with them."""
-    room = next_room(len(s.op))
-    grow_rows(s, "op span owner link_a link_b constraint_next", room, -1)
-    grow_rows(s, "mode first arity drawn entailed run_count run_epoch", room)
-    s.grow_constraint_queues(room)
-
-
-def _grow_slots(s: Store, need: int) -> None:
-    """Make room for `need` more slots."""
-    room = len(s.slot_variable)
-    while room < s.slots_used + need:
-        room = next_room(room)
-    grow_rows(s, "slot_variable slot_constraint slot_next slot_prev", room, -1)
-    grow_rows(s, "slot_mask slot_key", room)
-
-
 def _allocate_slots(s: Store, count: int) -> int:
     """Take `count` consecutive slots; blocks of up to 64 come back through free lists."""
     if count <= 64 and s.slot_free[count] >= 0:
         first = s.slot_free[count]
         s.slot_free[count] = s.slot_next[first]
         return first
-    if s.slots_used + count > len(s.slot_variable):
-        _grow_slots(s, count)
     first = s.slots_used
+    if first + count > len(s.slot_variable):
+        lengthen(s, "slot_mask slot_key", "slot_variable slot_constraint slot_next slot_prev", first + count)
     s.slots_used = first + count
     return first
 
@@ -74,7 +57,7 @@ def _new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int
     else:
         c = s.constraints_used
         if c == len(s.op):
-            _grow_constraints(s)
+            s.grow_constraints()
         s.constraints_used = c + 1
     s.op[c] = op
     s.mode[c] = MODE_WHOLE

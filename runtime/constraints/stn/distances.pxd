@@ -4,8 +4,7 @@ cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.stn.heap cimport Heap
-
-cdef long long MODE_DISTANCE
+from runtime.constraints.stn.network cimport is_followed
 
 
 cdef class Distances:
@@ -17,6 +16,3 @@ cdef class Distances:
 
     @cython.locals(e="long long", engine=Engine, is_shorter=bint, u="long long")
     cpdef bint admits(self, long long source, long long target, long long weight) except -1
-
-    @cython.locals(c="long long")
-    cpdef bint is_known(self, long long e) except -1

@@ -3,12 +3,9 @@
 cimport cython
 from runtime.constraints.domains.store cimport Store
 
-cdef long long CONFLICT_CYCLE, EVENT_LOWER, EVENT_UPPER, HALF_INF, SIDE_LOWER, SIDE_UPPER, SUPPORT_EDGE
+cdef long long CONFLICT_CYCLE, EVENT_LOWER, EVENT_UPPER, HALF_INF, MODE_DISTANCE, SIDE_LOWER, SIDE_UPPER, SUPPORT_EDGE
 cdef long long TRAIL_EDGE, TRAIL_LINK, TRAIL_LOWER, TRAIL_UPPER, TRAIL_WEIGHT
 
-
-@cython.locals(room="long long")
-cpdef int _grow_edges(Store s) except -1
 
 cpdef long long _link_edge(
     Store s, long long source, long long target, long long weight, long long span, long long owner, long long link
@@ -21,6 +18,9 @@ cpdef int attach_edge(Store s, long long e) except -1
 cpdef int detach_edge(Store s, long long e) except -1
 
 cpdef int free_edge(Store s, long long e) except -1
+
+@cython.locals(c="long long")
+cpdef bint is_followed(Store s, long long e, bint temporal_only) except -1
 
 cpdef long long insert_edge(
     Store s, long long source, long long target, long long weight, long long span, long long owner, long long link

@@ -3,8 +3,9 @@
 cimport cython
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.stn.heap cimport Heap
+from runtime.constraints.stn.network cimport is_followed
 
-cdef long long _APART, _MOST_NEAR, MODE_DISTANCE, _REACHED, _UNKNOWN
+cdef long long _APART, _MOST_NEAR, _REACHED, _UNKNOWN
 
 
 @cython.final
@@ -29,8 +30,5 @@ cdef class Reach:
     @cython.locals(room="long long")
     cdef int _restart(self, long long most) except -1
 
-    @cython.locals(e="long long", is_shorter=bint, u="long long")
+    @cython.locals(e="long long", u="long long")
     cdef int _expand(self) except -1
-
-    @cython.locals(c="long long")
-    cdef bint _is_known(self, long long e) except -1

@@ -13,11 +13,10 @@ cdef class Envelope:
     cdef public Engine engine
     cdef public Resources resources
     cdef public Profile profile
-    cdef public long long resource, at, is_low, pair_room
-    cdef public long long pair_count, variable_room, mark, use_room
+    cdef public long long resource, at, is_low, mark
+    cdef public long long use_room
     cdef public bint grounded
     cdef public double amount
-    cdef public long long[::1] pair_before, pair_after, use_before, use_after
     cdef public long long[::1] marks, stack, via, takes, gives
     cdef public long long[::1] instants, from_taker, from_giver, queue
     cdef public long long[::1] ordered
@@ -52,11 +51,3 @@ cdef class Envelope:
     cpdef double push(self, long long source, long long giver) except? -1.0
 
     cpdef int note_orders(self, list edges, list read) except -1
-
-    cpdef long long find_pairs(self) except? -1
-
-    cpdef bint _is_charged(self, long long j) except -1
-
-    cpdef bint _may_give(self, long long i) except -1
-
-    cpdef int _add_pair(self, long long before, long long after, long long giver, long long taker) except -1

@@ -7,7 +7,7 @@ cdef double FLOAT_TOLERANCE, inf
 
 
 cdef class Profile:
-    cdef public long long room, count, wrong, at, until
+    cdef public long long count, wrong, at, until
     cdef public long long[::1] use, sign, lasting, start_low
     cdef public long long[::1] start_high, end_low, end_high, length
     cdef public double[::1] least, most
@@ -24,8 +24,6 @@ cdef class Profile:
 
     @cython.locals(sign="long long")
     cpdef int add_step(self, long long start, double least, double most) except -1
-
-    cpdef int grow(self) except -1
 
     cpdef double best_for_consumers(self, long long t) except? -1.0
 

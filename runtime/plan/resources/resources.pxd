@@ -12,8 +12,7 @@ cdef double inf
 cdef class Resources:
     cdef public Engine engine
     cdef public Profile profile
-    cdef public long long room, count, object_room, grounded_text
-    cdef public long long pending
+    cdef public long long count, grounded_text, pending
     cdef public list free, refusals, postponed
     cdef public object relief
     cdef public long long[::1] token, sign, holder, quantity
@@ -37,8 +36,6 @@ cdef class Resources:
     cpdef int remove_token(self, long long t) except -1
 
     cpdef int truncate(self, long long count) except -1
-
-    cpdef int _grow_uses(self) except -1
 
     cpdef int set_capacity(self, long long o, long long start, double lower, double upper) except -1
 

@@ -2,11 +2,9 @@
 
 cimport cython
 from runtime.constraints.domains.base_domain cimport is_growing
-from runtime.constraints.engine cimport Engine
 from runtime.plan.store.scopes cimport constraint
 from runtime.plan.store.operands cimport member
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 
 cdef long long BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, NONE, KIND_OBJECT, MERGED, OP_WATCH, ROLE_TOKEN, SCOPE_GUARD, STATE
 

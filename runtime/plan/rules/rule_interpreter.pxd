@@ -1,14 +1,12 @@
 # The C types of `rule_interpreter.py`.
 
 cimport cython
-from runtime.constraints.engine cimport Engine
 from runtime.plan.rules.guards cimport wait
 from runtime.plan.store.scopes cimport between, constraint, copy_variable, equate, post_two, restrict
 from runtime.plan.tokens.predicate_hierarchy cimport own_predicate
 from runtime.plan.store.operands cimport operand
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.tokens.relations cimport relate
-from runtime.plan.store.rows cimport Rows
 from runtime.plan.tokens.tokens cimport make_token
 
 cdef long long DO_ASSIGN, DO_BETWEEN, DO_CHILD, DO_FOREACH, DO_GUARD, DO_POST, DO_RELATE, DO_SAMPLE, DO_USE

@@ -1,11 +1,9 @@
 # The C types of `operands.py`.
 
 cimport cython
-from runtime.constraints.engine cimport Engine
 from runtime.constraints.propagators.posting cimport add_row, start_element
 from runtime.plan.store.scopes cimport copy_variable
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 
 cdef long long HOLDS_CONSTRAINT, HOLDS_VARIABLES, IN_CONSTANT, IN_FIELD, IN_GLOBAL, IN_LOCAL, IN_PROTOTYPE, IN_SELF
 cdef long long IN_TOKEN, IN_UNION, KIND_FLOAT, KIND_INT, NONE, ROLE_INTERNAL, TOKEN_SHIFT

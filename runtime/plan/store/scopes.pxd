@@ -2,9 +2,7 @@
 
 cimport cython
 from runtime.constraints.domains.base_domain cimport is_base_growing
-from runtime.constraints.engine cimport Engine
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 
 cdef long long FIRST_WRITTEN, HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES, INFINITY
 cdef long long KIND_FLOAT, NONE, OP_EQ

@@ -1,9 +1,7 @@
 # The C types of `archive.py`.
 
 cimport cython
-from runtime.constraints.engine cimport Engine
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 from runtime.plan.tokens.retraction cimport remove_tokens, scopes_of
 
 cdef long long ACTIVE, BRANCH_WAITING, FLAG_FROZEN, HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES

@@ -2,7 +2,6 @@
 
 from runtime.plan.store.scopes cimport between
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 
 cdef long long DURATION, DURATION_EQUAL, DURATION_ORIGIN_SHORTER, DURATION_TARGET_SHORTER, INFINITY, RELATION_CELLS
 

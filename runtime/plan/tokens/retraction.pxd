@@ -1,16 +1,15 @@
 # The C types of `retraction.py`.
 
 cimport cython
-from runtime.constraints.engine cimport Engine
 from runtime.constraints.relaxation.retract cimport edges_of
 from runtime.plan.store.links cimport link_by_key, unlink
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
-from runtime.plan.tokens.timelines cimport await_order, drop_pair, has_any_pair, leave_sequence
+from runtime.plan.store.rows cimport take_off
+from runtime.plan.tokens.timelines cimport await_order, has_any_pair, leave_sequence
 
 cdef long long ACTIVE, BRANCH_WAITING, FLAG_DECISION, FREED, HEAD_OPEN, HOLDS_CONSTRAINT, HOLDS_EDGE
 cdef long long HOLDS_RESTRICTION, HOLDS_USE, HOLDS_VARIABLES, INACTIVE, LISTS, LIST_OPEN, LIST_ORDER
-cdef long long LIST_PREDICATE, LIST_THREAT, MERGED, NONE, OP_WATCH, SCOPE_BODY, SCOPE_MERGE, SCOPE_PLACE
+cdef long long LIST_PREDICATE, LIST_THREAT, MERGED, NONE, OP_WATCH, SCOPE_BODY, SCOPE_MERGE
 cdef long long STATE
 
 

@@ -5,7 +5,7 @@ from runtime.plan.store.links cimport link, link_by_key, unlink
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
 
-cdef long long END, HEAD_THREAT, LISTS, LIST_ORDER, LIST_THREAT, NONE, OBJECT, SCOPE_PLACE, START, UNDO_NEW_PAIR
+cdef long long END, HEAD_THREAT, LISTS, LIST_ORDER, LIST_THREAT, NONE, OBJECT, START
 
 
 cpdef bint order(Plan plan, long long o, long long before, long long after, long long span) except -1
@@ -25,8 +25,6 @@ cpdef int _pair(Plan plan, long long first, long long second, long long span) ex
 
 cpdef bint has_pair(Rows rows, long long first, long long second) except -1
 
-
-cpdef int drop_pair(Rows rows, long long p) except -1
 
 
 cpdef int leave_sequence(Plan plan, long long t, list edges, long long span) except -1

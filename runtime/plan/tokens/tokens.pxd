@@ -1,13 +1,11 @@
 # The C types of `tokens.py`.
 
 cimport cython
-from runtime.constraints.engine cimport Engine
 from runtime.plan.store.scopes cimport constraint, equate, make_closed, make_variable, restrict
 from runtime.plan.tokens.predicate_hierarchy cimport active_head
 from runtime.plan.store.links cimport link_by_key, unlink
 from runtime.plan.store.operands cimport operand
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 
 cdef long long ACTIVE, DURATION, END, FIRST_PARAMETER, FLAG_EVENT, FLAG_NATIVE, FLAG_REJECTABLE, HEAD_OPEN
 cdef long long HEAD_THREAT, IN_NONE, LIST_OPEN, LIST_PREDICATE, LIST_THREAT, NONE, OBJECT, OP_TEMPORAL_DISTANCE

@@ -31,8 +31,7 @@ cdef class Agenda:
     cdef public Uses uses
     cdef public Restarts restarts
     cdef public long long found_at, found_low, managers, level, found_manager, found_kind, found_item, found_handler
-    cdef public long long token_room, variable_room, edge_room, constraint_room, restriction_room, dynamic_count
-    cdef public long long dropped_count, rows_seen, engine_seen
+    cdef public long long dynamic_count, dropped_count, rows_seen, engine_seen
     cdef public list heaps, effects
     cdef public long long[::1] sorted_by_size, token_row, token_key, token_deferred, token_waiting
     cdef public long long[::1] token_level, active_level, order_level, variable_row, variable_key, variable_deferred
@@ -46,9 +45,9 @@ cdef class Agenda:
 
     cpdef int _empty_tables(self) except -1
 
-    cpdef long long reserve(self) except? -1
+    cpdef int reserve(self) except -1
 
-    cpdef long long note_fired(self, long long level) except? -1
+    cpdef int note_fired(self, long long level) except -1
 
     cpdef bint is_decided(self, long long v) except -1
 
@@ -60,36 +59,36 @@ cdef class Agenda:
     cpdef int clear(self) except -1
 
     @cython.locals(target=Heap)
-    cpdef long long offer_token(self, long long slot) except? -1
+    cpdef int offer_token(self, long long slot) except -1
 
     cpdef long long earliness(self, long long t) except? -1
 
     @cython.locals(target=Heap)
-    cpdef long long offer_effect(self, long long slot) except? -1
+    cpdef int offer_effect(self, long long slot) except -1
 
     @cython.locals(target=Heap)
-    cpdef long long offer_variable(self, long long slot) except? -1
+    cpdef int offer_variable(self, long long slot) except -1
 
     cpdef long long rank(self, long long v) except? -1
 
-    cpdef long long resize(self, long long v) except? -1
+    cpdef int resize(self, long long v) except -1
 
-    cpdef long long _add_dynamic(self, long long slot, long long is_variable) except? -1
+    cpdef int _add_dynamic(self, long long slot, long long is_variable) except -1
 
-    cpdef long long drop(self, long long slot, long long kind) except? -1
+    cpdef int drop(self, long long slot, long long kind) except -1
 
-    cpdef long long defer_token(self, long long slot) except? -1
+    cpdef int defer_token(self, long long slot) except -1
 
-    cpdef long long defer_variable(self, long long slot, long long t) except? -1
+    cpdef int defer_variable(self, long long slot, long long t) except -1
 
     cpdef int _watch_times(self, long long t) except -1
 
-    cpdef long long forget_waiting(self, long long v) except? -1
+    cpdef int forget_waiting(self, long long v) except -1
 
-    cpdef long long resume_token(self, long long t) except? -1
+    cpdef int resume_token(self, long long t) except -1
 
-    cpdef long long resume_variable(self, long long v) except? -1
+    cpdef int resume_variable(self, long long v) except -1
 
-    cpdef long long backtrack(
+    cpdef int backtrack(
         self, long long dropped, long long dynamic, long long rows_seen, long long engine_seen
-    ) except? -1
+    ) except -1

@@ -1,9 +1,7 @@
 # The C types of `resource_selection.py`.
 
 cimport cython
-from runtime.plan.resources.resources cimport Resources
 from runtime.solver.flaws.agenda cimport Agenda
-from runtime.solver.flaws.uses cimport Uses
 
 cdef long long NONE, PREFER_EARLIEST, PREFER_LATEST, PREFER_LEAST, PREFER_LOWER, PREFER_MOST, PREFER_UPPER
 cdef long long RESOURCE_THREAT
@@ -14,7 +12,7 @@ cpdef bint is_resource_managed(Agenda agenda, long long o) except -1
 
 
 @cython.locals(is_rival=bint, takes_first=bint)
-cpdef long long select_resource(Agenda agenda, long long manager, bint is_last) except? -1
+cpdef int select_resource(Agenda agenda, long long manager, bint is_last) except -1
 
 
 cpdef bint _is_in_scope(Agenda agenda, long long row, long long o) except -1

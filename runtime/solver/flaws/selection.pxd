@@ -17,7 +17,7 @@ cpdef bint select(Agenda agenda) except -1
 cpdef bint _select_effect(Agenda agenda, long long manager) except -1
 
 
-cpdef long long _select_from_heaps(Agenda agenda, long long manager) except? -1
+cpdef int _select_from_heaps(Agenda agenda, long long manager) except -1
 
 
 @cython.locals(heap=Heap, slot="long long", t="long long")
@@ -35,7 +35,7 @@ cpdef bint _is_variable_flaw(Agenda agenda, long long v) except -1
 
 
 @cython.locals(is_mine=bint)
-cpdef long long _select_dynamic(Agenda agenda, long long manager) except? -1
+cpdef int _select_dynamic(Agenda agenda, long long manager) except -1
 
 
 cpdef long long _tie(Agenda agenda, long long item, long long kind, double priority) except? -1

@@ -27,7 +27,7 @@ cdef class Uses:
 
     cpdef long long gather(self, long long o) except? -1
 
-    cpdef long long add(self, long long point, long long takes, double least, double most) except? -1
+    cpdef int add(self, long long point, long long takes, double least, double most) except -1
 
     cpdef double limit(self, long long o, long long which, long long side) except? -1
 

@@ -1,10 +1,7 @@
 # The C types of `conflict_analysis.py`.
 
 cimport cython
-from runtime.constraints.domains.store cimport Store
 from runtime.constraints.explanation.support_walk cimport SupportWalk
-from runtime.constraints.stn.distances cimport Distances
-from runtime.plan.resources.resources cimport Resources
 from runtime.plan.rules.guards cimport deciders
 from runtime.solver.flaws.decisions cimport Decisions
 from runtime.solver.flaws.agenda cimport Agenda
@@ -54,24 +51,24 @@ cdef class ConflictAnalysis(SupportWalk):
     @cython.locals(first="long long", k="long long")
     cpdef bint learn(self, long long d) except -1
 
-    cpdef long long keep(self, long long d) except? -1
+    cpdef int keep(self, long long d) except -1
 
     cpdef long long target(self, long long d) except? -1
 
     @cython.locals(is_new=bint)
     cdef bint _may_bring(self, long long d, long long predicate) except -1
 
-    cpdef long long explain_absence(self, long long d, long long predicate) except? -1
+    cpdef int explain_absence(self, long long d, long long predicate) except -1
 
-    cpdef long long explain_use(self, long long u, long long d) except? -1
+    cpdef int explain_use(self, long long u, long long d) except -1
 
     @cython.locals(predicate="long long")
     cpdef bint explain_helpers(self, long long o, long long sign, long long d) except -1
 
     @cython.locals(end="long long", needed="long long", start="long long", t="long long")
-    cdef long long _explain_window(self, violation) except? -1
+    cdef int _explain_window(self, violation) except -1
 
-    cdef long long _explain_ordering(self, long long t) except? -1
+    cdef int _explain_ordering(self, long long t) except -1
 
     @cython.locals(
         e="long long", end="long long", key="long long", least=double, length="long long", loss=double, slack=double,

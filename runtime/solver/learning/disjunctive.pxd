@@ -4,7 +4,6 @@ cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.store.rows cimport Rows
 from runtime.solver.flaws.agenda cimport Agenda
-from runtime.solver.configuration.handler_table cimport HandlerTable
 
 cdef long long DURATION, END, FILTER_HORIZON, HALF_INF, HEAD_THREAT, INITIAL, KIND_FLOAT, LISTS, LIST_ORDER
 cdef long long LIST_THREAT, MINIMUM, _MOST_STARTS, NONE, OBJECT, POLICY_PARTIAL, _PRIME, SIDE_LOWER, START, THREAT, TOO_TIGHT
@@ -14,7 +13,7 @@ cdef class Disjunctive:
     cdef public Agenda agenda
     cdef public Rows rows
     cdef public Engine engine
-    cdef public long long one, zero, room, count, stamp, found_start, found_end
+    cdef public long long one, zero, count, stamp, found_start, found_end
     cdef public long long[::1] token, start, end, length, known, stamped
 
     cpdef bint fit(self) except -1
@@ -25,7 +24,7 @@ cdef class Disjunctive:
 
     cpdef bint _fit_on(self, long long o) except -1
 
-    cpdef long long _add(self, long long t) except? -1
+    cpdef int _add(self, long long t) except -1
 
     cpdef long long _hash(self) except? -1
 

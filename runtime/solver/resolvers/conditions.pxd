@@ -2,17 +2,13 @@
 
 cimport cython
 from runtime.constraints.domains.bitset cimport has_value
-from runtime.constraints.engine cimport Engine
 from runtime.constraints.propagators.logic cimport may_be_equal
 from runtime.plan.tokens.predicate_hierarchy cimport first_active, next_active
 from runtime.plan.lifecycle cimport activate, merge, reject
-from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 from runtime.plan.tokens.tokens cimport make_token
 from runtime.solver.flaws.decisions cimport Decisions
 from runtime.solver.resolvers.insertions cimport list_insertions, is_open_insertion, is_out_of_range, may_coincide
 from runtime.solver.flaws.agenda cimport Agenda
-from runtime.constraints.stn.reach cimport Reach
 
 cdef long long ACTIVATE_FIRST, ACTIVATE_ONLY, APPLIED, FAILED_CHOICE, FLAG_ACTION, FLAG_EFFECT, FLAG_FACT
 cdef long long HANDLER_HSTS, HANDLER_SUPPORT, MERGE_ONLY, NONE, NO_CHOICE, OBJECT, ORDER_KEY, PHASE_ACTIVATE

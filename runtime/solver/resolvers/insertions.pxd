@@ -1,20 +1,17 @@
 # The C types of `insertions.py`.
 
 from runtime.constraints.domains.bitset cimport next_value
-from runtime.constraints.engine cimport Engine
-from runtime.plan.store.rows cimport Rows
 from runtime.solver.flaws.decisions cimport Decisions
-from runtime.solver.flaws.sequence cimport TimelineSequence
 from runtime.solver.flaws.agenda cimport Agenda
 from runtime.constraints.stn.reach cimport Reach
 
 cdef long long DURATION, END, HALF_INF, LISTS, LIST_ORDER, NEVER, OBJECT, START
 
 
-cpdef long long list_insertions(Agenda agenda, Decisions stack, long long d, long long t) except? -1
+cpdef int list_insertions(Agenda agenda, Decisions stack, long long d, long long t) except -1
 
 
-cpdef long long _list_insertions_on(Agenda agenda, Decisions stack, long long d, long long t, long long o) except? -1
+cpdef int _list_insertions_on(Agenda agenda, Decisions stack, long long d, long long t, long long o) except -1
 
 
 cpdef long long _first_apart(Agenda agenda, Reach reach, long long time, long long count, bint is_reversed) except? -1

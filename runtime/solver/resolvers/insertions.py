@@ -8,7 +8,7 @@ from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
 
 
-def list_insertions(agenda: Agenda, stack: Decisions, d: int, t: int) -> int:
+def list_insertions(agenda: Agenda, stack: Decisions, d: int, t: int) -> None:
     """List all insertions of token `t` in the pool of decision `d`, by object, then from left to right."""
     engine = agenda.engine
     stack.begin_pool(d)
@@ -23,7 +23,6 @@ def list_insertions(agenda: Agenda, stack: Decisions, d: int, t: int) -> int:
         if agenda.plan.object_timeline[o]:
             _list_insertions_on(agenda, stack, d, t, o)
         o += 1
-    return 0
 
 
 def _list_insertions_on(agenda: Agenda, stack: Decisions, d: int, t: int, o: int) -> int:

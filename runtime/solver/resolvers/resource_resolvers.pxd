@@ -1,10 +1,8 @@
 # The C types of `resource_resolvers.py`.
 
 cimport cython
-from runtime.constraints.engine cimport Engine
 from runtime.solver.flaws.agenda cimport Agenda
 from runtime.solver.flaws.decisions cimport Decisions
-from runtime.solver.flaws.uses cimport Uses
 
 cdef long long APPLIED, CONCURRENT_FIRST, CONCURRENT_ONLY, CONSTRAINT_FIRST, FAILED_CHOICE, NONE, NO_CHOICE
 cdef long long PRECEDES_FIRST
