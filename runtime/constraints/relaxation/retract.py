@@ -154,18 +154,17 @@ def _reset_bound(s: Store, v: int, side: int) -> None:
 
 def _set_base(s: Store, v: int, side: int, x: float, support: int) -> None:
     """Set a bound as it was before all propagation."""
-    is_real = s.kind[v] == KIND_FLOAT
     if side == SIDE_LOWER:
         s.lower_support[v] = support
         s.lower_when[v] = -1
-        if is_real:
+        if s.kind[v] == KIND_FLOAT:
             s.flo[v] = -inf if x <= -HALF_INF else x
         else:
             s.lb[v] = -INF if x <= -HALF_INF else int(math.ceil(x - FLOAT_TOLERANCE))
     else:
         s.upper_support[v] = support
         s.upper_when[v] = -1
-        if is_real:
+        if s.kind[v] == KIND_FLOAT:
             s.fhi[v] = inf if x >= HALF_INF else x
         else:
             s.ub[v] = INF if x >= HALF_INF else int(math.floor(x + FLOAT_TOLERANCE))

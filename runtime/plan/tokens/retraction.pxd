@@ -13,6 +13,10 @@ cdef long long LIST_PREDICATE, LIST_THREAT, MERGED, NONE, OP_WATCH, SCOPE_BODY, 
 cdef long long STATE
 
 
+cdef class _Sweep:
+    cdef public list edges, constraints, restrictions, variables, undecided, scopes, tokens, reopened
+
+
 cpdef bint cancel(Plan plan, long long t) except -1
 
 
@@ -31,28 +35,29 @@ cpdef bint free(Plan plan, long long first, long long second, long long span) ex
 cpdef list scopes_of(Plan plan, long long t)
 
 
-cpdef void _deactivate(Plan plan, long long t, sweep) except *
+cpdef void _deactivate(Plan plan, long long t, _Sweep sweep) except *
 
 
 @cython.locals(c="long long")
 cpdef void wake_guards(Plan plan, long long v) except *
 
 
-cpdef void _drop_scopes(Plan plan, long long t, set doomed, sweep) except *
+cpdef void _drop_scopes(Plan plan, long long t, set doomed, _Sweep sweep) except *
 
 
-cpdef int _collect_holds(Plan plan, long long s, sweep) except -1
+cpdef int _collect_holds(Plan plan, long long s, _Sweep sweep) except -1
 
 
 cpdef list _decisions_of(Plan plan, long long v)
 
 
-@cython.locals(done="long long", r="long long")
-cpdef bint _finish(Plan plan, sweep) except -1
+@cython.locals(done="long long", r="long long", s="long long", t="long long", v="long long")
+cpdef bint _finish(Plan plan, _Sweep sweep) except -1
 
 
 @cython.locals(
-    c="long long", e="long long", owner="long long", r="long long", s="long long", t="long long", v="long long"
+    c="long long", e="long long", owner="long long", r="long long", s="long long", slot="long long", t="long long",
+    v="long long"
 )
 cpdef int _forget_foreign(Plan plan, list gone) except -1
 

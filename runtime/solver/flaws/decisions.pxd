@@ -28,6 +28,8 @@ cdef class Decisions:
 
     cpdef int add_to_pool(self, long long d, long long o, long long before, long long after) except -1
 
+    cpdef int reverse_pool(self, long long first, long long end) except -1
+
     cpdef int add_reason(self, long long d, long long level) except -1
 
     cpdef int drop_reasons(self, long long d) except -1

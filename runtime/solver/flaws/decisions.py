@@ -113,6 +113,16 @@ class Decisions:
         self.pool_used = self.pool_first[d]
         self.pool_count[d] = NONE
 
+    def reverse_pool(self, first: int, end: int) -> None:
+        """Reverse the order of the pool from index `first` to before `end`."""
+        last = end - 1
+        while first < last:
+            self.pool_object[first], self.pool_object[last] = self.pool_object[last], self.pool_object[first]
+            self.pool_before[first], self.pool_before[last] = self.pool_before[last], self.pool_before[first]
+            self.pool_after[first], self.pool_after[last] = self.pool_after[last], self.pool_after[first]
+            first += 1
+            last -= 1
+
     def add_to_pool(self, d: int, o: int, before: int, after: int) -> None:
         """Add an insertion on object `o` between two tokens, or a precedence between two timepoints."""
         at = self.pool_used
