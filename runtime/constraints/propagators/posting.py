@@ -111,12 +111,14 @@ def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: i
     elif op == OP_ADD_EQ and s.constant[arguments[0]] and not s.constant[arguments[1]]:
         arguments = [arguments[1], arguments[0], arguments[2]]
     c = _new_constraint(s, op, len(arguments), span, owner)
-    _choose_mode(s, c, arguments)
+    has_real = _choose_mode(s, c, arguments)
     if op == OP_RAND:
         s.drawn[c] = _random_whole(s.seed, span, owner)
     for position in range(s.arity[c]):
         _watch(s, c, position, arguments[position], _events_of(s, c, position))
-    s.idempotent[c] = _is_idempotent(s, c) and len(set(arguments)) == len(arguments)
+    # One run reaches its fixpoint, where no bound has to jump over holes and no real is rounded to a whole number.
+    is_alone = not has_real and s.arity[c] <= IDEMPOTENT_UP_TO[s.op[c]]
+    s.idempotent[c] = is_alone and len(set(arguments)) == len(arguments)
     s.schedule(c)
     return c
 
@@ -141,16 +143,6 @@ def add_row(s: Store, c: int, k: int, key: int, v: int) -> None:
     s.slot_key[s.first[c] + 2 + k] = key
 
 
-def _is_idempotent(s: Store, c: int) -> bool:
-    """Tell whether one run reaches the constraint's own fixpoint, where no bound has to jump over holes."""
-    if s.arity[c] > IDEMPOTENT_UP_TO[s.op[c]]:
-        return False
-    for slot in range(s.first[c], s.first[c] + s.arity[c]):  # noqa: SIM110 (a generator cannot be compiled here)
-        if s.kind[s.slot_variable[slot]] == KIND_FLOAT:
-            return False  # rounding to whole numbers may leave more to do
-    return True
-
-
 def _events_of(s: Store, c: int, position: int) -> int:
     """Give the events of an argument that may let the constraint narrow another one."""
     op = s.op[c]
@@ -159,12 +151,17 @@ def _events_of(s: Store, c: int, position: int) -> int:
     return WAKES_OTHERS[op] if position else WAKES_FIRST[op]
 
 
-def _choose_mode(s: Store, c: int, arguments: list[int]) -> None:
-    """Have comparisons of ints, and sums of an int and a constant, carried out by edges; reals by doubles."""
+def _choose_mode(s: Store, c: int, arguments: list[int]) -> bool:
+    """Have comparisons of ints, and sums of an int and a constant, carried out by edges; reals by doubles.
+
+    Gives whether a real is among the arguments.
+    """
     op = s.op[c]
     edges = s.arity[c] <= EDGES_UP_TO[op]
+    has_real = False
     for v in arguments:
         if s.kind[v] == KIND_FLOAT:
+            has_real = True
             s.mode[c] = MODE_REAL
         if s.kind[v] != KIND_INT or s.constant[v]:
             edges = False
@@ -176,6 +173,7 @@ def _choose_mode(s: Store, c: int, arguments: list[int]) -> None:
             s.op[c] = OP_PLUS
     elif op == OP_PLUS or edges:
         s.mode[c] = MODE_EDGES
+    return has_real
 
 
 def _is_offset(s: Store, a: int, k: int, b: int) -> bool:
