@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from signal import Signals
 
@@ -12,6 +13,9 @@ from checker.batch.progress import Progress
 from checker.batch.result import MissionResult
 from checker.batch.store import Run, RunStore
 from checker.batch.worker import Load, Task
+from checker.counterfactual.ranking import Causes, rank
+from checker.counterfactual.search import Suspended, find_causes
+from checker.counterfactual.trials import Bounds, Missions
 from checker.findings import Ending, Fault, Findings, assess
 from checker.mission import Mission
 from checker.models import ModelSet
@@ -99,10 +103,12 @@ class Campaign:
         ending: Ending = Ending.COMPLETE,
         may_fly: bool = True,
         focus: int | None = None,
+        bounds: Bounds | None = None,
     ) -> Findings:
         """Judge the results; with `may_fly` thresholds are sharpened by flying examples again.
 
-        With a `focus` that is done only for the fault that mission `focus` belongs to.
+        With a `focus` that is done only for the fault that mission `focus` belongs to, and lines that may be its cause
+        are tried within `bounds`.
         """
         run, agent = self.run, self.models.agent
         with Flyer(self.load, agent, self.mission.check.time_limit) as flyer:
@@ -120,7 +126,15 @@ class Campaign:
                 refly if may_fly and ending is not Ending.SIGNAL else None,
                 ending=ending,
                 focus=focus,
+                find=partial(self._causes, flyer, bounds) if may_fly and bounds is not None else None,
             )
+
+    def _causes(self, flyer: Flyer, bounds: Bounds, missions: Missions) -> Causes:
+        """The causes of one fault, tried on its missions."""
+        agent = self.models.agent
+        programs = [self.models.programs[each.model] for each in agent.reactors]
+        limits = self.mission.check.limits
+        return rank(find_causes(missions, Suspended(agent, programs, limits, flyer), bounds), Path(agent.root))
 
     def story(self, result: MissionResult, fault: Fault | None) -> Story:
         """Why a mission failed."""

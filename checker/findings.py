@@ -1,11 +1,13 @@
 """All missions of a run in, what there is to say about it out: the rate, and each fault with its line and threshold."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
 from checker.batch.result import MissionResult
 from checker.buckets import Bucket, group_failures
+from checker.counterfactual.ranking import NO_CAUSES, Causes
+from checker.counterfactual.trials import Missions
 from checker.mission import Mission
 from checker.oracle import Verdict
 from checker.smt.confirm import Confirmation, confirm
@@ -14,6 +16,9 @@ from checker.tally import Tally, tally
 from checker.threshold import Refly, Threshold, find_thresholds
 from runtime.executive.configuration import AgentConfiguration
 
+Find = Callable[[Missions], Causes]
+_MOST_EXAMPLES = 3  # missions of a fault that causes are tried on
+_MOST_PASSING = 2  # missions that must go on passing with what is changed
 _MOST_SHARPENED = 8  # buckets whose thresholds are sought by flying again; the rest must do with samples
 
 
@@ -28,11 +33,15 @@ class Ending(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """A bucket of failures with what is known about it; `confirmation` is z3's word on the example's conflict."""
+    """A bucket of failures with what is known about it; `confirmation` is z3's word on the example's conflict.
+
+    `causes` are lines that were tried, empty where that was not asked for.
+    """
 
     bucket: Bucket
     thresholds: tuple[Threshold, ...]
     confirmation: Confirmation | None
+    causes: Causes = NO_CAUSES
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -81,10 +90,11 @@ def assess(
     *,
     ending: Ending = Ending.COMPLETE,
     focus: int | None = None,
+    find: Find | None = None,
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
-    With a `focus` it does so only for the fault that mission `focus` belongs to.
+    With a `focus` it does so only for the fault that mission `focus` belongs to, whose causes `find` then finds.
     """
     ordered = tuple(sorted(results, key=lambda result: result.number))
     counted = sum(result.verdict is not Verdict.ERROR for result in ordered)
@@ -94,14 +104,27 @@ def assess(
     faults: list[Fault] = []
     for position, bucket in enumerate(group_failures(ordered)):
         is_wanted = position < _MOST_SHARPENED if focus is None else focus in bucket.missions
-        faults.append(_fault(bucket, ordered, agent, refly if is_wanted else None))
+        is_sought = focus is not None and is_wanted
+        faults.append(_fault(bucket, ordered, agent, refly if is_wanted else None, find if is_sought else None, focus))
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending
     )
 
 
-def _fault(bucket: Bucket, results: tuple[MissionResult, ...], agent: AgentConfiguration, refly: Refly | None) -> Fault:
-    example = next(result for result in results if result.number == bucket.example)
+def _fault(
+    bucket: Bucket,
+    results: tuple[MissionResult, ...],
+    agent: AgentConfiguration,
+    refly: Refly | None,
+    find: Find | None,
+    focus: int | None,
+) -> Fault:
+    members = [result for result in results if result.number in bucket.missions]
+    example = members[0]
     abort = example.outcome.abort if example.outcome else None
     confirmation = confirm(abort.conflict) if abort and abort.conflict else None
-    return Fault(bucket, find_thresholds(bucket, results, agent, refly), confirmation)
+    members.sort(key=lambda result: (result.number != focus, result.number))
+    passed = [result for result in results if result.verdict is Verdict.PASS]
+    missions = Missions(members[:_MOST_EXAMPLES], passed[:_MOST_PASSING])
+    causes = NO_CAUSES if find is None else find(missions)
+    return Fault(bucket, find_thresholds(bucket, results, agent, refly), confirmation, causes)
