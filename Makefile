@@ -14,6 +14,7 @@
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
 #   make rules        the pages of docs/rules, from the tables beside the passes
+#   make docs         the site of docs/, in build/site; works offline
 #   make bench        missions per second, compiled and interpreted
 #   make clean        remove what was made, .venv included
 #
@@ -28,7 +29,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof mutants conformance corpus rules bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof mutants conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -117,6 +118,11 @@ conformance: build
 
 corpus: build
 	$(BIN)/python -m tests.corpus '$(CORPUS)'
+
+docs: setup
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check 'mkdocs-material>=9.5'
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet
+	@echo "the site is build/site/index.html"
 
 rules: setup
 	$(BIN)/python -m checker.rulebook docs/rules

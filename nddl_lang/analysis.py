@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
+from nddl_lang.not_included import name_missing_include
 from nddl_lang.semantics.allocation import check_deferred
 from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
 from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_TYPE
@@ -115,7 +116,7 @@ class Analyser:
             for name in _TABLES:
                 if table := getattr(unit.tables, name):
                     getattr(tables, name).update(table)
-        found = tuple(_in_order(loaded, complaints))
+        found = name_missing_include(loaded, tuple(_in_order(loaded, complaints)), _declared_names)
         by_statement = {statement: unit.tables for statement, unit in units.items()}
         return Analysis(loaded, statements, symbols.schema, tables, by_statement, found, self._callables)
 

@@ -30,15 +30,19 @@ class Clock:
     def __enter__(self) -> "Clock":
         if threading.current_thread() is threading.main_thread():
             self._before = signal.getsignal(signal.SIGINT)
-            if self._before is signal.default_int_handler:
+            if self._is_plain:
                 signal.signal(signal.SIGINT, self._note)
         return self
 
     def __exit__(self, *_: object) -> None:
-        if self._before is signal.default_int_handler:
-            signal.signal(signal.SIGINT, signal.default_int_handler)
+        if self._is_plain:
+            signal.signal(signal.SIGINT, self._before)  # type: ignore[arg-type] # it came from there
         if self._told > self._begun:
             self._write("")
+
+    @property
+    def _is_plain(self) -> bool:
+        return self._before in (signal.default_int_handler, WATCH.interrupt)
 
     def __call__(self) -> bool:
         now = time.monotonic()
@@ -56,7 +60,7 @@ class Clock:
 
     def _note(self, number: int, frame: FrameType | None) -> None:
         if self.is_interrupted or WATCH.call is not None:
-            raise KeyboardInterrupt
+            WATCH.interrupt(number, frame)
         self.is_interrupted = True
 
     def _write(self, line: str) -> None:

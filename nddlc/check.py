@@ -27,7 +27,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.write import write_whole
-from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
+from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_here, readable
 from nddlc.known import known_callables
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
@@ -41,7 +41,7 @@ _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 
 
 @click.command()
-@click.argument("path", metavar="PATH")
+@click.argument("path", metavar="[PATH]", required=False)
 @click.option("--missions", type=click.IntRange(1), help="How many missions to fly, whatever the file says.")
 @click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The batch seed, whatever the file says.")
 @click.option("--max-failure-rate", type=click.FloatRange(0.0, 1.0), help="The accepted rate, whatever the file says.")
@@ -59,7 +59,7 @@ _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 @click.pass_context
 def command(
     ctx: click.Context,
-    path: str,
+    path: str | None,
     missions: int | None,
     seed: int | None,
     max_failure_rate: float | None,
@@ -77,12 +77,13 @@ def command(
 ) -> int:
     """Check a model by flying many missions, or check the text of one model.
 
-    PATH is a mission file (.toml): its models are checked first, then its missions are flown. Ends with 0 if not too
-    many missions fail, with 1 if too many do. If PATH is a model (.nddl), only its text is checked. What is finished
-    is stored, and a run that was ended before its time goes on from there.
+    PATH is a mission file (.toml), by default the one here: its models are checked first, then its missions are
+    flown. Ends with 0 if not too many missions fail, with 1 if too many do. If PATH is a model (.nddl), only its text
+    is checked. What is finished is stored, and a run that was ended before its time goes on from there.
     """
     if fresh and resume:
         raise Unusable("--fresh flies everything again, --resume only what is missing", "leave one of them out")
+    path = mission_here(path)
     (file,) = readable((path,), ())
     if file.suffix == ".nddl":
         settings = configured(file)
@@ -177,6 +178,7 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path) ->
         "html": ("report.html", html_report(findings, excerpts, campaign.stories(findings))),
         "junit": ("junit.xml", junit_report(findings, excerpts)),
         "sarif": ("report.sarif", sarif_report(findings, excerpts)),
+        "markdown": ("report.md", markdown_report(findings, excerpts)),
     }
     try:
         for name, text in reports.values():
@@ -187,11 +189,9 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path) ->
         ) from None
     if style == "github":
         click.echo(github_report(findings, excerpts), nl=False)
-    elif style == "markdown":
-        click.echo(markdown_report(findings, excerpts), nl=False)
     elif style == "text":
         click.echo(text_report(findings, excerpts), nl=False)
-        click.echo(f"\nreport: {output / 'report.html'} (beside it report.json, junit.xml, report.sarif)")
+        click.echo(f"\nreport: {output / 'report.html'} (beside it report.json, report.md, junit.xml, report.sarif)")
     else:
         click.echo(reports[style][1], nl=False)
     if findings.rate.exceeds:

@@ -175,6 +175,21 @@ def _alike(path: Path) -> str | None:
     return None if meant is None else f"did you mean `{beside[meant]}`?"
 
 
+def mission_here(given: str | None) -> str:
+    """The file that is named; else `mission.toml` in this folder, or in the only folder below that has one."""
+    if given is not None:
+        return given
+    here = Path("mission.toml")
+    below = [here] if here.is_file() else sorted(Path().glob("*/mission.toml"))
+    if len(below) == 1:
+        return str(below[0])
+    if not below:
+        raise Unusable("there is no `mission.toml` here", "name a mission file, or begin a project: `nddlc new NAME`")
+    raise Unusable(
+        "several folders here have a `mission.toml`", "name one: " + ", ".join(f"`{each}`" for each in below)
+    )
+
+
 def columns() -> int | None:
     """How wide the terminal is; None where nobody looks, and lines may be as long as they are."""
     if sys.stdout.isatty() or os.environ.get("COLUMNS", "").isdigit():

@@ -5,6 +5,7 @@ import click
 from lsp.project import ServerSettings
 from lsp.server import serve
 from nddlc.inputs import chosen_dialect, readable
+from runtime.user.output import keep_output_apart
 
 
 @click.command("lsp")
@@ -21,4 +22,5 @@ def command(
     """Serve an editor over standard input and output: complaints while typing, and what is under the cursor."""
     del stdio
     readable((), directories)
+    keep_output_apart()  # what a trusted project prints must not get into what the editor reads
     return 0 if serve(ServerSettings(chosen_dialect(ctx, dialect), directories, is_trusted)) else 1

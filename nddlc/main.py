@@ -20,6 +20,7 @@ from runtime.user.fault import UserCodeError
 
 # A subcommand is one file, imported only when it is used; a new one needs a line here and nothing else.
 COMMANDS = {
+    "new": ("nddlc.new", "Begin a project: a model, its simulator and a mission."),
     "lint": ("nddlc.lint", "Report everything that is wrong with models."),
     "fmt": ("nddlc.fmt", "Put models into the one style."),
     "load": ("nddlc.load", "Load models and show their tokens and variables."),
@@ -89,6 +90,14 @@ def _show_version(ctx: click.Context, _: click.Parameter, asked: bool) -> None:
 @click.command(cls=_Subcommands, context_settings={"help_option_names": ["-h", "--help"]})
 @click.option("--dialect", type=click.Choice(["nddl3", "nddlc"]), help="How texts are read, whatever they declare.")
 @click.option("--version", is_flag=True, is_eager=True, expose_value=False, callback=_show_version, help="Show it.")
+@click.option(
+    "--install-completion",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=lambda *given: named("nddlc.completion:install")(*given),
+    help="Let the shell complete the command line (bash, zsh, fish).",
+)
 @click.pass_context
 def nddlc(ctx: click.Context, dialect: str | None) -> None:
     """Check, run and explain NDDL models.

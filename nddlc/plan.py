@@ -12,6 +12,7 @@ import click
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
 from nddlc.cancellation import Clock
+from nddlc.goals import goals_of
 from nddlc.inputs import Unusable, chosen_dialect, colours, columns, configured, readable
 from nddlc.memory import bounded, half_of_the_machine
 from nddlc.trust import library_for, trust_option
@@ -55,6 +56,7 @@ def _tick(text: str) -> int:
 @click.argument("file", metavar="FILE")
 @click.option("-I", "--include", "directories", multiple=True, metavar="DIR", help="Look for included files here too.")
 @click.option("--dialect", type=click.Choice(["nddl3", "nddlc"]), help="The same option as before the command.")
+@click.option("--reactor", metavar="NAME", help="Of a mission file: the reactor whose goals are planned.")
 @click.option("--config", "config", metavar="FILE", help="What to mend and how, in EUROPA's XML or in TOML.")
 @click.option("--horizon", nargs=2, type=_tick, metavar="LO HI", help="Plan what lies between these ticks (or inf).")
 @click.option("--max-steps", type=click.IntRange(0), help="Stop after so many steps.")
@@ -78,6 +80,7 @@ def command(
     file: str,
     directories: tuple[str, ...],
     dialect: str | None,
+    reactor: str | None,
     config: str | None,
     horizon: tuple[int, int] | None,
     max_steps: int | None,
@@ -93,14 +96,21 @@ def command(
 ) -> int:
     """Search a plan for a model and show it.
 
-    Ends with 0 if there is a plan, with 1 if there is none, it was not found in time, or leaves goals out.
+    FILE is a model, or a mission file (.toml): then a plan for the goals of its planner is searched, up to its final
+    tick. Ends with 0 if there is a plan, with 1 if there is none, it was not found in time, or leaves goals out.
     """
     (path,) = readable((file,), directories)
+    text = None
+    if path.suffix == ".toml":
+        path, text, solver_file, last = goals_of(path, reactor)
+        config, horizon = config or solver_file, horizon or (0, last)
+    elif reactor is not None:
+        raise Unusable("--reactor names a reactor of a mission file (.toml)")
     configuration = _configuration(config)
     if horizon is not None and horizon[0] >= horizon[1]:
         raise Unusable(f"the horizon from {horizon[0]} to {horizon[1]} is empty")
     library = library_for(path, configured(path), is_trusted=is_trusted)
-    loaded = load(path, directories, chosen_dialect(ctx, dialect), library, file)
+    loaded = load(path, directories, chosen_dialect(ctx, dialect), library, file, text)
     before = loaded.state()
     if loaded.database is None or before is None:
         _show_refusal(loaded, as_json)

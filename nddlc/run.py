@@ -11,7 +11,7 @@ from checker.mission import LARGEST_SEED
 from checker.one_flight import Flight, FlightSettings, fly, trace_text
 from checker.oracle import Verdict
 from nddl_lang.text.write import write_whole
-from nddlc.inputs import Unusable
+from nddlc.inputs import Unusable, mission_here
 from nddlc.one_mission import prepare, values_of
 from nddlc.trust import trust_option
 from runtime.executive.outcome import EventKind
@@ -24,21 +24,21 @@ _MOST_LINES = 8  # of the model that are named for a failure
 
 
 @click.command()
-@click.argument("path", metavar="MISSION")
+@click.argument("path", metavar="[MISSION]", required=False)
 @click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The seed of the mission, else that of the file.")
 @click.option("--param", "given", multiple=True, metavar="NAME=VALUE", help="Give a parameter a value; repeatable.")
 @click.option("--until", type=click.IntRange(0), help="Stop at this tick.")
 @click.option("--trace", type=click.Path(path_type=Path, dir_okay=False), help="Write the trace here, as JSON Lines.")
 @trust_option
 def command(
-    path: str, seed: int | None, given: tuple[str, ...], until: int | None, trace: Path | None, is_trusted: bool
+    path: str | None, seed: int | None, given: tuple[str, ...], until: int | None, trace: Path | None, is_trusted: bool
 ) -> int:
     """Fly one mission and show what happened.
 
-    MISSION is a mission file (.toml) or an agent file of T-REX (.xml). Ends with 0 if the mission passes, with 1 if it
-    fails, with 2 if it cannot be flown.
+    MISSION is a mission file (.toml), by default the one here, or an agent file of T-REX (.xml). Ends with 0 if the
+    mission passes, with 1 if it fails, with 2 if it cannot be flown.
     """
-    file, mission, models = prepare(path, is_trusted=is_trusted)
+    file, mission, models = prepare(mission_here(path), is_trusted=is_trusted)
     settings = FlightSettings(mission.check.seed if seed is None else seed, values_of(given, models), until)
     _progress(f"flying {mission.agent.name} ...")
     flight = fly(mission, models, settings)

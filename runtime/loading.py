@@ -11,7 +11,7 @@ from typing import Any
 
 from compiler.lower import compile_model
 from compiler.program import Program
-from nddl_lang.analysis import Analysis, analyse, analyse_file
+from nddl_lang.analysis import Analysis, analyse, analyse_file, analyse_text
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import Module
 from nddl_lang.text.diagnostic import Diagnostic, Severity
@@ -60,10 +60,17 @@ def load(
     dialect: Dialect | None = None,
     library: Library = NO_LIBRARY,
     name: str | None = None,
+    text: str | None = None,
 ) -> Loaded:
-    """Analyse, compile and run the script of the model at `path`; the script stops at the first error."""
+    """Analyse, compile and run the script of the model at `path`; the script stops at the first error.
+
+    With `text`, that is the model, and `path` only says where it would stand.
+    """
     file = name or str(path)
-    analysis = analyse_file(path, dialect, directories, library.callables)
+    if text is None:
+        analysis = analyse_file(path, dialect, directories, library.callables)
+    else:
+        analysis = analyse_text(str(path), text, dialect, directories, library.callables)
     found = tuple(analysis.diagnostics)
     if any(each.severity is Severity.ERROR for each in found):
         fault = _fault_above(analysis, library)

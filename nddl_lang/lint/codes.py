@@ -57,6 +57,7 @@ NEVER_VARIED = Code("NDDL564", Severity.WARNING, "lint", "the sampled parameter 
 OTHER_RANGE = Code(
     "NDDL565", Severity.WARNING, "lint", "`{name}` is drawn into {domain} here, and into {other} elsewhere"
 )
+BEYOND_FLOATS = Code("NDDL566", Severity.WARNING, "lint", "`{text}` counts as infinite: floats end at 2.25e15")
 ESCAPE = Code("NDDL570", Severity.INFO, "lint", "`{text}` is two characters, not one: escapes are not decoded")
 OTHER_RELATION = Code("NDDL571", Severity.INFO, "lint", "EUROPA understands `{name}` otherwise")
 NO_FILTER = Code("NDDL572", Severity.INFO, "lint", "`filter` has no effect")

@@ -8,6 +8,7 @@ from nddl_lang.lint.declarations import lint_declarations
 from nddl_lang.lint.guards import lint_guards
 from nddl_lang.lint.local_names import lint_hidden_names, lint_names_of_values, lint_unused_labels, lint_unused_locals
 from nddl_lang.lint.numbers import (
+    lint_beyond_floats,
     lint_chained_comparisons,
     lint_float_equality,
     lint_int_among_floats,
@@ -36,6 +37,7 @@ _PART_LINTS: tuple[PartLint, ...] = (
     lint_times,
     lint_subgoals,
     lint_float_equality,
+    lint_beyond_floats,
     lint_int_among_floats,
     lint_int_results,
     lint_whole_floats,

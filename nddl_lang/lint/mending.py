@@ -8,7 +8,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Fix, Severity
 from nddl_lang.text.render import apply_edits
 
 Check = Callable[[str], tuple[Diagnostic, ...]]
-_MOST_ROUNDS = 100
+_MOST_ROUNDS = 1000  # that change the text; what is refused is finite, and not counted
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ def mend(text: str, check: Check, *, unsafe: bool = False) -> Mended:
     refused: set[tuple[str, str, str]] = set()
     seen = {text}
     count = 0
-    for _ in range(_MOST_ROUNDS):
+    while len(seen) <= _MOST_ROUNDS:
         chosen = _disjoint(found, text, refused, unsafe=unsafe)
         if not chosen:
             break

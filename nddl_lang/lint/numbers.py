@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from nddl_lang.lint.codes import CHAINED, FLOAT_EQUALITY, INT_AMONG_FLOATS, INT_RESULT, WHOLE_FLOAT
+from nddl_lang.lint.codes import BEYOND_FLOATS, CHAINED, FLOAT_EQUALITY, INT_AMONG_FLOATS, INT_RESULT, WHOLE_FLOAT
 from nddl_lang.lint.part import Finding, Part
 from nddl_lang.semantics.literals import number
 from nddl_lang.semantics.schema import Kind, LocalReference
@@ -28,6 +28,7 @@ from nddl_lang.syntax.walk import descendants
 from nddl_lang.text.diagnostic import Edit, Fix, Note
 from nddl_lang.text.source import Span
 
+_LARGEST_FLOAT = 2.0**51  # what is beyond counts as infinite, as in EUROPA
 _COMPARISONS = frozenset({"==", "!=", "<", "<=", ">", ">="})
 _ARITHMETIC = frozenset({"+", "-", "*", "/"})
 _PRODUCTS = frozenset({"mulEq", "multEq", "divEq", "eqProduct"})
@@ -180,3 +181,11 @@ def lint_chained_comparisons(part: Part) -> Iterator[Finding]:
         fix = Fix(f"write `{text}`", (Edit(outer.span, text),), safe=False)
         notes = (Note(f"read as `({inner.span.text}) {outer.op} {right}`"),)
         yield CHAINED.at(outer.op_span, notes=notes, fixes=(fix,), op=outer.op, text=inner.span.text)
+
+
+def lint_beyond_floats(part: Part) -> Iterator[Finding]:
+    """A number that is written out and counts as infinite, though it does not say so."""
+    for literal in part.all(FloatLiteral):
+        if abs(literal.value) >= _LARGEST_FLOAT and "inf" not in literal.span.text:
+            help_ = "write `inff` where infinity is meant, or measure in a larger unit"
+            yield BEYOND_FLOATS.at(literal.span, help=help_, text=literal.span.text)

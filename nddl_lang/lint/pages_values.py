@@ -2,6 +2,7 @@
 
 from nddl_lang.lint.codes import (
     BESIDE_FILE,
+    BEYOND_FLOATS,
     CHAINED,
     DRAWN_IN_VAIN,
     DRAWS_OUTSIDE,
@@ -148,6 +149,14 @@ VALUE_PAGES = (
         "All missions draw the same, unless the mission file gives it a range.",
         _GPS + "float RATE = 4.0;\nGps::active { float rate; rate == sampledParameter(RATE); hits >= rate; }\n",
         _GPS + "float RATE = [0.1 4.0];\nGps::active { float rate; rate == sampledParameter(RATE); hits >= rate; }\n",
+    ),
+    RulePage(
+        BEYOND_FLOATS,
+        "A number of 2^51 (2.25e15) or more is written out.",
+        "As in EUROPA, numbers from there on count as infinite: what is compared with one or computed from it knows no "
+        "bound.",
+        "float distance = [0.0 1e18];\n",
+        "float distance = [0.0 inff];\n",
     ),
     RulePage(
         OTHER_RANGE,

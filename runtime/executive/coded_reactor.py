@@ -11,7 +11,7 @@ from runtime.executive.reactor import Failure, Refusal
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import VariableName
 from runtime.user.fault import failed
-from runtime.user.limit import watched
+from runtime.user.limit import WATCH, watched
 from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen, Ticks
 
 _INFINITY = 4503599627370495
@@ -85,9 +85,9 @@ class CodedReactor:
                 if self.code is None:
                     self.code = self.make()
                 self.code.tick(now)
-        except KeyboardInterrupt:
-            raise
         except BaseException as problem:
+            if isinstance(problem, KeyboardInterrupt) and WATCH.was_pressed:
+                raise
             said = str(failed(f"the reactor `{self.name}`", problem, self.files))
             return Failure("F7", Reason(ReasonKind.RAISED, tick=tick, message=said), self.internal, None, 0)
         try:

@@ -18,6 +18,7 @@ from nddl_lang.semantics.described import row_of as described_row
 from runtime.user.constraint import Constraint
 from runtime.user.fault import UserCodeError, failed
 from runtime.user.limit import USUAL, WATCH, watched
+from runtime.user.output import keep_output_apart
 from runtime.user.written import has_test
 
 NOT_LOADED = "cannot be loaded"
@@ -59,9 +60,9 @@ def load_library(
         try:
             with watched(f"the {place}"):
                 loaded = point.load()
-        except KeyboardInterrupt:
-            raise
         except BaseException as problem:
+            if isinstance(problem, KeyboardInterrupt) and WATCH.was_pressed:
+                raise
             raise failed(f"the {place}", problem, (), verb=NOT_LOADED) from problem
         own = _list_of(place, getattr(loaded, LIST, None) if isinstance(loaded, ModuleType) else loaded)
         found += [(place, each) for each in own]
@@ -86,6 +87,7 @@ def _library(modules: tuple[Path, ...], seconds: float) -> Library:
 
 def load_module(path: Path) -> ModuleType:
     """Run the Python file at `path` as a module of its own."""
+    keep_output_apart()
     name = f"nddlc_user_{sha256(str(path.resolve()).encode()).hexdigest()[:16]}"
     module = ModuleType(name)
     module.__file__ = str(path)
@@ -94,9 +96,9 @@ def load_module(path: Path) -> ModuleType:
         # Compiled afresh each time: what lies in a cache is told from the text by its time only.
         with watched("the module", (str(path),)):
             exec(compile(path.read_bytes(), str(path), "exec"), module.__dict__)
-    except KeyboardInterrupt:
-        raise
     except BaseException as problem:
+        if isinstance(problem, KeyboardInterrupt) and WATCH.was_pressed:
+            raise
         del sys.modules[name]
         if isinstance(problem, OSError) and problem.filename == str(path):
             raise UserCodeError(f"cannot read the module `{path}`: {problem.strerror}") from None

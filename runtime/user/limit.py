@@ -17,7 +17,7 @@ from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
 from threading import get_ident
 from types import FrameType
-from typing import Protocol
+from typing import NoReturn, Protocol
 
 from runtime.constraints.domains.store import Store
 from runtime.user.fault import StoppedError, UserCodeError, place_in, stopped
@@ -27,6 +27,7 @@ LOOK = 0.5  # seconds from one look to the next
 GRACE = 2.0  # seconds from the interruption to the end of the process
 UNUSABLE = 2
 DEBUGGERS = ("bdb", "pydevd")
+_END, _ABORT = os._exit, os.abort  # as they are where no call of a modeler's code is under way
 ALARM: int | None = getattr(signal, "SIGALRM", getattr(signal, "SIGBREAK", None))
 
 
@@ -89,6 +90,7 @@ class Watch:
         self._has_alarm = False
         self._is_watching = False
         self._is_copy = False
+        self.is_interrupted = False  # by Ctrl-C
 
     @property
     def step(self) -> float:
@@ -100,6 +102,9 @@ class Watch:
         self._thread = get_ident()
         if self._thread == threading.main_thread().ident:
             self._set_alarm()
+            if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+                signal.signal(signal.SIGINT, self.interrupt)
+        os._exit, os.abort = self._exit, self._abort
         if not self._is_watching:
             self._is_watching = True
             threading.Thread(target=self._look, name="nddlc limit", daemon=True).start()
@@ -113,6 +118,29 @@ class Watch:
                 atexit.register(signal.setitimer, signal.ITIMER_REAL, 0.0)  # the interpreter lets go of signals earlier
         if self._has_alarm and hasattr(signal, "setitimer"):
             signal.setitimer(signal.ITIMER_REAL, self.step, self.step)
+
+    def interrupt(self, _number: int, _frame: FrameType | None) -> None:
+        """Leave by an exception, as Python does on Ctrl-C, and note that no modeler's code raised it."""
+        self.is_interrupted = True
+        raise KeyboardInterrupt
+
+    @property
+    def was_pressed(self) -> bool:
+        """Whether an interruption that came out of a call may be Ctrl-C; somebody else's handler may have raised it."""
+        handler = signal.getsignal(signal.SIGINT)
+        return self.is_interrupted or (callable(handler) and handler != self.interrupt)
+
+    def _exit(self, status: int) -> NoReturn:
+        """In place of `os._exit`: the end of the process is not a modeler's to choose, nor its exit code."""
+        if self.call is not None and get_ident() == self._thread:
+            raise RuntimeError(f"os._exit({status}) is not for a constraint: return False, or raise an exception")
+        _END(status)
+
+    def _abort(self) -> NoReturn:
+        """In place of `os.abort`."""
+        if self.call is not None and get_ident() == self._thread:
+            raise RuntimeError("os.abort() is not for a constraint: return False, or raise an exception")
+        _ABORT()
 
     def _note_fork(self) -> None:
         """This process is a copy of the one that was here; it has no thread that watches."""
@@ -155,7 +183,7 @@ class Watch:
         try:
             self.last_words(problem)
         finally:
-            os._exit(UNUSABLE)
+            _END(UNUSABLE)
 
 
 def _is_debugged() -> bool:

@@ -6,7 +6,7 @@ narrowing is recorded as caused by the constraint, with the line of the model th
 
 import math
 from collections.abc import Iterable
-from typing import Protocol
+from typing import Protocol, cast
 
 from runtime.constraints.domains.base_domain import is_growing
 from runtime.constraints.domains.tags import (
@@ -35,6 +35,18 @@ class Words(Protocol):
 
     def source_place(self, span: int) -> str | None:
         """File and line of a stretch of the model; None where there is no model."""
+
+
+class _Gone:
+    """Stands for the engine once `propagate` has returned."""
+
+    def __getattr__(self, name: str) -> object:
+        raise RuntimeError(
+            "a view is of no use after `propagate` has returned; remember nothing from one call to the next"
+        )
+
+
+_GONE = _Gone()
 
 
 class View:
@@ -158,6 +170,10 @@ class View:
         return not self._engine.consistent
 
     # ---- inside ----
+
+    def close(self) -> None:
+        """Be of no use from now on: what a modeler keeps would speak of another moment, or of another plan."""
+        self._engine = cast(Engine, _GONE)
 
     def _variable(self, i: int) -> int:
         if not 0 <= i < self.count:

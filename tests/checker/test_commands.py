@@ -37,6 +37,7 @@ def test_a_failing_model_ends_with_findings_and_a_reason(agent: None, capsys: py
         "junit.xml",
         "report.html",
         "report.json",
+        "report.md",
         "report.sarif",
     ]
     found = re.search(r"nddlc explain (\w+#\d+)", text)

@@ -1,0 +1,54 @@
+"""`nddlc plan mission.toml`: the goals of a mission file are planned for, as the planner of the mission would."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from nddlc.main import run
+
+ROOT = Path(__file__).parents[2]
+GPS = str(ROOT / "models" / "gps" / "mission.toml")
+Captured = pytest.CaptureFixture[str]
+
+
+def test_the_goals_are_planned_within_what_the_file_allows(capsys: Captured) -> None:
+    assert run(["plan", GPS, "--json"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert data["solve"]["result"] == "plan"
+    text = json.dumps(data)
+    assert '"goal1"' in text and '"goal2"' in text and "240.0" in text and "180.0" in text
+
+
+def test_goals_that_cannot_be_met_are_explained(tmp_path: Path, capsys: Captured) -> None:
+    assert run(["new", str(tmp_path / "s")]) == 0
+    mission = tmp_path / "s" / "mission.toml"
+    mission.write_text(mission.read_text().replace("start = [350, 500]", "start = [350, 500]\nduration = 400"))
+    capsys.readouterr()
+    assert run(["plan", str(mission), "--explain"]) == 1
+    assert "duration <= LEG_MAX" in capsys.readouterr().out
+
+
+def test_goals_that_are_not_mandatory_may_be_rejected(tmp_path: Path, capsys: Captured) -> None:
+    assert run(["new", str(tmp_path / "s")]) == 0
+    mission = tmp_path / "s" / "mission.toml"
+    text = mission.read_text().replace("start = [350, 500]", "start = [350, 500]\nduration = 400")
+    mission.write_text(text.replace("mandatory = true", "mandatory = false"))
+    capsys.readouterr()
+    assert run(["plan", str(mission)]) == 0
+    assert "REJECTED" in capsys.readouterr().out
+
+
+def test_a_reactor_is_named(capsys: Captured) -> None:
+    assert run(["plan", GPS, "--reactor", "navigatr"]) == 2
+    assert "did you mean `navigator`?" in capsys.readouterr().err
+    assert run(["plan", GPS, "--reactor", "navigator", "--horizon", "0", "500", "--allow-unplanned"]) == 0
+    assert run(["plan", str(ROOT / "models" / "classic" / "lamp.nddl"), "--reactor", "x"]) == 2
+
+
+def test_mistakes_of_the_file_are_told(tmp_path: Path, capsys: Captured) -> None:
+    assert run(["new", str(tmp_path / "s")]) == 0
+    mission = tmp_path / "s" / "mission.toml"
+    mission.write_text(mission.read_text().replace("final_tick", "finaltick"))
+    assert run(["plan", str(mission)]) == 2
+    assert "did you mean `final_tick`" in capsys.readouterr().err
