@@ -6,6 +6,7 @@ from enum import StrEnum
 
 from checker.batch.result import MissionResult
 from checker.buckets import Bucket, group_failures
+from checker.counterfactual.examples import examples_of
 from checker.counterfactual.ranking import NO_CAUSES, Causes
 from checker.counterfactual.trials import Missions
 from checker.mission import Mission
@@ -17,8 +18,6 @@ from checker.threshold import Refly, Threshold, find_thresholds
 from runtime.executive.configuration import AgentConfiguration
 
 Find = Callable[[Missions], Causes]
-_MOST_EXAMPLES = 3  # missions of a fault that causes are tried on
-_MOST_PASSING = 2  # missions that must go on passing with what is changed
 _MOST_SHARPENED = 8  # buckets whose thresholds are sought by flying again; the rest must do with samples
 
 
@@ -125,6 +124,5 @@ def _fault(
     confirmation = confirm(abort.conflict) if abort and abort.conflict else None
     members.sort(key=lambda result: (result.number != focus, result.number))
     passed = [result for result in results if result.verdict is Verdict.PASS]
-    missions = Missions(members[:_MOST_EXAMPLES], passed[:_MOST_PASSING])
-    causes = NO_CAUSES if find is None else find(missions)
+    causes = NO_CAUSES if find is None else find(examples_of(members, passed))
     return Fault(bucket, find_thresholds(bucket, results, agent, refly), confirmation, causes)

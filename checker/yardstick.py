@@ -12,9 +12,10 @@ from pathlib import Path
 
 from checker.batch.pool import Flyer
 from checker.batch.result import MissionResult
+from checker.counterfactual.examples import examples_of
 from checker.counterfactual.ranking import NO_CAUSES, Causes, RankedLine, rank
 from checker.counterfactual.search import Suspended, find_causes, sites_in
-from checker.counterfactual.trials import Bounds, Missions
+from checker.counterfactual.trials import Bounds
 from checker.flight import load
 from checker.mission import Mission
 from checker.models import ModelSet, load_models
@@ -27,8 +28,6 @@ from nddl_lang.text.read import real_path
 from runtime.executive.configuration import AgentConfiguration
 
 TOP = 3
-_MOST_EXAMPLES = 3  # failed missions that causes are tried on
-_MOST_PASSING = 2  # that must go on passing
 _MOST_SECONDS = 60.0  # for one flight: a fault may leave a search without an end
 
 
@@ -125,12 +124,12 @@ def _measured(
     failed = [result for result in results if result.verdict is Verdict.FAIL]
     if not failed:
         return Measured(mutant.edit, mutant.site.rule, Fate.SILENT, 0, len(results))
-    alike = [one for one in failed if one.judgement.code == failed[0].judgement.code][:_MOST_EXAMPLES]
+    alike = [one for one in failed if one.judgement.code == failed[0].judgement.code]
     programs = [models.programs[each.model] for each in models.agent.reactors]
-    passed = [one for one in results if one.verdict is Verdict.PASS][:_MOST_PASSING]
+    passed = [one for one in results if one.verdict is Verdict.PASS]
     world = Suspended(models.agent, programs, ground.mission.check.limits, flyer, overlay)
     root = Path(models.agent.root)
-    causes = rank(find_causes(Missions(alike, passed), world, bounds), root)
+    causes = rank(find_causes(examples_of(alike, passed), world, bounds), root)
 
     def first(is_it: Callable[[str, int], bool]) -> int:
         return next((k for k, cause in enumerate(causes.ranked, 1) if is_it(*_at(cause, root))), 0)

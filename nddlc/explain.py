@@ -15,6 +15,8 @@ from checker.excerpts import Excerpts
 from checker.explain import MOST_CAUSES, result_data, result_text, story_data, story_text
 from checker.findings import Fault, Findings
 from checker.flight import load
+from checker.graph import causal_graph, focused
+from checker.graph_rendering import graph_data, graph_dot, graph_svg, graph_text
 from checker.mission import read_mission
 from checker.models import ModelSet
 from checker.oracle import Verdict
@@ -24,12 +26,16 @@ from nddlc.mission_trust import models_of
 from nddlc.trust import trust_option
 from runtime.executive.rendering import event_data, trace_line
 
+_DRAWN = {"dot": graph_dot, "svg": graph_svg}
+
 
 @click.command()
 @click.argument("what", metavar="RUN[#MISSION]", default=LATEST)
-@click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@click.option(
+    "--format", "style", type=click.Choice(["text", "json", "dot", "svg"]), default="text", help="How to print it."
+)
 @click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where runs are kept.")
-@click.option("-v", "--verbose", count=True, help="Show all causes.")
+@click.option("-v", "--verbose", count=True, help="Show all causes and the causal graph; -vv more of it.")
 @click.option("--flights", type=click.IntRange(0), default=MOST_FLIGHTS, help=f"Trials at most ({MOST_FLIGHTS}).")
 @click.option("--seconds", type=click.FloatRange(0.0), default=MOST_SECONDS, help=f"For these ({MOST_SECONDS:g}).")
 @click.option("--events", is_flag=True, help="Print the whole trace too.")
@@ -90,12 +96,23 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
 def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
     result, campaign = found.result, found.campaign
     excerpts = Excerpts(Path(campaign.models.agent.root))
+    graph = focused(causal_graph(result.outcome), verbose) if result.outcome is not None else None
+    if style in _DRAWN:
+        if graph is None or not graph.ends:
+            raise Unusable(f"mission {result.number} of run {found.run_id} has no causes to draw", "it did not fail")
+        click.echo(_DRAWN[style](graph), nl=False)
+        return 0
     if not found.is_same and style == "text":
         click.echo("model, mission file or nddlc have changed since this run; the explanation is of what was flown\n")
     if result.verdict is Verdict.FAIL:
         story = campaign.story(result, found.fault)
         most = len(found.fault.causes.ranked) if found.fault is not None and verbose else MOST_CAUSES
         text, plain = story_text(story, found.run_id, excerpts, most), story_data(story, found.run_id, excerpts)
+        if graph is not None:
+            text += (
+                f"\nthe causal graph, each node with the numbers of its causes:\n{graph_text(graph)}" if verbose else ""
+            )
+            plain["graph"] = graph_data(graph, excerpts)
     else:
         text, plain = result_text(result, found.run_id), result_data(result, found.run_id)
     if events and result.outcome is not None:

@@ -1,7 +1,7 @@
 """Trials in, causes out as plain data, ranked: what a story, a report and the yardstick of mutants show.
 
-First come small changes that mend every failed mission that they were tried on, without a goal lost; then variables
-that too few lines speak of, where no change of one line mends it; last what only takes a demand away.
+First come small changes that mend every failed mission that they were tried on, without a goal lost. Where there are
+none, a line may be missing: variables that too few lines speak of come before what only takes a demand away.
 """
 
 from dataclasses import dataclass
@@ -78,9 +78,9 @@ def rank(trials: Trials, root: Path) -> Causes:
     small = [one for one in trials.causes if _claim(one) is Claim.MENDS]
     large = [one for one in trials.causes if _claim(one) is not Claim.MENDS]
     loose = list({one.candidate.site: one for one in trials.loose}.values())[:_MOST_LOOSE]
-    causes = [_tried(one, root) for one in small]
-    causes += [_loose(one, root) for one in loose]
-    causes += [_tried(one, root) for one in large]
+    last = [_tried(one, root) for one in large]
+    missing = [_loose(one, root) for one in loose]
+    causes = [*(_tried(one, root) for one in small), *((*last, *missing) if small else (*missing, *last))]
     lines: dict[tuple[str, int], RankedLine] = {}
     for cause in causes:
         lines.setdefault((cause.place.file, cause.place.line), cause)

@@ -128,8 +128,10 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
     if trials.ended is TrialsEnd.FLIGHTS:
         trials.ended = None
     ranked = sorted(best.values(), key=lambda one: one.weight)
-    confirmed = [trials.confirmed(one, usage) for one in ranked[:_CONFIRMED]]
-    ranked = sorted([*confirmed, *ranked[_CONFIRMED:]], key=lambda one: one.weight)
+    confirmed: list[Trial] = []
+    while ranked and sum(not one.spoilt for one in confirmed) < _CONFIRMED:
+        confirmed.append(trials.confirmed(ranked.pop(0), usage))
+    ranked = sorted([*confirmed, *ranked], key=lambda one: one.weight)
     is_all = not queue
     ended = trials.ended or (TrialsEnd.COMPLETE if is_all else TrialsEnd.FLIGHTS)
     lines = len({site for site, _ in tried})
@@ -183,7 +185,9 @@ class _Trials:
         for mission in self.missions.passed:
             if not self.may_go_on():
                 break
-            spoilt += self.fly(trial.edit, mission).verdict is not Verdict.PASS
+            if self.fly(trial.edit, mission).verdict is not Verdict.PASS:
+                spoilt = 1
+                break
         for mission in others:
             if spoilt or not self.may_go_on():
                 break
