@@ -24,7 +24,7 @@ cpdef bint _is_free(Plan plan, long long t, dict doomed, long long tick) except 
 cpdef bint _has_begun(Plan plan, long long t, long long tick) except -1
 
 
-@cython.locals(rows=Rows, s="long long")
+@cython.locals(s="long long")
 cpdef bint _has_waiting_guard(Plan plan, long long t) except -1
 
 
@@ -36,7 +36,7 @@ cpdef void detach(Plan plan, long long t) except *
 
 
 @cython.locals(
-    c="long long", constraints=dict, e="long long", edges=dict, engine=Engine, gone=dict, k="long long", limited=list,
+    c="long long", constraints=dict, e="long long", edges=dict, gone=dict, k="long long", limited=list,
     near=dict, r="long long", restrictions=dict, supports=set, v="long long",
 )
 cpdef list _freeze(Plan plan, dict doomed)
@@ -47,8 +47,8 @@ cpdef list _outdone(Plan plan, long long v)
 
 
 @cython.locals(
-    c="long long", constraints=dict, e="long long", edges=dict, engine=Engine, gone=dict, h="long long",
-    kind="long long", restrictions=dict, rows=Rows, s="long long", slot="long long", t="long long", v="long long",
+    c="long long", constraints=dict, e="long long", edges=dict, gone=dict, h="long long",
+    kind="long long", restrictions=dict, s="long long", slot="long long", t="long long", v="long long",
 )
 cpdef tuple _belongings(Plan plan, dict doomed)
 

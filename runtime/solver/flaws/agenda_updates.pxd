@@ -12,14 +12,14 @@ cdef long long UNDO_NEW_TOKEN, UNDO_STATUS
 cpdef int rebuild(Agenda agenda) except -1
 
 
-cpdef int reopen(Agenda agenda) except -1
+cpdef long long reopen(Agenda agenda) except? -1
 
 
-cpdef int _begin(Agenda agenda) except -1
+cpdef long long _begin(Agenda agenda) except? -1
 
 
 @cython.locals(
-    at="long long", code="long long", engine=Engine, name="long long", rows=Rows, slot="long long", t="long long"
+    at="long long", code="long long", name="long long", slot="long long", t="long long"
 )
 cpdef int update(Agenda agenda, long long level) except -1
 
