@@ -105,7 +105,7 @@ class Campaign:
         focus: int | None = None,
         bounds: Bounds | None = None,
     ) -> Findings:
-        """Judge the results; with `may_fly` thresholds are sharpened by flying examples again.
+        """Judge the results; with `may_fly` conditions are sought and tested by flights.
 
         With a `focus` that is done only for the fault that mission `focus` belongs to, and lines that may be its cause
         are tried within `bounds`.

@@ -1,11 +1,14 @@
-"""All missions of a run in, what there is to say about it out: the rate, and each fault with its line and threshold."""
+"""All missions of a run in, what there is to say about it out: the rate, and each fault with its line and condition."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from checker.batch.result import MissionResult
 from checker.buckets import Bucket, group_failures
+from checker.conditions.condition import Condition
+from checker.conditions.find import find_condition
+from checker.conditions.flights import Refly
 from checker.counterfactual.examples import examples_of
 from checker.counterfactual.ranking import NO_CAUSES, Causes
 from checker.counterfactual.trials import Missions
@@ -14,11 +17,10 @@ from checker.oracle import Verdict
 from checker.smt.confirm import Confirmation, confirm
 from checker.statistics import Rate, judge_rate
 from checker.tally import Tally, tally
-from checker.threshold import Refly, Threshold, find_thresholds
 from runtime.executive.configuration import AgentConfiguration
 
 Find = Callable[[Missions], Causes]
-_MOST_SHARPENED = 8  # buckets whose thresholds are sought by flying again; the rest must do with samples
+_MOST_SHARPENED = 8  # buckets whose conditions are sought by flying again; the rest must do with samples
 
 
 class Ending(StrEnum):
@@ -38,7 +40,7 @@ class Fault:
     """
 
     bucket: Bucket
-    thresholds: tuple[Threshold, ...]
+    condition: Condition | None
     confirmation: Confirmation | None
     causes: Causes = NO_CAUSES
 
@@ -104,25 +106,26 @@ def assess(
     for position, bucket in enumerate(group_failures(ordered)):
         is_wanted = position < _MOST_SHARPENED if focus is None else focus in bucket.missions
         is_sought = focus is not None and is_wanted
-        faults.append(_fault(bucket, ordered, agent, refly if is_wanted else None, find if is_sought else None, focus))
+        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None)
+        faults.append(replace(fault, causes=_causes(bucket, ordered, find, focus)) if is_sought else fault)
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending
     )
 
 
 def _fault(
-    bucket: Bucket,
-    results: tuple[MissionResult, ...],
-    agent: AgentConfiguration,
-    refly: Refly | None,
-    find: Find | None,
-    focus: int | None,
+    bucket: Bucket, results: tuple[MissionResult, ...], agent: AgentConfiguration, seed: int, refly: Refly | None
 ) -> Fault:
-    members = [result for result in results if result.number in bucket.missions]
-    example = members[0]
+    example = next(result for result in results if result.number == bucket.example)
     abort = example.outcome.abort if example.outcome else None
     confirmation = confirm(abort.conflict) if abort and abort.conflict else None
+    return Fault(bucket, find_condition(bucket, results, agent, seed, refly), confirmation)
+
+
+def _causes(bucket: Bucket, results: tuple[MissionResult, ...], find: Find | None, focus: int | None) -> Causes:
+    """The causes of a fault, tried on mission `focus` first."""
+    if find is None:
+        return NO_CAUSES
+    members = [result for result in results if result.number in bucket.missions]
     members.sort(key=lambda result: (result.number != focus, result.number))
-    passed = [result for result in results if result.verdict is Verdict.PASS]
-    causes = NO_CAUSES if find is None else find(examples_of(members, passed))
-    return Fault(bucket, find_thresholds(bucket, results, agent, refly), confirmation, causes)
+    return find(examples_of(members, [result for result in results if result.verdict is Verdict.PASS]))
