@@ -9,6 +9,7 @@ from lsp.folding import folding_ranges, selection_ranges
 from lsp.inlay_hints import inlay_hints
 from lsp.lenses import code_lenses
 from lsp.mending import can_fix_all, fix_all, formatting, formatting_of_lines, formatting_of_statement, mends
+from lsp.mission_answers import mission_lenses
 from lsp.open_text import DocumentContext
 from lsp.refactorings import refactorings
 from lsp.semantic_tokens import LEGEND, tokens_between
@@ -149,4 +150,5 @@ def _answer_shape(session: Session) -> None:
         types.TEXT_DOCUMENT_CODE_LENS,
         lambda view, params: code_lenses(view),
         nothing=list,
+        of_mission=lambda mission, params: mission_lenses(mission),
     )
