@@ -10,6 +10,7 @@
 #   make format       let ruff format and mend what it can
 #   make plan-proof   MODELS (20000) random whole models beside judges that know only the models
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
+#   make sampling-study  BATCHES (10000) simulated batches per sampler: how often each interval covers the true rate
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
 #   make renames      rename every name of every model, and compare what the models mean
 #   make editor-proof 100,000 edit scripts and as many hostile messages; every model by the server and by `nddlc lint`
@@ -32,7 +33,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof mutants renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study mutants renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -112,6 +113,11 @@ MODELS := 20000
 
 plan-proof: build
 	$(BIN)/python -m tests.solver.whole.proof $(MODELS)
+
+BATCHES := 10000
+
+sampling-study: build
+	$(BIN)/python -m tests.checker.sampling_study $(BATCHES)
 
 mutants: build
 	$(BIN)/python -m tests.executive.mutants.campaign $(MUTANTS)
