@@ -49,10 +49,11 @@ def judge_mission(
     """Judge everything that the models say of an executed mission; programs are in the order of the reactors."""
     chance = Chance(agent, tuple(programs), outcome.seed, overrides or {})
     by_name = {each.reactor: each for each in record.reactors}
-    failed = {event.reactor for event in single_events(outcome.events) if event.kind in (EventKind.KILL, EventKind.ABORT)}
+    single = single_events(outcome.events)
+    failed = {event.reactor for event in single if event.kind in (EventKind.KILL, EventKind.ABORT)}
     desks: dict[str, tuple[ProgramJudge, Bench]] = {}
     told = [event for event in outcome.events if event.kind is EventKind.OBSERVATION]
-    deaths = {(e.tick, e.reactor) for e in single_events(outcome.events) if e.kind is EventKind.KILL}
+    deaths = {(e.tick, e.reactor) for e in single if e.kind is EventKind.KILL}
     for place, program in zip(agent.reactors, programs, strict=True):
         written = by_name.get(place.name)
         if written is None:
