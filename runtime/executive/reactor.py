@@ -33,6 +33,17 @@ class Failure:
 
 
 @dataclass(frozen=True, slots=True)
+class SyncFailure:
+    """The present cannot be explained: the failure code, where, why, and the conflict."""
+
+    code: str
+    timelines: tuple[str, ...]
+    reason: Reason
+    conflict: Conflict | None
+    deadlock: Deadlock | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Refusal:
     """The owner will not do what it was asked for; `event` is where the trace says why."""
 
