@@ -30,6 +30,7 @@ class Tables:
             self._read(record.tokens)
         self.count = len(self.keys)
         self.is_ordered = bool((self.keys[1:] > self.keys[:-1]).all())
+        self._is_gapless = self.is_ordered and self.count > 0 and self.keys[0] == 0 and self.keys[-1] == self.count - 1
         self.standing = self._standing() if self.is_ordered else np.arange(self.count)
         own = np.where(self.standing == np.arange(self.count), self.predicate, NOBODY)
         order = np.argsort(own, kind="stable")
@@ -89,7 +90,7 @@ class Tables:
         """The rows of tokens by their keys; NOBODY where there is none."""
         if not self.count:
             return np.full(len(keys), NOBODY)
-        found = np.minimum(np.searchsorted(self.keys, keys), self.count - 1)
+        found = np.minimum(keys if self._is_gapless else np.searchsorted(self.keys, keys), self.count - 1)
         return np.where(self.keys[found] == keys, found, NOBODY)
 
     def _standing(self) -> Array:
@@ -139,9 +140,9 @@ class RowTokens:
         number = variable - FIRST_PARAMETER
         predicates = tables.predicate[self.standing]
         places = tables.places[self.standing]
+        if len(predicates) and (predicates == predicates[0]).all():
+            return self._part(int(predicates[0]), number, places)
         kinds = np.unique(predicates)
-        if len(kinds) == 1:
-            return self._part(int(kinds[0]), number, places)
         parts: list[tuple[Mask, Column]] = []
         for kind in kinds.tolist():
             rows = predicates == kind

@@ -91,8 +91,10 @@ class Publisher:
         rows = np.asarray(log.rows)[: ROW * log.row_count].reshape(-1, ROW)[told]
         values, symbols = np.asarray(log.values), program.all_names()
         found = []
-        for line, predicate in np.unique(rows[:, 1:3], axis=0).tolist():
-            places = np.flatnonzero((rows[:, 1] == line) & (rows[:, 2] == predicate))
+        kinds = rows[:, 1] * len(program.model.short_names) + rows[:, 2]
+        for kind in np.unique(kinds).tolist():
+            line, predicate = divmod(kind, len(program.model.short_names))
+            places = np.flatnonzero(kinds == kind)
             at = rows[places, 4]
             parameters = program.model.program.predicates[predicate].parameters
             arguments = tuple(
