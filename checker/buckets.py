@@ -1,4 +1,4 @@
-"""Failed missions in, groups out: the same code at the same line of the model counts as one fault."""
+"""Failed missions in, groups out: what the same line of the model is to blame for counts as one fault."""
 
 from dataclasses import dataclass
 
@@ -8,8 +8,8 @@ from checker.losses import GoalFate, Limit, Repairs
 from checker.oracle import Judgement, Verdict
 from runtime.executive.outcome import OpenGoal
 
-# Code, file and line of the culprit; without one the reactor, and what the reason and the open goals are about. Never a
-# number of a token, nor a tick: these differ between missions that fail alike.
+# File and line of the culprit; without one the code, the reactor and what the reason is about. Never the number of a
+# token, a tick, or which goals stayed open: these differ between missions that fail alike.
 Key = tuple[str, str, int, tuple[str, ...]]
 
 
@@ -41,19 +41,20 @@ class Bucket:
 
 
 def bucket_key(result: MissionResult) -> Key:
-    """What a failure is grouped by: its code and the culprit's place, or what it is about where there is none."""
+    """What a failure is grouped by: the culprit's place, or what it is about where there is none."""
     assert result.outcome is not None
     abort, reason = result.outcome.abort, result.judgement.reason
     place = _culprit(result).place
     if place is not None:
-        return (result.judgement.code, place.file, place.line, ())
+        return ("", place.file, place.line, ())
     about = [abort.reactor if abort else ""]
     if result.judgement.exceeded is not None:
         about += _lost(result, result.judgement.exceeded.limit)
-    if reason is not None:
-        about += [reason.kind, reason.token.predicate if reason.token else "", reason.predicate, reason.timeline]
-    goals = {f"{goal.timeline}.{goal.predicate}" for goal in result.open_goals}
-    return (result.judgement.code, "", 0, (*about, *sorted(goals)))
+    lost = next((goal.reason for goal in result.open_goals if goal.reason is not None), None)
+    for one in (reason, lost, lost.because if lost is not None else None):
+        if one is not None:
+            about += [one.kind, one.token.predicate if one.token else "", one.predicate, one.timeline]
+    return (result.judgement.code, "", 0, tuple(about))
 
 
 def _culprit(result: MissionResult) -> Culprit:
@@ -71,7 +72,7 @@ def _lost(result: MissionResult, limit: Limit) -> list[str]:
         return sorted({f"{one.sender}.{one.timeline}.{one.predicate}" for one in result.losses.undelivered})
     wanted = (GoalFate.LATE,) if limit is Limit.LATE else (GoalFate.LATE, GoalFate.REJECTED)
     goals = [one for one in result.losses.goals if one.fate in wanted]
-    return [f"{one.number} {one.reason.kind if one.reason is not None else ''}" for one in goals]
+    return sorted({str(one.reason.kind) if one.reason is not None else "" for one in goals})
 
 
 def group_failures(results: tuple[MissionResult, ...]) -> tuple[Bucket, ...]:

@@ -100,7 +100,7 @@ class Campaign:
         may_fly: bool = True,
         focus: int | None = None,
     ) -> Findings:
-        """Judge the results; with `may_fly` thresholds are sharpened by flying examples again.
+        """Judge the results; with `may_fly` conditions are sought and tested by flights.
 
         With a `focus` that is done only for the fault that mission `focus` belongs to.
         """

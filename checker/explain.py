@@ -3,13 +3,13 @@
 from typing import Any
 
 from checker.batch.result import MissionResult
+from checker.conditions.rendering import condition_claim, condition_data
 from checker.excerpts import Excerpts
 from checker.findings import Fault
 from checker.oracle import CODE_NAMES
-from checker.rendering import confirmation_text, failure_text, step_label, step_text, threshold_text
+from checker.rendering import confirmation_text, failure_text, step_label, step_text
 from checker.sampling.rendering import number
 from checker.story import Step, StepKind, Story
-from checker.threshold import Threshold
 from runtime.executive.outcome import SourcePlace
 
 _ARROW = "     │\n     ▼"
@@ -57,7 +57,7 @@ def excerpt_lines(place: SourcePlace, excerpts: Excerpts, *, marked: bool = Fals
 
 def _fault_lines(fault: Fault, told: int) -> list[str]:
     lines = [f"z3 {confirmation_text(fault)}"] if fault.confirmation is not None else []
-    lines += [f"it fails when {threshold_text(threshold)}" for threshold in fault.thresholds]
+    lines += [f"it fails {condition_claim(fault.condition)}"] if fault.condition is not None else []
     others = [str(mission) for mission in fault.bucket.missions if mission != told]
     if others:
         shown = ", ".join(others[:12]) + (", ..." if len(others) > 12 else "")
@@ -78,7 +78,7 @@ def story_data(story: Story, run_id: str, excerpts: Excerpts) -> dict[str, Any]:
         "final_tick": story.final_tick,
         "steps": [_step_data(step, story, excerpts) for step in story.steps],
         "z3": None if fault is None else confirmation_data(fault),
-        "thresholds": [] if fault is None else [threshold_data(threshold) for threshold in fault.thresholds],
+        "condition": None if fault is None else condition_data(fault.condition),
         "alike": [] if fault is None else list(fault.bucket.missions),
     }
 
@@ -128,27 +128,3 @@ def confirmation_data(fault: Fault) -> dict[str, Any] | None:
     if found is None:
         return None
     return {"finding": found.finding.value, "core": list(found.core), "untranslated": list(found.untranslated)}
-
-
-def threshold_data(threshold: Threshold) -> dict[str, Any]:
-    """A threshold with its evidence."""
-    cut = threshold.cut
-    return {
-        "parameter": threshold.parameter,
-        "condition": threshold.condition,
-        "edge": threshold.edge,
-        "fails_above": threshold.is_above,
-        "fails_at_edge": threshold.edge_fails,
-        "method": threshold.method,
-        "is_causal": threshold.is_causal,
-        "example_value": threshold.example_value,
-        "flights": threshold.flights,
-        "samples": None
-        if cut is None
-        else {
-            "passing": cut.passing,
-            "failing": cut.failing,
-            "purity": round(cut.purity, 9),
-            "coverage": round(cut.coverage, 9),
-        },
-    }

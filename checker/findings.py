@@ -1,4 +1,4 @@
-"""All missions of a run in, what there is to say about it out: the rate, and each fault with its line and threshold."""
+"""All missions of a run in, what there is to say about it out: the rate, and each fault with its line and condition."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,15 +6,17 @@ from enum import StrEnum
 
 from checker.batch.result import MissionResult
 from checker.buckets import Bucket, group_failures
+from checker.conditions.condition import Condition
+from checker.conditions.find import find_condition
+from checker.conditions.flights import Refly
 from checker.mission import Mission
 from checker.oracle import Verdict
 from checker.smt.confirm import Confirmation, confirm
 from checker.statistics import Rate, judge_rate
 from checker.tally import Tally, tally
-from checker.threshold import Refly, Threshold, find_thresholds
 from runtime.executive.configuration import AgentConfiguration
 
-_MOST_SHARPENED = 8  # buckets whose thresholds are sought by flying again; the rest must do with samples
+_MOST_SHARPENED = 8  # buckets whose conditions are sought by flying again; the rest must do with samples
 
 
 class Ending(StrEnum):
@@ -31,7 +33,7 @@ class Fault:
     """A bucket of failures with what is known about it; `confirmation` is z3's word on the example's conflict."""
 
     bucket: Bucket
-    thresholds: tuple[Threshold, ...]
+    condition: Condition | None
     confirmation: Confirmation | None
 
 
@@ -94,14 +96,16 @@ def assess(
     faults: list[Fault] = []
     for position, bucket in enumerate(group_failures(ordered)):
         is_wanted = position < _MOST_SHARPENED if focus is None else focus in bucket.missions
-        faults.append(_fault(bucket, ordered, agent, refly if is_wanted else None))
+        faults.append(_fault(bucket, ordered, agent, seed, refly if is_wanted else None))
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending
     )
 
 
-def _fault(bucket: Bucket, results: tuple[MissionResult, ...], agent: AgentConfiguration, refly: Refly | None) -> Fault:
+def _fault(
+    bucket: Bucket, results: tuple[MissionResult, ...], agent: AgentConfiguration, seed: int, refly: Refly | None
+) -> Fault:
     example = next(result for result in results if result.number == bucket.example)
     abort = example.outcome.abort if example.outcome else None
     confirmation = confirm(abort.conflict) if abort and abort.conflict else None
-    return Fault(bucket, find_thresholds(bucket, results, agent, refly), confirmation)
+    return Fault(bucket, find_condition(bucket, results, agent, seed, refly), confirmation)

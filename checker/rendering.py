@@ -1,4 +1,4 @@
-"""Words for what the checker has found: a failure, a step of a story, a threshold, z3's answer in, one line each out.
+"""Words for what the checker has found: a failure, a step of a story, z3's answer in, one line each out.
 
 What happened in a mission is worded by `runtime.executive.rendering`.
 """
@@ -12,7 +12,6 @@ from checker.oracle import CODE_NAMES, Judgement
 from checker.sampling.rendering import describe, number
 from checker.smt.confirm import Finding
 from checker.story import Step, StepKind, Story
-from checker.threshold import Threshold, Witness
 from runtime.executive.outcome import (
     Abort,
     ConflictElement,
@@ -124,27 +123,6 @@ def confirmation_text(fault: Fault) -> str:
             text = "could not decide whether the causes can hold together"
     missing = fault.confirmation.untranslated
     return text + (f" (not told to it: {', '.join(missing)})" if missing else "")
-
-
-def threshold_text(threshold: Threshold) -> str:
-    """A threshold and the evidence for it."""
-    return f"{threshold.condition} ({'; '.join(threshold_evidence(threshold))})"
-
-
-def threshold_evidence(threshold: Threshold) -> list[str]:
-    """The evidence for a threshold, a line for each witness."""
-    evidence: list[str] = []
-    if Witness.Z3 in threshold.witnesses:
-        evidence.append("proved by z3 on the conflict's terms")
-    if threshold.flights:
-        evidence.append(f"{threshold.flights} flights of the same mission with this value alone changed")
-    cut = threshold.cut
-    if cut is not None:
-        passing, failing = ("up to", "from") if cut.is_above else ("down to", "from")
-        evidence.append(f"samples pass {passing} {number(cut.passing)}, fail {failing} {number(cut.failing)}")
-        if cut.purity < 1.0 or cut.coverage < 1.0:
-            evidence.append(f"{cut.purity:.0%} of the missions beyond fail so, {cut.coverage:.0%} of these lie there")
-    return evidence
 
 
 def _event_text(event: Event) -> str:

@@ -1,4 +1,4 @@
-"""Two numbers in, the simplest number between them out: what a person would write for a threshold."""
+"""Two numbers in, the simplest number between them out: what a person would write for an edge."""
 
 from fractions import Fraction
 

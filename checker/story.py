@@ -112,9 +112,9 @@ def _lost(outcome: Outcome, limit: Limit) -> list[Event]:
 
 
 def _suspects(outcome: Outcome, fault: Fault | None) -> tuple[str, ...]:
-    """The parameters that the story begins with: those with a threshold, else those that the abort depends on."""
-    if fault is not None and fault.thresholds:
-        return tuple(threshold.parameter for threshold in fault.thresholds)
+    """The parameters that the story begins with: those of the condition, else those that the abort depends on."""
+    if fault is not None and fault.condition is not None:
+        return fault.condition.parameters
     return draws_behind(outcome)
 
 

@@ -23,6 +23,7 @@ from checker.judge.values import UNKNOWN
 from checker.judge.written import meanings_of
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
 from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, Value
 from runtime.user.constraint import Constraint
@@ -52,7 +53,9 @@ def judge_mission(
     """Judge everything that the models say of an executed mission; programs are in the order of the reactors."""
     chance = Chance(agent, tuple(programs), outcome.seed, overrides or {})
     by_name = {each.reactor: each for each in record.reactors}
-    failed = {event.reactor for event in outcome.events if event.kind in (EventKind.KILL, EventKind.ABORT)}
+    failed = {
+        event.reactor for event in single_events(outcome.events) if event.kind in (EventKind.KILL, EventKind.ABORT)
+    }
     history = _Publications(outcome)
     desks: dict[str, tuple[ProgramJudge, Bench]] = {}
     for place, program in zip(agent.reactors, programs, strict=True):
@@ -129,7 +132,7 @@ class _Publications:
 
     def __init__(self, outcome: Outcome) -> None:
         self.events = [event for event in outcome.events if event.kind is EventKind.OBSERVATION]
-        self.deaths = {(e.tick, e.reactor) for e in outcome.events if e.kind is EventKind.KILL}
+        self.deaths = {(e.tick, e.reactor) for e in single_events(outcome.events) if e.kind is EventKind.KILL}
         self.common = self._told("") if not self.deaths else None
 
     def seen_by(self, reactor: str) -> History:

@@ -8,8 +8,9 @@ import math
 from typing import Any
 
 from checker.batch.result import MissionResult
+from checker.conditions.rendering import condition_data
 from checker.excerpts import Excerpts
-from checker.explain import confirmation_data, place_data, threshold_data
+from checker.explain import confirmation_data, place_data
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES, Verdict
 from checker.rendering import failure_text
@@ -84,7 +85,7 @@ def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
         "example": bucket.example,
         "missions": list(bucket.missions),
         "ticks": [bucket.first_tick, bucket.last_tick],
-        "thresholds": [threshold_data(threshold) for threshold in fault.thresholds],
+        "condition": condition_data(fault.condition),
         "z3": confirmation_data(fault),
     }
 

@@ -1,8 +1,9 @@
 """Findings in, workflow commands of GitHub Actions out: each fault and each lost goal becomes a mark at its line."""
 
+from checker.conditions.rendering import condition_claim
 from checker.excerpts import Excerpts
 from checker.findings import Findings
-from checker.rendering import failure_text, threshold_text
+from checker.rendering import failure_text
 from checker.report.losses import damage_words, goal_text, repair_text
 from checker.report.sentences import decision, fault_title, headline
 from nddl_lang.text.github import command_line
@@ -18,7 +19,7 @@ def github_report(findings: Findings, excerpts: Excerpts) -> str:
     for index, fault in enumerate(findings.faults[:_MOST_MARKS]):
         bucket = fault.bucket
         text = [failure_text(bucket.judgement, bucket.open_goals)]
-        text += [f"fails when {threshold_text(threshold)}" for threshold in fault.thresholds]
+        text += [f"fails {condition_claim(fault.condition)}"] if fault.condition is not None else []
         text.append(f"nddlc explain {findings.run_id}#{bucket.example}")
         where = bucket.culprit.place or SourcePlace(findings.mission.source.name, 1, 1, "")
         command = "error" if rate.exceeds else "warning"

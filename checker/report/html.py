@@ -6,11 +6,12 @@ from html import escape
 from importlib.resources import files
 
 from checker.batch.result import MissionResult
+from checker.conditions.rendering import condition_evidence, condition_text
 from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.losses import Limit, amount
 from checker.oracle import CODE_NAMES, Verdict
-from checker.rendering import confirmation_text, failure_text, step_text, threshold_evidence
+from checker.rendering import confirmation_text, failure_text, step_text
 from checker.report.losses import damage_words, goal_line, goal_text, repair_text, request_line, unmet_text
 from checker.report.sentences import blamed, decision, missions, percent, rate_line, verdict_word
 from checker.report.svg import Dot, rate_plot, scatter_plot, strip_plot
@@ -112,10 +113,11 @@ def _fault(index: int, fault: Fault, findings: Findings, excerpts: Excerpts, sto
     places = [place for place in (bucket.culprit.place, *bucket.culprit.limits) if place is not None]
     if places:
         parts.append("<pre>" + "\n".join(_excerpt(place, excerpts, marked=True) for place in places) + "</pre>")
-    for threshold in fault.thresholds:
-        items = "".join(f"<li>{escape(item)}</li>" for item in threshold_evidence(threshold))
-        condition = escape(threshold.condition)
-        parts.append(f'<p class="when">fails when <b>{condition}</b></p><ul class="evidence">{items}</ul>')
+    if fault.condition is not None:
+        items = "".join(f"<li>{escape(item)}</li>" for item in condition_evidence(fault.condition))
+        when = "in part when" if fault.condition.is_partial else "when"
+        text = escape(condition_text(fault.condition))
+        parts.append(f'<p class="when">fails {when} <b>{text}</b></p><ul class="evidence">{items}</ul>')
     if fault.confirmation is not None:
         parts.append(f'<p class="soft">z3 {escape(confirmation_text(fault))}.</p>')
     if story is not None:
@@ -152,13 +154,14 @@ def _parameters(findings: Findings) -> list[str]:
     if not drawn or not findings.results:
         return []
     by_name = {parameter.name: _dots(findings, parameter) for parameter in drawn}
+    conditions = [fault.condition for fault in findings.faults if fault.condition is not None]
     parts = ["<h2>What was drawn</h2>", '<p class="soft">Grey dots are missions that passed.</p>']
     for parameter in drawn:
-        thresholds = [one for fault in findings.faults for one in fault.thresholds if one.parameter == parameter.name]
-        unique = list({one.condition: one for one in thresholds}.values())
+        edges = [one for each in conditions for one in each.single if one.feature.parameters == (parameter.name,)]
+        unique = list(dict.fromkeys(edges))
         parts.append(f'<h3>{escape(parameter.name)}</h3><p class="soft">{escape(describe(parameter))}</p>')
         parts.append(strip_plot(parameter.name, by_name[parameter.name], (parameter.lower, parameter.upper), unique))
-    first = [one.parameter for fault in findings.faults for one in fault.thresholds]
+    first = [name for each in conditions for name in each.parameters]
     ranked = sorted(drawn, key=lambda one: (one.name not in first, first.index(one.name) if one.name in first else 0))
     if len(ranked) > 1:
         one, other = ranked[0], ranked[1]

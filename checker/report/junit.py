@@ -2,10 +2,11 @@
 
 from xml.etree import ElementTree
 
+from checker.conditions.rendering import condition_claim
 from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.oracle import Verdict
-from checker.rendering import failure_text, threshold_text
+from checker.rendering import failure_text
 from nddl_lang.text.junit import junit_text, printable
 
 
@@ -31,7 +32,7 @@ def junit_report(findings: Findings, excerpts: Excerpts) -> str:
             failure = ElementTree.SubElement(
                 case, "failure", {"type": result.judgement.code, "message": printable(message)}
             )
-            lines = [f"fails when {threshold_text(threshold)}" for threshold in fault.thresholds]
+            lines = [f"fails {condition_claim(fault.condition)}"] if fault.condition is not None else []
             if (place := fault.bucket.culprit.place) is not None:
                 lines.insert(0, f"{excerpts.path(place)}: {excerpts.line(place).strip()}")
             lines.append(f"nddlc explain {findings.run_id}#{result.number}")

@@ -1,8 +1,9 @@
 """Findings in, a page of Markdown out, for the summary of a CI job."""
 
+from checker.conditions.rendering import condition_claim
 from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
-from checker.rendering import failure_text, threshold_text
+from checker.rendering import failure_text
 from checker.report.losses import goal_line, goal_text, repair_text, request_line, unmet_text
 from checker.report.sentences import blamed, decision, fault_title, headline, percent, rate_line, verdict_word
 from checker.sampling.rendering import describe
@@ -43,8 +44,8 @@ def _fault(fault: Fault, findings: Findings, excerpts: Excerpts) -> list[str]:
     places = [place for place in (bucket.culprit.place, *bucket.culprit.limits) if place is not None]
     if places:
         lines += ["", "```", *(f"{excerpts.path(place)}: {excerpts.line(place).strip()}" for place in places), "```"]
-    for threshold in fault.thresholds:
-        lines += ["", f"Fails when {_plain(threshold_text(threshold))}."]
+    if fault.condition is not None:
+        lines += ["", f"Fails {_plain(condition_claim(fault.condition))}."]
     return [*lines, "", f"`nddlc explain {findings.run_id}#{bucket.example}`"]
 
 

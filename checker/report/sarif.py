@@ -2,10 +2,11 @@
 
 from typing import Any
 
+from checker.conditions.rendering import condition_claim
 from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES
-from checker.rendering import failure_text, threshold_text
+from checker.rendering import failure_text
 from checker.report.sentences import missions, percent
 from nddl_lang.text.sarif import sarif_log, uri_of
 from runtime.executive.outcome import SourcePlace
@@ -22,7 +23,7 @@ def _result(fault: Fault, findings: Findings, excerpts: Excerpts) -> dict[str, A
     bucket = fault.bucket
     why = failure_text(bucket.judgement, bucket.open_goals)
     parts = [f"{missions(len(bucket.missions))} ({percent(bucket.share)}) fail here: {why}."]
-    parts += [f"Fails when {threshold_text(threshold)}." for threshold in fault.thresholds]
+    parts += [f"Fails {condition_claim(fault.condition)}."] if fault.condition is not None else []
     parts.append(f"Explained by `nddlc explain {findings.run_id}#{bucket.example}`.")
     where = bucket.culprit.place or SourcePlace(findings.mission.source.name, 1, 1, "")
     return {

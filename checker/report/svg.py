@@ -4,9 +4,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from html import escape
 
+from checker.conditions.condition import Literal
+from checker.conditions.rendering import literal_text
 from checker.sampling.rendering import number
 from checker.statistics import Rate
-from checker.threshold import Threshold
 from runtime.view.axis import ticks
 
 _WIDTH, _MARGIN = 760.0, 14.0
@@ -43,19 +44,19 @@ class Axis:
         return ticks(self.lower, self.upper, (self.upper - self.lower or 1.0) / 6.0)
 
 
-def strip_plot(name: str, dots: Sequence[Dot], box: Box, thresholds: Sequence[Threshold]) -> str:
-    """One parameter along a line: missions as dots, failing ones coloured by fault, thresholds as dashed lines."""
+def strip_plot(name: str, dots: Sequence[Dot], box: Box, edges: Sequence[Literal]) -> str:
+    """One parameter along a line: missions as dots, failing ones coloured by fault, edges as dashed lines."""
     height, floor = 108.0, 76.0
     axis = _axis([dot.value for dot in dots], box)
     parts = [*_horizontal(axis, floor)]
-    for threshold in thresholds:
-        x = axis.at(threshold.edge)
-        far = axis.end if threshold.is_above else axis.begin
+    for literal in edges:
+        x = axis.at(literal.edge)
+        far = axis.end if literal.is_above else axis.begin
         left, width = min(x, far), abs(far - x)
         parts.append(f'<rect class="beyond" x="{left:.1f}" y="8" width="{width:.1f}" height="{floor - 8:.1f}"/>')
         parts.append(f'<line class="edge" x1="{x:.1f}" x2="{x:.1f}" y1="4" y2="{floor:.1f}"/>')
         anchor, shift = ("end", -5.0) if x > _WIDTH / 2 else ("start", 5.0)
-        parts.append(_text("label", x + shift, 15.0, threshold.condition, anchor))
+        parts.append(_text("label", x + shift, 15.0, literal_text(literal), anchor))
     for dot in _drawn(dots):
         y = 22.0 + (dot.mission * _GOLDEN) % 1.0 * (floor - 30.0)
         parts.append(_circle(dot, axis.at(dot.value), y, number(dot.value)))

@@ -1,9 +1,10 @@
 """Findings in, the summary that a terminal or a CI log shows out: some 25 lines."""
 
+from checker.conditions.rendering import condition_claim
 from checker.excerpts import Excerpts
 from checker.explain import excerpt_lines
 from checker.findings import Findings
-from checker.rendering import confirmation_text, failure_text, threshold_text
+from checker.rendering import confirmation_text, failure_text
 from checker.report.losses import damage_words, loss_lines
 from checker.report.sentences import blamed, decision, fault_title, headline, rate_line
 from checker.sampling.rendering import describe
@@ -13,7 +14,7 @@ _MOST_ERRORS = 3
 
 
 def text_report(findings: Findings, excerpts: Excerpts) -> str:
-    """The summary: what was flown, what it means, each fault with line, threshold and the command that explains it."""
+    """The summary: what was flown, what it means, each fault with line, condition and the command that explains it."""
     lost = damage_words(findings.tally)
     lines = [headline(findings), f"  {decision(findings)}"]
     if lost:
@@ -32,7 +33,7 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
             lines += excerpt_lines(bucket.culprit.place, excerpts, marked=True, indent="   ")
         for limit in bucket.culprit.limits:
             lines += excerpt_lines(limit, excerpts, marked=True, indent="   ")
-        lines += [f"   fails when {threshold_text(threshold)}" for threshold in fault.thresholds[:2]]
+        lines += [f"   fails {condition_claim(fault.condition)}"] if fault.condition is not None else []
         if fault.confirmation is not None:
             lines.append(f"   z3 {confirmation_text(fault)}")
         lines.append(f"   why: nddlc explain {findings.run_id}#{bucket.example}")

@@ -1,8 +1,8 @@
 """What a reactor was asked for: queued until its window comes, posted, given up, taken back, done (T-REX 1.8)."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Request
 from runtime.executive.outcome import Conflict, Deadlock, EventKind, OpenGoal, Reason, ReasonKind
 from runtime.executive.reactor import Refusal, Watched
@@ -222,10 +222,10 @@ class Goals:
 
     # ---- the tick ----
 
-    def close(self, tick: int, is_cut_off: Callable[[int], bool]) -> bool:
+    def close(self, tick: int, asked: Dispatch) -> bool:
         """Goals that have run are done; those that are too late, or went in a repair, are given up. Whether any was.
 
-        `is_cut_off` tells whether an owner has given up what a goal needed: then its end is no achievement.
+        `asked` tells whether an owner has given up what a goal needed: then its end is no achievement.
         """
         found = False
         late: list[int] = []
@@ -236,7 +236,7 @@ class Goals:
                 self._drop(goal, ReasonKind.DROPPED, tick)
             elif bench.is_over(token, tick):
                 goal.is_closed = True
-                if is_cut_off(token):
+                if asked.is_cut_off(token):
                     self._drop(goal, ReasonKind.DROPPED, tick)
                 else:
                     self.achieved(goal.request)

@@ -51,7 +51,7 @@ def test_a_failing_model_ends_with_findings_and_a_reason(agent: None, capsys: py
     assert "<== the line to blame" in story
     assert run(["explain", "latest", "--format", "json"]) == 0
     told = json.loads(capsys.readouterr().out)
-    assert told["thresholds"][0]["condition"] == "GPS_HIT_RATE > 3.8"
+    assert told["condition"]["text"] == "GPS_HIT_RATE > 3.8"
     assert told["steps"][0]["kind"] == "draw"
 
 

@@ -1,5 +1,6 @@
 """Failures are grouped by the line to blame, and tied to the parameter values that bring them about."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -8,11 +9,16 @@ from checker.batch.result import MissionResult
 from checker.batch.worker import Load, Task, fly_one
 from checker.buckets import group_failures
 from checker.causes import culprit_of, draws_behind, events_to_abort
+from checker.conditions.find import find_condition
+from checker.conditions.flights import Refly
+from checker.conditions.rendering import condition_text
 from checker.mission import read_mission
+from checker.oracle import Judgement, Verdict
 from checker.sampling.seeds import mission_seed
-from checker.threshold import find_cut, find_thresholds
 from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.outcome import OpenGoal, Outcome, Reason, ReasonKind
 from runtime.executive.rendering import event_text
+from runtime.plan.readout.names import TokenName
 from tests.checker.fake_agent import CONSTANT, LIMIT, linked_conflict, load_linked, load_split, split_conflict
 
 
@@ -45,43 +51,43 @@ def test_failures_at_one_line_are_one_bucket() -> None:
     assert bucket.first_tick == bucket.last_tick == 265
 
 
-@pytest.mark.parametrize(("load", "method"), [(load_linked, "z3 and flights"), (load_split, "flights")])
-def test_the_threshold_is_found_by_flying_again(load: Load, method: str) -> None:
+def reflying(load: Load) -> Refly:
+    return lambda agent, number, seed: fly_one(load(agent), Task(number, seed))
+
+
+@pytest.mark.parametrize(("load", "is_in_terms"), [(load_linked, True), (load_split, False)])
+def test_the_condition_is_found_by_flying_again(load: Load, is_in_terms: bool) -> None:
     results = fly(load)
     (bucket,) = group_failures(results)
-    thresholds = find_thresholds(
-        bucket, results, agent(), lambda agent, number, seed: fly_one(load(agent), Task(number, seed))
-    )
-    assert [one.condition for one in thresholds] == ["GPS_HIT_RATE > 3.8"]
-    assert thresholds[0].method == method
-    assert thresholds[0].is_causal
-    assert thresholds[0].cut is not None
-    assert thresholds[0].cut.passing <= 3.8 < thresholds[0].cut.failing
-    assert thresholds[0].cut.purity == thresholds[0].cut.coverage == 1.0
+    found = find_condition(bucket, results, agent(), 7234, reflying(load))
+    assert found is not None
+    assert condition_text(found) == "GPS_HIT_RATE > 3.8"
+    assert found.precision.value == found.recall.value == 1.0
+    assert found.in_terms == (found.single if is_in_terms else ())
 
 
-def test_without_flights_terms_or_samples_must_do() -> None:
-    for load, method in ((load_linked, "z3"), (load_split, "samples")):
-        results = fly(load)
-        (bucket,) = group_failures(results)
-        (threshold,) = find_thresholds(bucket, results, agent(), None)
-        assert threshold.parameter == "GPS_HIT_RATE"
-        assert threshold.method == method
-        assert threshold.edge == pytest.approx(3.8, abs=0.05)
+def test_without_flights_the_samples_must_do() -> None:
+    results = fly(load_split)
+    (bucket,) = group_failures(results)
+    found = find_condition(bucket, results, agent(), 7234, None)
+    assert found is not None
+    assert found.parameters == ("GPS_HIT_RATE",)
+    assert found.near is None
+    assert found.single[0].edge == pytest.approx(3.8, abs=0.05)
 
 
-def test_a_cut_is_the_best_there_is() -> None:
-    cut = find_cut([3.9, 3.95, 1.0], [0.5, 2.0, 3.0, 3.8])
-    assert cut is not None
-    assert (cut.is_above, cut.passing, cut.failing) == (True, 3.8, 3.9)
-    assert cut.coverage == pytest.approx(2 / 3)
-    assert cut.purity == 1.0
-    assert cut.luck == 1.0
-    below = find_cut([-2.0, -1.9], [0.0, 1.0])
-    assert below is not None
-    assert (below.is_above, below.passing, below.failing) == (False, 0.0, -1.9)
-    assert find_cut([], [1.0]) is None
-    assert find_cut([1.0], [1.0]) is None
+def test_what_stays_open_does_not_split_a_bucket() -> None:
+    mission = Outcome(1, 90, 90, None, (), (), ())
+    failed = Judgement(Verdict.FAIL, "F10", reason=Reason(ReasonKind.GOALS_OPEN))
+    dropped = Reason(ReasonKind.DROPPED, because=Reason(ReasonKind.GOES_ON, TokenName("Nav.Go", 3), tick=7))
+    results = []
+    for number, goals in enumerate((("map",), ("map", "sample"), ("sample",)), 1):
+        token = TokenName("Nav.Go", number)
+        lost = replace(dropped, because=Reason(ReasonKind.GOES_ON, token, tick=7 + number))
+        opened = tuple(OpenGoal(goal, "Visit", reason=lost) for goal in goals)
+        results.append(MissionResult(number, number, failed, replace(mission, open_goals=opened), has_trace=True))
+    (bucket,) = group_failures(tuple(results))
+    assert bucket.missions == (1, 2, 3)
 
 
 def test_the_events_lead_from_the_draw_to_the_abort() -> None:

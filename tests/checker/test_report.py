@@ -47,7 +47,7 @@ def findings(campaign: Campaign) -> Findings:
     return campaign.assess(tuple(results))
 
 
-def test_the_text_names_line_threshold_and_command(findings: Findings) -> None:
+def test_the_text_names_line_condition_and_command(findings: Findings) -> None:
     text = text_report(findings, Excerpts(ROOT))
     assert "gps: 60 missions, 4 failed, 1 not flown to the end because of an error of the tool" in text
     assert "--> models/gps/rules.nddl:34" in text

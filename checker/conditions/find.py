@@ -1,0 +1,143 @@
+"""The condition of a bucket: samples and flights in, what separates failing from passing missions out, measured."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from checker.batch.result import MissionResult
+from checker.buckets import Bucket
+from checker.conditions.condition import Condition, Conjunction, Extreme, Feature, Literal, Row, axis_feature, holds
+from checker.conditions.crossings import FINE, find_crossings, mend_crossings
+from checker.conditions.edges import find_edges
+from checker.conditions.flights import Ended, Flights, Refly, flight_budget, fresh_budget, label_of
+from checker.conditions.measure import Measured, measure, measured_on
+from checker.conditions.rules import induce, sample_cuts
+from checker.conditions.space import Space
+from checker.smt.edges import find_failing_range
+from runtime.executive.configuration import AgentConfiguration
+
+_LEAST_PRECISION, _LEAST_RECALL = 0.5, 0.2  # below, a condition is not worth its words
+_LEAST_HELD_BACK = 4  # failing missions to measure on, where none can be flown
+_FIRST_SHARE = 0.6  # of the flights
+_ROUNDS = 3  # in which mistakes of the rules are looked into
+_MOST_POINTS = 24  # of the run from which crossings are sought
+
+
+def find_condition(
+    bucket: Bucket,
+    results: Sequence[MissionResult],
+    agent: AgentConfiguration,
+    batch_seed: int,
+    refly: Refly | None,
+) -> Condition | None:
+    """The condition under which missions fail as those of `bucket`; None where nothing can be claimed."""
+    example = next(result for result in results if result.number == bucket.example)
+    space = Space(agent, results)
+    if not space.axes:
+        return None
+    rows = _rows(space, results, example)
+    if refly is None:
+        return _from_samples(space, rows)
+    flights = Flights(example, space, refly, flight_budget(example))
+    fails = [space.point(row) for row, label in rows if label is Ended.FAILS]
+    passes = [space.point(row) for row, label in rows if label is Ended.PASSES]
+    own = space.row(example)
+    assert own is not None
+    fails = [space.point(own), *fails[:_MOST_POINTS]]
+    passes = passes or _corners(space)
+    crossings = find_crossings(flights, fails, passes[:_MOST_POINTS], _FIRST_SHARE)
+    conjunctions = _induced(space, [*rows, *flights.rows()], find_edges(flights, crossings))
+    for _ in range(_ROUNDS):
+        known = [*rows, *flights.rows()]
+        claimed = [(space.point(row), label, holds(conjunctions, row)) for row, label in known]
+        missed = [point for point, label, is_claimed in claimed if label is Ended.FAILS and not is_claimed]
+        wrong = [point for point, label, is_claimed in claimed if label is Ended.PASSES and is_claimed]
+        if not missed and not wrong:
+            break
+        more = mend_crossings(flights, crossings, missed or fails, wrong or passes)
+        if len(more) == len(crossings):
+            break
+        crossings = more
+        conjunctions = _induced(space, [*rows, *flights.rows()], find_edges(flights, crossings))
+    if not conjunctions:
+        return None
+    measured = measure(conjunctions, space, example, batch_seed, refly, fresh_budget(example))
+    found = _condition(conjunctions, measured, flights.count, space, has_flown=True)
+    return None if found is None else replace(found, in_terms=_in_terms(found, example, space))
+
+
+def _in_terms(condition: Condition, example: MissionResult, space: Space) -> tuple[Literal, ...]:
+    """The edges of one parameter at which z3 finds the conflict of the example to begin."""
+    abort = example.outcome.abort if example.outcome else None
+    row = space.row(example)
+    if abort is None or abort.conflict is None or row is None:
+        return ()
+    axes = {axis.name: axis for axis in space.axes if not axis.is_redrawn}
+    found = []
+    for literal in condition.single:
+        axis = axes.get(literal.feature.parameters[0])
+        if axis is None or not literal.holds(row):
+            continue
+        box = (axis.lower - axis.width, axis.upper + axis.width)
+        failing = find_failing_range(abort.conflict, axis.name, row[axis.name][1], box)
+        end = None if failing is None else failing.below if literal.is_above else failing.above
+        if end is not None and end.is_proved and abs(float(end.value) - literal.edge) <= FINE * axis.width:
+            found.append(literal)
+    return tuple(found)
+
+
+def _rows(space: Space, results: Sequence[MissionResult], example: MissionResult) -> list[tuple[Row, Ended]]:
+    rows: list[tuple[Row, Ended]] = []
+    for result in results:
+        label, row = label_of(result, example), space.row(result)
+        if label is not None and row is not None:
+            rows.append((row, label))
+    return rows
+
+
+def _corners(space: Space) -> list[tuple[float, ...]]:
+    """Where to look for a passing mission if none is known: the middle, and the ends of each range."""
+    middle = tuple(axis.at(0.5) for axis in space.axes)
+    ends = [
+        (*middle[:number], end, *middle[number + 1 :])
+        for number, axis in enumerate(space.axes)
+        for end in (axis.lower, axis.upper)
+    ]
+    return [middle, *ends]
+
+
+def _induced(space: Space, rows: Sequence[tuple[Row, Ended]], edges: Sequence[Literal]) -> tuple[Conjunction, ...]:
+    """Rules over the edges that flights found, with cuts of the samples where a parameter has none."""
+    cuts = sample_cuts(rows, _features(space, {one.feature for one in edges}))
+    return induce(rows, [*edges, *cuts])
+
+
+def _features(space: Space, known: set[Feature]) -> list[Feature]:
+    found: list[Feature] = []
+    for axis in space.axes:
+        extremes = (Extreme.GREATEST, Extreme.LEAST) if axis.is_redrawn else (Extreme.ONLY,)
+        found += [axis_feature(axis.name, one) for one in extremes if axis_feature(axis.name, one) not in known]
+    return found
+
+
+def _from_samples(space: Space, rows: Sequence[tuple[Row, Ended]]) -> Condition | None:
+    """From the missions of the run alone: found on every second one, measured on the others."""
+    fails = [one for one in rows if one[1] is Ended.FAILS]
+    rest = [one for one in rows if one[1] is not Ended.FAILS]
+    held_back = [*fails[1::2], *rest[1::2]]
+    if len(fails) // 2 < _LEAST_HELD_BACK:
+        return None
+    conjunctions = _induced(space, [*fails[::2], *rest[::2]], [])
+    measured = measured_on(held_back, conjunctions) if conjunctions else None
+    return _condition(conjunctions, measured, 0, space, has_flown=False)
+
+
+def _condition(
+    conjunctions: tuple[Conjunction, ...], measured: Measured | None, flights: int, space: Space, *, has_flown: bool
+) -> Condition | None:
+    """What may be claimed: nothing that holds half the time, and of redrawn parameters only what holds."""
+    if measured is None or measured.precision.value < _LEAST_PRECISION or measured.recall.value < _LEAST_RECALL:
+        return None
+    near = measured.near if has_flown else None
+    found = Condition(conjunctions, measured.precision, measured.recall, measured.fresh, near, flights)
+    redrawn = {axis.name for axis in space.axes if axis.is_redrawn}
+    return None if found.is_partial and redrawn & set(found.parameters) else found

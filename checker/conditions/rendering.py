@@ -1,0 +1,124 @@
+"""Words and data for a condition: `A > 0.7 and B < 0.2`, and how well it holds on fresh missions."""
+
+from typing import Any
+
+from checker.conditions.condition import Condition, Conjunction, Extreme, Feature, Literal, Share
+
+
+def condition_text(condition: Condition) -> str:
+    """The condition, such as `A > 0.7 and B < 0.2, or C <= 3`."""
+    return ", or ".join(_conjunction_text(one) for one in condition.conjunctions)
+
+
+def condition_claim(condition: Condition) -> str:
+    """A condition with its measured quality, as the end of a sentence that begins with `fails`."""
+    partly = "in part when" if condition.is_partial else "when"
+    return f"{partly} {condition_text(condition)} ({'; '.join(condition_evidence(condition))})"
+
+
+def condition_evidence(condition: Condition) -> list[str]:
+    """How good it is, on which missions, and how it was found, a line each."""
+    if condition.near is None:
+        sample = f"{condition.fresh} missions of the run that were held back; none was flown for it"
+    else:
+        near = f", {condition.near} of them near an edge" if condition.near else ""
+        sample = f"{condition.fresh} fresh missions{near}"
+    quality = f"precision {_share(condition.precision)}, recall {_share(condition.recall)} on {sample}"
+    lines = [f"partial: {quality}" if condition.is_partial else quality]
+    if condition.flights:
+        lines.append(f"edges found by {condition.flights} flights of the example with other values")
+    if condition.in_terms:
+        edges = " and ".join(literal_text(one) for one in condition.in_terms)
+        lines.append(f"z3: the terms of the example's conflict contradict each other just where {edges}")
+    return lines
+
+
+def _conjunction_text(conjunction: Conjunction) -> str:
+    """Literals joined by `and`; two limits of one term become a band."""
+    parts: list[str] = []
+    told: set[Feature] = set()
+    for literal in conjunction:
+        feature = literal.feature
+        if feature in told:
+            continue
+        told.add(feature)
+        own = [one for one in conjunction if one.feature == feature]
+        below = [one for one in own if not one.is_above]
+        above = [one for one in own if one.is_above]
+        if len(below) == len(above) == 1 and feature.extreme is Extreme.ONLY:
+            low, high = above[0], below[0]
+            left, right = "<=" if low.holds_at_edge else "<", "<=" if high.holds_at_edge else "<"
+            parts.append(f"{_plain(low.edge)} {left} {_feature_text(feature)} {right} {_plain(high.edge)}")
+        else:
+            parts += [literal_text(one) for one in own]
+    return " and ".join(parts)
+
+
+def literal_text(literal: Literal) -> str:
+    """One limit, such as `A * B > 0.6`, or of a redrawn parameter `a draw of P > 3.8`."""
+    sign = (">" if literal.is_above else "<") + ("=" if literal.holds_at_edge else "")
+    extreme = literal.feature.extreme
+    which = ""
+    if extreme is not Extreme.ONLY:
+        which = "a draw of " if literal.is_above is (extreme is Extreme.GREATEST) else "every draw of "
+    return f"{which}{_feature_text(literal.feature)} {sign} {_plain(literal.edge)}"
+
+
+def _feature_text(feature: Feature) -> str:
+    """A polynomial as a model would write it."""
+    text = ""
+    for index, (coefficient, powers) in enumerate(feature.monomials):
+        above = [name for name, power in powers for _ in range(power)]
+        below = [name for name, power in powers for _ in range(-power)]
+        size = abs(coefficient)
+        factors = [*([_plain(size)] if size != 1.0 or not above else []), *above]
+        sign = ("-" if coefficient < 0 else "") if index == 0 else (" - " if coefficient < 0 else " + ")
+        text += sign + " / ".join([" * ".join(factors), *below])
+    return text
+
+
+def condition_data(condition: Condition | None) -> dict[str, Any] | None:
+    """A condition as reports in JSON have it."""
+    if condition is None:
+        return None
+    return {
+        "text": condition_text(condition),
+        "partial": condition.is_partial,
+        "any_of": [[_literal_data(literal) for literal in one] for one in condition.conjunctions],
+        "precision": _share_data(condition.precision),
+        "recall": _share_data(condition.recall),
+        "measured_on": {"missions": condition.fresh, "near": condition.near, "fresh": condition.near is not None},
+        "flights": condition.flights,
+        "in_terms": [literal_text(literal) for literal in condition.in_terms],
+    }
+
+
+def _literal_data(literal: Literal) -> dict[str, Any]:
+    feature = literal.feature
+    return {
+        "text": literal_text(literal),
+        "term": _feature_text(feature),
+        "parameters": list(feature.parameters),
+        "draw": feature.extreme.value,
+        "fails_above": literal.is_above,
+        "edge": literal.edge,
+        "fails_at_edge": literal.holds_at_edge,
+    }
+
+
+def _share_data(share: Share) -> dict[str, Any]:
+    return {"value": round(share.value, 9), "interval": [round(end, 9) for end in share.interval]}
+
+
+def _share(share: Share) -> str:
+    low, high = share.interval
+    return f"{_percent(share.value)} ({_percent(low)} to {_percent(high)})"
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.3g} %"
+
+
+def _plain(value: float) -> str:
+    """A number as people write it: up to nine significant digits."""
+    return f"{value:.9g}"

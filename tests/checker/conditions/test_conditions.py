@@ -1,0 +1,143 @@
+"""A condition of failing separates missions with other draws; what does not is marked or not claimed."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from checker.conditions.condition import Condition, Extreme, Literal, Share, axis_feature, holds
+from checker.conditions.flights import Ended
+from checker.conditions.measure import measured_on
+from checker.conditions.rendering import condition_claim, condition_text
+from checker.conditions.rules import induce
+from tests.checker.conditions.campaigns import RANGES, campaign, conditions
+
+WHOLE = "int P = [0 10]; int Q = [0 10]; float R = [0.0 1.0];"
+GUARDS = "bool u; bool v; u == (p > {0}); v == (q < {1});"
+Truth = Callable[[float, float, float], bool]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("rule", "ranges", "text", "truth"),
+    [
+        ("p <= 0.8;", RANGES, "P > 0.8", lambda p, q, r: p > 0.8),
+        (
+            GUARDS.format(0.6, 0.35) + "if (u == true) { if (v == true) { r >= 2.0; } }",
+            RANGES,
+            "P > 0.6 and Q < 0.35",
+            lambda p, q, r: p > 0.6 and q < 0.35,
+        ),
+        (
+            "bool u; bool v; u == (p > 0.2); v == (p < 0.5); if (u == true) { if (v == true) { r >= 2.0; } }",
+            RANGES,
+            "0.2 < P < 0.5",
+            lambda p, q, r: 0.2 < p < 0.5,
+        ),
+        (
+            GUARDS.format(0.5, 0.25)
+            + "if (u == true) { if (v == true) { r >= 2.0; } } else { if (v == false) { r >= 2.0; } }",
+            RANGES,
+            None,
+            lambda p, q, r: (p > 0.5) is (q < 0.25),
+        ),
+        ("p * q <= 0.5;", RANGES, "P * Q > 0.5", lambda p, q, r: p * q > 0.5),
+        ("float s; s == p + 3.0 * q; s <= 2.5;", RANGES, "P + 3 * Q > 2.5", lambda p, q, r: p + 3 * q > 2.5),
+        ("float s; s == p - q; s <= r;", RANGES, "P - Q - R > 0", lambda p, q, r: p - q - r > 0),
+        ("float s; s == p + q; s <= 13.5;", WHOLE, "P + Q >= 14", lambda p, q, r: p + q >= 14),
+    ],
+    ids=["half line", "conjunction", "band", "equivalence", "product", "weighted sum", "three", "whole numbers"],
+)
+def test_the_truth_is_stated(tmp_path: Path, rule: str, ranges: str, text: str | None, truth: Truth) -> None:
+    (found,) = conditions(campaign(tmp_path, rule, ranges=ranges))
+    assert found is not None
+    assert text is None or condition_text(found) == text
+    chance = np.random.default_rng(5)
+    is_whole = ranges == WHOLE
+    draws = [
+        (float(chance.integers(11)), float(chance.integers(11)), chance.random()) if is_whole else chance.random(3)
+        for _ in range(2000)
+    ]
+    fails = [truth(*draw) for draw in draws]
+    claimed = [holds(found.conjunctions, {name: (v, v) for name, v in zip("PQR", d, strict=True)}) for d in draws]
+    both = sum(one and other for one, other in zip(fails, claimed, strict=True))
+    assert both >= 0.95 * sum(fails)
+    assert both >= 0.95 * sum(claimed)
+    assert found.precision.value >= 0.95
+    assert found.recall.value >= 0.95
+    assert found.near is not None and 0 < found.near < found.fresh
+
+
+@pytest.mark.slow
+def test_a_failure_in_a_thousand_is_found_from_one_example(tmp_path: Path) -> None:
+    rule = GUARDS.format(0.97, 0.06) + "if (u == true) { if (v == true) { r >= 2.0; } }"
+    (found,) = conditions(campaign(tmp_path, rule, missions=900))
+    assert found is not None
+    assert condition_text(found) == "P > 0.97 and Q < 0.06"
+
+
+@pytest.mark.slow
+def test_two_faults_have_two_conditions(tmp_path: Path) -> None:
+    found = conditions(campaign(tmp_path, "p <= 0.8;\n    q >= 0.25;"))
+    assert sorted(condition_text(one) for one in found if one is not None) == ["P > 0.8", "Q < 0.25"]
+
+
+@pytest.mark.slow
+def test_of_a_redrawn_parameter_the_draws_are_told_that_matter(tmp_path: Path) -> None:
+    more = '[parameters.P]\nmode = "intra"\nupdate = 8'
+    (found,) = conditions(campaign(tmp_path, "p <= 0.8;", more=more, missions=60, final_tick=40))
+    assert found is not None
+    assert condition_text(found) == "a draw of P > 0.8"
+
+
+@pytest.mark.slow
+def test_nothing_is_claimed_of_a_mean_of_draws(tmp_path: Path) -> None:
+    more = '[parameters.P]\nmode = "intra"\nupdate = 8'
+    rule = "float s; s == p + q; s <= 1.3;"
+    found = conditions(campaign(tmp_path, rule, more=more, missions=60, final_tick=40))
+    for one in found:
+        assert one is None or not one.is_partial
+
+
+@pytest.mark.slow
+def test_without_flights_half_of_the_run_is_held_back(tmp_path: Path) -> None:
+    (found,) = conditions(campaign(tmp_path, "p <= 0.8;"), may_fly=False)
+    assert found is not None
+    assert found.near is None
+    assert found.fresh == 75
+    assert found.flights == 0
+    assert "held back" in condition_claim(found)
+    assert found.single[0].edge == pytest.approx(0.8, abs=0.05)
+
+
+def row(p: float, q: float) -> dict[str, tuple[float, float]]:
+    return {"P": (p, p), "Q": (q, q)}
+
+
+def test_rules_leave_out_what_separates_nothing() -> None:
+    chance = np.random.default_rng(1)
+    rows = [row(*chance.random(2)) for _ in range(300)]
+    labels = [Ended.FAILS if one["P"][0] > 0.5 else Ended.PASSES for one in rows]
+    edges = [Literal(axis_feature("Q"), True, 0.3), Literal(axis_feature("P"), True, 0.5)]
+    assert induce(list(zip(rows, labels, strict=True)), edges) == ((edges[1],),)
+    assert induce(list(zip(rows, labels, strict=True)), edges[:1]) == ()
+
+
+def test_figures_are_counted_from_the_missions() -> None:
+    literal = Literal(axis_feature("P"), True, 0.5)
+    rows = [(row(p / 10, 0.0), Ended.FAILS if p >= 8 else Ended.PASSES) for p in range(11)]
+    found = measured_on(rows, [(literal,)])
+    assert found.precision.value == pytest.approx(3 / 5)
+    assert found.recall.value == 1.0
+    assert found.precision.interval[0] < 3 / 5 < found.precision.interval[1]
+
+
+def test_words_of_conditions() -> None:
+    share = Share(0.9, (0.8, 0.95))
+    high, low = Literal(axis_feature("P"), False, 0.5, holds_at_edge=True), Literal(axis_feature("P"), True, 0.25)
+    drawn = Literal(axis_feature("Q", Extreme.GREATEST), True, 3.8)
+    told = Condition(((low, high), (drawn,), (drawn.negation,)), share, share, 40, 10, 7)
+    assert condition_text(told) == "0.25 < P <= 0.5, or a draw of Q > 3.8, or every draw of Q <= 3.8"
+    assert condition_claim(told).startswith("in part when 0.25 < P")
+    assert "partial: precision 90 % (80 % to 95 %)" in condition_claim(told)
