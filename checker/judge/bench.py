@@ -6,7 +6,7 @@ import numpy as np
 
 from checker.judge.columns import Array
 from checker.judge.report import Disagreement, Kind
-from checker.judge.values import UNKNOWN, difference, hull
+from checker.judge.values import UNKNOWN, difference, hull, is_open
 from nddl_lang.text.source import Span
 from runtime.executive.columns import TokenColumns
 from runtime.executive.record import ReactorRecord, TokenRecord, Value, ValueRange
@@ -175,6 +175,12 @@ class Bench:
 def lasting(tok: Tok) -> Value:
     """How long a token lasts, from its times."""
     return difference(tok.values[4], tok.values[3])
+
+
+def duration_of(tok: Tok) -> Value:
+    """The duration of a token: from its times where these are fixed, else as it is on record."""
+    length = lasting(tok)
+    return tok.values[2] if is_open(length) and not is_open(tok.values[2]) else length
 
 
 def clock(bench: Bench, tok: Tok) -> Value:

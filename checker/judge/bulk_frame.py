@@ -158,17 +158,14 @@ def _variable(frame: RowFrame, token: int, variable: int) -> Column:
     if variable != DURATION:
         return tokens.column(variable)
     end, start = tokens.column(END), tokens.column(START)
-    if end.upper is None and start.upper is None:
-        found = difference_of(end, start)
-        if found is None:
-            raise UnplainError
-        bads = [each.bad for each in (end, start, found) if each.bad is not None]
-        return Column(INT, found.lower, None, np.logical_or.reduce(bads) if bads else None)
-    latest = end.lower if end.upper is None else end.upper
-    last = start.lower if start.upper is None else start.upper
-    bads = [each.bad for each in (end, start) if each.bad is not None]
-    bad = np.logical_or.reduce(bads) if bads else None
-    return Column(INT, end.lower - last.astype(float), latest - start.lower.astype(float), bad)
+    found = difference_of(end, start)
+    if found is None:
+        raise UnplainError
+    bad = np.zeros(len(found.lower), bool)
+    for mask in (end.bad, start.bad, found.bad, end.open, start.open):
+        if mask is not None:
+            bad |= mask
+    return Column(INT, found.lower.astype(np.int64), None, bad if bad.any() else None)
 
 
 def _field_reader(base: RowRead, members: tuple[str, ...], names: VariableNames) -> RowRead:

@@ -47,9 +47,9 @@ class CodeConfiguration:
 
 @dataclass(frozen=True, slots=True)
 class GoalConfiguration:
-    """A rejectable goal, sent to the owner of `timeline` at tick `at`.
+    """A rejectable goal, sent to the owner of `timeline` at tick `at`, and taken back at tick `recall`.
 
-    A mandatory goal that is not achieved at the end stands in `Outcome.unmet_goals`; others do not.
+    A mandatory goal that is not achieved at the end stands in `Outcome.open_goals`; others do not.
     A parameter is given one value, or the two ends of a range.
     """
 
@@ -61,6 +61,7 @@ class GoalConfiguration:
     end: Bounds | None = None
     duration: Bounds | None = None
     parameters: tuple[tuple[str, Value | Bounds], ...] = ()
+    recall: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +69,9 @@ class ParameterConfiguration:
     """How the values of one `sampledParameter` are drawn; `runtime.executive.chance.sample` is the only reader.
 
     `values` (with `weights`, else equally likely) serve "discrete", the first of them alone serves "fixed".
-    An "intra" parameter is drawn again every `update` ticks, an "inter" parameter once per mission.
+    An "intra" parameter is drawn again every `update` ticks, an "inter" parameter once per mission. A normal one has
+    its own `mean` and `deviation`, or those of the uniform one. Parameters of one `stream` (else each its own, by
+    name) are drawn together. A `share` in [0, 1) stands in place of the drawn one: a sampler has chosen it.
     """
 
     name: str
@@ -81,6 +84,11 @@ class ParameterConfiguration:
     is_whole: bool = False
     values: tuple[float, ...] = ()
     weights: tuple[float, ...] = ()
+    mean: float | None = None
+    deviation: float | None = None
+    expression: str = ""  # of a dependent one, over the values of others
+    stream: str = ""
+    share: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
