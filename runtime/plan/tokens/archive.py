@@ -115,39 +115,18 @@ def _has_waiting_guard(plan: Plan, t: int) -> bool:
 
 def _orphan(plan: Plan, t: int, doomed: dict[int, None]) -> None:
     """Let the children of `t` that stay stand by themselves."""
-    rows = plan.rows
-    kept: list[int] = []
-    child = rows.children[t]
+    child = plan.rows.children[t]
     while child >= 0:
-        kept.append(child)
-        child = rows.sibling[child]
-    rows.children[t] = NONE
-    for child in reversed(kept):
-        if child in doomed:
-            rows.sibling[child] = rows.children[t]
-            rows.children[t] = child
-        else:
-            rows.parent[child] = NONE
-            rows.creator[child] = NONE
-            rows.sibling[child] = NONE
+        following = plan.rows.sibling[child]
+        if child not in doomed:
+            plan.rows.detach(child)
+        child = following
 
 
 def detach(plan: Plan, t: int) -> None:
     """Let `t` stand by itself: it no longer goes when the token that asked for it does."""
-    rows = plan.rows
-    parent = rows.parent[t]
-    if parent < 0:
-        return
-    child = rows.children[parent]
-    if child == t:
-        rows.children[parent] = rows.sibling[t]
-    else:
-        while rows.sibling[child] != t:
-            child = rows.sibling[child]
-        rows.sibling[child] = rows.sibling[t]
-    rows.parent[t] = NONE
-    rows.creator[t] = NONE
-    rows.sibling[t] = NONE
+    if plan.rows.parent[t] >= 0:
+        plan.rows.detach(t)
 
 
 def _freeze(plan: Plan, doomed: dict[int, None]) -> list[int]:
@@ -166,13 +145,9 @@ def _freeze(plan: Plan, doomed: dict[int, None]) -> list[int]:
             near[engine.slot_variable[k]] = None
     for r in restrictions:
         near[engine.restriction_variable[r]] = None
-    supports: set[int] = set()
-    for e in edges:
-        supports.add(e * 4 + SUPPORT_EDGE)
-    for c in constraints:
-        supports.add(c * 4 + SUPPORT_CONSTRAINT)
-    for r in restrictions:
-        supports.add(r * 4 + SUPPORT_RESTRICTION)
+    supports = {e * 4 + SUPPORT_EDGE for e in edges}
+    supports.update([c * 4 + SUPPORT_CONSTRAINT for c in constraints])
+    supports.update([r * 4 + SUPPORT_RESTRICTION for r in restrictions])
     limited: list[int] = []
     for v in near:
         if v not in gone and not engine.constant[v] and _keep_domain(plan, v, supports):
