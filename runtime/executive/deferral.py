@@ -36,7 +36,7 @@ class Deferral:
         if known is None:
             known = self._is_loose[line.name] = self._may_end(line)
         waiting = self.waiting.get(line.name)
-        if waiting and waiting[-1].tick == observation.tick:
+        if waiting and waiting[len(waiting) - 1].tick == observation.tick:
             waiting.pop()  # the last word counts
         predicate = line.predicates.get(observation.predicate, NOTHING)
         if not known or predicate == NOTHING or not self._says_nothing(predicate):
@@ -54,11 +54,11 @@ class Deferral:
             return last
         for name, waiting in self.waiting.items():
             line = self.lines[name]
-            if waiting and waiting[-1].tick == tick:
+            if waiting and waiting[len(waiting) - 1].tick == tick:
                 news = waiting.pop()
                 line.news = line.news or news
             if waiting:
-                last = max(last, waiting[-1].tick)
+                last = max(last, waiting[len(waiting) - 1].tick)
         found = []
         order = list(self.lines)
         for name, waiting in self.waiting.items():
