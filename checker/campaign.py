@@ -4,6 +4,7 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from signal import Signals
 
@@ -14,6 +15,9 @@ from checker.batch.result import KeptFailure, MissionResult
 from checker.batch.store import Run, RunStore
 from checker.batch.worker import Load, Task
 from checker.buckets import Key, bucket_key
+from checker.counterfactual.ranking import Causes, rank
+from checker.counterfactual.search import Suspended, find_causes
+from checker.counterfactual.trials import Bounds, Missions
 from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
@@ -131,10 +135,12 @@ class Campaign:
         may_fly: bool = True,
         focus: int | None = None,
         sampling: Sampling | None = None,
+        bounds: Bounds | None = None,
     ) -> Findings:
         """Judge the results; with `may_fly` conditions are sought and tested by flights.
 
-        With a `focus` that is done only for the fault that mission `focus` belongs to.
+        With a `focus` that is done only for the fault that mission `focus` belongs to, and lines that may be its cause
+        are tried within `bounds`.
         """
         run, agent = self.run, self.models.agent
         points = {result.number: result.point for result in results}
@@ -155,7 +161,15 @@ class Campaign:
                 ending=ending,
                 focus=focus,
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
+                find=partial(self._causes, flyer, bounds) if may_fly and bounds is not None else None,
             )
+
+    def _causes(self, flyer: Flyer, bounds: Bounds, missions: Missions) -> Causes:
+        """The causes of one fault, tried on its missions."""
+        agent = self.models.agent
+        programs = [self.models.programs[each.model] for each in agent.reactors]
+        limits = self.mission.check.limits
+        return rank(find_causes(missions, Suspended(agent, programs, limits, flyer), bounds), Path(agent.root))
 
     def story(self, result: MissionResult, fault: Fault | None) -> Story:
         """Why a mission failed."""

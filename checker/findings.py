@@ -1,6 +1,6 @@
 """All missions of a run in, what there is to say about it out: the rate, and each fault with its line and condition."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -9,6 +9,9 @@ from checker.buckets import Bucket, group_failures
 from checker.conditions.condition import Condition
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
+from checker.counterfactual.examples import examples_of
+from checker.counterfactual.ranking import NO_CAUSES, Causes
+from checker.counterfactual.trials import Missions
 from checker.mission import Mission
 from checker.oracle import Verdict
 from checker.rate import Rate, judge_missions, rate_interval
@@ -18,6 +21,7 @@ from checker.statistics import Interval
 from checker.tally import Tally, tally
 from runtime.executive.configuration import AgentConfiguration
 
+Find = Callable[[Missions], Causes]
 _MOST_SHARPENED = 8  # buckets whose conditions are sought by flying again; the rest must do with samples
 
 
@@ -33,11 +37,15 @@ class Ending(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """A bucket of failures with what is known about it; `confirmation` is z3's word on the example's conflict."""
+    """A bucket of failures with what is known about it; `confirmation` is z3's word on the example's conflict.
+
+    `causes` are lines that were tried, empty where that was not asked for.
+    """
 
     bucket: Bucket
     condition: Condition | None
     confirmation: Confirmation | None
+    causes: Causes = NO_CAUSES
     interval: Interval | None = None  # of the rate of this fault alone
 
 
@@ -105,10 +113,11 @@ def assess(
     ending: Ending = Ending.COMPLETE,
     focus: int | None = None,
     sampling: Sampling = RANDOMLY,
+    find: Find | None = None,
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
-    With a `focus` it does so only for the fault that mission `focus` belongs to.
+    With a `focus` it does so only for the fault that mission `focus` belongs to, whose causes `find` then finds.
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
@@ -134,7 +143,9 @@ def assess(
             most_weight=sampling.most_weight,
             is_sequential=sampling.is_sequential,
         )
-        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None)
+        is_sought = focus is not None and is_wanted
+        seek = find if is_sought else None
+        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None, seek, focus)
         faults.append(replace(fault, interval=interval))
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
@@ -143,9 +154,19 @@ def assess(
 
 
 def _fault(
-    bucket: Bucket, results: tuple[MissionResult, ...], agent: AgentConfiguration, seed: int, refly: Refly | None
+    bucket: Bucket,
+    results: tuple[MissionResult, ...],
+    agent: AgentConfiguration,
+    seed: int,
+    refly: Refly | None,
+    find: Find | None,
+    focus: int | None,
 ) -> Fault:
-    example = next(result for result in results if result.number == bucket.example)
+    members = [result for result in results if result.number in bucket.missions]
+    example = members[0]
     abort = example.outcome.abort if example.outcome else None
     confirmation = confirm(abort.conflict) if abort and abort.conflict else None
-    return Fault(bucket, find_condition(bucket, results, agent, seed, refly), confirmation)
+    members.sort(key=lambda result: (result.number != focus, result.number))
+    passed = [result for result in results if result.verdict is Verdict.PASS]
+    causes = NO_CAUSES if find is None else find(examples_of(members, passed))
+    return Fault(bucket, find_condition(bucket, results, agent, seed, refly), confirmation, causes)

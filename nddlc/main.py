@@ -37,6 +37,7 @@ COMMANDS = {
     "process": ("nddlc.process", "Take the five steps from a model to the sea, and show which are passed."),
     "study": ("nddlc.study", "Fly variants of models under several samplings, and draw what finds which mistake."),
     "convert": ("nddlc.convert", "Turn a batch file in XML into tables of a mission file."),
+    "mutate": ("nddlc.mutate", "Make small faults in models, and say which of them are noticed and found."),
     "explain": ("nddlc.explain", "Explain why one mission of a run failed."),
     "store": ("nddlc.store", "Look whether a store of runs is whole, and salvage a damaged one."),
     "validate": ("nddlc.validate", "Judge a mission, a record, a trace or a plan against the model."),
@@ -44,7 +45,9 @@ COMMANDS = {
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 # What is slow where the engine is not compiled.
-_PLANNING = ("load", "compile", "plan", "run", "replay", "gold", "check", "process", "study", "explain", "validate")
+_PLANNING = (
+    "load", "compile", "plan", "run", "replay", "gold", "check", "process", "study", "mutate", "explain", "validate",
+)  # fmt: skip
 _UNUSABLE, _BUG, _INTERRUPTED = 2, 3, 130
 _MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
 _FORBIDDEN = (errno.EACCES, errno.EPERM, errno.ELOOP, errno.ENAMETOOLONG)

@@ -95,9 +95,12 @@ class Flyer:
         if self._worker is not None:
             self._worker.kill()
 
-    def fly(self, agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
-        """The result of one mission; an ERROR where the process died or took too long."""
-        task = Task(number, seed, agent)
+    def fly(self, agent: AgentConfiguration, number: int, seed: int, load: Load | None = None) -> MissionResult:
+        """The result of one mission; an ERROR where the process died or took too long.
+
+        `load` loads the models where they are others than those that the process was started with.
+        """
+        task = Task(number, seed, agent, load)
         if self._worker is None:
             self._worker = _Worker(self._load, self._agent)
             if not self._worker.connection.poll(_START_LIMIT):

@@ -25,12 +25,13 @@ READY = "ready"
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """One mission to fly; `agent` where it is another than the one that the worker was started with."""
+    """One mission to fly; `agent` and `load` where they are others than those that the worker was started with."""
 
     number: int
     seed: int
     agent: AgentConfiguration | None = None
     point: SamplePoint = RANDOM_POINT
+    load: Load | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +71,8 @@ def work(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
         connection.send(READY)
         while (tasks := connection.recv()) is not None:
             for task in tasks:
-                connection.send(fly_one(fly if task.agent is None else load(task.agent), task))
+                other = None if task.agent is None else (task.load or load)(task.agent)
+                connection.send(fly_one(other or fly, task))
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return  # the parent is gone
 
