@@ -22,6 +22,7 @@ from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Verdict, judge_losses
+from checker.report.timelines import Pair
 from checker.sampling.sampler import RANDOM_POINT, RandomSampler, Sampler, Setting, axes_of, with_point
 from checker.sampling.seeds import mission_seed
 from checker.schedule import Schedule, counted, is_random, make_task
@@ -30,6 +31,7 @@ from checker.story import Story, tell
 from runtime.executive.configuration import AgentConfiguration
 
 _MOST_STORIES = 8
+_MOST_PAIRS = 4
 _MOST_ALIKE = 3  # failures of a bucket that are kept
 
 
@@ -175,6 +177,22 @@ class Campaign:
         """Why a mission failed."""
         return tell(result, self.models.agent, self.models.influence, fault)
 
+    def pairs(self, findings: Findings) -> list[Pair | None]:
+        """The example of each fault with a passing mission near to it, which is flown again for its events."""
+        by_number = {result.number: result for result in findings.results}
+        found: list[Pair | None] = []
+        with Flyer(self.load, self.models.agent, self.mission.check.time_limit) as flyer:
+            for fault in findings.faults[:_MOST_PAIRS]:
+                example = by_number[fault.bucket.example]
+                near = _nearest_passing(example, findings)
+                if near is None or example.outcome is None or findings.is_interrupted:
+                    found.append(None)
+                    continue
+                agent = with_point(self.models.agent, near.point)
+                again = flyer.fly(agent, near.number, near.seed, keeps_trace=True)
+                found.append(Pair(example, again) if again.outcome is not None else None)
+        return found
+
     def stories(self, findings: Findings) -> list[Story | None]:
         """The story of each fault's example; of very many faults, of the first ones."""
         by_number = {result.number: result for result in findings.results}
@@ -195,6 +213,23 @@ def _worth_keeping(results: tuple[MissionResult, ...]) -> list[MissionResult]:
             if result.number > 0 and found[key] <= _MOST_ALIKE:
                 chosen.append(result)
     return chosen
+
+
+def _nearest_passing(example: MissionResult, findings: Findings) -> MissionResult | None:
+    """The passing mission whose draws are nearest to those of a failing one, in units of the ranges."""
+    wide = {one.name: max(one.upper - one.lower, 1e-9) for one in findings.agent.parameters}
+
+    def values(result: MissionResult) -> dict[str, float]:
+        return {draw.parameter: draw.value for draw in (result.outcome.draws if result.outcome is not None else ())}
+
+    own = values(example)
+
+    def distance(result: MissionResult) -> float:
+        drawn = values(result)
+        return sum(((drawn[name] - own[name]) / wide.get(name, 1.0)) ** 2 for name in own.keys() & drawn.keys())
+
+    passing = [result for result in findings.results if result.verdict is Verdict.PASS]
+    return min(passing, key=distance, default=None)
 
 
 class _Watch:

@@ -191,7 +191,7 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *,
     covered = coverage_of(campaign.models, findings.results) if coverage else None
     reports = {
         "json": ("report.json", json_report(findings, excerpts, covered)),
-        "html": ("report.html", html_report(findings, excerpts, campaign.stories(findings))),
+        "html": ("report.html", html_report(findings, excerpts, campaign.stories(findings), campaign.pairs(findings))),
         "junit": ("junit.xml", junit_report(findings, excerpts)),
         "sarif": ("report.sarif", sarif_report(findings, excerpts)),
         "markdown": ("report.md", markdown_report(findings, excerpts)),
