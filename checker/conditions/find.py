@@ -45,7 +45,7 @@ def find_condition(
     fails = [space.point(own), *fails[:_MOST_POINTS]]
     passes = passes or _corners(space)
     crossings = find_crossings(flights, fails, passes[:_MOST_POINTS], _FIRST_SHARE)
-    conjunctions = _induced(space, [*rows, *flights.rows()], find_edges(flights, crossings))
+    conjunctions = _induced(space, rows, find_edges(flights, crossings), flights.rows())
     for _ in range(_ROUNDS):
         known = [*rows, *flights.rows()]
         claimed = [(space.point(row), label, holds(conjunctions, row)) for row, label in known]
@@ -57,7 +57,7 @@ def find_condition(
         if len(more) == len(crossings):
             break
         crossings = more
-        conjunctions = _induced(space, [*rows, *flights.rows()], find_edges(flights, crossings))
+        conjunctions = _induced(space, rows, find_edges(flights, crossings), flights.rows())
     if not conjunctions:
         return None
     measured = measure(conjunctions, space, example, batch_seed, refly, fresh_budget(example))
@@ -105,10 +105,15 @@ def _corners(space: Space) -> list[tuple[float, ...]]:
     return [middle, *ends]
 
 
-def _induced(space: Space, rows: Sequence[tuple[Row, Ended]], edges: Sequence[Literal]) -> tuple[Conjunction, ...]:
+def _induced(
+    space: Space,
+    rows: Sequence[tuple[Row, Ended]],
+    edges: Sequence[Literal],
+    flown: Sequence[tuple[Row, Ended]] = (),
+) -> tuple[Conjunction, ...]:
     """Rules over the edges that flights found, with cuts of the samples where a parameter has none."""
     cuts = sample_cuts(rows, _features(space, {one.feature for one in edges}))
-    return induce(rows, [*edges, *cuts])
+    return induce(rows, [*edges, *cuts], flown)
 
 
 def _features(space: Space, known: set[Feature]) -> list[Feature]:
