@@ -11,6 +11,7 @@
 #   make plan-proof   MODELS (20000) random whole models beside judges that know only the models
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
+#   make renames      rename every name of every model, and compare what the models mean
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
 #   make rules        the pages of docs/rules, from the tables beside the passes
@@ -29,7 +30,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof mutants conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof mutants renames conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -112,6 +113,9 @@ plan-proof: build
 
 mutants: build
 	$(BIN)/python -m tests.executive.mutants.campaign $(MUTANTS)
+
+renames: build
+	NDDLC_RENAMES=all $(PYTEST) tests/lsp/test_rename_everything.py
 
 conformance: build
 	$(PYTEST) tests/conformance

@@ -90,9 +90,11 @@ def needed(module: str, layouts: dict[str, bytes]) -> list[str]:
         name = waiting.pop()
         if name not in found:
             found.add(name)
-            words = set(re.findall(r"\w+", " ".join(CIMPORT.findall(layouts[name].decode("utf-8")))))
-            # By the last word of the name: at worst a module is rebuilt that need not be.
-            waiting.extend(other for other in layouts if other.rpartition(".")[2] in words)
+            for statement in CIMPORT.findall(layouts[name].decode("utf-8")):
+                named = [word for word in re.findall(r"[\w.]+", statement) if word in layouts]
+                words = set(re.findall(r"\w+", statement))
+                # Else by the last word of the name: at worst a module is rebuilt that need not be.
+                waiting.extend(named or [other for other in layouts if other.rpartition(".")[2] in words])
     return sorted(found)
 
 

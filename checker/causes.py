@@ -5,6 +5,7 @@ together by the variables they share (inside the reactor that gave up). "Future 
 """
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import networkx as nx
@@ -142,7 +143,7 @@ def _conflict_graph(conflict: Conflict) -> "nx.Graph[int]":
     return graph
 
 
-def _event_graph(events: tuple[Event, ...]) -> "nx.DiGraph[int]":
+def _event_graph(events: Sequence[Event]) -> "nx.DiGraph[int]":
     """The events of a trace by index, each with arrows to what it caused."""
     graph: nx.DiGraph[int] = nx.DiGraph()
     graph.add_nodes_from(range(len(events)))

@@ -16,6 +16,7 @@ from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.read import read_source
 from runtime.executive.configuration import AgentConfiguration, CodeConfiguration
+from runtime.executive.events import changed_events
 from runtime.executive.mission import MissionPrograms, record_mission
 from runtime.executive.outcome import Conflict, Deadlock, Event, Outcome, SourcePlace
 from runtime.solver.configuration.configuration import Configuration, default_configuration
@@ -101,7 +102,7 @@ def _relative(outcome: Outcome, root: Path) -> Outcome:
         replace(goal, conflict=_conflict(goal.conflict, root), deadlock=_deadlock(goal.deadlock, root))
         for goal in outcome.open_goals
     )
-    events = tuple(_event(event, root) for event in outcome.events)
+    events = changed_events(outcome.events, partial(_event, root=root))
     return replace(outcome, abort=abort, events=events, open_goals=goals)
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from checker.causes import culprit_of
+from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, Outcome, Reason, ReasonKind, SourcePlace
 
 _FAILED = "Failed"  # what the timelines of a lost reactor hold
@@ -142,7 +143,7 @@ def losses_of(outcome: Outcome) -> Losses:
     repairs: list[Event] = []
     killed: set[str] = set()
     lines: dict[int, str] = {}  # of goals
-    for event in outcome.events:
+    for event in single_events(outcome.events):
         number = event.request
         match event.kind:
             case EventKind.REQUEST if number is not None and number < 0:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from checker.losses import Exceeded, Limit, Losses, exceeded
+from runtime.executive.events import single_events
 from runtime.executive.outcome import EventKind, Outcome, Reason, ReasonKind
 
 _GOALS_OPEN = "F10"
@@ -64,7 +65,7 @@ def judge(outcome: Outcome) -> Judgement:
     if outcome.ended_early:
         reason = Reason(ReasonKind.NO_RECORD, tick=outcome.last_tick, limit=outcome.final_tick)
         return Judgement(Verdict.FAIL, _NO_RECORD, reason)
-    lost = next((event for event in outcome.events if event.kind is EventKind.KILL), None)
+    lost = next((event for event in single_events(outcome.events) if event.kind is EventKind.KILL), None)
     if lost is not None:
         return Judgement(Verdict.FAIL, lost.code, lost.reason)
     if outcome.open_goals:

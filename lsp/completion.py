@@ -1,13 +1,15 @@
 """A place where somebody types in; the names that may stand there out."""
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-from lsprotocol.types import CompletionItem, CompletionItemKind
+from lsprotocol.types import CompletionItem, CompletionItemKind, InsertTextFormat, MarkupContent, MarkupKind
 
-from lsp.describe import parameter_text
+from lsp.completion_context import Situation, situation_at
+from lsp.describe import Describer, parameter_text
 from lsp.meaning import WORDS, piece_at
+from lsp.rows import constraint_text, function_text, relation_head, relation_tail
 from nddl_lang.analysis import Analysis
 from nddl_lang.semantics.functions import METHODS, Receiver
 from nddl_lang.semantics.natives import builtin_names, builtin_type
@@ -15,9 +17,11 @@ from nddl_lang.semantics.relations import RELATIONS
 from nddl_lang.semantics.schema import Kind, Label, Predicate, Schema, Type, Variable
 from nddl_lang.semantics.types import BASIC_TYPES
 from nddl_lang.syntax.parser import Parse
+from nddl_lang.text.source import Span
 
 _BEFORE = re.compile(r"(?P<path>(?:[A-Za-z_$][\w$]*\s*(?:\.|::)\s*)*)[\w$]*\Z")
 _RULE = re.compile(r"([A-Za-z_$][\w$]*)\s*::\s*([A-Za-z_$][\w$]*)\s*\{")
+_CLASS = re.compile(r"\bclass\s+([A-Za-z_$][\w$]*)")
 # Nobody names more in front of a dot.
 _LONGEST_PATH = 400
 
@@ -32,20 +36,29 @@ class _Place:
     variables: dict[str, Variable]
     labels: dict[str, Label]
     predicate: Predicate | None
+    owner: str | None  # the class that is being declared
 
     @property
     def schema(self) -> Schema:
         return self.analysis.schema
 
 
-def completions(analysis: Analysis, parse: Parse, offset: int) -> list[CompletionItem]:
-    """What may stand at `offset`, each name once, the nearest declarations first."""
+def completions(analysis: Analysis, parse: Parse, offset: int, *, with_snippets: bool = False) -> list[CompletionItem]:
+    """What may stand at `offset`, each name once, the likeliest first."""
     text = parse.source.text
+    piece = piece_at(parse, offset)
+    if piece is not None and any(
+        start < offset - piece.anchor.offset and (offset - piece.anchor.offset < end or text[end - 1 : end] != "/")
+        for start, end in piece.comments
+        if start < offset - piece.anchor.offset <= end
+    ):
+        return []
     before = _BEFORE.search(text, max(0, offset - _LONGEST_PATH), offset)
     path = re.findall(r"[\w$]+|::|\.", before["path"]) if before is not None else []
     place = _place(analysis, parse, offset)
     if not path:
-        items = _names(place)
+        begun = before.start() if before is not None else offset
+        items = _names(place, situation_at(piece, begun), with_snippets)
     elif path[-1] == "::":
         items = _predicates(place.schema, path[-2])
     else:
@@ -75,37 +88,183 @@ def _place(analysis: Analysis, parse: Parse, offset: int) -> _Place:
                     labels[declared.name] = declared
         if (rule := _RULE.search(piece.text)) is not None:
             predicate = analysis.schema.find_predicate(rule[1], rule[2])
-    return _Place(analysis, variables, labels, predicate)
+    owner = None
+    if piece is not None and (declared_class := _CLASS.search(piece.text)) is not None:
+        owner = declared_class[1]
+    return _Place(analysis, variables, labels, predicate, owner)
 
 
-def _names(place: _Place) -> _Items:
-    schema = place.schema
+def _names(place: _Place, situation: Situation, with_snippets: bool) -> _Items:
+    if with_snippets:
+        yield from _snippets(place.schema, situation, {rule.predicate for rule in place.schema.rules})
+    for group in _GROUPS[situation]:
+        yield from group(place)
+
+
+def _tokens(place: _Place) -> _Items:
     for label in place.labels.values():
         yield _item(label.name, CompletionItemKind.Variable, label.predicate.full_name)
+
+
+def _variables(place: _Place) -> _Items:
     for variable in place.variables.values():
         yield _variable(variable)
     if place.predicate is not None:
         yield from _token_variables(place.predicate)
-        yield from _predicates(schema, place.predicate.class_name)
-    for variable in schema.globals.values():
+
+
+def _own_predicates(place: _Place) -> _Items:
+    if place.predicate is not None:
+        yield from _predicates(place.schema, place.predicate.class_name)
+
+
+def _globals(place: _Place) -> _Items:
+    for variable in place.schema.globals.values():
         yield _variable(variable)
-    for label in schema.goals.values():
+
+
+def _objects(place: _Place) -> _Items:
+    """What may stand before the dot of `object.predicate`."""
+    yield _item("object", CompletionItemKind.Field, WORDS["object"])
+    for variable in (*place.variables.values(), *place.schema.globals.values()):
+        if variable.type.kind is Kind.OBJECT:
+            yield _variable(variable)
+
+
+def _goals(place: _Place) -> _Items:
+    for label in place.schema.goals.values():
         yield _item(label.name, CompletionItemKind.Variable, label.predicate.full_name)
-    for value in schema.enum_values.values():
+
+
+def _values(place: _Place) -> _Items:
+    for value in place.schema.enum_values.values():
         yield _item(value.value, CompletionItemKind.EnumMember, value.enum)
-    for owner in schema.classes.values():
+
+
+def _classes(place: _Place) -> _Items:
+    for owner in place.schema.classes.values():
         yield _item(owner.name, CompletionItemKind.Class, f"extends {owner.base}" if owner.base else None)
-    for name in (*schema.enums, *schema.typedefs, *BASIC_TYPES):
+
+
+def _types(place: _Place) -> _Items:
+    for name in (*place.schema.enums, *place.schema.typedefs, *BASIC_TYPES):
         yield _item(name, CompletionItemKind.TypeParameter, None)
+
+
+def _relations(place: _Place) -> _Items:
+    del place
     for row in RELATIONS.values():
         yield _item(row.name, CompletionItemKind.Operator, row.meaning)
-    callables = place.analysis.callables
-    for constraint in callables.constraints.values():
-        yield _item(constraint.name, CompletionItemKind.Function, f"({constraint.signature.text}) {constraint.meaning}")
-    for function in callables.functions.values():
-        yield _item(function.name, CompletionItemKind.Function, f"({function.signature.text}) {function.meaning}")
-    for word in WORDS:
-        yield _item(word, CompletionItemKind.Keyword, None)
+
+
+def _constraints(place: _Place) -> _Items:
+    for row in place.analysis.callables.constraints.values():
+        yield _item(row.name, CompletionItemKind.Function, f"({row.signature.text}) {row.meaning}")
+
+
+def _functions(place: _Place) -> _Items:
+    for row in place.analysis.callables.functions.values():
+        yield _item(row.name, CompletionItemKind.Function, f"({row.signature.text}) {row.meaning}")
+
+
+def _own_members(place: _Place) -> _Items:
+    """The members of the class in whose constructor or predicate one types."""
+    owner = place.owner
+    for name in place.schema.ancestry(owner) if owner is not None else ():
+        yield from (_variable(member) for member in place.schema.classes[name].members.values())
+
+
+def _words(*words: str) -> Callable[[_Place], _Items]:
+    def offered(place: _Place) -> _Items:
+        del place
+        yield from (_item(word, CompletionItemKind.Keyword, None) for word in words)
+
+    return offered
+
+
+_VALUES = (_variables, _tokens, _values, _globals, _functions, _words("new", "true", "false", "inf", "inff"))
+_GROUPS: dict[Situation, tuple[Callable[[_Place], _Items], ...]] = {
+    Situation.TOP: (
+        _words("class", "enum", "typedef", "#include", "goal", "fact", "rejectable", "new", "close", "enforce"),
+        _types,
+        _classes,
+        _globals,
+        _goals,
+        _constraints,
+        _values,
+        _functions,
+    ),
+    Situation.MEMBER: (_words("predicate", "action", "filter", "#include"), _types, _classes),
+    Situation.PARAMETER: (_variables, _types, _classes, _constraints, _functions, _words("filter")),
+    Situation.RULE: (
+        _tokens,
+        _variables,
+        _own_predicates,
+        _globals,
+        _values,
+        _classes,
+        _types,
+        _relations,
+        _constraints,
+        _functions,
+        _words("if", "else", "foreach", "enforce", "this", "filter"),
+    ),
+    Situation.BUILDING: (_words("super", "this"), _variables, _own_members, *_VALUES),
+    Situation.INSTANCE: (_own_predicates, _objects, _tokens, _goals, _classes, _words("condition", "effect")),
+    Situation.CLASS: (_classes, _types),
+    Situation.NEW: (_classes,),
+    Situation.VALUE: (*_VALUES, _own_members, _goals, _classes),
+    Situation.RELATION: (_relations,),
+    Situation.NOTHING: (),
+    Situation.ANYTHING: (
+        _tokens,
+        _variables,
+        _own_predicates,
+        _globals,
+        _goals,
+        _values,
+        _classes,
+        _types,
+        _relations,
+        _constraints,
+        _functions,
+        _words(*WORDS),
+    ),
+}
+
+
+def _snippets(schema: Schema, situation: Situation, with_rules: set[Predicate]) -> _Items:
+    """Whole statements with places to fill in."""
+    match situation:
+        case Situation.TOP:
+            yield _snippet("class ...", "class ${1:Name} extends ${2:Timeline} {\n  predicate ${3:Idle} { }\n}\n")
+            yield _snippet("enum ...", "enum ${1:Name} { ${2:First}, ${3:Second} }\n")
+            yield _snippet("goal(...)", "goal(${1:object}.${2:predicate} ${3:name});\n")
+            for owner in schema.classes.values():
+                for predicate in owner.predicates.values() if not owner.is_native else ():
+                    if predicate not in with_rules:
+                        name = f"{owner.name}::{predicate.name}"
+                        yield _snippet(name, f"{name} {{\n  $0\n}}\n", f"rule on {predicate.full_name}")
+        case Situation.MEMBER:
+            yield _snippet("predicate ...", "predicate ${1:Name} { $0 }\n")
+        case Situation.RULE:
+            yield _snippet("if ...", "if (${1:condition}) {\n  $0\n}")
+            yield _snippet("foreach ...", "foreach (${1:each} in ${2:objects}) {\n  $0\n}")
+            yield _snippet("met_by ...", "met_by(${1:object.Predicate} ${2:earlier});")
+            yield _snippet("meets ...", "meets(${1:object.Predicate} ${2:later});")
+            yield _snippet("contained_by ...", "contained_by(${1:object.Predicate} ${2:around});")
+        case _:
+            pass
+
+
+def _snippet(label: str, text: str, detail: str | None = None) -> CompletionItem:
+    return CompletionItem(
+        label,
+        kind=CompletionItemKind.Snippet,
+        detail=detail,
+        insert_text=text,
+        insert_text_format=InsertTextFormat.Snippet,
+    )
 
 
 def _members(place: _Place, path: list[str]) -> _Items:
@@ -181,3 +340,36 @@ def _variable(variable: Variable) -> CompletionItem:
 
 def _item(name: str, kind: CompletionItemKind, detail: str | None) -> CompletionItem:
     return CompletionItem(name, kind=kind, detail=detail)
+
+
+def resolved(analysis: Analysis, item: CompletionItem, link: Callable[[Span], str]) -> CompletionItem:
+    """The item with all that is known about what it names."""
+    describer = Describer(analysis, link)
+    schema = analysis.schema
+    name = item.label
+    parts: Iterable[str] | None = None
+    match item.kind:
+        case CompletionItemKind.Class if name in schema.classes:
+            parts = describer.class_(schema.classes[name])
+        case CompletionItemKind.Method if item.detail is not None:
+            owner, _, _ = item.detail.partition(".")
+            predicate = schema.find_predicate(owner, name)
+            parts = describer.predicate(predicate) if predicate is not None else None
+        case CompletionItemKind.EnumMember if name in schema.enum_values:
+            parts = describer.enum_value(schema.enum_values[name])
+        case CompletionItemKind.Variable if name in schema.globals:
+            parts = describer.variable(schema.globals[name])
+        case CompletionItemKind.Operator if name in RELATIONS:
+            parts = (*relation_head(RELATIONS[name]), *relation_tail(RELATIONS[name]))
+        case CompletionItemKind.Function:
+            constraint = analysis.callables.constraints.get(name)
+            function = analysis.callables.functions.get(name)
+            found = constraint_text(constraint) if constraint is not None else None
+            parts = function_text(function) if function is not None else found
+        case CompletionItemKind.Keyword if name in WORDS:
+            parts = (WORDS[name],)
+        case _:
+            pass
+    if parts is not None:
+        item.documentation = MarkupContent(MarkupKind.Markdown, "\n\n".join(part for part in parts if part))
+    return item

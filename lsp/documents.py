@@ -1,8 +1,10 @@
 """Keep what is open in the editor, and the models that these texts belong to; say what is wrong with each file."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
+from typing import TypeVar
 
 from lsprotocol.types import Diagnostic as Shown
 from lsprotocol.types import Range
@@ -10,11 +12,16 @@ from lsprotocol.types import Range
 from lsp.diagnostics import Conversion
 from lsp.positions import Encoding, Lines, replaced
 from lsp.project import Project, ServerSettings, Snapshot
-from lsp.roots import root_of
+from lsp.roots import all_roots, root_of
 from lsp.uris import key_of, path_of, uri_of
 from nddl_lang.syntax.parser import Parse
+from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Source
+
+_T = TypeVar("_T")
+# A text, what was found in it, and what the editor shows of that, by URI.
+_Converted = tuple[str, list[Diagnostic], dict[str, tuple[Shown, ...]]]
 
 
 @dataclass(slots=True)
@@ -58,8 +65,12 @@ class Documents:
         self.settings = settings or ServerSettings()
         self._open: dict[str, Document] = {}  # by key, in order of opening
         self._uris: dict[str, str] = {}  # of what is open: URI -> key
+        self.folders: tuple[Path, ...] = ()  # of the workspace
         self._projects: dict[str, Project] = {}
+        self._edited: dict[str, None] = {}  # keys of texts that were edited and not analysed since
+        self._closed: dict[str, Project] = {}  # models of which no text is open, read when somebody asks
         self._found: dict[str, dict[str, tuple[Shown, ...]]] = {}  # project -> URI -> complaints
+        self._shown: dict[str, dict[str, _Converted]] = {}  # project -> name of a source -> what became of it
         self._published: dict[str, tuple[Shown, ...]] = {}
 
     # ---- what the editor does ----
@@ -73,18 +84,32 @@ class Documents:
             self._uris.pop(other.uri, None)
         self._open[key] = Document(uri, key, name, path, version, Lines(text, self.encoding))
         self._uris[uri] = key
+        self._shown.clear()  # the editor may call the file otherwise
         return self._follow({key}, key)
 
-    def change(self, uri: str, version: int, edits: list[tuple[Range | None, str]]) -> list[Publication]:
-        """A text was edited: each edit stands in the text that the ones before left; without a range it is all."""
+    def edit(self, uri: str, version: int, edits: list[tuple[Range | None, str]]) -> bool:
+        """A text was edited: each edit stands in the text that the ones before left; without a range it is all.
+
+        It is analysed when somebody asks: `settle`. Whether there is such a text.
+        """
         document = self.find(uri)
         if document is None:
-            return []
+            return False
         for place, text in edits:
             whole = text if place is None else replaced(document.lines, place, text)
             document.lines = Lines(whole, self.encoding)
         document.version = version
-        return self._follow({document.key}, document.key)
+        self._edited[document.key] = None
+        return True
+
+    def settle(self) -> list[Publication]:
+        """Analyse what was edited since; of several edits only the newest text counts."""
+        return self._follow(set(), None) if self._edited else []
+
+    def change(self, uri: str, version: int, edits: list[tuple[Range | None, str]]) -> list[Publication]:
+        """A text was edited, and is analysed at once."""
+        self.edit(uri, version, edits)
+        return self.settle()
 
     def save(self, uri: str) -> list[Publication]:
         """A text was saved; other files may have changed as well."""
@@ -95,12 +120,23 @@ class Documents:
         """Files may have changed on the disk."""
         return self._follow({member for project in self._projects.values() for member in project.members}, None)
 
+    def resettle(self, settings: ServerSettings) -> list[Publication]:
+        """Other settings hold from now on: all models are read anew."""
+        if settings == self.settings:
+            return []
+        self.settings = settings
+        self._closed.clear()
+        for key in list(self._projects):
+            self._drop(key)
+        return self._follow(set(), None)
+
     def close(self, uri: str) -> list[Publication]:
         """A text is no longer open: what is on the disk counts from now on."""
         document = self.find(uri)
         if document is None:
             return []
         del self._open[document.key], self._uris[document.uri]
+        self._shown.clear()
         # What was understood as a part of it looks for its model afresh.
         self._drop(document.key)
         return self._follow({document.key}, None)
@@ -115,11 +151,51 @@ class Documents:
     def view(self, uri: str) -> DocumentContext | None:
         """The open text with the model that it belongs to."""
         document = self.find(uri)
-        if document is None:
-            return None
+        return self._context(document) if document is not None else None
+
+    def context(self, uri: str) -> DocumentContext | None:
+        """Like `view`, also for a text that is not open and that an open one includes."""
+        document = self.find(uri) or self._included(uri)
+        return self._context(document) if document is not None else None
+
+    def _context(self, document: Document) -> DocumentContext | None:
         for project in self._around(document.key):
             return DocumentContext(document, project.snapshot, project.snapshot.parses[document.key])
         return None
+
+    def _included(self, uri: str) -> Document | None:
+        """The text of a file that is not open, as part of a model."""
+        path = path_of(uri)
+        if path is None:
+            return None
+        key = key_of(path)
+        for project in self._around(key):
+            text = project.snapshot.parses[key].source.text
+            return Document(uri, key, str(path), path, 0, Lines(text, self.encoding))
+        return None
+
+    def complaints(self, uri: str) -> tuple[Shown, ...]:
+        """What is wrong with a file now."""
+        return self._published.get(uri, ())
+
+    def complained(self) -> list[str]:
+        """The files with which something is wrong."""
+        return list(self._published)
+
+    def open_documents(self) -> list[Document]:
+        """The open texts, in order of opening."""
+        return list(self._open.values())
+
+    def snapshots(self) -> list[Snapshot]:
+        """The models of the open texts."""
+        return [project.snapshot for project in self._projects.values()]
+
+    def lines_of(self, key: str) -> tuple[str, Lines]:
+        """What the editor calls the file at `key`, and its lines: as they are open, or on the disk."""
+        document = self._open.get(key)
+        if document is not None:
+            return document.uri, document.lines
+        return uri_of(Path(key)), Lines(read_text(Path(key)) or "", self.encoding)
 
     def uri(self, source: Source) -> str:
         """What the editor calls the file that `source` was read from."""
@@ -129,6 +205,49 @@ class Documents:
 
     # ---- projects ----
 
+    def holders(self, key: str) -> list[Project]:
+        """The models that the file at `key` is a part of: those of open texts, and closed ones in the workspace."""
+        found = [project for project in self._projects.values() if key in project.snapshot.parses]
+        known = {project.key for project in found}
+        for root in all_roots(key, self.folders):
+            name = key_of(root)
+            if name in known or name in self._projects:
+                continue
+            project = self._closed.get(name)
+            if project is None:
+                project = self._closed[name] = Project(name, self.settings)
+            self._read(project)
+            if key in project.snapshot.parses:
+                found.append(project)
+        return found
+
+    def model(self, path: Path) -> Snapshot | None:
+        """The model whose root is the file at `path`, with texts as they are open; None where there is no such file."""
+        key = key_of(path)
+        project = self._projects.get(key) or self._closed.get(key)
+        if project is None:
+            if not path.is_file():
+                return None
+            project = self._closed[key] = Project(key, self.settings)
+        if key not in self._projects:
+            self._read(project)
+        return project.snapshot
+
+    def probe(self, key: str, text: str) -> Snapshot:
+        """The model that the text at `key` belongs to, read from the beginning, as if that text read `text`."""
+        root = next(self._around(key), None)
+        project = Project(root.key if root is not None else key, self.settings)
+        self._read(project, {key: text})
+        return project.snapshot
+
+    def trial(self, project: Project, texts: Mapping[str, str], look: Callable[[Snapshot], _T]) -> _T:
+        """What `look` sees of a model whose texts read otherwise; afterwards all is as it was."""
+        try:
+            self._read(project, texts)
+            return look(project.snapshot)
+        finally:
+            self._read(project)
+
     def _around(self, key: str) -> Iterator[Project]:
         """The projects that a text belongs to; first those whose own text is open."""
         around = [project for project in self._projects.values() if key in project.snapshot.parses]
@@ -136,13 +255,16 @@ class Documents:
 
     def _follow(self, changed: set[str], edited: str | None) -> list[Publication]:
         """Analyse again what a change of these texts touches, and tell what is new."""
+        told = [*self._edited, *([edited] if edited is not None else ())]
+        changed.update(self._edited)
+        self._edited.clear()
         for project in list(self._projects.values()):
             if not changed.isdisjoint(project.snapshot.parses):
                 self._analyse(project)
         self._found_projects()
         self._drop_projects()
         self._found_projects()
-        return list(self._news(edited))
+        return list(self._news(told))
 
     def _found_projects(self) -> None:
         """Give each open text that belongs to no project one."""
@@ -178,29 +300,39 @@ class Documents:
     def _drop(self, key: str) -> None:
         self._projects.pop(key, None)
         self._found.pop(key, None)
+        self._shown.pop(key, None)
 
     def _is_held(self, key: str, projects: list[Project]) -> bool:
         return any(key in project.snapshot.parses and project.key in self._open for project in projects)
 
     def _analyse(self, project: Project) -> bool:
         """Take a new snapshot of a project; whether its text could be read."""
+        is_readable = self._read(project)
+        self._found[project.key] = self._complaints(project)
+        return is_readable
+
+    def _read(self, project: Project, texts: Mapping[str, str] = MappingProxyType({})) -> bool:
+        """Take a new snapshot of a project, with `texts` in place of those of the same key; whether it has a text."""
+
+        def text_of(path: Path) -> str | None:
+            key = key_of(path)
+            if (given := texts.get(key)) is not None:
+                return given
+            document = self._open.get(key)
+            return document.lines.text if document is not None else read_text(path)
+
         document = self._open.get(project.key)
-        if document is not None:
-            name, text = document.name, document.lines.text
-        else:
-            name = project.key
+        name = document.name if document is not None else project.key
+        text = texts.get(project.key)
+        if text is None and document is not None:
+            text = document.lines.text
+        if text is None:
             try:
                 text = read_text(Path(name)) or ""
             except (OSError, ValueError):
                 text = ""
-        project.analyse(name, text, self._text)
-        self._found[project.key] = self._complaints(project.snapshot)
+        project.analyse(name, text, text_of)
         return bool(text)
-
-    def _text(self, path: Path) -> str | None:
-        """What an include of `path` reads."""
-        document = self._open.get(key_of(path))
-        return document.lines.text if document is not None else read_text(path)
 
     # ---- complaints ----
 
@@ -208,24 +340,48 @@ class Documents:
         """What turns our places into the editor's."""
         return Conversion(self.encoding, self.uri, {one.uri: one.lines for one in self._open.values()})
 
-    def _complaints(self, snapshot: Snapshot) -> dict[str, tuple[Shown, ...]]:
-        return self.conversion().by_file(snapshot.diagnostics)
+    def _complaints(self, project: Project) -> dict[str, tuple[Shown, ...]]:
+        """What the editor shows of each file; of files that stay as they are it is what it showed before."""
+        by_source: dict[Source, list[Diagnostic]] = {}
+        for diagnostic in project.snapshot.diagnostics:
+            by_source.setdefault(diagnostic.span.source, []).append(diagnostic)
+        before = self._shown.get(project.key, {})
+        known: dict[str, _Converted] = {}
+        conversion = self.conversion()
+        for source, found in by_source.items():
+            old = before.get(source.name)
+            if old is None or old[0] != source.text or old[1] != found or _leads_elsewhere(found):
+                old = source.text, found, conversion.by_file(found)
+            known[source.name] = old
+        self._shown[project.key] = known
+        merged: dict[str, tuple[Shown, ...]] = {}
+        for _, _, shown in known.values():
+            for uri, complaints in shown.items():
+                merged[uri] = (*merged.get(uri, ()), *complaints)
+        return merged
 
-    def _news(self, edited: str | None) -> Iterator[Publication]:
-        """What differs from what the editor was told; of the text that was edited always, for its version."""
+    def _news(self, edited: list[str]) -> Iterator[Publication]:
+        """What differs from what the editor was told; of texts that were edited always, for their versions."""
         merged: dict[str, tuple[Shown, ...]] = {}
         for project in self._projects.values():
             for uri, complaints in self._found[project.key].items():
                 before = merged.get(uri, ())
                 merged[uri] = (*before, *(each for each in complaints if each not in before)) if before else complaints
-        told = self._open.get(edited) if edited is not None else None
-        for uri in dict.fromkeys([*([told.uri] if told is not None else ()), *merged, *self._published]):
+        told = dict.fromkeys(document.uri for key in edited if (document := self._open.get(key)) is not None)
+        for uri in dict.fromkeys([*told, *merged, *self._published]):
             complaints = merged.get(uri, ())
-            if complaints == self._published.get(uri, ()) and (told is None or uri != told.uri):
+            if complaints == self._published.get(uri, ()) and uri not in told:
                 continue
             document = self.find(uri)
             yield Publication(uri, document.version if document is not None else None, complaints)
         self._published = merged
+
+
+def _leads_elsewhere(found: list[Diagnostic]) -> bool:
+    """Whether a note of the diagnostics of one text stands in another, which may have changed."""
+    return any(
+        note.span is not None and note.span.source is not each.span.source for each in found for note in each.notes
+    )
 
 
 def _plain(uri: str) -> str:

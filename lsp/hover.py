@@ -9,6 +9,7 @@ from lsp.describe import Describer
 from lsp.diagnostics import Conversion
 from lsp.documents import DocumentContext
 from lsp.meaning import WORDS, Meaning, Word, meaning_at
+from lsp.relation_demands import demanded
 from lsp.rows import (
     constraint_text,
     demands,
@@ -55,7 +56,7 @@ def hover_at(view: DocumentContext, position: Position, conversion: Conversion) 
 
 def _describe(analysis: Analysis, meaning: Meaning, conversion: Conversion) -> Iterable[str]:
     """The paragraphs about what stands at a place."""
-    describer = Describer(analysis, lambda span: _link(conversion, span))
+    describer = Describer(analysis, lambda span: link(conversion, span))
     match meaning.thing:
         case Class() as owner:
             return describer.class_(owner)
@@ -112,7 +113,7 @@ def _relation(analysis: Analysis, row: RelationRow, meaning: Meaning) -> Iterato
     node = meaning.around[0] if meaning.around else None
     if not row.distances:
         pass
-    elif isinstance(node, Relation) and (pairs := list(_demanded(analysis, row, node))):
+    elif isinstance(node, Relation) and (pairs := list(demanded(analysis, row, node))):
         for title, lines in pairs:
             yield f"Here, for {title}:"
             yield fenced("\n".join(lines))
@@ -122,32 +123,7 @@ def _relation(analysis: Analysis, row: RelationRow, meaning: Meaning) -> Iterato
     yield from relation_tail(row)
 
 
-def _demanded(analysis: Analysis, row: RelationRow, node: Relation) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """For each target of a relation how it is called, and what is demanded of it."""
-    origin = analysis.tables.origins.get(node)
-    if origin is None:
-        return
-    bounds = [(bound.lower.span.text, bound.upper.span.text) for bound in node.bounds]
-    targets: list[tuple[str, Predicate]] = []
-    if (existing := analysis.tables.existing.get(node)) is not None:
-        targets.append((existing.name, existing.predicate))
-    for instance in node.created:
-        target = analysis.tables.targets.get(instance)
-        if target is not None:
-            targets.append((instance.name.name if instance.name else target.predicate.name, target.predicate))
-    for name, predicate in targets:
-        first, second = _prefix(origin.name), _prefix(name)
-        points = points_of(first, second, origin.predicate.is_event, predicate.is_event)
-        lines = demands(row, points, (f"{first}duration", f"{second}duration"), bounds)
-        own = "this token" if origin.name == "this" else f"`{origin.name}`"
-        yield f"{own} (`{origin.predicate.full_name}`) and `{name}` (`{predicate.full_name}`)", lines
-
-
-def _prefix(name: str) -> str:
-    return "" if name == "this" else f"{name}."
-
-
-def _link(conversion: Conversion, span: Span) -> str:
+def link(conversion: Conversion, span: Span) -> str:
     """A place as a Markdown link."""
     uri = conversion.place(span.source)[0]
     name = uri.rpartition("/")[2] or uri

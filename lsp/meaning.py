@@ -89,7 +89,7 @@ def meaning_at(analysis: Analysis, parse: Parse, offset: int) -> Meaning | None:
     piece = piece_at(parse, offset)
     if piece is None:
         return None
-    around = _nodes_at(piece, offset)
+    around = around_at(piece, offset)
     thing = _thing(analysis, around) if around else None
     if thing is not None:
         span = around[0].span
@@ -112,7 +112,7 @@ def piece_at(parse: Parse, offset: int) -> Piece | None:
     return parse.pieces[index]
 
 
-def _nodes_at(piece: Piece, offset: int) -> tuple[Any, ...]:
+def around_at(piece: Piece, offset: int) -> tuple[Any, ...]:
     """The nodes that `offset` stands in, the innermost first."""
     at = offset - piece.anchor.offset
     found: list[Any] = []

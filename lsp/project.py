@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from lsp.occurrences import NameIndex, NameIndexer
 from lsp.uris import key_of
 from nddl_lang.analysis import Analyser, Analysis
 from nddl_lang.lint.configuration import find_configuration, read_configuration
@@ -43,11 +44,14 @@ class Snapshot:
     """The analysis of a model as it stands, and the parse of each of its texts, by the key of its file.
 
     `diagnostics` are all complaints, those of the linter included, as the project's configuration wants them.
+    `keys` are the keys of the texts.
     """
 
     analysis: Analysis
     diagnostics: tuple[Diagnostic, ...]
     parses: dict[str, Parse]
+    names: NameIndex
+    keys: dict[Source, str]
 
 
 class Project:
@@ -59,6 +63,7 @@ class Project:
         self._configuration, self._gaps = _configuration(Path(key), is_trusted=settings.is_trusted)
         self._analyser = Analyser(self._configuration.callables)
         self._linter = Linter()
+        self._indexer = NameIndexer()
         self._kept: dict[_Place, tuple[Incremental, Parse]] = {}
         self._used: dict[_Place, tuple[Incremental, Parse]] = {}
         self._snapshot: Snapshot | None = None
@@ -79,6 +84,7 @@ class Project:
         # Should this fail half-way, nothing half-done is kept.
         analyser, self._analyser = self._analyser, Analyser(self._configuration.callables)
         linter, self._linter = self._linter, Linter()
+        indexer, self._indexer = self._indexer, NameIndexer()
         self._used = {}
         loaded = load_module_graph(
             Source(name, text),
@@ -92,8 +98,10 @@ class Project:
         parses.pop(self.key, None)
         analysis = analyser.analyse(loaded)
         found = tuple(self._configuration.choose((*self._gaps, *linter.lint(analysis))))
-        self._snapshot = Snapshot(analysis, found, {self.key: loaded.parses[0], **parses})
-        self._analyser, self._linter = analyser, linter
+        parses = {self.key: loaded.parses[0], **parses}
+        keys = {parse.source: key for key, parse in parses.items()}
+        self._snapshot = Snapshot(analysis, found, parses, indexer.index(analysis), keys)
+        self._analyser, self._linter, self._indexer = analyser, linter, indexer
 
     def _parse(self, path: Path, source: Source, dialect: Dialect, is_in_class: bool) -> Parse:
         place = (str(path), dialect, is_in_class)

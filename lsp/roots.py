@@ -1,7 +1,8 @@
 """Find the model that a file is a part of, where only that file is open."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
 from itertools import islice
 from pathlib import Path
 
@@ -20,9 +21,40 @@ def root_of(path: Path) -> Path | None:
 
     Of several the first by name; None where there is none. A file that includes itself in the end is no root.
     """
-    target = key_of(path)
+    return min(_roots(key_of(path), _neighbours(path.parent)), key=lambda file: file.name, default=None)
+
+
+def all_roots(key: str, folders: Iterable[Path]) -> list[Path]:
+    """The files beside `key` and below `folders` that include it and that no other file there includes, by name."""
+    files = {key_of(file): file for file in _neighbours(Path(key).parent)}
+    for folder in folders:
+        for file in models_below(folder):
+            files.setdefault(key_of(file), file)
+    return sorted(_roots(key, files.values()))
+
+
+def models_below(folder: Path) -> Iterator[Path]:
+    """The models in `folder` and the folders below it, hidden ones left out; not more than an editor can bear."""
+    pending, count = [folder], 0
+    while pending and count < _MOST_ENTRIES:
+        try:
+            entries = sorted(islice(pending.pop().iterdir(), _MOST_ENTRIES))
+        except OSError:
+            continue
+        for entry in entries:
+            if entry.name.startswith(".") or entry.name == "node_modules" or entry.is_symlink():
+                continue
+            if entry.is_dir():
+                pending.append(entry)
+            elif entry.suffix == _SUFFIX and count < _MOST_ENTRIES:
+                count += 1
+                yield entry
+
+
+def _roots(target: str, files: Iterable[Path]) -> list[Path]:
+    """Those of `files` that include `target` in the end, and that none of them includes."""
     includers: dict[str, list[Path]] = {}
-    for file in _neighbours(path.parent):
+    for file in files:
         for included in _included(file):
             includers.setdefault(included, []).append(file)
     reached = {target}
@@ -37,7 +69,7 @@ def root_of(path: Path) -> Path | None:
             pending.append(key)
             if key not in includers:
                 roots.append(file)
-    return min(roots, key=lambda file: file.name, default=None)
+    return roots
 
 
 def _neighbours(directory: Path) -> Iterator[Path]:
@@ -48,11 +80,21 @@ def _neighbours(directory: Path) -> Iterator[Path]:
     yield from (entry for entry in entries if entry.suffix == _SUFFIX)
 
 
-def _included(file: Path) -> Iterator[str]:
+def _included(file: Path) -> tuple[str, ...]:
     """The keys of the files that `file` includes from its own directory or below."""
     try:
-        text = read_text(file) if file.stat().st_size <= _LARGEST else None
+        status = file.stat()
     except (OSError, ValueError):
-        return
-    for name in _INCLUDE.findall(text or ""):
-        yield key_of(file.parent / name)
+        return ()
+    return _read_includes(file, status.st_mtime_ns, status.st_size) if status.st_size <= _LARGEST else ()
+
+
+@lru_cache(4 * _MOST_ENTRIES)
+def _read_includes(file: Path, changed: int, size: int) -> tuple[str, ...]:
+    """What `file` included when it was `changed` last and had that `size`."""
+    del changed, size
+    try:
+        text = read_text(file)
+    except (OSError, ValueError):
+        return ()
+    return tuple(key_of(file.parent / name) for name in _INCLUDE.findall(text or ""))

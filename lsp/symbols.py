@@ -1,9 +1,11 @@
-"""A text in; the outline of what it declares out."""
+"""Symbols: a text in, the outline of what it declares out; a word in, what the models declare under such names out."""
 
 from collections.abc import Iterable, Iterator
 
-from lsprotocol.types import DocumentSymbol, SymbolKind
+from lsprotocol.types import DocumentSymbol, SymbolInformation, SymbolKind
 
+from lsp.documents import Documents
+from lsp.occurrences import SymbolType
 from lsp.positions import Lines
 from nddl_lang.syntax.nodes import (
     ClassDecl,
@@ -80,3 +82,45 @@ class _Outline:
         place = self._lines.range(name.span.begin, name.span.finish)
         # Editors refuse an outline with an empty name.
         return DocumentSymbol(name.name or "?", kind, whole, place, detail, children=self.all(inside) or None)
+
+
+_OF_SYMBOL = {
+    SymbolType.CLASS: SymbolKind.Class,
+    SymbolType.ENUM: SymbolKind.Enum,
+    SymbolType.ENUM_VALUE: SymbolKind.EnumMember,
+    SymbolType.TYPEDEF: SymbolKind.TypeParameter,
+    SymbolType.PREDICATE: SymbolKind.Method,
+    SymbolType.VARIABLE: SymbolKind.Variable,
+    SymbolType.TOKEN: SymbolKind.Object,
+}
+_MOST_SYMBOLS = 500
+
+
+def workspace_symbols(documents: Documents, query: str) -> list[SymbolInformation]:
+    """What the models declare whose names hold the letters of `query` in that order, the closest names first."""
+    conversion = documents.conversion()
+    wanted = query.casefold()
+    found: dict[tuple[str, int, str], tuple[int, SymbolInformation]] = {}
+    for snapshot in documents.snapshots():
+        for symbol in snapshot.names.all:
+            kind = _OF_SYMBOL.get(symbol.type)
+            declared = snapshot.names.declarations(symbol) if kind is not None else []
+            distance = _distance(wanted, symbol.name.casefold())
+            if kind is None or not declared or distance is None:
+                continue
+            place = conversion.location(declared[0].span)
+            container = symbol.owner if isinstance(symbol.owner, str) else None
+            shown = SymbolInformation(place, symbol.name, kind, container_name=container)
+            found.setdefault((place.uri, declared[0].span.begin, symbol.name), (distance, shown))
+    ordered = sorted(found.items(), key=lambda each: (each[1][0], each[0]))
+    return [shown for _, (_, shown) in ordered[:_MOST_SYMBOLS]]
+
+
+def _distance(wanted: str, name: str) -> int | None:
+    """How far a name is from what is wanted: 0 the same, then those that begin so, hold it, hold its letters."""
+    if wanted == name:
+        return 0
+    if wanted in name:
+        return 1 if name.startswith(wanted) else 2
+    letters = iter(name)
+    return 3 if all(letter in letters for letter in wanted) else None

@@ -2,8 +2,7 @@
 
 import os
 from pathlib import Path
-from urllib.parse import urlsplit
-from urllib.request import url2pathname
+from urllib.parse import unquote, urlsplit
 
 
 def path_of(uri: str) -> Path | None:
@@ -15,8 +14,14 @@ def path_of(uri: str) -> Path | None:
     if parts.scheme != "file":
         return None
     host = f"//{parts.netloc}" if parts.netloc not in ("", "localhost") else ""
-    path = Path(url2pathname(host + parts.path))
+    path = Path(_native(host + parts.path))
     return path if path.is_absolute() and _can_be_a_name(path) else None
+
+
+def _native(path: str) -> str:
+    """The path of a URI as the system writes it: on Windows `/c:/a` is `c:/a`."""
+    decoded = unquote(path)
+    return decoded[1:] if os.name == "nt" and decoded[2:3] == ":" else decoded
 
 
 def _can_be_a_name(path: Path) -> bool:

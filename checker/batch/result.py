@@ -1,6 +1,7 @@
 """What is kept of one mission of a batch, and how it is written as JSON and read again."""
 
 import json
+from collections.abc import Sequence
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from enum import Enum
 from functools import cache
@@ -10,6 +11,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from checker.losses import NO_LOSSES, Losses
 from checker.oracle import Judgement, Verdict
+from runtime.executive.events import EventLog
 from runtime.executive.outcome import Draw, OpenGoal, Outcome
 
 
@@ -67,7 +69,7 @@ def _plain(value: Any) -> Any:
     if is_dataclass(value):
         named = ((one, getattr(value, one.name)) for one in fields(value))
         return {one.name: _plain(item) for one, item in named if one.default is MISSING or one.default != item}
-    if isinstance(value, tuple):
+    if isinstance(value, tuple | EventLog):
         return [_plain(item) for item in value]
     return value.value if isinstance(value, Enum) else value
 
@@ -81,8 +83,8 @@ def _read(kind: Any, value: Any) -> Any:
         return kind(value)
     origin: Any = get_origin(kind)
     inner = get_args(kind)
-    if origin is tuple:
-        kinds = repeat(inner[0]) if inner[-1] is Ellipsis else inner
+    if origin in (tuple, Sequence):
+        kinds = repeat(inner[0]) if origin is Sequence or inner[-1] is Ellipsis else inner
         return tuple(_read(one, item) for one, item in zip(kinds, value, strict=False))
     if origin in (Union, UnionType):
         chosen = next((one for one in inner if _fits(one, value)), None)
@@ -96,7 +98,7 @@ def _fits(kind: Any, value: Any) -> bool:
         case dict():
             return _is_record(kind) and value.keys() <= _hints(kind).keys() and value.keys() >= _needed(kind)
         case list():
-            return get_origin(kind) is tuple
+            return get_origin(kind) in (tuple, Sequence)
         case str():
             return _is_enum(kind)
         case _:

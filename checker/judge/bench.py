@@ -1,13 +1,17 @@
 """The judge's desk for one reactor: tokens by key, values of the model's variables, and what was found so far."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 
+import numpy as np
+
+from checker.judge.columns import Array
 from checker.judge.report import Disagreement, Kind
-from checker.judge.values import difference, hull
+from checker.judge.values import UNKNOWN, difference, hull
 from nddl_lang.text.source import Span
-from runtime.executive.record import NOBODY, ReactorRecord, TokenRecord, Value, ValueRange
+from runtime.executive.record import ReactorRecord, TokenRecord, Value, ValueRange
 
-_Draw = Callable[[str, int], Value]  # parameter and tick in, value out; UNKNOWN where nothing is drawn
+_Draws = Callable[[str, Array], Array | None]  # parameter and ticks in, values out; None where nothing is drawn
+_DEEPEST = 64  # merged into what is merged into ...
 
 
 class Tok:
@@ -40,24 +44,64 @@ class Tok:
         return self.record.state in ("active", "merged")
 
 
+class _Toks:
+    """The tokens of a record by key, each made when it is first asked for."""
+
+    def __init__(self, tokens: tuple[TokenRecord, ...]) -> None:
+        self._records = {one.key: one for one in tokens}
+        self._made: dict[int, Tok] = {}
+
+    def get(self, key: int) -> Tok | None:
+        """The token with a key; None if there is none."""
+        known = self._made.get(key)
+        if known is None and (record := self._records.get(key)) is not None:
+            known = self._made[key] = Tok(record)
+            self._complete(known)
+        return known
+
+    def records(self) -> Iterator[TokenRecord]:
+        """What is on record of all tokens."""
+        return iter(self._records.values())
+
+    def of(self, records: Iterable[TokenRecord]) -> Iterator[Tok]:
+        """Tokens of the record."""
+        for record in records:
+            tok = self.get(record.key)
+            assert tok is not None
+            yield tok
+
+    def _complete(self, tok: Tok) -> None:
+        """Let a merged token have the values of the one that stands for it; a token that goes on ends later."""
+        last = tok.record
+        for _ in range(_DEEPEST):
+            other = self._records.get(last.merged_into)
+            if other is None:
+                break
+            last = other
+        if last is not tok.record:
+            standing = self._made.get(last.key)
+            if standing is None:
+                standing = self._made[last.key] = Tok(last)
+            tok.standing = standing
+            tok.values = standing.values
+
+
 class Bench:
     """Everything that is judged of one reactor."""
 
-    def __init__(self, record: ReactorRecord, final_tick: int, draw: _Draw, has_failed: bool = False) -> None:
+    def __init__(self, record: ReactorRecord, final_tick: int, draws: _Draws, has_failed: bool = False) -> None:
         self.reactor = record.reactor
         self.record = record
         self.last_tick = record.last_tick
         self.final_tick = final_tick
         self.has_failed = has_failed  # what was undecided when the reactor failed is its failure, not an error
-        self.draw = draw
+        self.draws = draws
         self.globals = record.globals
         self.members: dict[str, tuple[str, tuple[Value, ...]]] = {}
         self.by_class: dict[str, list[str]] = {}
         for thing in record.objects:
             self.members[thing.name] = (thing.class_name, thing.members)
-        self.tokens = {one.key: Tok(one) for one in record.tokens}
-        for tok in self.tokens.values():
-            self._complete(tok)
+        self.tokens = _Toks(record.tokens)
         self.uses: list[tuple[Value, Value, Value, Value, Tok | None, Span]] = []  # resource, quantity, start, end
         self.infers = False  # whether runs that are not on record are found out
         self.told: frozenset[str] | None = None  # the classes of whose objects all tokens are known; None: all
@@ -66,17 +110,10 @@ class Bench:
         self.open = 0
         self.skipped: dict[str, int] = {}
 
-    def _complete(self, tok: Tok) -> None:
-        """Let a merged token have the values of the one that stands for it; a token that goes on ends later."""
-        seen = 0
-        while tok.standing.record.merged_into != NOBODY and seen < 64:
-            other = self.tokens.get(tok.standing.record.merged_into)
-            if other is None:
-                break
-            tok.standing = other
-            seen += 1
-        if tok.standing is not tok:
-            tok.values = tok.standing.values
+    def draw(self, parameter: str, tick: int) -> Value:
+        """The value of a parameter for a token that begins at `tick`; UNKNOWN where nothing is drawn."""
+        values = self.draws(parameter, np.array([tick]))
+        return UNKNOWN if values is None else float(values[0])
 
     def skip(self, reason: str, count: int = 1) -> None:
         """Count something that is not judged."""

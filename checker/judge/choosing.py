@@ -59,14 +59,16 @@ def _candidates(
     origin = frame.tokens[child.origin]
     wanted_class, _, suffix = child.predicate.rpartition(".")
     found = []
-    for key, tok in frame.bench.tokens.items():
-        class_name, _, name = tok.record.predicate.rpartition(".")
-        if name != suffix or tok.record.state != "active" or not names.is_kind_of(class_name, wanted_class):
+    for record in frame.bench.tokens.records():
+        class_name, _, name = record.predicate.rpartition(".")
+        if name != suffix or record.state != "active" or not names.is_kind_of(class_name, wanted_class):
             continue
+        tok = frame.bench.tokens.get(record.key)
+        assert tok is not None
         if holder is not None and not may_be_equal(tok.values[OBJECT], holder):
             continue
         if origin is None or _is_related(pairs, origin, tok):
-            found.append(key)
+            found.append(tok.key)
     return found
 
 

@@ -6,73 +6,95 @@ index is reached without those before. Normal distributions have the mean and th
 
 from collections.abc import Mapping
 from functools import lru_cache
-from math import floor
 from statistics import NormalDist
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from checker.judge.values import UNKNOWN
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.record import Value
 
+Array = NDArray[Any]
+_Words = NDArray[np.uint64]
+_U = np.uint64
 _WORD = 2**64
 _STEP = 0x9E3779B97F4A7C15
 _STANDARD = NormalDist()
 
 
-def _stir(word: int) -> int:
-    word = (word ^ word >> 30) * 0xBF58476D1CE4E5B9 % _WORD
-    word = (word ^ word >> 27) * 0x94D049BB133111EB % _WORD
-    return word ^ word >> 31
+def _stir(words: _Words) -> _Words:
+    words = (words ^ words >> _U(30)) * _U(0xBF58476D1CE4E5B9)
+    words = (words ^ words >> _U(27)) * _U(0x94D049BB133111EB)
+    return words ^ words >> _U(31)
 
 
-@lru_cache(maxsize=4096)
-def _share(seed: int, name: str, index: int) -> float:
-    """The number in [0, 1) that the stream of `name` has at `index`."""
+@lru_cache(maxsize=256)
+def _start(seed: int, name: str) -> int:
+    """Where the stream of `name` begins."""
     digest = 0xCBF29CE484222325
     for byte in name.encode():
         digest = (digest ^ byte) * 0x100000001B3 % _WORD
-    start = _stir((_stir((seed + _STEP) % _WORD) + digest) % _WORD)
-    return (_stir((start + (index + 1) * _STEP) % _WORD) >> 11) / 2**53
+    first = int(_stir(np.array([(seed + _STEP) % _WORD], _U))[0])
+    return int(_stir(np.array([(first + digest) % _WORD], _U))[0])
 
 
-def drawn(parameter: ParameterConfiguration, seed: int, tick: int) -> Value:
-    """The value of a parameter for a token that begins at `tick`; unknown for a distribution that the judge lacks."""
-    index = 0 if parameter.mode == "inter" else max(tick, 0) // parameter.update
-    part = _share(seed, parameter.name, index)
-    lower, width = parameter.lower, parameter.upper - parameter.lower
-    inner = (floor(part * 2**52) + 0.5) / 2**52
+def _shares(seed: int, name: str, indices: Array) -> Array:
+    """The numbers in [0, 1) that the stream of `name` has at `indices`."""
+    steps = (indices.astype(_U) + _U(1)) * _U(_STEP)
+    return (_stir(_U(_start(seed, name)) + steps) >> _U(11)).astype(float) / 2**53
+
+
+def drawn(parameter: ParameterConfiguration, seed: int, ticks: Array) -> Array | None:
+    """The values of a parameter for tokens that begin at `ticks`; None for a distribution that the judge lacks."""
+    if parameter.mode == "inter":
+        return _values(parameter, seed, np.zeros(len(ticks), np.int64))
+    indices, places = np.unique(np.maximum(ticks, 0) // parameter.update, return_inverse=True)
+    found = _values(parameter, seed, indices)
+    return None if found is None else found[places]
+
+
+def _values(parameter: ParameterConfiguration, seed: int, indices: Array) -> Array | None:
+    """The values of a parameter at some indices of its stream."""
+    parts = _shares(seed, parameter.name, indices)
+    lower, upper, width = parameter.lower, parameter.upper, parameter.upper - parameter.lower
+    inner = (np.floor(parts * 2**52) + 0.5) / 2**52
     match parameter.distribution:
         case "uniform" if parameter.is_whole:
-            value = min(lower + floor(part * (width + 1)), parameter.upper)
+            values = np.minimum(lower + np.floor(parts * (width + 1)), upper)
         case "uniform":
-            value = lower + part * width
+            values = lower + parts * width
         case "normal":
-            value = lower + width / 2 + width / 12**0.5 * _STANDARD.inv_cdf(inner)
+            values = lower + width / 2 + width / 12**0.5 * _quantiles(inner)
         case "truncated_normal":
             outside = _STANDARD.cdf(-(3**0.5))
-            value = lower + width / 2 + width / 12**0.5 * _STANDARD.inv_cdf(outside + inner * (1 - 2 * outside))
-            value = min(max(value, lower), parameter.upper)
+            values = lower + width / 2 + width / 12**0.5 * _quantiles(outside + inner * (1 - 2 * outside))
+            values = np.minimum(np.maximum(values, lower), upper)
         case "discrete":
-            value = _picked(parameter, part)
+            values = _picked(parameter, parts)
         case "fixed":
-            value = parameter.values[0]
+            values = np.full(len(parts), parameter.values[0], float)
         case _:
-            return UNKNOWN
+            return None
     if parameter.is_whole:
-        value = float(floor(value + 0.5))
+        values = np.floor(values + 0.5)
     if parameter.clip is not None:
-        value = min(max(value, parameter.clip[0]), parameter.clip[1])
-    return value
+        values = np.minimum(np.maximum(values, parameter.clip[0]), parameter.clip[1])
+    return values
 
 
-def _picked(parameter: ParameterConfiguration, part: float) -> float:
+def _quantiles(parts: Array) -> Array:
+    """The quantiles of the standard normal distribution."""
+    return np.array([_STANDARD.inv_cdf(each) for each in parts.tolist()])
+
+
+def _picked(parameter: ParameterConfiguration, parts: Array) -> Array:
     weights = parameter.weights or (1.0,) * len(parameter.values)
-    reached, goal = 0.0, part * sum(weights)
-    for value, weight in zip(parameter.values, weights, strict=True):
-        reached += weight
-        if goal < reached:
-            return value
-    return parameter.values[-1]
+    reached = np.add.accumulate(weights)
+    places = np.searchsorted(reached, parts * sum(weights), side="right")
+    return np.array(parameter.values, float)[np.minimum(places, len(weights) - 1)]
 
 
 class Chance:
@@ -94,7 +116,12 @@ class Chance:
 
     def draw(self, name: str, tick: int) -> Value:
         """The value of a parameter for a token that begins at `tick`."""
+        values = self.draws(name, np.array([tick]))
+        return UNKNOWN if values is None else float(values[0])
+
+    def draws(self, name: str, ticks: Array) -> Array | None:
+        """The values of a parameter for tokens that begin at `ticks`; None if they are not known."""
         if name in self.overrides:
-            return self.overrides[name]
+            return np.full(len(ticks), self.overrides[name], float)
         parameter = self.parameters.get(name)
-        return UNKNOWN if parameter is None else drawn(parameter, self.seed, tick)
+        return None if parameter is None else drawn(parameter, self.seed, ticks)

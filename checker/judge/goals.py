@@ -5,28 +5,30 @@ from checker.judge.tokens import ProgramJudge
 from checker.judge.values import lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, START
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration
-from runtime.executive.outcome import Outcome
+from runtime.executive.outcome import EventKind, Outcome
 from runtime.executive.record import Value, ValueRange
 
 
 def judge_goals(agent: AgentConfiguration, outcome: Outcome, desks: dict[str, tuple[ProgramJudge, Bench]]) -> None:
-    """Judge the mandatory goals of a mission that came to its end; of those that stayed open nothing is claimed."""
-    if outcome.ended_early:
-        return
+    """Judge the mandatory goals that count as achieved: said to be, or not left open when the mission had its time."""
+    said = {event.request for event in outcome.events if event.kind is EventKind.ACHIEVED}
+    has_ended = outcome.abort is None and outcome.last_tick >= agent.final_tick
     left = [(goal.timeline, goal.predicate) for goal in outcome.open_goals]
-    for goal in agent.goals:
-        if not goal.mandatory or (goal.timeline, goal.predicate) in left:
+    for number, goal in enumerate(agent.goals):
+        counts = has_ended and (goal.timeline, goal.predicate) not in left
+        if not goal.mandatory or not (counts or -1 - number in said):
             continue
         owner = next((one for one in agent.reactors if goal.timeline in one.internal), None)
         if owner is not None and owner.name in desks:
-            _judge_goal(*desks[owner.name], goal)
+            _judge_goal(*desks[owner.name], goal, has_ended)
 
 
-def _judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration) -> None:
-    """Judge one goal that counts as achieved."""
+def _judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, has_ended: bool) -> None:
+    """Judge one goal that counts as achieved; where the flight was cut or aborted, whether it was executed at all."""
     bench.judged += 1
-    fitting = [tok for tok in bench.tokens.values() if _is_answer(judge, bench, goal, tok)]
-    if any(not tok.is_cut for tok in fitting):
+    named = [one for one in bench.tokens.records() if one.predicate.rpartition(".")[2] == goal.predicate]
+    fitting = [tok for tok in bench.tokens.of(named) if _is_answer(judge, bench, goal, tok)]
+    if any(not tok.is_cut or not has_ended for tok in fitting):
         return
     values: tuple[tuple[str, Value], ...] = (("timeline", goal.timeline), ("asked from", goal.at))
     is_cut = bool(fitting)
@@ -36,9 +38,7 @@ def _judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration) -> N
 
 def _is_answer(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, tok: Tok) -> bool:
     """Whether a token is what a goal asks for, executed to its end."""
-    if not tok.is_planned or tok.record.predicate.rpartition(".")[2] != goal.predicate:
-        return False
-    if not may_be_equal(tok.record.object, goal.timeline) or not bench.is_over(tok):
+    if not tok.is_planned or not may_be_equal(tok.record.object, goal.timeline) or not bench.is_over(tok):
         return False
     spans = ((START, goal.start), (END, goal.end))
     if any(given is not None and not lies_within(tok.values[place], *given) for place, given in spans):

@@ -5,21 +5,26 @@ Programs are compiled once and kept.
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from checker.judge.bench import Bench, Tok
+from checker.judge.bulk_timelines import History
+from checker.judge.columns import Array
 from checker.judge.draws import Chance
 from checker.judge.goals import judge_goals
 from checker.judge.operands import BodyFrame
 from checker.judge.report import JudgeReport
 from checker.judge.resources import judge_resources
 from checker.judge.steps import Written
-from checker.judge.timelines import History, PublishedValue, judge_timelines
+from checker.judge.tables import Tables
+from checker.judge.timelines import judge_timelines
 from checker.judge.tokens import ProgramJudge, compile_program, judge_tokens
 from checker.judge.values import UNKNOWN
 from checker.judge.written import meanings_of
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.outcome import EventKind, Outcome, Phase, Reason, ReasonKind
+from runtime.executive.events import single_events
+from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
 from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, Value
 from runtime.user.constraint import Constraint
 
@@ -48,17 +53,21 @@ def judge_mission(
     """Judge everything that the models say of an executed mission; programs are in the order of the reactors."""
     chance = Chance(agent, tuple(programs), outcome.seed, overrides or {})
     by_name = {each.reactor: each for each in record.reactors}
-    failed = {event.reactor for event in outcome.events if event.kind in (EventKind.KILL, EventKind.ABORT)}
+    failed = {
+        event.reactor for event in single_events(outcome.events) if event.kind in (EventKind.KILL, EventKind.ABORT)
+    }
+    history = _Publications(outcome)
     desks: dict[str, tuple[ProgramJudge, Bench]] = {}
     for place, program in zip(agent.reactors, programs, strict=True):
         written = by_name.get(place.name)
         if written is None:
             continue
         judge = _judge_of(program, constraints)
-        bench = Bench(written, outcome.final_tick, chance.draw, place.name in failed)
+        bench = Bench(written, agent.final_tick, chance.draws, place.name in failed)
         desks[place.name] = (judge, bench)
-        _judge_model(judge, bench)
-        judge_timelines(judge, bench, _published(outcome, place.name), place.internal, place.external)
+        tables = Tables(written)
+        _judge_model(judge, bench, tables)
+        judge_timelines(judge, bench, tables, history.seen_by(place.name), place.internal, place.external)
     judge_goals(agent, outcome, desks)
     return _summary([bench for _, bench in desks.values()])
 
@@ -86,19 +95,20 @@ def judge_plan(
     bench = Bench(record, record.last_tick, _undrawn)
     bench.infers = True
     bench.told = told
-    _judge_model(judge, bench)
-    judge_timelines(judge, bench, {}, (), ())
+    tables = Tables(record)
+    _judge_model(judge, bench, tables)
+    judge_timelines(judge, bench, tables, {}, (), ())
     return _summary([bench])
 
 
-def _undrawn(parameter: str, tick: int) -> Value:
-    return UNKNOWN
+def _undrawn(parameter: str, ticks: Array) -> None:
+    """No draws are known."""
 
 
-def _judge_model(judge: ProgramJudge, bench: Bench) -> None:
+def _judge_model(judge: ProgramJudge, bench: Bench, tables: Tables) -> None:
     """Judge the script, the tokens with their rules, and the resources of one reactor."""
     _judge_script(judge, bench)
-    judge_tokens(judge, bench)
+    judge_tokens(judge, bench, tables)
     judge_resources(judge, bench)
 
 
@@ -117,21 +127,29 @@ def _judge_script(judge: ProgramJudge, bench: Bench) -> None:
         step(frame)
 
 
-def _published(outcome: Outcome, reactor: str) -> History:
-    """What was published, as `reactor` came to see it: news of a late death come with the next tick."""
-    found: dict[str, dict[int, PublishedValue]] = {}
-    deaths = {(e.tick, e.reactor) for e in outcome.events if e.kind is EventKind.KILL}
-    for event in outcome.events:
-        if event.kind is not EventKind.OBSERVATION:
-            continue
-        tick = event.tick
-        if (tick, event.reactor) in deaths and event.predicate == "Failed":
-            if event.reactor == reactor:
-                continue
-            tick += 1 if event.phase is Phase.DELIBERATE else 0
-        one = PublishedValue(tick, event.reactor, event.predicate, event.arguments)
-        found.setdefault(event.timeline, {})[tick] = one
-    return {timeline: list(ticks.values()) for timeline, ticks in found.items()}
+class _Publications:
+    """What was published in a mission, as each reactor came to see it."""
+
+    def __init__(self, outcome: Outcome) -> None:
+        self.events = [event for event in outcome.events if event.kind is EventKind.OBSERVATION]
+        self.deaths = {(e.tick, e.reactor) for e in single_events(outcome.events) if e.kind is EventKind.KILL}
+        self.common = self._told("") if not self.deaths else None
+
+    def seen_by(self, reactor: str) -> History:
+        """What `reactor` saw: news of a late death come with the next tick."""
+        return self._told(reactor) if self.common is None else self.common
+
+    def _told(self, reactor: str) -> History:
+        found: dict[str, dict[int, Event]] = {}
+        for event in self.events:
+            one = event
+            if event.predicate == "Failed" and (event.tick, event.reactor) in self.deaths:
+                if event.reactor == reactor:
+                    continue
+                if event.phase is Phase.DELIBERATE:
+                    one = replace(event, tick=event.tick + 1)
+            found.setdefault(event.timeline, {})[one.tick] = one
+        return {timeline: list(ticks.values()) for timeline, ticks in found.items()}
 
 
 def _summary(benches: Sequence[Bench]) -> JudgeReport:

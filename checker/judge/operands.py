@@ -154,13 +154,13 @@ def _field_reader(base: Read | None, members: tuple[str, ...], names: VariableNa
             return UNKNOWN
         value = base(frame)
         for name in members:
-            value = _member(frame.bench, names, value, name)
+            value = member_of(frame.bench, names, value, name)
         return value
 
     return read
 
 
-def _member(bench: Bench, names: VariableNames, thing: Value, name: str) -> Value:
+def member_of(bench: Bench, names: VariableNames, thing: Value, name: str) -> Value:
     """The member called `name` of an object, or of each that it may be."""
     if isinstance(thing, ValueRange):
         return UNKNOWN

@@ -76,10 +76,11 @@ def _limits_of(kind: str, members: dict[str, Value]) -> _ResourceLimits | None:
 
 def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
     """What was executed on a resource, by tokens of its own and by `uses` in rules."""
-    for tok in bench.tokens.values():
+    fitting = (one for one in bench.tokens.records() if one.state == "active" and one.object == resource)
+    for tok in bench.tokens.of(fitting):
         record = tok.record
         kind = record.predicate.rpartition(".")[2]
-        if record.state != "active" or record.object != resource or kind not in ("produce", "consume", "uses", "use"):
+        if kind not in ("produce", "consume", "uses", "use"):
             continue
         quantity: Value = tok.values[FIRST_PARAMETER] if record.arguments else 1.0
         yield from _use(bench, kind, quantity, tok.values[START], tok.values[END], tok, None)

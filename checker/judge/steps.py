@@ -1,6 +1,6 @@
 """Compile the bodies of rules, predicates and the script into steps that judge one run against the record."""
 
-from collections.abc import Callable
+from dataclasses import dataclass
 from typing import assert_never
 
 from checker.judge.bench import Bench
@@ -32,7 +32,6 @@ from compiler.program import (
 from nddl_lang.text.source import Span
 from runtime.executive.record import OpenValues, Value, ValueRange
 
-Domain = Callable[[Bench, Value], bool | None]
 Written = dict[str, Meaning]  # constraints of the project, by name
 
 
@@ -81,25 +80,33 @@ def _blank(slot: int) -> Step:
 # ---- variables ----
 
 
-def domain_test(type_: TypeCode, domain: DomainConstant | None, names: VariableNames) -> Domain | None:
-    """Whether a value is one that a declaration allows; None if it allows all."""
-    limits = [domain_value(each) for each in (type_.domain, domain) if each is not None]
-    if type_.kind == "object":
-        return lambda bench, value: _is_of_class(bench, value, type_.type_name, names)
-    if type_.kind == "enum" and not limits:
-        values = next((frozenset(given) for name, given in names.program.enums if name == type_.type_name), None)
-        if values is not None:
-            limits = [OpenValues(tuple(sorted(values)))]
-    if not limits:
-        return None
+@dataclass(frozen=True, eq=False, slots=True)
+class Domain:
+    """What a declaration allows: values in each of `limits`, objects of `class_name`."""
 
-    def test(bench: Bench, value: Value) -> bool | None:
-        for limit in limits:
+    limits: tuple[Value, ...]
+    class_name: str
+    names: VariableNames
+
+    def __call__(self, bench: Bench, value: Value) -> bool | None:
+        if self.class_name:
+            return _is_of_class(bench, value, self.class_name, self.names)
+        for limit in self.limits:
             if not _within(value, limit):
                 return False
         return None if is_open(value) else True
 
-    return test
+
+def domain_test(type_: TypeCode, domain: DomainConstant | None, names: VariableNames) -> Domain | None:
+    """Whether a value is one that a declaration allows; None if it allows all."""
+    limits = [domain_value(each) for each in (type_.domain, domain) if each is not None]
+    if type_.kind == "object":
+        return Domain((), type_.type_name, names)
+    if type_.kind == "enum" and not limits:
+        values = next((frozenset(given) for name, given in names.program.enums if name == type_.type_name), None)
+        if values is not None:
+            limits = [OpenValues(tuple(sorted(values)))]
+    return Domain(tuple(limits), "", names) if limits else None
 
 
 def _within(value: Value, limit: Value) -> bool:

@@ -1,38 +1,26 @@
 """Judge timelines: one token at a time, nothing left out, and what the owner published is what its users hold."""
 
-from dataclasses import dataclass
-
 from checker.judge.bench import Bench, Tok
+from checker.judge.bulk_timelines import BulkTimelines, History
 from checker.judge.operands import domain_value
+from checker.judge.tables import Tables
 from checker.judge.tokens import ProgramJudge
 from checker.judge.values import hull, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, START
-from runtime.executive.messages import Arguments
+from runtime.executive.outcome import Event
 from runtime.executive.record import Value
 
 _UNDEFINED = "undefined"
 _GAPLESS = "something holds at every tick"
 
 
-@dataclass(frozen=True, slots=True)
-class PublishedValue:
-    """What an owner published: from `tick` on the timeline holds the predicate with these arguments."""
-
-    tick: int
-    owner: str
-    predicate: str
-    arguments: Arguments
-
-
-History = dict[str, list[PublishedValue]]  # by timeline; of several in one tick the last
-
-
-def _sequences(judge: ProgramJudge, bench: Bench) -> dict[str, list[Tok]]:
-    """The tokens that have begun on each timeline, in order."""
+def _sequences(judge: ProgramJudge, bench: Bench, timelines: set[str]) -> dict[str, list[Tok]]:
+    """The tokens that have begun on some timelines, in order."""
     found: dict[str, list[Tok]] = {}
-    for tok in bench.tokens.values():
+    active = (one for one in bench.tokens.records() if one.state == "active" and one.object in timelines)
+    for tok in bench.tokens.of(active):
         start, thing = tok.record.start, tok.record.object
-        if tok.record.state != "active" or not isinstance(start, int) or start > bench.last_tick:
+        if not isinstance(start, int) or start > bench.last_tick:
             continue
         ends = hull(tok.values[END])
         if start < 0 and ends is not None and ends[1] <= 0:
@@ -57,15 +45,30 @@ def _place(tok: Tok) -> tuple[int, float, int]:
 
 
 def judge_timelines(
-    judge: ProgramJudge, bench: Bench, history: History, internal: tuple[str, ...], external: tuple[str, ...]
+    judge: ProgramJudge,
+    bench: Bench,
+    tables: Tables,
+    history: History,
+    internal: tuple[str, ...],
+    external: tuple[str, ...],
 ) -> None:
     """Judge all timelines of a reactor."""
-    found = _sequences(judge, bench)
+    bulk = BulkTimelines(bench, tables, judge.timelines)
+    shared = (*internal, *external)
+    in_order = {timeline for timeline in bulk.rows if bulk.is_in_order(timeline, timeline in shared)}
+    past = {line: [one for one in history.get(line, ()) if one.tick <= bench.last_tick] for line in shared}
+    told = {line for line in shared if bulk.is_told(line, past[line], judge.codes, line in internal)}
+    left = {*(set(bulk.rows) - in_order), *(set(shared) - told)}
+    if not left:
+        return
+    found = _sequences(judge, bench, left)
     for timeline, tokens in found.items():
-        _judge_order(bench, timeline, tokens, timeline in internal or timeline in external)
-    for timeline in (*internal, *external):
-        published = [one for one in history.get(timeline, ()) if one.tick <= bench.last_tick]
-        _judge_observations(judge, bench, timeline, found.get(timeline, []), published, timeline in internal)
+        if timeline not in in_order:
+            _judge_order(bench, timeline, tokens, timeline in shared)
+    for timeline in shared:
+        if timeline not in told:
+            tokens = found.get(timeline, [])
+            _judge_observations(judge, bench, timeline, tokens, past[timeline], timeline in internal)
 
 
 def _judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool) -> None:
@@ -101,7 +104,7 @@ def _is_cut_short(tok: Tok) -> bool:
 
 
 def _judge_observations(
-    judge: ProgramJudge, bench: Bench, timeline: str, tokens: list[Tok], published: list[PublishedValue], is_own: bool
+    judge: ProgramJudge, bench: Bench, timeline: str, tokens: list[Tok], published: list[Event], is_own: bool
 ) -> None:
     """Every token begins with a publication, and every publication begins a token with what was published."""
     begun: dict[int, Tok] = {}
@@ -117,7 +120,7 @@ def _judge_observations(
         held = begun.get(tick)
         if held is None:
             values: tuple[tuple[str, Value], ...] = (("tick", tick), ("published", one.predicate))
-            bench.report("observation", timeline, (), values, "nothing begins", f"{one.owner} published it")
+            bench.report("observation", timeline, (), values, "nothing begins", f"{one.reactor} published it")
         elif not _agrees(judge, held, one, is_own):
             values = (("tick", tick), ("published", one.predicate), *_told(one))
             bench.report("observation", timeline, (held,), values, held.record.predicate, one.predicate)
@@ -132,14 +135,14 @@ def _judge_observations(
 def _observed(bench: Bench, timeline: str) -> set[int]:
     """The ticks at which a reactor took note of something on a timeline of another."""
     return {
-        tok.record.start
-        for tok in bench.tokens.values()
-        if tok.record.origin == "observation" and tok.is_planned and tok.record.object == timeline
-        if isinstance(tok.record.start, int)
+        one.start
+        for one in bench.tokens.records()
+        if one.origin == "observation" and one.object == timeline and one.state in ("active", "merged")
+        if isinstance(one.start, int)
     }
 
 
-def _agrees(judge: ProgramJudge, tok: Tok, one: PublishedValue, is_own: bool) -> bool:
+def _agrees(judge: ProgramJudge, tok: Tok, one: Event, is_own: bool) -> bool:
     """Whether a token holds what was published; what a user's model has no place for is `undefined` there."""
     held = tok.record.predicate.rpartition(".")[2]
     if held != one.predicate:
@@ -154,12 +157,12 @@ def _agrees(judge: ProgramJudge, tok: Tok, one: PublishedValue, is_own: bool) ->
     )
 
 
-def _fits(judge: ProgramJudge, tok: Tok, one: PublishedValue) -> bool:
+def _fits(judge: ProgramJudge, tok: Tok, one: Event) -> bool:
     """Whether the user's model certainly has a place for what was published."""
     class_name = tok.record.predicate.rpartition(".")[0]
     known = judge.predicates.get(f"{class_name}.{one.predicate}")
     return known is not None and not one.arguments
 
 
-def _told(one: PublishedValue) -> tuple[tuple[str, Value], ...]:
+def _told(one: Event) -> tuple[tuple[str, Value], ...]:
     return tuple((name, domain_value(domain)) for name, domain in one.arguments)

@@ -4,11 +4,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from checker.judge.bench import Bench, Tok, lasting
+from checker.judge.bulk_tokens import BulkJudge, judge_in_bulk
 from checker.judge.choosing import MOST_TRIES, Choosing
 from checker.judge.operands import BUILT_IN, BodyFrame, VariableNames
 from checker.judge.relating import Step
 from checker.judge.report import Disagreement
 from checker.judge.steps import Domain, Written, compile_body, domain_test
+from checker.judge.tables import Tables
 from checker.judge.values import UNKNOWN, ends_of, is_open, lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
 from nddl_lang.text.source import Span
@@ -49,6 +51,12 @@ class ProgramJudge:
     script: tuple[Step, ...]
     globals: tuple[tuple[int, str, Domain], ...]
     timelines: frozenset[str]  # classes whose objects hold one token at a time
+    bulk: BulkJudge
+
+    @property
+    def codes(self) -> dict[str, PredicateCode]:
+        """The predicates by name."""
+        return self.names.predicates
 
 
 def compile_program(program: Program, written: Written) -> ProgramJudge:
@@ -63,7 +71,8 @@ def compile_program(program: Program, written: Written) -> ProgramJudge:
         if test is not None:
             worlds.append((k, name, test))
     timelines = frozenset(code.name for code in program.classes if code.native == "Timeline")
-    return ProgramJudge(program, names, predicates, rules, script, tuple(worlds), timelines)
+    bulk = BulkJudge(program, written, names.predicates)
+    return ProgramJudge(program, names, predicates, rules, script, tuple(worlds), timelines, bulk)
 
 
 def _predicate(code: PredicateCode, program: Program, written: Written) -> PredicateJudge:
@@ -84,10 +93,11 @@ def _rule(rule: RuleCode, program: Program, written: Written) -> RuleJudge:
     return RuleJudge(tuple(compile_body(rule.body, names, written)), rule.slots, rule.tokens, rule.span)
 
 
-def judge_tokens(judge: ProgramJudge, bench: Bench) -> None:
+def judge_tokens(judge: ProgramJudge, bench: Bench, tables: Tables) -> None:
     """Judge every token that has begun."""
     last = bench.last_tick
-    for tok in bench.tokens.values():
+    left = bench.record.tokens if bench.infers else judge_in_bulk(judge.bulk, bench, tables)
+    for tok in bench.tokens.of(left):
         record = tok.record
         state = record.state
         if state == "active":

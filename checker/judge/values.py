@@ -9,7 +9,7 @@ from math import inf, isinf
 from runtime.executive.record import OpenValues, Value, ValueRange
 
 TOLERANCE = 1e-5
-_RELATIVE = 1e-9  # what sums and products of doubles may lose
+RELATIVE = 1e-9  # what sums and products of doubles may lose
 
 _Scalar = float | int | bool | str
 Hull = tuple[float, float]
@@ -18,7 +18,7 @@ UNKNOWN = ValueRange(-inf, inf)  # what the record does not tell
 
 def slack(value: float) -> float:
     """How far a real may be from what is written."""
-    return TOLERANCE + _RELATIVE * abs(value)
+    return TOLERANCE + RELATIVE * abs(value)
 
 
 def is_near(a: float, b: float) -> bool:

@@ -16,6 +16,7 @@ class ReactorModel:
         self.classes = {each.name: each for each in program.classes}
         self.predicates = {each.name: each for each in program.predicates}
         self.numbers = {each.name: number for number, each in enumerate(program.predicates)}
+        self.short_names = tuple(each.name.rpartition(".")[2] for each in program.predicates)
         self.line_numbers = {line.name: number for number, line in enumerate(lines)}
 
     def ancestors(self, class_name: str) -> list[str]:

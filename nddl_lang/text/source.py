@@ -1,7 +1,10 @@
 """Hold one text and say where in it an offset stands."""
 
+import re
 from bisect import bisect_right
 from dataclasses import dataclass, field
+
+_LINE_END = re.compile("\n")
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -10,15 +13,15 @@ class Source:
 
     name: str
     text: str
-    line_starts: tuple[int, ...] = field(init=False, repr=False)
+    _starts: list[int] = field(init=False, repr=False, default_factory=list)
 
-    def __post_init__(self) -> None:
-        starts = [0]
-        position = self.text.find("\n")
-        while position >= 0:
-            starts.append(position + 1)
-            position = self.text.find("\n", position + 1)
-        object.__setattr__(self, "line_starts", tuple(starts))
+    @property
+    def line_starts(self) -> list[int]:
+        """Where each line begins; found when somebody asks first."""
+        if not self._starts:
+            self._starts.append(0)
+            self._starts.extend(end.end() for end in _LINE_END.finditer(self.text))
+        return self._starts
 
     def locate(self, offset: int) -> tuple[int, int]:
         """Line and column of `offset`, both from 1; an offset past the end stands at the end."""

@@ -1,6 +1,6 @@
 """Ask a machine to start a token: a request, an observation, or a fact of the script."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from runtime.determined.machine import Machine
@@ -22,10 +22,7 @@ _SECTIONS = ((WISH_FROM, WISH_UNTIL), (WISH_END_FROM, WISH_END_UNTIL), (WISH_LEA
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """A token with given values on a timeline, and the bounds of its start, end and duration.
-
-    `origin` says who asks, as the record of a mission does: request, observation or fact.
-    """
+    """A token with given values on a timeline, and the bounds of its start, end and duration."""
 
     line: int
     block: int
@@ -33,19 +30,6 @@ class Ask:
     start: Bounds
     end: Bounds
     duration: Bounds
-    origin: str
-
-
-@dataclass(frozen=True, slots=True)
-class PendingRequest:
-    """All that is asked from a tick on: it takes the place of requests that were asked before.
-
-    What was observed is asked before the tick is carried out, requests after it.
-    """
-
-    tick: int
-    asks: tuple[Ask, ...]
-    is_observed: bool
 
 
 def ask(machine: Machine, wanted: Ask) -> None:
@@ -59,10 +43,9 @@ def ask(machine: Machine, wanted: Ask) -> None:
         machine.registers[machine.wished[line] + k] = value
 
 
-def ask_instead(machine: Machine, asked: PendingRequest) -> None:
+def ask_instead(machine: Machine, wanted: Sequence[Ask]) -> None:
     """Replace all requests that have not started."""
-    if not asked.is_observed:
-        for line in range(machine.lines):
-            machine.present.state[WISH * machine.lines + line] = NONE
-    for wanted in asked.asks:
-        ask(machine, wanted)
+    for line in range(machine.lines):
+        machine.present.state[WISH * machine.lines + line] = NONE
+    for each in wanted:
+        ask(machine, each)

@@ -1,248 +1,341 @@
-"""Expand what a determined reactor executed into the record of the mission, by carrying its inputs out once more.
+"""Executed tokens of a determined reactor: its log in, columns for the record out, expanded to tokens when read."""
 
-In flight only inputs are kept. Here a fresh machine goes from event to event, and what the registers hold after each is
-read: the locals and guards of a block stay in registers of its own until it runs again.
-"""
-
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
 from math import inf
 
+import numpy as np
+
 from compiler.determined.code import BlockToken
-from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS
 from compiler.program import PredicateCode
-from runtime.determined.asking import Ask, PendingRequest, ask, ask_instead
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
-from runtime.determined.reading import TokenReading, values
-from runtime.determined.tags import FAR, LEAST, MOST, NONE, ROW, SLOT, WISHED
+from runtime.determined.reading import BodyReading, TokenReading, values
+from runtime.determined.tags import FAR, LEAST, MOST, OF_RULE, ROW, SHOWN, SLOT, WISHED
+from runtime.determined.token_walk import TokenWalk
+from runtime.executive.columns import (
+    ORIGINS,
+    Array,
+    GuardColumns,
+    RunColumns,
+    TokenColumns,
+    TokenGroup,
+    TokenTimes,
+    ValueColumn,
+)
 from runtime.executive.record import NOBODY, BodyRun, ReactorRecord, TokenRecord, Value, ValueRange
 
 
-@dataclass(eq=False, slots=True)
-class _Held:
-    """A token under way: what is known of it when it starts; `shares` are the children that are merged into it."""
-
-    key: int
-    predicate: PredicateCode
-    line: int
-    start: int
-    arguments: tuple[Value, ...]
-    origin: str
-    runs: tuple[BodyRun, ...] = ()
-    shares: list[tuple[int, str]] = field(default_factory=list)
-
-
 class _Expansion:
-    """The tokens of one reactor; `see` is called after each tick that the machine has carried out."""
+    """The log of one reactor up to a tick, walked over: its rows, then what was merged, then what is awaited."""
 
-    def __init__(self, program: RegisterProgram, machine: Machine) -> None:
+    def __init__(self, program: RegisterProgram, machine: Machine, tick: int) -> None:
         self.program = program
         self.machine = machine
-        self.tokens: list[TokenRecord] = []
-        self.current: dict[int, _Held] = {}
-        self.before: dict[int, _Held] = {}
-        self.awaited: dict[int, tuple[int, PredicateCode]] = {}  # the key of what is to follow on a timeline
-        self.newest = NOBODY
-        self.row = 0
-        self.registers: Sequence[float] = ()
+        self.tick = tick
+        self.walk = TokenWalk(machine.log, program.tokens, machine.lines, _rows_until(machine, tick))
+        for fact in program.first:
+            self.walk.is_fact[fact.line] = 1
+        for line in range(machine.lines):
+            self.walk.is_used[line] = machine.present.is_used[line]
+        self.walk.run()
+        self.rows = np.asarray(machine.log.rows)[: ROW * self.walk.count].reshape(-1, ROW)
+        self.values = np.asarray(machine.log.values)
+        self.keys = np.asarray(self.walk.keys)[: self.walk.count]
+        self.merged = np.asarray(self.walk.merged)[: 3 * self.walk.merged_count].reshape(-1, 3)
+        self.awaited = [line for line in range(machine.lines) if self.walk.awaited[line] >= 0]
+        awaited = np.array([self.walk.awaited[line] for line in self.awaited], np.int64)
+        keys = np.concatenate([self.keys, self.merged[:, 0], awaited])
+        self.order = np.argsort(keys, kind="stable")  # the row of each place
+        self.places = np.empty(len(keys), np.int64)
+        self.places[self.order] = np.arange(len(keys))
+        self.all_keys = keys[self.order]
+        self.slots = self._slots()
 
-    def see(self, tick: int, asked: dict[int, str]) -> None:
-        """Read the tokens that have started at `tick`; `asked` tells the origin of what came from outside."""
-        log = self.machine.log
-        rows = range(self.row, log.row_count)
-        self.row = log.row_count
-        self.registers = memoryview(self.machine.registers)
-        logged = memoryview(log.rows)
-        banks = memoryview(self.machine.current)
-        for row in rows:
-            line, number = logged[ROW * row + 1], logged[ROW * row + 3]
-            predicate = self.program.model.program.predicates[logged[ROW * row + 2]]
-            followed = self.awaited.get(line)
-            origin = "rule" if number < 0 else asked.get(line, "request") if number & WISHED else "own"
-            key = self._new_key()
-            if origin == "own" and followed is not None and followed[1] is predicate:
-                key, origin = self.awaited.pop(line)[0], "rule"
-            if line in self.current:
-                self._close(self.current[line], tick, "over")
-                self.before[line] = self.current[line]
-            arguments = self._arguments(predicate, banks[line])
-            self.current[line] = _Held(key, predicate, line, tick, arguments, origin)
-        for row in rows:
-            number = logged[ROW * row + 3]
-            if number >= 0:
-                self._read(self.program.readings(number & (WISHED - 1)))
+    def _slots(self) -> Array:
+        """Where each row stands among the tokens of the blocks that were run."""
+        found = np.full(self.walk.count, -1)
+        rows = np.asarray(self.walk.child_rows)
+        slots = np.flatnonzero(rows >= 0)
+        found[rows[slots]] = slots
+        return found
 
-    def _read(self, readings: tuple[TokenReading, ...]) -> None:
-        """The children and runs of all tokens of a block."""
-        registers, names = self.registers, self.program.name_of
-        held: list[TokenReading] = []
-        children: dict[tuple[int, int, int], int] = {}
-        for reading in readings:
-            token = reading.token
-            if token.context and not all((registers[k] != 0.0) == truth for k, truth in token.context):
-                continue
-            children[token.parent, token.rule, token.slot] = self._key(token)
-            if reading.bodies:
-                held.append(reading)
-        for reading in held:
-            runs = [body.run(registers, children, names) for body in reading.bodies]
-            self.current[reading.token.line].runs = tuple(runs)
+    # ---- times ----
 
-    def _key(self, token: BlockToken) -> int:
-        """The key of a token that a block knows; children that hold already are merged, followers are awaited."""
-        if token.how in (MERGED, PREVIOUS):
-            key = self._new_key()
-            into = (self.current if token.how == MERGED else self.before)[token.line]
-            into.shares.append((key, token.predicate.name))
-            if token.how == PREVIOUS:
-                self._close_shares(into, self.current[token.line].start)
-            return key
-        if token.how == FOLLOWING:
-            self.awaited[token.line] = (self._new_key(), token.predicate)
-            return self.awaited[token.line][0]
-        return self.current[token.line].key
+    def times(self) -> TokenTimes:
+        """What all tokens have."""
+        program, count = self.program, self.walk.count
+        into = self.merged[:, 2]
+        ends = np.asarray(self.walk.ends)[:count]
+        is_over = ends < FAR
+        least, latest = ends.copy(), ends.astype(float)
+        for row in np.flatnonzero(~is_over).tolist():
+            least[row], latest[row] = self._bounds(row)
+        latest[latest >= FAR] = inf
+        names = [each.name for each in program.model.program.predicates]
+        tokens = np.asarray(program.tokens.predicate)
+        followers = [self.walk.follower[line] for line in self.awaited]
+        many = len(self.awaited)
 
-    def _arguments(self, predicate: PredicateCode, first: int) -> tuple[Value, ...]:
-        where = tuple([(first + k, each.type.kind) for k, each in enumerate(predicate.parameters)])
-        return values(self.registers, where, self.program.name_of)
+        def all_of(own: Array, merged: Array, awaited: Sequence[float]) -> Array:
+            return np.concatenate([own, merged, np.array(awaited, own.dtype)])[self.order]
 
-    def _new_key(self) -> int:
-        self.newest += 1
-        return self.newest
-
-    # ---- the ends ----
-
-    def _close(self, held: _Held, end: int, fate: str) -> None:
-        """Record a token that ended at a tick, with what is merged into it."""
-        self.tokens.append(self._record(held, end, end - held.start, fate, end))
-        self._close_shares(held, end)
-
-    def _close_shares(self, held: _Held, tick: int) -> None:
-        line = self.program.model.lines[held.line].name
-        end: Value = tick
-        for key, name in held.shares:
-            self.tokens.append(
-                TokenRecord(
-                    key,
-                    name,
-                    line,
-                    "merged",
-                    tick - held.start,
-                    held.start,
-                    end,
-                    held.arguments,
-                    held.key,
-                    "rule",
-                    "over",
-                    tick,
-                    (),
-                )
-            )
-        held.shares.clear()
-
-    def _record(self, held: _Held, end: Value, duration: Value, fate: str, tick: int) -> TokenRecord:
-        line = self.program.model.lines[held.line].name
-        return TokenRecord(
-            held.key,
-            held.predicate.name,
-            line,
-            "active",
-            duration,
-            held.start,
-            end,
-            held.arguments,
-            NOBODY,
-            held.origin,
-            fate,
-            tick,
-            held.runs,
+        lines = self.rows[:, 1]
+        origins = np.asarray(self.walk.origins)[:count]
+        shift = len(names)
+        return TokenTimes(
+            self.all_keys,
+            all_of(self.rows[:, 2], tokens[self.merged[:, 1]] if len(tokens) else into, followers),
+            all_of(lines + shift, lines[into] + shift, [line + shift for line in self.awaited]),
+            all_of(np.zeros(count, np.int64), np.ones(len(into), np.int64), [2] * many),
+            all_of(self.rows[:, 0], self.rows[into, 0], [self.tick + 1] * many),
+            all_of(least, least[into], [self.tick + 1] * many),
+            all_of(latest, latest[into], [inf] * many),
+            all_of(np.full(count, NOBODY), self.keys[into], [NOBODY] * many),
+            all_of(origins, np.full(len(into), OF_RULE), [OF_RULE] * many),
+            all_of(is_over, is_over[into], [False] * many),
+            all_of(np.where(is_over, ends, self.tick), np.where(is_over, ends, self.tick)[into], [self.tick] * many),
         )
 
-    def finish(self, tick: int) -> tuple[TokenRecord, ...]:
-        """What still holds when the mission ends, its end as far as it is known; and what was still to follow."""
+    def _bounds(self, row: int) -> tuple[int, float]:
+        """The bounds of the end of a token that holds when the mission ends."""
         present, n = self.machine.present, self.machine.lines
-        for line, held in sorted(self.current.items()):
-            slot = int(present.state[SLOT * n + line])
-            least, most = int(present.state[LEAST * n + slot]), int(present.state[MOST * n + slot])
-            end: Value = least if least == most else ValueRange(least, inf if most >= FAR else most)
-            lasting: Value = least - held.start
-            if isinstance(end, ValueRange):
-                lasting = ValueRange(end.lower - held.start, end.upper - held.start)
-            self.tokens.append(self._record(held, end, lasting, "end", tick))
-            name = self.program.model.lines[line].name
-            for key, shared in held.shares:
-                self.tokens.append(
-                    TokenRecord(
-                        key,
-                        shared,
-                        name,
-                        "merged",
-                        lasting,
-                        held.start,
-                        end,
-                        held.arguments,
-                        held.key,
-                        "rule",
-                        "end",
-                        tick,
-                        (),
-                    )
-                )
-        for line, (key, predicate) in sorted(self.awaited.items()):
-            name = self.program.model.lines[line].name
-            arguments = self._arguments(predicate, self.machine.following[line])
-            later, lasting = ValueRange(tick + 1, inf), ValueRange(1, inf)
-            self.tokens.append(
-                TokenRecord(
-                    key,
-                    predicate.name,
-                    name,
-                    "inactive",
-                    lasting,
-                    later,
-                    later,
-                    arguments,
-                    NOBODY,
-                    "rule",
-                    "end",
-                    tick,
-                    (),
-                )
-            )
-        return tuple(sorted(self.tokens))
+        slot = int(present.state[SLOT * n + self.rows[row, 1]])
+        return int(present.state[LEAST * n + slot]), float(present.state[MOST * n + slot])
+
+    # ---- single tokens ----
+
+    def token(self, place: int) -> TokenRecord:
+        """One token of the record."""
+        row, count = int(self.order[place]), self.walk.count
+        if row < count:
+            return self._started(row)
+        if row < count + len(self.merged):
+            return self._merged(row - count)
+        return self._awaited(self.awaited[row - count - len(self.merged)])
+
+    def _started(self, row: int) -> TokenRecord:
+        start, line, predicate, _, first = self.rows[row, :5].tolist()
+        code = self.program.model.program.predicates[predicate]
+        end, duration, fate, tick = self._end(row, start)
+        return TokenRecord(
+            int(self.keys[row]),
+            code.name,
+            self.program.model.lines[line].name,
+            "active",
+            duration,
+            start,
+            end,
+            self._arguments(code, first),
+            NOBODY,
+            ORIGINS[self.walk.origins[row]],
+            fate,
+            tick,
+            self._runs(row),
+        )
+
+    def _end(self, row: int, start: int) -> tuple[Value, Value, str, int]:
+        """End and duration of a token, as far as they are known; its fate, and when it was recorded."""
+        end = int(self.walk.ends[row])
+        if end < FAR:
+            return end, end - start, "over", end
+        least, most = self._bounds(row)
+        if least == most:
+            return least, least - start, "end", self.tick
+        latest = inf if most >= FAR else int(most)
+        return ValueRange(least, latest), ValueRange(least - start, latest - start), "end", self.tick
+
+    def _arguments(self, code: PredicateCode, first: int) -> tuple[Value, ...]:
+        where = tuple([(k, each.type.kind) for k, each in enumerate(code.parameters)])
+        return values(self.machine.log.values_from(first, len(where)), where, self.program.name_of)
+
+    def _runs(self, row: int) -> tuple[BodyRun, ...]:
+        root, number = self._block_of(row)
+        readings = self.program.readings(self.rows[root, 3] & (WISHED - 1))
+        reading = readings[number]
+        if not reading.bodies:
+            return ()
+        shown = self.program.shown_places[self.rows[root, 3] & (WISHED - 1)]
+        first = int(self.rows[root, SHOWN])
+        logged = self.machine.log.values_from(first, len(shown))
+        registers = {register: logged[place] for register, place in shown.items()}
+        base = int(self.walk.children[root])
+        children = {
+            (each.token.parent, each.token.rule, each.token.slot): int(self.walk.child_keys[base + each.number])
+            for each in readings
+        }
+        names = self.program.name_of
+        return tuple([body.run(registers, children, names) for body in reading.bodies])
+
+    def _block_of(self, row: int) -> tuple[int, int]:
+        """The row that began a token's block, and the number of the token there."""
+        block = int(self.rows[row, 3])
+        root = row if block >= 0 else -1 - block
+        return root, int(self.slots[row]) - int(self.walk.children[root])
+
+    def _merged(self, number: int) -> TokenRecord:
+        key, token, row = self.merged[number].tolist()
+        start, line, predicate, _, first = self.rows[row, :5].tolist()
+        end, duration, fate, tick = self._end(row, start)
+        codes = self.program.model.program.predicates
+        return TokenRecord(
+            key,
+            codes[self.program.tokens.predicate[token]].name,
+            self.program.model.lines[line].name,
+            "merged",
+            duration,
+            start,
+            end,
+            self._arguments(codes[predicate], first),
+            int(self.keys[row]),
+            "rule",
+            fate,
+            tick,
+            (),
+        )
+
+    def _awaited(self, line: int) -> TokenRecord:
+        """What was still to follow when the mission ended."""
+        code = self.program.model.program.predicates[self.walk.follower[line]]
+        later, lasting = ValueRange(self.tick + 1, inf), ValueRange(1, inf)
+        first = self.machine.following[line]
+        where = tuple([(first + k, each.type.kind) for k, each in enumerate(code.parameters)])
+        return TokenRecord(
+            int(self.walk.awaited[line]),
+            code.name,
+            self.program.model.lines[line].name,
+            "inactive",
+            lasting,
+            later,
+            later,
+            values(memoryview(self.machine.registers), where, self.program.name_of),
+            NOBODY,
+            "rule",
+            "end",
+            self.tick,
+            (),
+        )
+
+    # ---- tokens that are alike ----
+
+    def groups(self) -> tuple[TokenGroup, ...]:
+        """All tokens that have begun, by the block that began them and the branches that it took."""
+        roots = np.flatnonzero(np.asarray(self.walk.children)[: self.walk.count] >= 0)
+        blocks = self.rows[roots, 3] & (WISHED - 1)
+        found: list[TokenGroup] = []
+        for block in np.unique(blocks).tolist():
+            found += self._groups_of(block, roots[blocks == block])
+        return tuple(found)
+
+    def _groups_of(self, block: int, roots: Array) -> Iterator[TokenGroup]:
+        """The tokens of one block."""
+        readings, shown = self.program.readings(block), self.program.shown_places[block]
+        table = self.values[self.rows[roots, SHOWN][:, None] + np.arange(len(shown))]
+        first = np.asarray(self.walk.children)[roots]
+        truths = np.zeros((len(roots), len(shown)), bool)
+        for reading in readings:
+            for body in reading.bodies:
+                _note_truths(body, table, shown, np.ones(len(roots), bool), truths)
+        kinds = np.zeros(len(roots), np.int64)
+        for guard in np.flatnonzero(truths.any(axis=0)).tolist():
+            _, kinds = np.unique(2 * kinds + truths[:, guard], return_inverse=True)
+        for kind in range(int(kinds.max()) + 1):
+            alike = np.flatnonzero(kinds == kind)
+            part = _Part(self, table[alike], first[alike], shown, readings)
+            for reading in readings:
+                rows = np.asarray(self.walk.child_rows)[first[alike] + reading.number]
+                if rows[0] >= 0:
+                    yield part.group(reading, rows)
+
+    def columns(self, code: PredicateCode, rows: Array) -> tuple[ValueColumn, ...]:
+        """The parameters of tokens of one predicate."""
+        at = self.rows[rows, 4]
+        return tuple(_column(self.values[at + k], each.type.kind) for k, each in enumerate(code.parameters))
 
 
-def expand(
-    program: RegisterProgram, machine: Machine, asked: Sequence[PendingRequest], reach: int, until: int
-) -> tuple[TokenRecord, ...]:
-    """Carry out once more, on a fresh machine, what was asked up to tick `until`; all tokens, by key."""
-    machine.present.reach = reach
-    for fact in program.first:
-        ask(machine, Ask(fact.line, fact.block, fact.values, (0, 0), fact.end, (1, FAR), "fact"))
-    expansion = _Expansion(program, machine)
-    origins = dict.fromkeys((fact.line for fact in program.first), "fact")
-    waiting = list(asked)
-    tick = NONE
-    while tick < until:
-        due = max(min([machine.present.next_event(tick), until, *(each.tick for each in waiting[:1])]), tick + 1)
-        while waiting and waiting[0].tick == due and waiting[0].is_observed:
-            observed = waiting.pop(0)
-            ask_instead(machine, observed)
-            origins |= {each.line: each.origin for each in observed.asks}
-        if machine.present.next_event(due - 1) <= due and not machine.tick(due):
-            break
-        expansion.see(due, origins)
-        origins = {line: origin for line, origin in origins.items() if origin == "observation"}
-        while waiting and waiting[0].tick == due:
-            ask_instead(machine, waiting.pop(0))
-        tick = due
-    return expansion.finish(until)
+class _Part:
+    """Runs of one block that took the same branches."""
+
+    def __init__(
+        self,
+        expansion: _Expansion,
+        table: Array,
+        first: Array,
+        shown: dict[int, int],
+        readings: tuple[TokenReading, ...],
+    ) -> None:
+        self.expansion = expansion
+        self.table = table
+        self.shown = shown
+        keys = np.asarray(expansion.walk.child_keys)
+        self.children = {
+            (each.token.parent, each.token.rule, each.token.slot): keys[first + each.number] for each in readings
+        }
+
+    def group(self, reading: TokenReading, rows: Array) -> TokenGroup:
+        """One token of the block in all its runs."""
+        token: BlockToken = reading.token
+        expansion = self.expansion
+        return TokenGroup(
+            token.predicate.name,
+            expansion.program.model.lines[token.line].name,
+            expansion.places[rows],
+            expansion.columns(token.predicate, rows),
+            tuple(self._run(body) for body in reading.bodies),
+        )
+
+    def _run(self, body: BodyReading) -> RunColumns:
+        guards = []
+        for guard in body.guards:
+            is_true = bool(self.table[0, self.shown[guard.register]] != 0.0)
+            branch = guard.then if is_true else guard.otherwise
+            guards.append(GuardColumns("then" if is_true else "else", None if branch is None else self._run(branch)))
+        return RunColumns(
+            body.rule,
+            tuple(_column(self.table[:, self.shown[register]], kind) for register, kind in body.named),
+            tuple(self.children[child] for child in body.children),
+            tuple(guards),
+        )
 
 
-def record_of(frame: ReactorRecord, name: str, tokens: tuple[TokenRecord, ...], tick: int) -> ReactorRecord:
+def _note_truths(body: BodyReading, table: Array, shown: dict[int, int], reached: Array, truths: Array) -> None:
+    """Note where the guards of a body are reached and true."""
+    for guard in body.guards:
+        place = shown[guard.register]
+        is_true = table[:, place] != 0.0
+        truths[:, place] |= reached & is_true
+        for branch, taken in ((guard.then, is_true), (guard.otherwise, ~is_true)):
+            if branch is not None:
+                _note_truths(branch, table, shown, reached & taken, truths)
+
+
+def _column(numbers: Array, kind: str) -> ValueColumn:
+    if kind == "float":
+        return ValueColumn(kind, numbers + 0.0)  # no negative zero
+    if np.isnan(numbers).any():
+        return ValueColumn(kind, numbers)
+    return ValueColumn(kind if kind in ("int", "bool") else "name", numbers.astype(np.int64))
+
+
+def _rows_until(machine: Machine, tick: int) -> int:
+    """How many rows of the log there are up to a tick."""
+    count = int(machine.log.row_count)
+    while count and machine.log.rows[ROW * (count - 1)] > tick:
+        count -= 1
+    return count
+
+
+def expand(program: RegisterProgram, machine: Machine, tick: int) -> TokenColumns:
+    """The tokens that a machine has executed up to `tick`, where it stands."""
+    expansion = _Expansion(program, machine, tick)
+    names = [each.name for each in program.model.program.predicates] + [each.name for each in program.model.lines]
+    return TokenColumns(expansion.times(), names, program.all_names(), expansion.groups, expansion.token)
+
+
+def record_of(frame: ReactorRecord, name: str, tokens: TokenColumns, tick: int) -> ReactorRecord:
     """The record of a reactor; `frame` is that of its script, whose facts are found again by their timelines."""
-    facts = {str(token.object): token.key for token in tokens if token.origin == "fact"}
+    fact = ORIGINS.index("fact")
+    found = np.flatnonzero(tokens.times.origins == fact).tolist()
+    facts = {tokens.names[tokens.times.objects[place]]: int(tokens.times.keys[place]) for place in found}
     lines = {token.key: str(token.object) for token in frame.tokens}
     script = tuple(facts.get(lines.get(key, ""), NOBODY) for key in frame.script_tokens)
     return frame._replace(reactor=name, last_tick=tick, script_tokens=script, tokens=tokens)

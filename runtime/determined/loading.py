@@ -9,16 +9,18 @@ from compiler.determined.assemble import compile_block
 from compiler.determined.code import FOLLOW, STRIDE, WHEN_FALSE, WHEN_TRUE, Line, RegisterBlock, RegisterLayout
 from compiler.determined.model import ReactorModel
 from compiler.determined.reasons import ChoiceReason, FreeChoice, UndeterminedError
-from compiler.determined.relations import TOGETHER
+from compiler.determined.relations import FOLLOWING, MERGED, PREVIOUS, TOGETHER
 from compiler.program import DomainConstant, PredicateCode, Program
 from runtime.determined.machine import Machine
 from runtime.determined.reading import TokenReading, readings_of
-from runtime.determined.tags import FAR, NONE
+from runtime.determined.tags import FAR, IS_FOLLOWING, IS_MERGED, IS_PREVIOUS, IS_TOGETHER, NONE
+from runtime.determined.token_walk import BlockTokens
 from runtime.executive.record import ReactorRecord
 from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_FACT
 
 _FIRST_TICK = 0
+_FOUND = {MERGED: IS_MERGED, PREVIOUS: IS_PREVIOUS, FOLLOWING: IS_FOLLOWING}
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +50,11 @@ class RegisterProgram:
     starts: "array[int]" = field(default_factory=lambda: array("q", [0]))
     constants: dict[int, float] = field(default_factory=dict)  # register -> value of globals and members
     names: list[str] = field(default_factory=list)  # texts of the numbers of symbols
-    read: dict[int, tuple[TokenReading, ...]] = field(default_factory=dict)
+    read: list[tuple[TokenReading, ...]] = field(default_factory=lambda: [()])
+    tokens: BlockTokens = field(default_factory=BlockTokens)
+    shown: "array[int]" = field(default_factory=lambda: array("q"))  # registers, block after block
+    shown_first: "array[int]" = field(default_factory=lambda: array("q", [0, 0]))
+    shown_places: list[dict[int, int]] = field(default_factory=lambda: [{}])
     told: dict[tuple[str, str, float], DomainConstant] = field(default_factory=dict)  # values that others were told
 
     def block(self, line: int, predicate: PredicateCode, mask: int) -> int:
@@ -60,6 +66,7 @@ class RegisterProgram:
         number = len(self.blocks)
         self.numbers[key] = number
         self.blocks.append(made)
+        self._show(made, readings_of(made, self.model.program.rules))
         base = len(self.code) // STRIDE
         self.starts.append(base * STRIDE)
         here = len(self.code)
@@ -76,19 +83,39 @@ class RegisterProgram:
                 self.code[here + STRIDE * k + 6] = follower
         return number
 
+    def _show(self, made: RegisterBlock, readings: tuple[TokenReading, ...]) -> None:
+        """Note which tokens a new block knows, and which registers show what it did."""
+        self.read.append(readings)
+        registers = [k for each in readings for body in each.bodies for k in body.registers()]
+        registers += [k for token in made.tokens for k, _ in token.context]
+        places = {register: place for place, register in enumerate(dict.fromkeys(registers))}
+        self.shown.extend(places)
+        self.shown_first.append(len(self.shown))
+        self.shown_places.append(places)
+        for token in made.tokens:
+            self.tokens.how.append(_FOUND.get(token.how, IS_TOGETHER))
+            self.tokens.line.append(token.line)
+            self.tokens.predicate.append(self.model.number(token.predicate))
+            for register, truth in token.context:
+                self.tokens.places.append(places[register])
+                self.tokens.truths.append(truth)
+            self.tokens.context.append(len(self.tokens.places))
+        self.tokens.first.append(len(self.tokens.how))
+
     def readings(self, number: int) -> tuple[TokenReading, ...]:
         """How the registers show what block `number` did."""
-        if number not in self.read:
-            block = self.blocks[number]
-            self.read[number] = () if block is None else readings_of(block, self.model.program.rules)
         return self.read[number]
 
     def name_of(self, number: int) -> str:
         """The text, enum value or object of a number."""
-        if number >= len(self.names):
-            symbols = self.layout.symbols
+        return self.all_names()[number]
+
+    def all_names(self) -> list[str]:
+        """Texts, enum values and objects by number."""
+        symbols = self.layout.symbols
+        if len(self.names) < len(symbols):
             self.names[:] = sorted(symbols, key=lambda name: symbols[name])
-        return self.names[number]
+        return self.names
 
     def machine(self, world: object) -> Machine:
         """A machine on which nothing has happened yet."""
@@ -129,11 +156,16 @@ class RegisterProgram:
         machine.block_predicate = array(
             "q", [NONE if each is None else self.model.number(each.predicate) for each in self.blocks]
         )
+        machine.shown = array("q", self.shown or [0])
+        machine.shown_first = array("q", self.shown_first)
         machine.block_mask = array("q", [0 if each is None else each.mask for each in self.blocks])
         count = max(len(layout.samples), 1)
         if len(machine.sample_value) < count:
-            machine.sample_value = array("d", bytes(8 * count))
-            machine.sample_until = array("q", [NONE] * count)
+            missing = count - len(machine.sample_value)
+            machine.sample_value = array("d", machine.sample_value) + array("d", bytes(8 * missing))
+            machine.sample_until = array("q", machine.sample_until) + array("q", [NONE] * missing)
+            machine.kept_value = array("d", machine.kept_value) + array("d", bytes(8 * missing))
+            machine.kept_until = array("q", machine.kept_until) + array("q", [NONE] * missing)
 
 
 def load_determined(

@@ -2,22 +2,29 @@
 
 from array import array
 
-from runtime.determined.tags import ROW
+from runtime.determined.tags import CAUSE, EVENT, FAR, ROW, SHOWN
 
 
 class Log:
-    """Arrays that grow by doubling."""
+    """Arrays that grow by doubling; `told` has the rows that are part of the trace, in the order of their events."""
 
-    def __init__(self) -> None:
+    def __init__(self, lines: int) -> None:
         self.rows = array("q", bytes(8 * ROW * 256))
         self.values = array("d", bytes(8 * 1024))
         self.draws = array("q", bytes(8 * 2 * 64))  # tick, parameter
+        self.told = array("q", bytes(8 * 256))
+        self.latest = array("q", [-1]) * lines  # the latest event of each timeline
+        self.order = array("q", bytes(8 * lines))  # own timelines, as they are told
+        self.shown = 0  # how many of them
         self.row_count = 0
         self.row_capacity = 256
         self.value_count = 0
         self.value_capacity = 1024
         self.draw_count = 0
         self.draw_capacity = 64
+        self.told_count = 0
+        self.told_rows = 0  # how many rows have been told
+        self.told_draws = 0
 
     def note(self, tick: int, line: int, predicate: int, block: int) -> int:
         """Add a token; its row."""
@@ -41,6 +48,15 @@ class Log:
         self.value_count = at + width
         return at
 
+    def show(self, row: int, width: int) -> int:
+        """Make room for the values that the block of a row shows; where they go."""
+        while self.value_count + width > self.value_capacity:
+            self.grow_values()
+        at = self.value_count
+        self.rows[ROW * row + SHOWN] = at
+        self.value_count = at + width
+        return at
+
     def note_draw(self, tick: int, parameter: int) -> int:
         """Add a draw."""
         if self.draw_count == self.draw_capacity:
@@ -52,14 +68,81 @@ class Log:
         return 0
 
     def forget_from(self, tick: int) -> int:
-        """Take back what happened at `tick` or later."""
+        """Take back what happened at `tick` or later; what was told of it will come again."""
         while self.row_count and self.rows[ROW * (self.row_count - 1)] >= tick:
             self.row_count -= 1
             if self.rows[ROW * self.row_count + 4] >= 0:
                 self.value_count = self.rows[ROW * self.row_count + 4]
         while self.draw_count and self.draws[2 * (self.draw_count - 1)] >= tick:
             self.draw_count -= 1
+        self.told_draws = min(self.told_draws, self.draw_count)
         return 0
+
+    def next_tick(self) -> int:
+        """The tick of the first row that has not been told."""
+        return self.rows[ROW * self.told_rows] if self.told_rows < self.row_count else FAR
+
+    def tell(self, until: int, busy: int, event: int) -> int:
+        """Number the tokens of whole ticks up to `until` as events, from `event` on; how many have been numbered.
+
+        It stops before a tick with a draw, or with a token on a timeline of `busy`.
+        """
+        row = self.told_rows
+        drawn = self.draws[2 * self.told_draws] if self.told_draws < self.draw_count else FAR
+        first = event
+        while row < self.row_count:
+            tick = self.rows[ROW * row]
+            if tick > until or tick >= drawn:
+                break
+            changed = 0
+            last = row
+            while last < self.row_count and self.rows[ROW * last] == tick:
+                changed |= 1 << self.rows[ROW * last + 1]
+                last += 1
+            if changed & busy:
+                break
+            for k in range(self.shown):
+                line = self.order[k]
+                if changed >> line & 1:
+                    self.tell_row(self.row_of(line, row), event, self.latest[line])
+                    event += 1
+            row = last
+        self.told_rows = row
+        return event - first
+
+    def row_of(self, line: int, row: int) -> int:
+        """The row of a timeline's token that started at the tick of `row`, the first of that tick."""
+        while self.rows[ROW * row + 1] != line:
+            row += 1
+        return row
+
+    def tell_row(self, row: int, event: int, cause: int) -> int:
+        """Number one token."""
+        if self.told_count == len(self.told):
+            self.told = array("q", bytes(self.told) + bytes(8 * self.told_count))
+        self.told[self.told_count] = row
+        self.told_count += 1
+        self.rows[ROW * row + EVENT] = event
+        self.rows[ROW * row + CAUSE] = cause
+        self.latest[self.rows[ROW * row + 1]] = event
+        return 0
+
+    def row(self, row: int) -> tuple[int, ...]:
+        """The columns of a row."""
+        at = ROW * row
+        return (
+            self.rows[at],
+            self.rows[at + 1],
+            self.rows[at + 2],
+            self.rows[at + 3],
+            self.rows[at + 4],
+            self.rows[at + EVENT],
+            self.rows[at + CAUSE],
+        )
+
+    def values_from(self, first: int, count: int) -> list[float]:
+        """Parameters of a token."""
+        return [self.values[first + k] for k in range(count)]
 
     def grow_rows(self) -> int:
         """Make room for twice as many tokens."""

@@ -11,13 +11,13 @@ cdef double _LARGEST, _NAN, _TOLERANCE
 
 cdef class Machine:
     cdef public long long lines, root_row, why
-    cdef public bint is_planned, is_trial
+    cdef public bint is_planned, is_trial, shows
     cdef public object world
     cdef public Present present
     cdef public Log log
-    cdef public double[::1] registers, kept, sample_value
-    cdef public long long[::1] current, following, incoming, wished, previous, remembers, starts, width, default_block, order
-    cdef public long long[::1] block_start, block_predicate, block_mask, sample_until
+    cdef public double[::1] registers, kept, sample_value, kept_value
+    cdef public long long[::1] current, following, incoming, wished, previous, remembers, starts, width, default_block, order, shown, shown_first
+    cdef public long long[::1] block_start, block_predicate, block_mask, sample_until, kept_until
     cdef public int[::1] code
 
     cpdef int keep(self) except -1

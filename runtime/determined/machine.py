@@ -51,7 +51,7 @@ class Machine:
         self.lines = lines
         self.world = world  # draws the sampled parameters
         self.present = Present(lines)
-        self.log = Log()
+        self.log = Log(lines)
         self.registers = array("d", [0.0])
         self.kept = array("d", [0.0])
         self.current = array("q", bytes(8 * lines))  # banks of registers
@@ -72,19 +72,28 @@ class Machine:
         self.block_mask = array("q", [0])
         self.sample_value = array("d", [0.0])
         self.sample_until = array("q", [NONE])
+        self.kept_value = array("d", [0.0])
+        self.kept_until = array("q", [NONE])
         self.root_row = 0
+        self.shows = False  # whether the values of rules are logged too, for the record
+        self.shown = array("q", [0])  # registers, block after block
+        self.shown_first = array("q", [0])
         self.why = RUNS_ON
 
     def keep(self) -> int:
         """Take a snapshot."""
         self.present.kept[:] = self.present.state
         self.kept[:] = self.registers
+        self.kept_value[:] = self.sample_value
+        self.kept_until[:] = self.sample_until
         return 0
 
     def go_back(self) -> int:
         """Return to the snapshot."""
         self.present.state[:] = self.present.kept
         self.registers[:] = self.kept
+        self.sample_value[:] = self.kept_value
+        self.sample_until[:] = self.kept_until
         return 0
 
     def run(self, tick: int, limit: int, watched: int) -> int:
@@ -199,6 +208,11 @@ class Machine:
                 if value >= _LARGEST or value <= -_LARGEST:
                     return False  # as good as infinite
                 log.values[at + j] = value
+        if self.shows:
+            first = self.shown_first[block]
+            at = log.show(self.root_row, self.shown_first[block + 1] - first)
+            for j in range(self.shown_first[block + 1] - first):
+                log.values[at + j] = self.registers[self.shown[first + j]]
         return True
 
     def start(self, i: int, predicate: int) -> int:

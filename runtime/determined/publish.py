@@ -1,6 +1,5 @@
 """Publish what a machine has carried out: its log in, events of the trace and observations for users out."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from runtime.determined.arguments import arguments_of
@@ -8,7 +7,7 @@ from runtime.determined.loading import RegisterProgram
 from runtime.determined.log import Log
 from runtime.determined.tags import ROW, WISHED
 from runtime.executive.messages import Observation, Request
-from runtime.executive.outcome import Draw, EventKind, Phase
+from runtime.executive.outcome import Draw, Event, EventKind, Phase
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import TokenName
 
@@ -29,55 +28,106 @@ class Wish:
 
 
 class Publisher:
-    """Tells the log of one reactor, each row once."""
+    """Tells the log of one reactor, each row once; it is the columns that the trace expands."""
 
-    def __init__(self, name: str, program: RegisterProgram, trace: Trace) -> None:
+    def __init__(self, name: str, program: RegisterProgram, log: Log, trace: Trace) -> None:
         self.name = name
         self.program = program
+        self.log = log
         self.trace = trace
-        self.told = 0  # the tick up to which the log has been told
-        self.row = 0
-        self.draw_row = 0
-        self.events = [_NOTHING] * len(program.layout.lines)  # the latest event of each timeline
+        for k, line in enumerate(program.internal):
+            log.order[k] = line
+        log.shown = len(program.internal)
         self.draws: dict[tuple[int, int], Draw] = {}
         self.wishes: list[Wish] = []
         self.asked: dict[int, Wish] = {}  # what the machine is to start on each timeline
+        self.busy = 0  # timelines on which something is asked for or under way
 
-    def tell(self, log: Log, until: int) -> list[Observation]:
-        """Put on record what has started up to tick `until`; the observations of that very tick."""
-        trace = self.trace
+    def tell(self, until: int, watched: int) -> list[Observation]:
+        """Put on record what has started up to tick `until`; the observations of that very tick, if `watched`."""
+        log, trace = self.log, self.trace
+        while log.next_tick() <= until:
+            first = log.told_count
+            count = log.tell(until, self.busy, len(trace.events))
+            if count:
+                trace.events.extend(self, first, count)
+            if log.next_tick() <= until:
+                self._tell_tick(log.next_tick())
+        return self._seen(until, watched) if watched else []
+
+    def look(self) -> None:
+        """Take note of which timelines have requests."""
+        self.busy = 0
+        for wish in self.wishes:
+            if wish.ended < 0 and (wish.started >= 0 or not wish.is_recalled):
+                self.busy |= 1 << wish.line
+        for line in self.asked:
+            self.busy |= 1 << line
+
+    def event(self, place: int) -> Event:
+        """An event of the trace, by its place among those that were told."""
+        row = self.log.told[place]
+        tick, line, predicate, _, first, _, cause = self.log.row(row)
+        code = self.program.model.program.predicates[predicate]
+        return Event(
+            tick,
+            Phase.OBSERVE,
+            EventKind.OBSERVATION,
+            self.name,
+            self.program.model.lines[line].name,
+            self.program.model.short_names[predicate],
+            arguments_of(self.program, code, self.log.values_from(first, len(code.parameters))),
+            (cause,) if cause >= 0 else (),
+            TokenName(code.name, row),
+        )
+
+    def _seen(self, tick: int, watched: int) -> list[Observation]:
+        """What has started at a tick, the last that was told, on timelines that somebody uses."""
+        found: list[Observation] = []
+        log = self.log
+        place = log.told_count - 1
+        while place >= 0 and log.rows[ROW * log.told[place]] == tick:
+            if watched >> log.rows[ROW * log.told[place] + 1] & 1:
+                found.append(self._observation(log.told[place]))
+            place -= 1
+        found.reverse()
+        return found
+
+    def _observation(self, row: int) -> Observation:
+        tick, line, predicate, _, first, event, _ = self.log.row(row)
+        program = self.program
+        code = program.model.program.predicates[predicate]
+        arguments = arguments_of(program, code, self.log.values_from(first, len(code.parameters)))
+        name, short = program.model.lines[line].name, program.model.short_names[predicate]
+        return Observation(tick, name, short, arguments, event, self.name, row, tick)
+
+    def _tell_tick(self, tick: int) -> None:
+        """Put a tick on record in which something was drawn, or something that was asked for begins or ends."""
+        log, trace = self.log, self.trace
         now, phase = trace.tick, trace.phase
-        published: list[Observation] = []
-        logged, values = memoryview(log.rows), memoryview(log.values)
-        while self.row < log.row_count and logged[ROW * self.row] <= until:
-            tick = logged[ROW * self.row]
-            last = self.row
-            while last < log.row_count and logged[ROW * last] == tick:
-                last += 1
-            trace.tick, trace.phase = tick, Phase.SYNCHRONISE
-            self._tell_draws(log, tick)
-            rows = {logged[ROW * row + 1]: row for row in range(self.row, last)}
-            self._tell_achieved(rows, tick)
-            trace.phase = Phase.OBSERVE
-            found = [
-                self._observe(logged, values, line, rows[line], tick) for line in self.program.internal if line in rows
-            ]
-            if tick == until:
-                published = found
-            self.row = last
+        trace.tick, trace.phase = tick, Phase.SYNCHRONISE
+        self._tell_draws(tick)
+        rows: dict[int, int] = {}
+        while log.told_rows < log.row_count and log.rows[ROW * log.told_rows] == tick:
+            rows[log.rows[ROW * log.told_rows + 1]] = log.told_rows
+            log.told_rows += 1
+        self._tell_achieved(rows, tick)
+        for line in self.program.internal:
+            if line in rows:
+                row = rows[line]
+                wish = self._answered(line, log.rows[ROW * row + 3], tick)
+                cause = wish.request.event if wish is not None else log.latest[line]
+                log.tell_row(row, len(trace.events), cause)
+                trace.events.extend(self, log.told_count - 1, 1)
+        self.look()
         trace.tick, trace.phase = now, phase
-        return published
 
-    def go_back(self, log: Log) -> None:
-        """After the log was shortened: what was told stays told, for it will come again."""
-        self.row = min(self.row, log.row_count)
-        self.draw_row = min(self.draw_row, log.draw_count)
-
-    def _tell_draws(self, log: Log, tick: int) -> None:
-        while self.draw_row < log.draw_count and log.draws[2 * self.draw_row] <= tick:
-            at, parameter = log.draws[2 * self.draw_row : 2 * self.draw_row + 2]
+    def _tell_draws(self, tick: int) -> None:
+        log = self.log
+        while log.told_draws < log.draw_count and log.draws[2 * log.told_draws] <= tick:
+            at, parameter = log.draws[2 * log.told_draws : 2 * log.told_draws + 2]
             self.trace.record_draw(self.name, self.draws[int(parameter), int(at)])
-            self.draw_row += 1
+            log.told_draws += 1
 
     def _tell_achieved(self, rows: dict[int, int], tick: int) -> None:
         """What was asked for is done as soon as something else holds."""
@@ -95,22 +145,6 @@ class Publisher:
                         (request.event,),
                         request=request.number,
                     )
-
-    def _observe(self, logged: Sequence[int], values: Sequence[float], line: int, row: int, tick: int) -> Observation:
-        program = self.program
-        predicate = program.model.program.predicates[logged[ROW * row + 2]]
-        first = logged[ROW * row + 4]
-        arguments = arguments_of(program, predicate, values[first : first + len(predicate.parameters)])
-        short = predicate.name.rpartition(".")[2]
-        wish = self._answered(line, logged[ROW * row + 3], tick)
-        last = self.events[line]
-        causes = (wish.request.event,) if wish is not None else (last,) if last >= 0 else ()
-        name = program.model.lines[line].name
-        event = self.trace.record(
-            EventKind.OBSERVATION, self.name, name, short, arguments, causes, token=TokenName(predicate.name, row)
-        )
-        self.events[line] = event
-        return Observation(tick, name, short, arguments, event, self.name, row, tick)
 
     def _answered(self, line: int, block: int, tick: int) -> Wish | None:
         """The request that a token answers."""

@@ -7,13 +7,13 @@ that came from outside so far, and goes on from there. The general engine is the
 from collections.abc import Callable
 
 from runtime.determined.arguments import given_block
-from runtime.determined.asking import Ask, PendingRequest, ask, ask_instead
+from runtime.determined.asking import Ask, ask, ask_instead
 from runtime.determined.expand import expand, record_of
 from runtime.determined.inputs import Inputs, catch_up, take_over
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
 from runtime.determined.publish import Publisher, Wish
-from runtime.determined.tags import FAR, NONE, STOPS
+from runtime.determined.tags import FAR, NONE, ROW, STOPS
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, Draw, EventKind, OpenGoal, Reason, ReasonKind
@@ -53,9 +53,8 @@ class DeterminedReactor:
         self.machine = program.machine(self)
         self.numbers = program.model.line_numbers
         self.watched = sum(1 << n for n in program.internal)  # timelines whose changes others see
-        self.publisher = Publisher(self.name, program, trace)
+        self.publisher = Publisher(self.name, program, self.machine.log, trace)
         self.inputs = Inputs()
-        self.asked: list[PendingRequest] = []  # all that the machine was asked, for the record
         self.wishes: list[Wish] = []  # requests that have not started
         self.news: dict[int, Observation] = {}
         self.windows: dict[str, tuple[int, int]] = {}
@@ -70,7 +69,7 @@ class DeterminedReactor:
         self.refused_goals: list[OpenGoal] = []
         self.refusals_made: list[Refusal] = []
         for fact in program.first:
-            ask(self.machine, Ask(fact.line, fact.block, fact.values, (0, 0), fact.end, (1, FAR), "fact"))
+            ask(self.machine, Ask(fact.line, fact.block, fact.values, (0, 0), fact.end, (1, FAR)))
         self.machine.keep()
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
@@ -119,9 +118,10 @@ class DeterminedReactor:
             given = given_block(self.program, self.machine, line, news.predicate, news.arguments)
             if given is None:
                 return False
-            asks.append(Ask(line, *given, (tick, tick), (tick + 1, FAR), (1, FAR), "observation"))
+            asks.append(Ask(line, *given, (tick, tick), (tick + 1, FAR), (1, FAR)))
         if asks:
-            self._note_asked(PendingRequest(tick, tuple(asks), True))
+            for wanted in asks:
+                ask(self.machine, wanted)
         if (self.news or machine.present.next_event(tick - 1) <= tick) and not machine.tick(tick):
             return False
         self.news.clear()
@@ -132,27 +132,21 @@ class DeterminedReactor:
         """Take back what was carried out ahead of `tick`."""
         if self.reached <= tick:
             return
-        row, draw_row = self.publisher.row, self.publisher.draw_row
         self._forget_ahead(self.base)
         self.reached = int(self.machine.run(self.base, tick, 0))
-        assert self.reached == tick and row <= self.machine.log.row_count
-        self.publisher.row, self.publisher.draw_row = row, min(draw_row, self.machine.log.draw_count)
+        assert self.reached == tick and self.machine.log.told_rows <= self.machine.log.row_count
 
     def _forget_ahead(self, tick: int) -> None:
-        """Go back to the snapshot, which was taken at `tick`; draws are made anew."""
-        machine = self.machine
-        machine.go_back()
-        machine.log.forget_from(tick + 1)
-        for k in range(len(machine.sample_until)):
-            machine.sample_until[k] = NONE
+        """Go back to the snapshot, which was taken at `tick`."""
+        self.machine.go_back()
+        self.machine.log.forget_from(tick + 1)
 
     def record(self) -> ReactorRecord:
         """All tokens that were executed, with their children and runs of rules."""
         if self.general is not None:
             return self.general.bench.recorder.close()
-        machine = self.program.machine(self)
-        tokens = expand(self.program, machine, self.asked, self.machine.present.reach, self.tick)
-        return record_of(self.program.frame, self.name, tokens, self.tick)
+        self._return_to(self.tick)
+        return record_of(self.program.frame, self.name, expand(self.program, self.machine, self.tick), self.tick)
 
     def draw(self, machine: Machine, parameter: int, tick: int) -> bool:
         """Give a machine the value of a parameter that is in force at `tick`; false if the mission has none."""
@@ -169,14 +163,18 @@ class DeterminedReactor:
         """What its own timelines have begun to hold at `tick`; what has begun before is only put on record."""
         if self.general is not None:
             return self.general.observations(tick)
-        found = self.publisher.tell(self.machine.log, tick)
+        found = self.publisher.tell(tick, self.watched)
         self.wishes = [wish for wish in self.wishes if wish.started < 0]
         return found
 
+    def untold(self) -> int:
+        """The first tick of what it has carried out ahead and not put on record."""
+        return int(self.machine.log.next_tick()) if self.general is None else FAR
+
     def pass_over(self, tick: int) -> None:
-        """Put on record what was carried out for ticks before `tick`."""
+        """Put on record what was carried out ahead, up to a tick that has passed."""
         if self.general is None:
-            self.publisher.tell(self.machine.log, tick - 1)
+            self.publisher.tell(tick, 0)
 
     # ---- the future ----
 
@@ -246,21 +244,17 @@ class DeterminedReactor:
         """Whether a request might start at the final tick, when the planner begins nothing that was asked for."""
         return tick >= self.final_tick - 1 and wish.request.start[0] <= self.final_tick
 
-    def _note_asked(self, asked: PendingRequest) -> None:
-        """Ask the machine, and keep what was asked for the record."""
-        ask_instead(self.machine, asked)
-        self.asked.append(asked)
-
     def _choose(self, tick: int, chosen: dict[int, Wish]) -> None:
         machine = self.machine
         present = machine.present
         self.publisher.asked = chosen
+        self.publisher.look()
         asks = []
         for line, wish in chosen.items():
             request = wish.request
             start = (max(request.start[0], tick + 1), request.start[1])
-            asks.append(Ask(line, wish.block, wish.values, start, request.end, request.duration, "request"))
-        self._note_asked(PendingRequest(tick, tuple(asks), False))
+            asks.append(Ask(line, wish.block, wish.values, start, request.end, request.duration))
+        ask_instead(machine, asks)
         self.is_beyond = self.is_beyond or not all(present.has_room(line, tick) for line in chosen)
         machine.keep()
         self.base = tick
@@ -297,6 +291,7 @@ class DeterminedReactor:
         wish = Wish(request, line, given[0], given[1])
         self.wishes.append(wish)
         self.publisher.wishes.append(wish)
+        self.publisher.look()
 
     def _refuse(self, request: Request) -> None:
         why, line, what = Reason(ReasonKind.NO_LOOKAHEAD), request.timeline, request.predicate
@@ -320,6 +315,7 @@ class DeterminedReactor:
                 if wish.request.is_mandatory:
                     request, why = wish.request, Reason(ReasonKind.RECALLED)
                     self.refused_goals.append(OpenGoal(request.timeline, request.predicate, request.arguments, why))
+        self.publisher.look()
         self.wishes = [wish for wish in self.wishes if wish.request.number != number]
 
     def refusals(self) -> list[Refusal]:
@@ -357,10 +353,11 @@ class DeterminedReactor:
 
     def _hand_over(self, tick: int, is_synchronised: bool) -> PlanReactor:
         """Become a general reactor that knows what came from outside; `is_synchronised`: the present of `tick` too."""
+        self.publisher.tell(tick if is_synchronised else tick - 1, 0)
         self.general = general = self._witness(tick, is_synchronised)
         take_over(general, self.trace)
         for name in self.internal:
-            general.by_name[name].event = self.publisher.events[self.numbers[name]]
+            general.by_name[name].event = self.machine.log.latest[self.numbers[name]]
         return general
 
     def _witness(self, tick: int, is_synchronised: bool) -> PlanReactor:
@@ -375,7 +372,7 @@ class DeterminedReactor:
         """What sets the end of a token that was published: asked of a general reactor, as this one has no causes."""
         general = self.general or self._witness(self.tick, True)
         row = (
-            self.machine.log.rows[5 * token : 5 * token + 2]
+            self.machine.log.rows[ROW * token : ROW * token + 2]
             if 0 <= token < self.machine.log.row_count
             else (NONE, NONE)
         )

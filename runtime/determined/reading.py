@@ -1,6 +1,6 @@
 """Readings: where the registers of a determined reactor show what the rules of a block did; made once per block."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf
 
@@ -11,6 +11,7 @@ from runtime.executive.record import BodyRun, GuardRun, Value, ValueRange
 
 Named = tuple[tuple[int, str], ...]  # registers and kinds
 Names = Callable[[int], str]
+Registers = Sequence[float] | Mapping[int, float]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -22,7 +23,16 @@ class BodyReading:
     children: tuple[tuple[int, int, int], ...]  # number of the parent in its block, rule, slot
     guards: tuple["_GuardReading", ...]
 
-    def run(self, registers: Sequence[float], keys: dict[tuple[int, int, int], int], names: Names) -> BodyRun:
+    def registers(self) -> Iterator[int]:
+        """All registers that are read, in whatever branch."""
+        yield from (register for register, _ in self.named)
+        for guard in self.guards:
+            yield guard.register
+            for branch in (guard.then, guard.otherwise):
+                if branch is not None:
+                    yield from branch.registers()
+
+    def run(self, registers: Registers, keys: dict[tuple[int, int, int], int], names: Names) -> BodyRun:
         """What the body did, as the registers tell; `keys` are those of the children."""
         guards = tuple([each.run(registers, keys, names) for each in self.guards]) if self.guards else ()
         return BodyRun(
@@ -41,7 +51,7 @@ class _GuardReading:
     then: BodyReading | None
     otherwise: BodyReading | None
 
-    def run(self, registers: Sequence[float], keys: dict[tuple[int, int, int], int], names: Names) -> GuardRun:
+    def run(self, registers: Registers, keys: dict[tuple[int, int, int], int], names: Names) -> GuardRun:
         """Which branch was taken, and what it did."""
         is_true = registers[self.register] != 0.0
         branch = self.then if is_true else self.otherwise
@@ -93,7 +103,7 @@ def _body(block: RegisterBlock, token: int, rule: int, body: tuple[Instruction, 
     return BodyReading(rule, tuple(named), tuple(children), tuple(guards))
 
 
-def values(registers: Sequence[float], where: Named, names: Names) -> tuple[Value, ...]:
+def values(registers: Registers, where: Named, names: Names) -> tuple[Value, ...]:
     """What registers say of variables; NaN leaves one open."""
     found: list[Value] = []
     for register, kind in where:

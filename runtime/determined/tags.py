@@ -13,7 +13,12 @@ WISH_END_FROM, WISH_END_UNTIL, WISH_LEAST, WISH_MOST = 12, 13, 14, 15
 BEFORE = 16  # the predicate of the token before
 SECTIONS = 17
 
-ROW = 5  # columns of the log: tick, timeline, predicate, block (started by another one: -1 - row of that), values
+# Columns of the log: tick, timeline, predicate, block (started by another one: -1 - row of that), values; and once it
+# has been told, the index of its event and that of the cause; and where the values that its block shows begin.
+ROW, EVENT, CAUSE, SHOWN = 8, 5, 6, 7
 WISHED = 1 << 40  # marks the block of a token that somebody asked for
 
 RUNS_ON, CHANGES, STOPS = 0, 1, 2  # why a machine came back
+
+IS_TOGETHER, IS_MERGED, IS_PREVIOUS, IS_FOLLOWING = 0, 1, 2, 3  # how a token of a block is found
+OF_NOBODY, OF_RULE, OF_REQUEST, OF_OBSERVATION, OF_FACT = 0, 1, 2, 3, 4  # origins of tokens

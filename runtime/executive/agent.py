@@ -21,6 +21,8 @@ from runtime.executive.reactor import Failure, Refusal, TeleoReactor, Watched
 from runtime.executive.trace import Trace
 from runtime.plan.readout.statements import Term
 
+_NEVER = 2**62
+
 
 class OwnershipError(ValueError):
     """Reactors whose timelines have no owner, several owners, or owners in a cycle."""
@@ -81,11 +83,19 @@ class Agent:
         self.configuration = configuration
         self.every_tick = every_tick
         self.unsent = list(goals)
+        self.next_goal = 0  # the tick at which one is due
         self.reactors = _in_order(reactors)
         _tell_owners(self.reactors)
+        self.ahead = [reactor for reactor in self.reactors if reactor.runs_ahead]
+        if self.ahead == self.reactors[:1]:
+            self.ahead = []  # nothing comes between what it has carried out already and what it does now
         self.awake: list[TeleoReactor] = []
         self.killed: list[TeleoReactor] = []
         self.owners = {timeline: reactor for reactor in self.reactors for timeline in reactor.internal}
+        self.users: dict[str, list[TeleoReactor]] = {}
+        for reactor in self.reactors:
+            for timeline in reactor.external:
+                self.users.setdefault(timeline, []).append(reactor)
         self.senders: dict[int, TeleoReactor] = {}  # who made a request, by its number
         self.takers: dict[int, TeleoReactor] = {}  # who was asked
         self.made: dict[int, Request] = {}  # requests of reactors that have not been taken back
@@ -102,8 +112,8 @@ class Agent:
         abort: Abort | None = None
         while True:
             self.trace.tick = self.tick
-            for reactor in self.reactors:
-                reactor.pass_over(self.tick)
+            if self.ahead:
+                self._pass_over()
             abort = self._synchronise()
             # At the final tick there is no future to plan for.
             if abort is None and self.tick < final_tick:
@@ -125,7 +135,7 @@ class Agent:
             last,
             abort,
             tuple(self.trace.draws),
-            tuple(self.trace.events),
+            self.trace.events,
             tuple(left),
         )
 
@@ -134,11 +144,19 @@ class Agent:
         if self.every_tick:
             self.tick += 1
             return
+        tick = self.tick
         for reactor in self.awake:
-            reactor.due = reactor.next_tick(self.tick)
-        times = [reactor.due for reactor in self.reactors]
-        times += [at for at, _ in self.unsent]
-        self.tick = min(max(self.tick + 1, min(times, default=self.tick + 1)), last)
+            reactor.due = reactor.next_tick(tick)
+        due = self.next_goal
+        for reactor in self.reactors:
+            due = min(due, reactor.due)
+        self.tick = min(max(tick + 1, due), last)
+
+    def _pass_over(self) -> None:
+        """Put on record what was carried out for earlier ticks, in the order of time."""
+        while (tick := min(reactor.untold() for reactor in self.ahead)) < self.tick:
+            for reactor in self.ahead:
+                reactor.pass_over(tick)
 
     # ---- the present ----
 
@@ -169,8 +187,8 @@ class Agent:
 
     def _publish(self, observations: list[Observation]) -> None:
         for observation in observations:
-            for reactor in self.reactors:
-                if observation.timeline in reactor.external:
+            for reactor in self.users.get(observation.timeline, ()):
+                if reactor in self.reactors:
                     reactor.notify(observation)
 
     # ---- the future ----
@@ -201,7 +219,10 @@ class Agent:
     def _send_goals(self, busy: list[TeleoReactor]) -> Abort | None:
         """Hand the goals of the mission file that are due to the owners of their timelines."""
         self.trace.phase = Phase.START
+        if self.tick < self.next_goal:
+            return None
         due = [goal for goal in self.unsent if goal[0] <= self.tick]
+        self.next_goal = min([at for at, _ in self.unsent if at > self.tick], default=_NEVER)
         for goal in due:
             request = goal[1]
             if request.timeline in self.owners:
@@ -224,7 +245,9 @@ class Agent:
     def _dispatch(self, reactor: TeleoReactor, busy: list[TeleoReactor]) -> Abort | None:
         """Deliver what a reactor takes back, asks for and refuses, now that it has finished planning."""
         self.trace.phase = Phase.DISPATCH
-        self._tell_refusals(reactor.refusals())
+        refusals = reactor.refusals()
+        if refusals:
+            self._tell_refusals(refusals)
         for number in reactor.recalls():
             abort = self._recall(number, busy)
             if abort is not None:

@@ -15,14 +15,20 @@ def next_reading(bench: PlanView, tick: int) -> float:
     number = bench.globals.get("AGENT_CLOCK")
     if number is None:
         return inf
-    engine, clock, found = bench.engine, bench.database.plan.globals[number], inf
+    engine, clock, found = bench.engine, bench.plan.globals[number], inf
+    tested: set[int] = set()
     readers = engine.constraints_of(clock)
-    tested = {engine.arguments(c)[0] for c in readers if engine.op[c] in (OP_TEST_LEQ, OP_TEST_LT)}
     for c in readers:
-        result, *compared = engine.arguments(c)
+        if engine.op[c] in (OP_TEST_LEQ, OP_TEST_LT):
+            tested.add(engine.slot_variable[engine.first[c]])
+    for c in readers:
+        first = engine.first[c]
+        result = engine.slot_variable[first]
         if result not in tested:
             return tick + 1
         if engine.op[c] == OP_WATCH or (engine.is_singleton(result) and engine.lower(result) == 1.0):
             continue  # a guard waits for the test, which says all there is to say
-        found = min([found, *(max(engine.upper(v), tick + 1) for v in compared if v != clock)])
+        for k in range(first + 1, first + engine.arity[c]):
+            if engine.slot_variable[k] != clock:
+                found = min(found, max(engine.upper(engine.slot_variable[k]), tick + 1))
     return found

@@ -1,5 +1,6 @@
 """A reactor written in Python, among the others: what it does wrong ends it, and nothing else (F7, F9)."""
 
+import sys
 from collections.abc import Callable, Mapping
 from math import isnan
 
@@ -11,7 +12,7 @@ from runtime.executive.reactor import Failure, Refusal
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import VariableName
 from runtime.user.fault import failed
-from runtime.user.limit import WATCH, watched
+from runtime.user.limit import WATCH, Plain
 from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen, Ticks
 
 _INFINITY = 4503599627370495
@@ -34,6 +35,7 @@ class CodedReactor:
         self.lookahead = 0
         self.due = 0
         self.files = (configuration.file,)
+        self.caller = Plain(f"the reactor `{self.name}`", self.files)
         self.make = make
         self.kinds = kinds
         self.trace = trace
@@ -52,6 +54,10 @@ class CodedReactor:
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
         """Nothing that it does depends on the windows of owners."""
+
+    def untold(self) -> int:
+        """It never runs ahead."""
+        return _NEVER
 
     def pass_over(self, tick: int) -> None:
         """It never runs ahead."""
@@ -81,10 +87,7 @@ class CodedReactor:
         self.refused_numbers = []
         self.wakes_at = _NEVER
         try:
-            with watched(f"the reactor `{self.name}`", self.files):
-                if self.code is None:
-                    self.code = self.make()
-                self.code.tick(now)
+            self._call(now)
         except BaseException as problem:
             if isinstance(problem, KeyboardInterrupt) and WATCH.was_pressed:
                 raise
@@ -96,6 +99,24 @@ class CodedReactor:
             what = Reason(ReasonKind.RAISED, tick=tick, message=str(problem))
             return Failure("F9", what, self.internal, None, 0)
         return None
+
+    def _call(self, now: Now) -> None:
+        """Call the code under watch; what it prints goes to standard error, since programs read standard output."""
+        call = (self.caller, None, 0)
+        if self.code is None:
+            WATCH.start()
+        before, output = WATCH.call, sys.stdout
+        try:
+            WATCH.call = call
+            sys.stdout = sys.stderr
+            if self.code is None:
+                self.code = self.make()
+            self.code.tick(now)
+        finally:
+            sys.stdout = output
+            if WATCH.call is not call:
+                WATCH.astray(call)
+            WATCH.call = before
 
     def _take(self, now: Now) -> None:
         """Check what the code has said; raises ValueError and its like for what makes no sense."""

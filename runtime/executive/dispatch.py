@@ -31,9 +31,20 @@ class Dispatch:
         request = self.sent.get(self.bench.key(token))
         return request is not None and request.number in self.refused
 
+    def is_answered(self, token: int, event: int) -> bool:
+        """Whether what was published in `event` is what a token was asked for."""
+        request = self.sent.get(self.bench.key(token))
+        return request is not None and request.event in self.trace.events[event].causes
+
+    def answered(self) -> list[int]:
+        """The tokens whose owners have just begun what they were asked for."""
+        news = [line.news.event for line in self.timelines if line.news is not None]
+        tokens = [self.sent_tokens[key] for key in self.sent if self.bench.is_alive(self.sent_tokens[key], key)]
+        return [token for token in tokens if any(self.is_answered(token, event) for event in news)]
+
     def refusals(self) -> tuple[int, ...]:
         """The events in which owners gave up what still is in the plan."""
-        return tuple(self.refused[one.number] for one in self.sent.values() if one.number in self.refused)
+        return tuple([self.refused[one.number] for one in self.sent.values() if one.number in self.refused])
 
     def is_cut_off(self, token: int) -> bool:
         """Whether an owner has given up what `token` needs, begun or not."""
@@ -53,7 +64,7 @@ class Dispatch:
 
     def takes_requests(self, line: TimelineState) -> bool:
         """Whether the owner of a timeline may be asked: the model must allow it, and who looks ahead by 0 never is."""
-        return self.bench.accepts_requests(line.object_id) and self.owner_windows.get(line.name, (0, 1))[1] > 0
+        return line.accepts_requests and self.owner_windows.get(line.name, (0, 1))[1] > 0
 
     def requests(self, tick: int, final_tick: int) -> list[Request]:
         """Planned tokens on others' timelines that are due to be asked for (T-REX 1.8).
@@ -99,7 +110,7 @@ class Dispatch:
         bench = self.bench
         predicate = bench.short_name(token)
         arguments = bench.arguments(token)
-        causes = tuple(other.event for other in self.timelines if not other.is_internal and other.event != NOTHING)
+        causes = tuple([other.event for other in self.timelines if not other.is_internal and other.event != NOTHING])
         # To the world a request is a command: when to begin is the sender's business, how long it takes is not.
         is_command = self.owner_windows.get(line.name, (0, 1))[1] <= 1
         end = _INFINITY if is_command else _whole(bench.upper(bench.end(token)))

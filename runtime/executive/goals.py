@@ -1,8 +1,8 @@
 """What a reactor was asked for: queued until its window comes, posted, given up, taken back, done (T-REX 1.8)."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Request
 from runtime.executive.outcome import Conflict, Deadlock, EventKind, OpenGoal, Reason, ReasonKind
 from runtime.executive.reactor import Refusal, Watched
@@ -205,12 +205,27 @@ class Goals:
         self.is_changed = self.is_changed or found
         return found
 
+    def note_failed_starts(self, tokens: list[int]) -> None:
+        """Count that the present failed when the owner of `tokens` had just begun what goals asked for."""
+        roots = {self.bench.root(token) for token in tokens}
+        for goal in self.live():
+            if self.bench.is_alive(goal.token, goal.token_key) and self.bench.stands_for(goal.token) in roots:
+                goal.failed_starts += 1
+
+    def give_up_failed_starts(self, tick: int) -> None:
+        """Give up goals that could not begin, and could not when they were asked for once more."""
+        for goal in self.live():
+            if goal.failed_starts > 1 and self.bench.is_alive(goal.token, goal.token_key):
+                goal.is_closed = True
+                self._drop(goal, ReasonKind.REJECTED, tick)
+                self.bench.remove([goal.token])
+
     # ---- the tick ----
 
-    def close(self, tick: int, is_cut_off: Callable[[int], bool]) -> bool:
+    def close(self, tick: int, asked: Dispatch) -> bool:
         """Goals that have run are done; those that are too late, or went in a repair, are given up. Whether any was.
 
-        `is_cut_off` tells whether an owner has given up what a goal needed: then its end is no achievement.
+        `asked` tells whether an owner has given up what a goal needed: then its end is no achievement.
         """
         found = False
         late: list[int] = []
@@ -221,7 +236,7 @@ class Goals:
                 self._drop(goal, ReasonKind.DROPPED, tick)
             elif bench.is_over(token, tick):
                 goal.is_closed = True
-                if is_cut_off(token):
+                if asked.is_cut_off(token):
                     self._drop(goal, ReasonKind.DROPPED, tick)
                 else:
                     self.achieved(goal.request)

@@ -58,7 +58,7 @@ def run_mission(
 ) -> Outcome:
     """Carry out one mission, see `record_mission`, without a record: that of determined reactors is work."""
     with Loans() as loans:
-        return _flown(configuration, programs, seed, overrides, every_tick, until, compiles, loans)[0]
+        return _flown(configuration, programs, seed, overrides, every_tick, until, compiles, False, loans)[0]
 
 
 def record_mission(
@@ -80,7 +80,7 @@ def record_mission(
     (of `workbench` and `agent`) for timelines that do not exist or have no single owner.
     """
     with Loans() as loans:
-        outcome, reactors = _flown(configuration, programs, seed, overrides, every_tick, until, compiles, loans)
+        outcome, reactors = _flown(configuration, programs, seed, overrides, every_tick, until, compiles, True, loans)
         recorded = tuple(each.record() for each in reactors if isinstance(each, (PlanReactor, DeterminedReactor)))
     return outcome, MissionRecord(recorded)
 
@@ -93,13 +93,14 @@ def _flown(
     every_tick: bool,
     until: int | None,
     compiles: bool,
+    records: bool,
     loans: Loans,
 ) -> tuple[Outcome, list[TeleoReactor]]:
     """A mission, and its reactors as it left them."""
     trace = Trace()
     world = World(configuration, seed, overrides or {}, trace)
     try:
-        reactors = _make_reactors(configuration, programs, world, compiles, loans)
+        reactors = _make_reactors(configuration, programs, world, compiles, records, loans)
     except UnusableModelError as problem:
         return _unloaded(configuration, problem, world), []
     goals = []
@@ -118,12 +119,17 @@ def _unloaded(configuration: AgentConfiguration, problem: UnusableModelError, wo
         EventKind.ABORT, problem.reactor, causes=tuple(range(len(trace.events))), code="F9", reason=reason
     )
     abort = Abort("F9", 0, problem.reactor, (), reason, None, 0, event)
-    draws, events = tuple(trace.draws), tuple(trace.events)
+    draws, events = tuple(trace.draws), trace.events
     return Outcome(world.seed, 0, configuration.final_tick, abort, draws, events, ())
 
 
 def _make_reactors(
-    configuration: AgentConfiguration, programs: MissionPrograms, world: World, compiles: bool, loans: Loans
+    configuration: AgentConfiguration,
+    programs: MissionPrograms,
+    world: World,
+    compiles: bool,
+    records: bool,
+    loans: Loans,
 ) -> list[TeleoReactor]:
     """The reactors of a mission, ready for tick 0."""
     trace, seed, overrides = world.trace, world.seed, world.overrides
@@ -143,6 +149,7 @@ def _make_reactors(
             return _plan_reactor(configuration, programs, number, apart, loans)
 
         reactor = DeterminedReactor(each, loaded, world.in_force, general, configuration.final_tick, trace)
+        reactor.machine.shows = records
         reactor.watched = sum(1 << reactor.numbers[line] for line in each.internal if line in users)
         reactors.append(reactor)
     kinds_of = partial(_parameter_kinds, configuration, programs)

@@ -5,7 +5,7 @@ one mission give equal outcomes, in either form of the engine and on any machine
 `runtime.executive.rendering` alone; nothing reads them back.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -328,7 +328,7 @@ class Outcome:
     final_tick: int
     abort: Abort | None
     draws: tuple[Draw, ...]
-    events: tuple[Event, ...]
+    events: Sequence[Event]
     open_goals: tuple[OpenGoal, ...]
     breaches: tuple[Reason, ...] = ()  # what the judge found to break the model though nothing failed
 

@@ -2,21 +2,24 @@
 
 from runtime.executive.clock import next_reading
 from runtime.executive.configuration import ReactorConfiguration
+from runtime.executive.deferral import Deferral
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.draws import Draws
 from runtime.executive.goals import Goals, Repair
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
-from runtime.executive.planning import Planner
-from runtime.executive.reactor import Failure, Refusal, Watched
+from runtime.executive.planning import EPISODE_DONE, EPISODE_MOVED, EPISODE_TOO_DEEP, Planner
+from runtime.executive.reactor import Failure, Refusal, SyncFailure, Watched
 from runtime.executive.record import ReactorRecord
 from runtime.executive.repair import relax
 from runtime.executive.story import conflict_of, latest
-from runtime.executive.synchronise import SyncFailure, synchronise
+from runtime.executive.synchronise import synchronise
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import VariableName
+
+_NEVER = 2**62
 
 
 class _HistoryError(RuntimeError):
@@ -52,6 +55,7 @@ class PlanReactor:
         self.timelines = [bench.timeline(name, True) for name in self.internal]
         self.timelines += [bench.timeline(name, False) for name in self.external]
         for line in self.timelines:
+            line.accepts_requests = bench.accepts_requests(line.object_id)
             line.is_early = line.name in configuration.early
             line.is_late = line.name in configuration.late
         bench.late_objects = {line.object_id for line in self.timelines if line.is_internal and not line.is_early}
@@ -66,6 +70,7 @@ class PlanReactor:
         self.steps_made = 0
         self.work_since = 0
         self.broken: Failure | None = None
+        self.deferral = Deferral(bench, self.timelines)
         self.dispatch = Dispatch(self.name, bench, self.timelines, trace)
         self.is_stirred = False  # something came from outside after the present was synchronised
 
@@ -77,11 +82,16 @@ class PlanReactor:
 
     # ---- the tick ----
 
+    def untold(self) -> int:
+        """It never runs ahead."""
+        return _NEVER
+
     def pass_over(self, tick: int) -> None:
         """It never runs ahead."""
 
     def start_tick(self, tick: int) -> None:
         """Set "now", and forget what is over."""
+        self.tick = max(self.tick, self.deferral.fold(tick))
         self.bench.archive(self.timelines, self.tick)
         self.bench.tidy()
         if not self.bench.is_consistent():
@@ -92,7 +102,9 @@ class PlanReactor:
         self.is_stirred = False
 
     def notify(self, observation: Observation) -> None:
-        """Take note of what an owner published this tick; the last word counts."""
+        """Take note of what an owner published this tick; the last word counts. What cannot matter waits."""
+        if self.tick < observation.tick and self.deferral.takes(observation):
+            return
         self.by_name[observation.timeline].news = observation
         self.is_stirred = True
         self.due = observation.tick
@@ -106,34 +118,38 @@ class PlanReactor:
         bench = self.bench
         if self.is_stirred or self.is_out_of_steps():
             return tick + 1
-        times = [float(request.start[0] - self.reach) for request in self.goals.waiting]
+        soonest = min(self.draws.next_change(bench, tick), next_reading(bench, tick), self.final_tick)
+        for request in self.goals.waiting:
+            soonest = min(soonest, request.start[0] - self.reach)
         for line in self.timelines:
             if line.current != NOTHING:
-                times.append(bench.upper(bench.end(line.current)))
-            for token in bench.planned_after(line.object_id, line.current):
-                times.append(bench.upper(bench.start(token)))
+                soonest = min(soonest, bench.upper(bench.end(line.current)))
+            first = bench.next_of(line.object_id, line.current)
+            token = first
+            while token != NOTHING:
+                soonest = min(soonest, bench.upper(bench.start(token)))
+                token = bench.following(token)
             if line.is_internal:
-                token = bench.next_of(line.object_id, line.current)
+                token = first
                 # What nobody asked for begins when what holds cannot go on, unless the timeline is early.
                 is_due = line.is_early or (token != NOTHING and bench.is_requested(token))
                 if is_due and token != NOTHING and not bench.is_blocked(token, line.current, tick):
-                    times.append(bench.lower(bench.start(token)))
+                    soonest = min(soonest, bench.lower(bench.start(token)))
             else:
                 token = self.dispatch.next_request(line)
                 if token != NOTHING and not bench.is_blocked(token, line.current, tick):
-                    times.append(self.dispatch.due_time(line, token, tick))
+                    soonest = min(soonest, self.dispatch.due_time(line, token, tick))
         for token in bench.undecided():
-            times.append(bench.upper(bench.start(token)))
-            if bench.lower(bench.start(token)) > tick + self.reach:
-                times.append(bench.lower(bench.start(token)) - self.reach)
-        times.append(self.draws.next_change(bench, tick))
-        times.append(next_reading(bench, tick))
-        return int(max(tick + 1, min([self.final_tick, *times])))
+            earliest = bench.lower(bench.start(token))
+            soonest = min(soonest, bench.upper(bench.start(token)))
+            if earliest > tick + self.reach:
+                soonest = min(soonest, earliest - self.reach)
+        return int(max(tick + 1, soonest))
 
     def synchronise(self, tick: int) -> Failure | None:
         """Synchronise the present; if that fails, repair: first keep the past, then forget it (T-REX 1.4, 1.9)."""
-        causes = tuple(line.news.event for line in self.timelines if line.news is not None)
-        events = tuple(line.event for line in self.timelines if line.event != NOTHING and not line.is_internal)
+        causes = tuple([line.news.event for line in self.timelines if line.news is not None])
+        events = tuple([line.event for line in self.timelines if line.event != NOTHING and not line.is_internal])
         failures: list[SyncFailure] = []
         watched: tuple[Watched, ...] = ()
         for attempt in range(3):
@@ -156,20 +172,22 @@ class PlanReactor:
                     what = Reason(ReasonKind.CANNOT_RELAX)
                     failures.append(SyncFailure(failures[0].code, (), what, conflict_of(self.bench)))
                     continue
+                self.goals.give_up_failed_starts(tick)
             failure = self._prepare(tick) or self._synchronise(tick)
             if failure is None:
                 self.goals.report_rejected(tick)
-                if self.goals.close(tick, self.dispatch.is_cut_off):
+                if self.goals.close(tick, self.dispatch):
                     self.goals.reopen()
                 self.bench.recorder.synchronised = tick
                 return None
             failures.append(failure)
             if attempt == 0:
                 watched = self._watched(failure.conflict)
+                self.goals.note_failed_starts(self.dispatch.answered())
         self.bench.recorder.is_lost = True
         first = failures[0]
         repairs = _distinct(first.conflict, failures[1:])
-        lines = first.timelines or tuple(line.name for line in self.timelines if line.is_internal)
+        lines = first.timelines or tuple([line.name for line in self.timelines if line.is_internal])
         refusals = self.dispatch.refusals() if first.code == "F6" else ()
         causes = refusals or causes or events[:1]
         return Failure(
@@ -186,7 +204,7 @@ class PlanReactor:
     def _synchronise(self, tick: int) -> SyncFailure | None:
         """Synchronise the present, or leave the plan as it was."""
         mark = self.bench.mark()
-        failure = synchronise(self.bench, self.planner, self.timelines, tick, self.final_tick, self.dispatch.is_refused)
+        failure = synchronise(self.bench, self.planner, self.timelines, tick, self.final_tick, self.dispatch)
         if failure is None:
             self.planner.keep()
             return None
@@ -243,7 +261,10 @@ class PlanReactor:
 
     def record(self) -> ReactorRecord:
         """What its plan held over the mission."""
-        return self.bench.recorder.close()
+        self.bench.recorder.synchronised = max(self.bench.recorder.synchronised, self.deferral.close())
+        found = self.bench.recorder.close()
+        passed = self.deferral.passed
+        return found._replace(tokens=tuple(sorted([*found.tokens, *passed]))) if passed else found
 
     # ---- planning ----
 
@@ -266,18 +287,17 @@ class PlanReactor:
             self.planner.keep()
             return False
         self.steps_made += 1
-        match self.planner.deliberate(tick, min(tick + self.reach, self.final_tick)):
-            case "decided":
-                return True
-            case "done":
-                self.goals.report_rejected(tick)
-                return False
-            case "deep":
-                what = Reason(ReasonKind.DEPTH, limit=self.planner.max_depth)
-                self.broken = Failure("F5", what, self.internal, None, self.relaxes)
-                return False
-            case _:
-                return self._replan(tick)
+        outcome = self.planner.deliberate(tick, min(tick + self.reach, self.final_tick))
+        if outcome == EPISODE_MOVED:
+            return True
+        if outcome == EPISODE_DONE:
+            self.goals.report_rejected(tick)
+            return False
+        if outcome == EPISODE_TOO_DEEP:
+            what = Reason(ReasonKind.DEPTH, limit=self.planner.max_depth)
+            self.broken = Failure("F5", what, self.internal, None, self.relaxes)
+            return False
+        return self._replan(tick)
 
     def _replan(self, tick: int) -> bool:
         """No plan inside the window: relax once and plan again; failing that, give up (T-REX 1.11, F4)."""

@@ -16,6 +16,9 @@ _NO_LIMIT = 2**62
 _MOST_STEPS = 1_000_000  # decisions about one present that the engine makes, if nobody sets a limit
 _MOST_EXPLAINED = 2_000  # decisions of a search that is repeated to find out why it failed
 
+# How an episode of planning stands: a decision was made, nothing is left to do, there is no plan, or what ran out.
+EPISODE_MOVED, EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, _EPISODE_OUT_OF_STEPS = range(5)
+
 
 class LimitError(RuntimeError):
     """A limit of the engine itself was reached: no verdict about the model."""
@@ -51,7 +54,7 @@ class _Window(PlanningScope):
 
     def admits_variable(self, v: int) -> bool:
         """Whether `v` is to be decided now: globals always, others with their token."""
-        plan = self.bench.database.plan
+        plan = self.bench.plan
         if plan.variable_role[v] in (ROLE_TOKEN, ROLE_LOCAL):
             return self.admits_token(plan.variable_owner[v])
         return not self.is_present
@@ -74,16 +77,7 @@ class Planner:
         self.bench = bench
         self.window = _Window(bench)
         self.window.final = final_tick
-        # The window replaces the horizon that a configuration may filter by.
-        filters = tuple(f for f in configuration.filters if f.component != "HorizonFilter")
-        managers = tuple(
-            replace(m, filters=tuple(f for f in m.filters if f.component != "HorizonFilter"))
-            for m in configuration.managers
-        )
-        clock = (FlawFilter(match=replace(FlawFilter().match, variable="AGENT_CLOCK")),)
-        self.solver = Solver(
-            bench.database, replace(configuration, filters=filters + clock, managers=managers), 0, 1, False
-        )
+        self.solver = Solver(bench.database, _within_window(configuration), 0, 1, False)
         self.solver.set_scope(self.window)
         self.solver.agenda.earliest = True
         self.max_steps = max_steps
@@ -92,8 +86,8 @@ class Planner:
         self.missed: Callable[[], list[int]] = list  # the mandatory goals that are rejected and that nobody was told of
         self.rejections: dict[int, Deadlock] = {}  # why, by token
 
-    def deliberate(self, tick: int, end: int) -> str:
-        """Make one decision inside [tick, end]: "decided", "done" when nothing is left, "exhausted", or "deep"."""
+    def deliberate(self, tick: int, end: int) -> int:
+        """Make one decision inside [tick, end]; how the episode stands now."""
         if self.is_fresh:
             self.window.tick, self.window.end, self.window.is_present = tick, end, False
             self.solver.refresh()
@@ -102,24 +96,21 @@ class Planner:
         if outcome == PLAN:
             self._explain_rejections()
             self.keep()
-            return "done"
+            return EPISODE_DONE
         is_deep = self.max_depth is not None and self.solver.depth > self.max_depth
         if outcome == EXHAUSTED or is_deep:
             self.solver.undo_all()
             self.is_fresh = True
-            return "exhausted" if outcome == EXHAUSTED else "deep"
-        return "decided"
+            return EPISODE_EXHAUSTED if outcome == EXHAUSTED else EPISODE_TOO_DEEP
+        return EPISODE_MOVED
 
     def keep(self) -> None:
         """Make what has been decided final."""
         self.solver.keep()
         self.is_fresh = True
 
-    def resolve_present(self, tick: int) -> str:
-        """Mend all flaws of what holds at `tick`, or none; the decisions wait for `keep`.
-
-        Gives "done", "exhausted", or what ran out: "steps" or "deep".
-        """
+    def resolve_present(self, tick: int) -> int:
+        """Mend all flaws of what holds at `tick`, or none; the decisions wait for `keep`. How that ended."""
         self.window.tick, self.window.end, self.window.is_present = tick, tick, True
         solver = self.solver
         solver.refresh()
@@ -130,14 +121,14 @@ class Planner:
         solver.max_steps = solver.max_depth = _NO_LIMIT
         if outcome == PLAN:
             self._explain_rejections()
-            return "done"
+            return EPISODE_DONE
         is_deep = solver.depth > depth
         solver.undo_all()
         if outcome == EXHAUSTED:
-            return "exhausted"
+            return EPISODE_EXHAUSTED
         if (self.max_depth if is_deep else self.max_steps) is None:
             raise LimitError(f"more than {_MOST_STEPS} decisions about what holds at tick {tick}")
-        return "deep" if is_deep else "steps"
+        return EPISODE_TOO_DEEP if is_deep else _EPISODE_OUT_OF_STEPS
 
     def deadlock(self) -> Deadlock | None:
         """Why the search that was exhausted found nothing: it is made again, with a log."""
@@ -182,3 +173,15 @@ class Planner:
             bench.release(mark)
             return Reason(ReasonKind.NO_INSERTION, bench.name_of(t)), conflict
         return Reason(ReasonKind.NO_PLAN), None
+
+
+def _within_window(configuration: Configuration) -> Configuration:
+    """The configuration as a reactor has it: the window replaces the horizon that it may filter by."""
+    managers = [replace(each, filters=_without_horizon(each.filters)) for each in configuration.managers]
+    clock = FlawFilter(match=replace(FlawFilter().match, variable="AGENT_CLOCK"))
+    filters = (*_without_horizon(configuration.filters), clock)
+    return replace(configuration, filters=filters, managers=tuple(managers))
+
+
+def _without_horizon(filters: tuple[FlawFilter, ...]) -> tuple[FlawFilter, ...]:
+    return tuple([each for each in filters if each.component != "HorizonFilter"])

@@ -33,6 +33,17 @@ class Failure:
 
 
 @dataclass(frozen=True, slots=True)
+class SyncFailure:
+    """The present cannot be explained: the failure code, where, why, and the conflict."""
+
+    code: str
+    timelines: tuple[str, ...]
+    reason: Reason
+    conflict: Conflict | None
+    deadlock: Deadlock | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Refusal:
     """The owner will not do what it was asked for; `event` is where the trace says why."""
 
@@ -61,8 +72,11 @@ class TeleoReactor(Protocol):
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
         """Take note of the execution latency and look-ahead of the owner of each timeline, and of its own."""
 
+    def untold(self) -> int:
+        """The first tick of what it has carried out ahead and not put on record."""
+
     def pass_over(self, tick: int) -> None:
-        """Put on record what it has carried out for ticks before this one."""
+        """Put on record what it has carried out ahead, up to a tick that has passed."""
 
     def start_tick(self, tick: int) -> None:
         """Set "now"."""

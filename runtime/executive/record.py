@@ -4,6 +4,7 @@ A token is recorded when it leaves the plan (archived, or taken away by a repair
 The record stands by itself: names, keys and values, no engine ids; it is what a judge needs beside the programs.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 
@@ -83,7 +84,7 @@ class ReactorRecord(NamedTuple):
     globals: tuple[Value, ...]
     objects: tuple[ObjectRecord, ...]
     script_tokens: tuple[int, ...]
-    tokens: tuple[TokenRecord, ...]
+    tokens: Sequence[TokenRecord]
 
 
 class MissionRecord(NamedTuple):

@@ -1,24 +1,20 @@
-"""Read tokens out of a plan database into the record of the mission, before they leave it and when it ends.
-
-A body is read by its outline: which slots of a frame hold named locals and children, and which guards it reaches, in
-the order of execution. A body with a loop fills slots anew; there the variables and children that its scope made count.
-"""
+"""Read tokens out of a plan database into the record of the mission, before they leave it and when it ends."""
 
 from math import isinf
-from typing import NamedTuple
 
-from compiler.program import (
-    FIRST_PARAMETER,
-    OBJECT,
-    START,
-    Child,
-    Guard,
-    Instruction,
-    NewVariable,
-    ObjectLoop,
-    Program,
-)
+from compiler.program import FIRST_PARAMETER, OBJECT, START
 from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT, KIND_OBJECT, KIND_STRING, KIND_SYMBOL
+from runtime.executive.outlines import (
+    LOOSE,
+    SHAPE_BOOL,
+    SHAPE_FLOAT,
+    SHAPE_INT,
+    SHAPE_OBJECT,
+    SHAPE_STRING,
+    SHAPE_SYMBOL,
+    Outline,
+    forms_of,
+)
 from runtime.executive.record import (
     NOBODY,
     BodyRun,
@@ -47,79 +43,16 @@ from runtime.plan.tags import (
     STATE_NAMES,
 )
 
-_STATES = tuple(name.lower() for name in STATE_NAMES)
-_INT, _FLOAT, _BOOL, _SYMBOL, _STRING, _THING = range(6)
-_SHAPES = {"int": _INT, "float": _FLOAT, "bool": _BOOL, "string": _STRING, "object": _THING}
+_STATES = tuple([name.lower() for name in STATE_NAMES])
 _OF_KIND = {
-    KIND_BOOL: _BOOL,
-    KIND_INT: _INT,
-    KIND_FLOAT: _FLOAT,
-    KIND_SYMBOL: _SYMBOL,
-    KIND_OBJECT: _THING,
-    KIND_STRING: _STRING,
+    KIND_BOOL: SHAPE_BOOL,
+    KIND_INT: SHAPE_INT,
+    KIND_FLOAT: SHAPE_FLOAT,
+    KIND_SYMBOL: SHAPE_SYMBOL,
+    KIND_OBJECT: SHAPE_OBJECT,
+    KIND_STRING: SHAPE_STRING,
 }
 _LEAST_ENDLESS = 2.0**51  # integers from here on stand for infinity
-
-
-class Outline(NamedTuple):
-    """What a body leaves in a frame: (slot, shape) of named locals, slots of children, the branches of its guards."""
-
-    locals: tuple[tuple[int, int], ...]
-    children: tuple[int, ...]
-    guards: tuple[tuple["Outline", "Outline"], ...]
-    has_loop: bool
-
-
-_LOOSE = Outline((), (), (), True)  # of what stands in or beside a loop
-
-
-def _outline(body: tuple[Instruction, ...]) -> Outline:
-    """The outline of a rule's body or of a branch."""
-    named: list[tuple[int, int]] = []
-    children: list[int] = []
-    guards: list[tuple[Outline, Outline]] = []
-    for step in body:
-        match step:
-            case NewVariable(name=str(), slot=slot, type=type_):
-                named.append((slot, _SHAPES.get(type_.kind, _SYMBOL)))
-            case Child(slot=slot):
-                children.append(slot)
-            case Guard(then=then, otherwise=otherwise):
-                guards.append((_outline(then), _outline(otherwise)))
-            case ObjectLoop():
-                return _LOOSE
-            case _:
-                pass
-    return Outline(tuple(named), tuple(children), tuple(guards), False)
-
-
-class Forms(NamedTuple):
-    """What is the same for all tokens of a program: outlines of its rules, shapes of parameters, globals, members."""
-
-    program: Program
-    rules: tuple[Outline, ...]
-    parameters: tuple[tuple[int, ...], ...]
-    globals: tuple[int, ...]
-    members: tuple[tuple[int, ...], ...]
-
-
-_FORMS: dict[int, Forms] = {}
-
-
-def _forms_of(program: Program) -> Forms:
-    """The forms of `program`, kept as long as the program is."""
-    known = _FORMS.get(id(program))
-    if known is None or known.program is not program:
-        if len(_FORMS) > 64:
-            _FORMS.clear()
-        known = _FORMS[id(program)] = Forms(
-            program,
-            tuple(_outline(rule.body) for rule in program.rules),
-            tuple(tuple(_SHAPES.get(p.type.kind, _SYMBOL) for p in code.parameters) for code in program.predicates),
-            tuple(_SHAPES.get(type_.kind, _SYMBOL) for _, type_ in program.globals),
-            tuple(tuple(_SHAPES.get(m.type.kind, _SYMBOL) for m in code.members) for code in program.classes),
-        )
-    return known
 
 
 class Recorder:
@@ -128,9 +61,10 @@ class Recorder:
     def __init__(self, database: PlanDatabase, name: str) -> None:
         self.database = database
         self.name = name
+        self.plan = database.plan
         self.rows = database.plan.rows
         self.engine = database.engine
-        self.forms = _forms_of(database.program)
+        self.forms = forms_of(database.program)
         self.tokens: dict[int, TokenRecord] = {}
         self.requests: dict[int, int] = {}  # token -> key; shared with the workbench
         self.synchronised = NOBODY  # the last tick at which the plan agreed with the present
@@ -179,14 +113,14 @@ class Recorder:
             left = self.tokens[key]
             if (left.state, left.start) != (one.state, one.start):
                 self.tokens[key] = one
-        plan, forms, program = self.database.plan, self.forms, self.database.program
+        plan, forms, program = self.plan, self.forms, self.database.program
         things = []
         for o, name in enumerate(self.database.objects.names):
             number, first = plan.object_class[o], plan.object_var0[o]
-            members = tuple(self.value(first + k, shape) for k, shape in enumerate(forms.members[number]))
+            members = tuple([self.value(first + k, shape) for k, shape in enumerate(forms.members[number])])
             things.append(ObjectRecord(name, program.classes[number].name, members))
-        worlds = tuple(self.value(plan.globals[k], shape) for k, shape in enumerate(forms.globals))
-        tokens = tuple(self.tokens[key] for key in sorted(self.tokens))
+        worlds = tuple([self.value(plan.globals[k], shape) for k, shape in enumerate(forms.globals)])
+        tokens = tuple([self.tokens[key] for key in sorted(self.tokens)])
         return ReactorRecord(self.name, tick, worlds, tuple(things), self.script_tokens, tokens)
 
     # ---- what ----
@@ -196,10 +130,10 @@ class Recorder:
         rows, program = self.rows, self.database.program
         first = rows.scope_frame[self.database.script.scope] + program.script_slots
         found = [int(rows.cells[first + slot]) for slot in range(program.script_tokens)]
-        return tuple(NOBODY if t < 0 else int(rows.key[t]) for t in found)
+        return tuple([NOBODY if t < 0 else int(rows.key[t]) for t in found])
 
     def _token(self, t: int, fate: str, tick: int) -> TokenRecord:
-        rows, value = self.rows, self.value
+        rows = self.rows
         first = rows.var0[t]
         number = rows.predicate[t]
         status = rows.status[t]
@@ -207,15 +141,18 @@ class Recorder:
         runs: tuple[BodyRun, ...] = ()
         if status == ACTIVE and rows.scopes[t] >= 0:
             runs = self._runs(t, rows.key[t])
+        arguments: tuple[Value, ...] = ()
+        if shapes:
+            arguments = tuple([self.value(first + FIRST_PARAMETER + k, shape) for k, shape in enumerate(shapes)])
         return TokenRecord(
             rows.key[t],
             self.database.program.predicates[number].name,
-            value(first + OBJECT, _THING),
+            self.value(first + OBJECT, SHAPE_OBJECT),
             _STATES[status],
-            value(first + OBJECT + 1, _INT),
-            value(first + START, _INT),
-            value(first + START + 1, _INT),
-            tuple([value(first + FIRST_PARAMETER + k, shape) for k, shape in enumerate(shapes)]) if shapes else (),
+            self.value(first + OBJECT + 1, SHAPE_INT),
+            self.value(first + START, SHAPE_INT),
+            self.value(first + START + 1, SHAPE_INT),
+            arguments,
             rows.key[rows.merged_into[t]] if status == MERGED else NOBODY,
             self._origin(t),
             fate,
@@ -277,7 +214,7 @@ class Recorder:
         branch = self.rows.scope_branch[g]
         if branch == BRANCH_WAITING:
             return GuardRun("waiting", self._is_decided(g), None)
-        sides = (_LOOSE, _LOOSE) if form.has_loop else form.guards[k]
+        sides = (LOOSE, LOOSE) if form.has_loop else form.guards[k]
         ran = [self._run(b, key, sides[0 if branch == BRANCH_THEN else 1], inner) for b in inner.get(g, ())]
         return GuardRun("then" if branch == BRANCH_THEN else "else", True, ran[-1] if ran else None)
 
@@ -285,7 +222,8 @@ class Recorder:
         """Whether everything that decides a guard is given."""
         rows, engine = self.rows, self.engine
         inputs = rows.scope_inputs[g]
-        return all(engine.is_decided(rows.cells[i]) for i in range(inputs + 2, inputs + 2 + rows.cells[inputs]))
+        given = range(inputs + 2, inputs + 2 + rows.cells[inputs])
+        return not [i for i in given if not engine.is_decided(rows.cells[i])]
 
     def _child(self, t: int, parent: int, key: int) -> int:
         if t >= 0 and self.rows.parent[t] == parent:
@@ -294,7 +232,7 @@ class Recorder:
 
     def _made_locals(self, s: int) -> tuple[Value, ...]:
         """The named variables that a scope holds, in the order of their making."""
-        rows, plan = self.rows, self.database.plan
+        rows, plan = self.rows, self.plan
         found: list[Value] = []
         h = rows.scope_holds[s]
         while h >= 0:
@@ -325,29 +263,29 @@ class Recorder:
         lower, upper = engine.lower(v), engine.upper(v)
         if lower == upper:
             return self._scalar(lower, shape)
-        if shape == _FLOAT:
+        if shape == SHAPE_FLOAT:
             if engine.is_singleton(v):
                 return lower + (upper - lower) * 0.5
             return ValueRange(lower, upper)
-        if shape == _INT:
+        if shape == SHAPE_INT:
             return ValueRange(_bound(lower), _bound(upper))
         if not engine.is_finite(v) and (isinf(lower) or isinf(upper)):
             return ValueRange(lower, upper)
         return OpenValues(tuple([self._scalar(each, shape) for each in engine.values_of(v)]))
 
     def _scalar(self, number: float, shape: int) -> float | int | bool | str:
-        if shape == _FLOAT:
+        if shape == SHAPE_FLOAT:
             return number
         if isinf(number):
             return number
         whole = int(number)
-        if shape == _INT:
+        if shape == SHAPE_INT:
             return whole
-        if shape == _BOOL:
+        if shape == SHAPE_BOOL:
             return bool(whole)
-        if shape == _THING:
+        if shape == SHAPE_OBJECT:
             return self.database.objects.names[whole]
-        names = self.database.prototypes.texts if shape == _STRING else self.database.prototypes.symbols
+        names = self.database.prototypes.texts if shape == SHAPE_STRING else self.database.prototypes.symbols
         return str(names.text(whole))
 
 

@@ -4,12 +4,11 @@ Each timeline is a decision with a few choices; decisions are taken in the order
 chronologically. Where that takes long, a timeline on which nothing fits is decided first from then on.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
-
+from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Observation
-from runtime.executive.outcome import Conflict, Deadlock, Reason, ReasonKind
-from runtime.executive.planning import LimitError, Planner
+from runtime.executive.outcome import Reason, ReasonKind
+from runtime.executive.planning import EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, LimitError, Planner
+from runtime.executive.reactor import SyncFailure
 from runtime.executive.story import conflict_of
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_OBSERVATION
@@ -17,31 +16,13 @@ from runtime.executive.workbench import Workbench
 
 _FREE_TRIES = 100  # tries beyond those that a present without conflicts takes
 _MOST_TRIES = 100_000
-_EXTEND, _NEXT, _NEW, _FACT, _MEET = "extend", "next", "new", "fact", "meet"
 _UNDEFINED = "undefined"
-
-
-@dataclass(frozen=True, slots=True)
-class Continuation:
-    """One way to synchronise a timeline: `token` is kept, started or met; `predicate` is that of a new token."""
-
-    kind: str
-    token: int
-    predicate: int
-
-
-@dataclass(frozen=True, slots=True)
-class SyncFailure:
-    """The present cannot be explained: the failure code, where, why, and the conflict."""
-
-    code: str
-    timelines: tuple[str, ...]
-    reason: Reason
-    conflict: Conflict | None
-    deadlock: Deadlock | None = None
-
-
 _TRIES_EXHAUSTED = SyncFailure("", (), Reason(ReasonKind.UNMET), None)
+
+# Ways to synchronise a timeline: a token goes on, starts, is made, is observed, or meets what is observed. A choice is
+# such a way, the token that it is about (NOTHING: none yet) and the predicate of a new one.
+_EXTEND, _NEXT, _NEW, _FACT, _MEET = range(5)
+_Choice = tuple[int, int, int]
 
 
 def synchronise(
@@ -50,12 +31,12 @@ def synchronise(
     timelines: list[TimelineState],
     tick: int,
     final_tick: int,
-    is_refused: Callable[[int], bool],
+    asked: Dispatch,
 ) -> SyncFailure | None:
     """Synchronise all `timelines` at `tick`; on success each has its current token and the plan is consistent.
 
     The present token is kept as long as it may; but a token that somebody asked for starts as soon as it may, and so
-    does any on a timeline that is early. `is_refused` tells what an owner will not do. On failure the caller rewinds.
+    does any on a timeline that is early. `asked` tells what an owner will not do. On failure the caller rewinds.
     """
     for line in timelines:
         # While the reactor slept, what holds has gone on.
@@ -65,20 +46,18 @@ def synchronise(
             return SyncFailure("F3" if line.is_internal else "F1", (line.name,), what, conflict_of(bench))
     if not bench.set_clock(tick):
         return SyncFailure("F3", (), Reason(ReasonKind.CLOCK, tick=tick), conflict_of(bench))
-    failed = _persist(bench, timelines, tick, is_refused)
+    failed = _persist(bench, timelines, tick, asked)
     if failed is not None:
         return failed
     mark = bench.mark()
-    if _Search(bench, planner, timelines, tick, final_tick, is_refused, False).run() is None:
+    if _Search(bench, planner, timelines, tick, final_tick, asked, False).run() is None:
         return None
     # Choices fail all the time; only when all have failed is it worth while to find out why.
     bench.rewind_to(mark)
-    return _Search(bench, planner, timelines, tick, final_tick, is_refused, True).run()
+    return _Search(bench, planner, timelines, tick, final_tick, asked, True).run()
 
 
-def _persist(
-    bench: Workbench, timelines: list[TimelineState], tick: int, is_refused: Callable[[int], bool]
-) -> SyncFailure | None:
+def _persist(bench: Workbench, timelines: list[TimelineState], tick: int, asked: Dispatch) -> SyncFailure | None:
     """No news means no change: what is observed on other reactors' timelines goes on; a new value ends it."""
     for line in timelines:
         if line.is_internal or line.current == NOTHING:
@@ -87,7 +66,7 @@ def _persist(
             if not bench.at_least(bench.end(line.current), tick + 1, SPAN_OBSERVATION, line.current):
                 what = Reason(ReasonKind.GOES_ON, bench.name_of(line.current), tick=tick)
                 following = bench.next_of(line.object_id, line.current)
-                code = "F6" if following >= 0 and is_refused(following) else "F1"
+                code = "F6" if following >= 0 and asked.is_refused(following) else "F1"
                 return SyncFailure(code, (line.name,), what, conflict_of(bench))
         elif not bench.fix(bench.end(line.current), tick, SPAN_OBSERVATION, line.current):
             what = Reason(ReasonKind.ENDED, bench.name_of(line.current), tick=tick)
@@ -105,7 +84,7 @@ class _Search:
         timelines: list[TimelineState],
         tick: int,
         final_tick: int,
-        is_refused: Callable[[int], bool],
+        asked: Dispatch,
         explains: bool,
     ) -> None:
         self.explains = explains
@@ -113,7 +92,7 @@ class _Search:
         self.planner = planner
         self.tick = tick
         self.is_last = tick == final_tick
-        self.is_refused = is_refused
+        self.asked = asked
         self.timelines = timelines
         self.lines = [line for line in timelines if not line.is_internal and line.news is not None]
         self.lines += [line for line in timelines if line.is_internal]
@@ -144,7 +123,7 @@ class _Search:
     def _walk(self, max_tries: int, stuck: dict[str, None]) -> SyncFailure | None:
         """Decide the timelines in their order, up to a number of tries; note those on which nothing fitted."""
         bench = self.bench
-        open_choices: list[list[Continuation]] = []
+        open_choices: list[list[_Choice]] = []
         marks: list[int] = []
         self.made = []
         self.first = None
@@ -193,7 +172,7 @@ class _Search:
         self.bench.rewind_to(marks[-1])
         return True
 
-    def choices(self, line: TimelineState) -> list[Continuation]:
+    def choices(self, line: TimelineState) -> list[_Choice]:
         """What may hold on `line` now, best first (T-REX 1.4)."""
         bench, tick, current = self.bench, self.tick, line.current
         if not line.is_internal:
@@ -201,38 +180,46 @@ class _Search:
             predicate = self.fitting(line, line.news)
             if predicate == NOTHING:
                 return []
-            meets = [
-                Continuation(_MEET, token, predicate)
-                for token in bench.planned_after(line.object_id, current)
-                if bench.predicate_of(token) == predicate
-                and bench.lower(bench.start(token)) <= tick <= bench.upper(bench.start(token))
-            ]
-            return [*meets, Continuation(_FACT, NOTHING, predicate)]
-        extend: list[Continuation] = []
-        if current != NOTHING:
-            if bench.lower(bench.end(current)) > tick:
-                return [Continuation(_EXTEND, current, NOTHING)]
-            if bench.upper(bench.end(current)) > tick:
-                extend = [Continuation(_EXTEND, current, NOTHING)]
-        starts = [
-            Continuation(_NEXT, token, NOTHING)
-            for token in bench.planned_after(line.object_id, current)[:1]
-            if bench.lower(bench.start(token)) <= tick <= bench.upper(bench.start(token))
-        ]
-        if not starts or not bench.is_requested(starts[0].token):
-            starts = [Continuation(_NEXT, token, NOTHING) for token in bench.must_begin(line.object_id, tick)] + starts
-        is_asked = bool(starts) and bench.is_requested(starts[0].token)
+            found: list[_Choice] = []
+            token = bench.next_of(line.object_id, current)
+            while token >= 0:
+                if bench.predicate_of(token) == predicate and self._may_start(token):
+                    found.append((_MEET, token, predicate))
+                token = bench.following(token)
+            for _, token, _ in found:
+                if self.asked.is_answered(token, line.news.event):
+                    return found  # what was asked for has come: that is how the plan has to go on
+            found.append((_FACT, NOTHING, predicate))
+            return found
+        if current != NOTHING and bench.lower(bench.end(current)) > tick:
+            return [(_EXTEND, current, NOTHING)]
+        extend: list[_Choice] = []
+        if current != NOTHING and bench.upper(bench.end(current)) > tick:
+            extend = [(_EXTEND, current, NOTHING)]
+        starts: list[_Choice] = []
+        token = bench.next_of(line.object_id, current)
+        if token >= 0 and self._may_start(token):
+            starts.append((_NEXT, token, NOTHING))
+        is_asked = bool(starts) and bench.is_requested(token)
+        if not is_asked:
+            forced = bench.must_begin(line.object_id, tick)
+            starts = [(_NEXT, each, NOTHING) for each in forced] + starts
+            is_asked = bool(forced) and bench.is_requested(forced[0])
         if is_asked and self.is_last:
             starts = []  # what can begin at the end at the earliest is not begun
-        is_due = bool(starts) and (line.is_early or is_asked)
-        new = [
-            Continuation(_NEW, NOTHING, p) for p in ([line.default, *line.others] if line.default >= 0 else line.others)
-        ]
-        if is_due:
+        new: list[_Choice] = [(_NEW, NOTHING, other) for other in line.others]
+        if line.default >= 0:
+            new.insert(0, (_NEW, NOTHING, line.default))
+        if starts and (line.is_early or is_asked):
             return [*starts, *extend, *new]
         if line.is_late and line.default >= 0:
             return [*extend, new[0], *starts, *new[1:]]
         return [*extend, *starts, *new]
+
+    def _may_start(self, token: int) -> bool:
+        """Whether a token may start now."""
+        start = self.bench.start(token)
+        return self.bench.lower(start) <= self.tick <= self.bench.upper(start)
 
     def fitting(self, line: TimelineState, news: Observation) -> int:
         """The predicate of what was observed; `undefined` if the model has none like it (T-REX 1.6)."""
@@ -240,7 +227,7 @@ class _Search:
         predicate = line.predicates.get(news.predicate, NOTHING)
         if predicate != NOTHING and news.arguments:
             mark = bench.mark()
-            token = bench.new_token(predicate, line.object_id, is_fact=True)
+            token = bench.new_token(predicate, line.object_id, True)
             fits = bench.restrict_parameters(token, news.arguments, SPAN_OBSERVATION)
             bench.rewind_to(mark)
             bench.release(mark)
@@ -250,52 +237,51 @@ class _Search:
             return predicate
         return line.predicates.get(_UNDEFINED, NOTHING)
 
-    def apply(self, line: TimelineState, choice: Continuation) -> bool:
+    def apply(self, line: TimelineState, choice: _Choice) -> bool:
         """Carry out `choice`; False on conflict."""
         bench, tick = self.bench, self.tick
-        token = choice.token
-        if line.is_internal and line.current != NOTHING and choice.kind != _EXTEND:
+        kind, token, predicate = choice
+        if line.is_internal and line.current != NOTHING and kind != _EXTEND:
             # Something holds at every tick: what held until now ends as the next thing begins.
             if not bench.fix(bench.end(line.current), tick, SPAN_EXECUTIVE, line.current):
                 return False
-        match choice.kind:
-            case "extend":
-                holds = bench.at_least(bench.end(token), tick + 1, SPAN_EXECUTIVE, token)
-            case "next":
-                if not bench.is_active(token):
-                    holds = bench.activate(token) and bench.place_after(line.object_id, token, line.current)
-                    if not holds:
-                        return False
-                holds = bench.fix(bench.start(token), tick, SPAN_EXECUTIVE, token) and bench.at_least(
-                    bench.end(token), tick + 1, SPAN_EXECUTIVE, token
-                )
-            case "new":
-                token = bench.new_token(choice.predicate, line.object_id, is_fact=False)
-                holds = (
-                    bench.fix(bench.start(token), tick, SPAN_EXECUTIVE, token)
-                    and bench.at_least(bench.end(token), tick + 1, SPAN_EXECUTIVE, token)
-                    and bench.activate(token)
-                    and bench.place_after(line.object_id, token, line.current)
-                )
-            case _:
-                assert line.news is not None
-                token = self._observe(line, line.news, choice)
-                holds = token != NOTHING
+        if kind == _EXTEND:
+            holds = bench.at_least(bench.end(token), tick + 1, SPAN_EXECUTIVE, token)
+        elif kind == _NEXT:
+            if not bench.is_active(token):
+                holds = bench.activate(token) and bench.place_after(line.object_id, token, line.current)
+                if not holds:
+                    return False
+            holds = bench.fix(bench.start(token), tick, SPAN_EXECUTIVE, token) and bench.at_least(
+                bench.end(token), tick + 1, SPAN_EXECUTIVE, token
+            )
+        elif kind == _NEW:
+            token = bench.new_token(predicate, line.object_id, False)
+            holds = (
+                bench.fix(bench.start(token), tick, SPAN_EXECUTIVE, token)
+                and bench.at_least(bench.end(token), tick + 1, SPAN_EXECUTIVE, token)
+                and bench.activate(token)
+                and bench.place_after(line.object_id, token, line.current)
+            )
+        else:
+            assert line.news is not None
+            token = self._observe(line, line.news, kind, token, predicate)
+            holds = token != NOTHING
         self.made[len(self.made) - 1] = token
         return holds
 
-    def _observe(self, line: TimelineState, news: Observation, choice: Continuation) -> int:
-        """Insert what was observed as a fact, or let it meet the planned token `choice.token`; NOTHING on conflict."""
+    def _observe(self, line: TimelineState, news: Observation, kind: int, token: int, predicate: int) -> int:
+        """Insert what was observed as a fact, or let it meet the planned `token`; NOTHING on conflict."""
         bench, tick = self.bench, self.tick
-        fact = bench.new_token(choice.predicate, line.object_id, is_fact=True)
+        fact = bench.new_token(predicate, line.object_id, True)
         holds = bench.fix(bench.start(fact), tick, SPAN_OBSERVATION, fact)
         holds = holds and bench.at_least(bench.end(fact), tick + 1, SPAN_OBSERVATION, fact)
-        if choice.predicate == line.predicates.get(news.predicate):
+        if predicate == line.predicates.get(news.predicate):
             holds = holds and bench.restrict_parameters(fact, news.arguments, SPAN_OBSERVATION)
         if not holds:
             return NOTHING
-        if choice.kind == _MEET:
-            return choice.token if bench.merge(fact, choice.token) else NOTHING
+        if kind == _MEET:
+            return token if bench.merge(fact, token) else NOTHING
         if bench.activate(fact) and bench.place_after(line.object_id, fact, line.current):
             return fact
         return NOTHING
@@ -307,18 +293,18 @@ class _Search:
             if self.is_last:
                 break  # there is no later
             if not bench.at_least(bench.start(token), tick + 1, SPAN_CLOCK, token):
-                code = "F6" if self.is_refused(token) else "F1"
+                code = "F6" if self.asked.is_refused(token) else "F1"
                 self._fail(code, (), Reason(ReasonKind.DID_NOT_START, bench.name_of(token), tick=tick))
                 return False
         outcome = self.planner.resolve_present(tick)
-        if outcome in ("steps", "deep"):
+        if outcome not in (EPISODE_DONE, EPISODE_EXHAUSTED):
             self.is_out_of_budget = True
-            is_deep = outcome == "deep"
+            is_deep = outcome == EPISODE_TOO_DEEP
             limit = self.planner.max_depth if is_deep else self.planner.max_steps
             what = Reason(ReasonKind.DEPTH if is_deep else ReasonKind.STEPS, tick=tick, limit=limit)
             self.first = SyncFailure("F5", (), what, None)
             return False
-        if outcome != "done":
+        if outcome == EPISODE_EXHAUSTED:
             if self.first is None:
                 what, conflict = self.planner.reason() if self.explains else (Reason(ReasonKind.NO_PLAN), None)
                 deadlock = self.planner.deadlock() if self.explains else None
@@ -328,27 +314,36 @@ class _Search:
 
     def waiting(self) -> list[int]:
         """Tokens that have not begun: all behind the current one of a timeline, and others that still may wait."""
-        decided = dict(zip((line.name for line in self.lines), self.made, strict=True))
+        bench = self.bench
         found: dict[int, None] = {}
         for line in self.timelines:
-            found |= dict.fromkeys(self.bench.planned_after(line.object_id, decided.get(line.name, line.current)))
-        return list(found | dict.fromkeys(self.bench.unplaced(self.tick)))
+            token = line.current
+            for k, other in enumerate(self.lines):
+                if other is line:
+                    token = self.made[k]
+            token = bench.next_of(line.object_id, token)
+            while token >= 0:
+                found[token] = None
+                token = bench.following(token)
+        for token in bench.unplaced(self.tick):
+            found[token] = None
+        return list(found)
 
     def _note(self) -> None:
         """Keep what was decided."""
-        for line, token in zip(self.lines, self.made, strict=True):
-            line.current = token
+        for k, line in enumerate(self.lines):
+            line.current = self.made[k]
 
-    def _note_failure(self, line: TimelineState, choice: Continuation) -> None:
+    def _note_failure(self, line: TimelineState, choice: _Choice) -> None:
+        kind, token, predicate = choice
         code = "F3" if line.is_internal else "F8" if line.news and line.news.predicate == "Failed" else "F2"
-        match choice.kind:
-            case "extend":
-                what = Reason(ReasonKind.CANNOT_GO_ON, self.bench.name_of(choice.token), tick=self.tick)
-            case "next" | "meet":
-                what = Reason(ReasonKind.CANNOT_START, self.bench.name_of(choice.token), tick=self.tick)
-            case _:
-                predicate = self.bench.predicate_name(choice.predicate)
-                what = Reason(ReasonKind.NONE_CAN_START, predicate=predicate, tick=self.tick)
+        if kind == _EXTEND:
+            what = Reason(ReasonKind.CANNOT_GO_ON, self.bench.name_of(token), tick=self.tick)
+        elif kind in (_NEXT, _MEET):
+            what = Reason(ReasonKind.CANNOT_START, self.bench.name_of(token), tick=self.tick)
+        else:
+            name = self.bench.predicate_name(predicate)
+            what = Reason(ReasonKind.NONE_CAN_START, predicate=name, tick=self.tick)
         self._fail(code, (line.name,), what, self.lines.index(line))
 
     def _fail(self, code: str, timelines: tuple[str, ...], what: Reason, depth: int = NOTHING) -> None:

@@ -8,21 +8,6 @@ NOTHING = -1
 class TimelineState:
     """One timeline of one reactor; `current` is the token that holds now, NOTHING before the first."""
 
-    __slots__ = (
-        "current",
-        "default",
-        "event",
-        "is_early",
-        "is_internal",
-        "is_late",
-        "name",
-        "news",
-        "object_id",
-        "others",
-        "predicates",
-        "source",
-    )
-
     def __init__(self, name: str, object_id: int, is_internal: bool, default: int, predicates: dict[str, int]) -> None:
         self.name = name
         self.object_id = object_id
@@ -31,6 +16,7 @@ class TimelineState:
         self.predicates = predicates
         # What an internal timeline may hold when nothing else explains now (T-REX 1.4, choice OTHER).
         self.others = [p for name, p in predicates.items() if p != default and name not in ("undefined", "Failed")]
+        self.accepts_requests = False  # whether its users may ask for tokens, by the model
         self.is_early = False  # whether what is planned starts as soon as it may, though nobody asked for it
         self.is_late = False  # whether what nobody asked for starts only when it must
         self.current = NOTHING
@@ -42,11 +28,10 @@ class TimelineState:
 class Goal:
     """A request that its owner has turned into a token."""
 
-    __slots__ = ("is_closed", "is_rejected", "request", "token", "token_key")
-
     def __init__(self, request: Request, token: int, token_key: int) -> None:
         self.request = request
         self.token = token
         self.token_key = token_key
         self.is_closed = False
-        self.is_rejected = False  # the planner has could not insert it, so far
+        self.is_rejected = False  # the planner could not insert it, so far
+        self.failed_starts = 0  # how often the present failed when what it had asked for began

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from runtime.executive.events import EventLog
 from runtime.executive.messages import Arguments
 from runtime.executive.outcome import Conflict, Deadlock, Draw, Event, EventKind, Phase, Reason, RepairStage, TimeBounds
 from runtime.executive.reactor import Watched
@@ -12,7 +13,7 @@ class Trace:
     """The events of one mission, in order; canonical: two runs of one mission record equal traces (T-REX 3.4)."""
 
     def __init__(self) -> None:
-        self.events: list[Event] = []
+        self.events = EventLog()
         self.draws: list[Draw] = []
         self.tick = 0
         self.phase = Phase.START
@@ -40,7 +41,7 @@ class Trace:
         deadlock: Deadlock | None = None,
     ) -> int:
         """Add an event at the present tick and phase; its index is what later events name as their cause."""
-        self.events.append(
+        return self.events.append(
             Event(
                 self.tick,
                 self.phase,
@@ -61,7 +62,6 @@ class Trace:
                 deadlock,
             )
         )
-        return len(self.events) - 1
 
     def record_draw(self, reactor: str, draw: Draw) -> int:
         """Add a drawn value, once per parameter and date; the index of its event."""

@@ -53,10 +53,12 @@ class PlanView:
 
     def __init__(self, database: PlanDatabase, name: str) -> None:
         self.database = database
+        self.plan = database.plan
         self.engine = database.engine
         self.rows = database.plan.rows
         self.name = name
         self.predicates = {predicate.name: number for number, predicate in enumerate(database.program.predicates)}
+        self.parameters: dict[int, dict[str, int]] = {}  # by predicate: the parameters' numbers by name
         self.globals = {name: number for number, (name, _) in enumerate(database.program.globals)}
         self.requested: dict[int, int] = {}  # token -> key
         self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
@@ -71,10 +73,10 @@ class PlanView:
         """The timeline that global variable `name` holds; raises `MissingTimelineError` where there is none."""
         objects = self.database.objects.names
         if name not in objects:
-            known = ", ".join(f"`{other}`" for other in objects) or "none"
+            known = ", ".join([f"`{other}`" for other in objects]) or "none"
             raise _MissingTimelineError(f"the model of `{self.name}` has no object `{name}`; it has {known}")
         o = objects.index(name)
-        code = self.database.program.classes[self.database.plan.object_class[o]]
+        code = self.database.program.classes[self.plan.object_class[o]]
         predicates: dict[str, int] = {}
         for number, predicate in enumerate(self.database.program.predicates):
             if predicate.class_name == code.name:
@@ -91,10 +93,10 @@ class PlanView:
         return "undefined"
 
     def _member(self, o: int, name: str) -> DomainConstant | None:
-        members = self.database.program.classes[self.database.plan.object_class[o]].members
+        members = self.database.program.classes[self.plan.object_class[o]].members
         for k, member in enumerate(members):
             if member.name == name:
-                return self.domain(self.database.plan.object_var0[o] + k, member.type.kind, member.type.type_name)
+                return self.domain(self.plan.object_var0[o] + k, member.type.kind, member.type.type_name)
         return None
 
     def accepts_requests(self, o: int) -> bool:
@@ -144,10 +146,10 @@ class PlanView:
         """What is known of the parameters of `t`."""
         first = self.rows.var0[t] + FIRST_PARAMETER
         parameters = self.database.program.predicates[self.rows.predicate[t]].parameters
-        return tuple(
-            (parameter.name, self.domain(first + k, parameter.type.kind, parameter.type.type_name))
-            for k, parameter in enumerate(parameters)
-        )
+        found = []
+        for k, parameter in enumerate(parameters):
+            found.append((parameter.name, self.domain(first + k, parameter.type.kind, parameter.type.type_name)))
+        return tuple(found)
 
     def domain(self, v: int, kind: str, type_name: str) -> DomainConstant:
         """The present domain of a variable, by names, so that another model can read it."""
@@ -156,7 +158,9 @@ class PlanView:
         if shape in (KIND_INT, KIND_FLOAT, KIND_BOOL):
             lower, upper = engine.lower(v), engine.upper(v)
             if shape == KIND_BOOL:
-                return DomainConstant(kind, type_name, None, tuple(bool(x) for x in range(int(lower), int(upper) + 1)))
+                return DomainConstant(
+                    kind, type_name, None, tuple([bool(x) for x in range(int(lower), int(upper) + 1)])
+                )
             if shape == KIND_INT:
                 return DomainConstant(kind, type_name, (_whole(lower), _whole(upper)), None)
             return DomainConstant(kind, type_name, (max(lower, -_INFINITY) + 0, min(upper, _INFINITY) + 0), None)
@@ -165,10 +169,18 @@ class PlanView:
         single = engine.lower(v) == engine.upper(v)
         values = [int(engine.lower(v))] if single else [int(value) for value in engine.values_of(v)]
         if shape == KIND_STRING:
-            return DomainConstant(kind, type_name, None, tuple(prototypes.texts.text(x) for x in values))
+            return DomainConstant(kind, type_name, None, tuple([prototypes.texts.text(x) for x in values]))
         if kind == "object":
-            return DomainConstant(kind, type_name, None, tuple(self.database.objects.names[x] for x in values))
-        return DomainConstant(kind, type_name, None, tuple(prototypes.symbols.text(x) for x in values))
+            return DomainConstant(kind, type_name, None, tuple([self.database.objects.names[x] for x in values]))
+        return DomainConstant(kind, type_name, None, tuple([prototypes.symbols.text(x) for x in values]))
+
+    def parameter_numbers(self, predicate: int) -> dict[str, int]:
+        """The numbers of a predicate's parameters, by name."""
+        found = self.parameters.get(predicate)
+        if found is None:
+            parameters = self.database.program.predicates[predicate].parameters
+            found = self.parameters[predicate] = {parameter.name: k for k, parameter in enumerate(parameters)}
+        return found
 
     # ---- asking ----
 
@@ -243,6 +255,12 @@ class PlanView:
         """The token whose rule asked for `t`; NONE where there is none."""
         return int(self.rows.parent[t])
 
+    def root(self, t: int) -> int:
+        """The token that `t` goes back to, rule by rule; itself if no rule asked for it."""
+        while self.rows.parent[t] >= 0:
+            t = int(self.rows.parent[t])
+        return t
+
     def stands_for(self, t: int) -> int:
         """The token of the plan that `t` is, or is merged into."""
         return int(self.rows.merged_into[t] if self.rows.status[t] == MERGED else t)
@@ -254,8 +272,12 @@ class PlanView:
     def next_of(self, o: int, current: int) -> int:
         """The token behind the current one in the sequence of a timeline; the first one if there is no current."""
         if current < 0:
-            return int(self.rows.head_first[self.database.plan.object_head[o]])
+            return int(self.rows.head_first[self.plan.object_head[o]])
         return int(self.rows.link_after[LISTS * current + LIST_ORDER])
+
+    def following(self, t: int) -> int:
+        """The token behind another one in the sequence of their timeline; NONE behind the last."""
+        return int(self.rows.link_after[LISTS * t + LIST_ORDER])
 
     def planned_after(self, o: int, current: int) -> list[int]:
         """The sequence of a timeline behind the current token."""
@@ -269,8 +291,9 @@ class PlanView:
     def all_tokens(self) -> list[int]:
         """All tokens, oldest first."""
         rows = self.rows
-        live = [t for t in range(rows.token_count) if rows.status[t] != FREED]
-        return sorted(live, key=lambda t: int(rows.key[t]))
+        live = [(rows.key[t], t) for t in range(rows.token_count) if rows.status[t] != FREED]
+        live.sort()
+        return [t for _, t in live]
 
     def unplaced(self, tick: int) -> list[int]:
         """Tokens that are in no sequence yet and may start by `tick` as well as later.
@@ -280,6 +303,10 @@ class PlanView:
         rows, engine = self.rows, self.engine
         found = [t for t in self.undecided() if rows.flags[t] & FLAG_GOAL] + self._listed(HEAD_THREAT, LIST_THREAT)
         return [t for t in found if engine.lower(self.start(t)) <= tick < engine.upper(self.start(t))]
+
+    def unordered(self) -> list[int]:
+        """Active tokens that are in no sequence yet."""
+        return self._listed(HEAD_THREAT, LIST_THREAT)
 
     def _listed(self, head: int, kind: int) -> list[int]:
         """The tokens of one list."""
@@ -317,7 +344,7 @@ class PlanView:
 
     def _is_held_back(self, t: int, tick: int) -> bool:
         """Whether the earliest start of `t` rests on another token that has not begun, and may do so only later."""
-        engine, plan = self.engine, self.database.plan
+        engine, plan = self.engine, self.plan
         v = self.start(t)
         for _ in range(engine.edges_used):
             support = engine.lower_support[v]
@@ -332,7 +359,7 @@ class PlanView:
 
     def _is_awaited(self, v: int, t: int, current: int, tick: int) -> bool:
         """Whether `v` is the open end of a token on another reactor's timeline, other than what `t` replaces."""
-        plan = self.database.plan
+        plan = self.plan
         if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != END or self.engine.upper(v) <= tick:
             return False
         other = self.stands_for(plan.variable_owner[v])

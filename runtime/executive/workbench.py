@@ -7,6 +7,8 @@ from runtime.constraints.domains.tags import FLAG_DECISION, KIND_FLOAT
 from runtime.executive.messages import Arguments
 from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST, PlanView
+from runtime.plan.lifecycle import activate, fire, merge
+from runtime.plan.store.marks import commit, mark, release, rewind
 from runtime.plan.store.prototypes import restrict_constant
 from runtime.plan.tags import (
     FLAG_FACT,
@@ -19,7 +21,9 @@ from runtime.plan.tags import (
     NONE,
 )
 from runtime.plan.tokens.archive import archive, detach
-from runtime.plan.tokens.retraction import wake_guards
+from runtime.plan.tokens.retraction import cancel, remove_tokens, wake_guards
+from runtime.plan.tokens.timelines import order
+from runtime.plan.tokens.tokens import make_token
 
 
 class Workbench(PlanView):
@@ -29,23 +33,23 @@ class Workbench(PlanView):
 
     def mark(self) -> int:
         """Remember the present state, for `rewind_to`, as often as wanted, and `release`."""
-        return int(self.database.mark())
+        return mark(self.plan)
 
     def rewind_to(self, mark: int) -> None:
         """Go back to a mark, which stays."""
-        self.database.rewind(mark)
+        rewind(self.plan, mark)
 
     def release(self, mark: int) -> None:
         """Go back to the latest mark and forget it."""
-        self.database.release(mark)
+        release(self.plan, mark)
 
     def commit(self) -> None:
         """Forget all marks: what holds now is final."""
-        self.database.commit()
+        commit(self.plan)
 
     def is_consistent(self) -> bool:
         """Whether nothing contradicts anything."""
-        return bool(self.database.is_consistent)
+        return bool(self.engine.consistent)
 
     # ---- narrowing ----
 
@@ -76,20 +80,19 @@ class Workbench(PlanView):
         if not self.engine.restrict_base(v, lower, upper, span, t):
             return False
         if not was_decided and self.engine.is_decided(v):
-            wake_guards(self.database.plan, v)
-        return bool(self.database.fire())
+            wake_guards(self.plan, v)
+        return fire(self.plan)
 
     def restrict_parameters(self, t: int, arguments: Arguments, span: int) -> bool:
         """Narrow parameters to what somebody else knows of them; a name that `t` does not have is a misfit."""
-        parameters = self.database.program.predicates[self.rows.predicate[t]].parameters
-        names = {parameter.name: k for k, parameter in enumerate(parameters)}
+        names = self.parameter_numbers(self.rows.predicate[t])
         for name, domain in arguments:
             if name not in names:
                 return False
             v = self.rows.var0[t] + FIRST_PARAMETER + names[name]
             if not self._restrict(v, domain, span, t):
                 return False
-        return self.database.fire()
+        return fire(self.plan)
 
     def _restrict(self, v: int, domain: DomainConstant, span: int, t: int) -> bool:
         if domain.kind == "object" and domain.values is not None:
@@ -111,50 +114,57 @@ class Workbench(PlanView):
         number = self.globals.get("AGENT_CLOCK")
         if number is None:
             return True
-        self.database.plan.clock = self.database.plan.globals[number]
-        return self.within(self.database.plan.clock, (0, final_tick), SPAN_MISSION, NONE)
+        self.plan.clock = self.plan.globals[number]
+        return self.within(self.plan.clock, (0, final_tick), SPAN_MISSION, NONE)
 
     def set_clock(self, tick: int) -> bool:
         """Let the model's clock read `tick` or later."""
         number = self.globals.get("AGENT_CLOCK")
-        return number is None or self.at_least(self.database.plan.globals[number], tick, SPAN_CLOCK, NONE)
+        return number is None or self.at_least(self.plan.globals[number], tick, SPAN_CLOCK, NONE)
 
     def set_global(self, name: str, value: float) -> bool:
         """Give a global variable of the T-REX library its value, if the model has it."""
         number = self.globals.get(name)
-        return number is None or self.fix(self.database.plan.globals[number], value, SPAN_MISSION, NONE)
+        return number is None or self.fix(self.plan.globals[number], value, SPAN_MISSION, NONE)
 
     # ---- tokens ----
 
     def new_token(self, predicate: int, o: int, is_fact: bool) -> int:
         """Make a token on a timeline; a conflict shows when it is narrowed or activated."""
         flags = FLAG_FACT if is_fact else 0
-        return int(self.database.new_token(predicate, o, flags, SPAN_OBSERVATION if is_fact else SPAN_EXECUTIVE))
+        return self._make(predicate, o, flags, SPAN_OBSERVATION if is_fact else SPAN_EXECUTIVE)
 
     def new_goal(self, predicate: int, o: int) -> int:
         """Make the token of a request."""
-        return int(self.database.new_token(predicate, o, FLAG_GOAL | FLAG_REJECTABLE, SPAN_REQUEST))
+        return self._make(predicate, o, FLAG_GOAL | FLAG_REJECTABLE, SPAN_REQUEST)
+
+    def _make(self, predicate: int, o: int, flags: int, span: int) -> int:
+        given = NONE if o < 0 else self.plan.object_constant[o]
+        return make_token(self.plan, predicate, flags, NONE, NONE, given, span)
 
     def activate(self, t: int) -> bool:
         """Put a token into the plan; its rules fire."""
-        return bool(self.database.activate(t, SPAN_EXECUTIVE))
+        return activate(self.plan, t, SPAN_EXECUTIVE)
 
     def merge(self, t: int, other: int) -> bool:
         """Let a token stand for another."""
-        return bool(self.database.merge(t, other, SPAN_EXECUTIVE))
+        return merge(self.plan, t, other, SPAN_EXECUTIVE)
 
     def place_after(self, o: int, t: int, current: int) -> bool:
         """Order a token right behind the current one of its timeline, or in front of all."""
         following = self.next_of(o, current)
-        if current >= 0 and not self.database.order(o, current, t, SPAN_EXECUTIVE):
+        if current >= 0 and not self._order(o, current, t):
             return False
         if following >= 0:
-            return bool(self.database.order(o, t, following, SPAN_EXECUTIVE))
-        return current >= 0 or bool(self.database.order(o, t, t, SPAN_EXECUTIVE))
+            return self._order(o, t, following)
+        return current >= 0 or self._order(o, t, t)
+
+    def _order(self, o: int, before: int, after: int) -> bool:
+        return order(self.plan, o, before, after, SPAN_EXECUTIVE) and fire(self.plan)
 
     def cancel(self, t: int) -> bool:
         """Take a token out of the plan, with all that followed from it; it stays to be decided again."""
-        return bool(self.database.cancel(t)) and self._undecide(t)
+        return cancel(self.plan, t) and fire(self.plan) and self._undecide(t)
 
     def _undecide(self, t: int) -> bool:
         """Undo what the planner decided about the variables of a token."""
@@ -167,7 +177,7 @@ class Workbench(PlanView):
             for r in engine.restrictions_of(v)
             if engine.restriction_flags[r] & FLAG_DECISION and engine.restriction_span[r] == NONE
         ]
-        return not made or bool(engine.retract((), (), made, ()) and self.database.fire())
+        return not made or (engine.retract((), (), made, ()) and fire(self.plan))
 
     def renew(self, t: int) -> bool:
         """Let the rules of a planned token fire anew, in its place on its timeline."""
@@ -191,7 +201,7 @@ class Workbench(PlanView):
                 kept.add(int(self.rows.link_before[LISTS * line.current + LIST_ORDER]))
         count = self.rows.token_count
         over = [t for t in range(count) if t not in kept and not self.is_freed(t) and self.is_over(t, tick)]
-        return archive(self.database.plan, over, tick, self.recorder.leave) if over and self.database.fire() else 0
+        return archive(self.plan, over, tick, self.recorder.leave) if over and fire(self.plan) else 0
 
     def tidy(self) -> None:
         """Forget limits of times that a later one of the same kind has made needless: they grow with every tick."""
@@ -207,16 +217,16 @@ class Workbench(PlanView):
         self.moved.clear()
         if needless:
             engine.retract((), (), needless, ())
-            self.database.fire()
+            fire(self.plan)
 
     def detach(self, t: int) -> None:
         """Let a token stay when the one that asked for it goes."""
         self.recorder.detach(t)
-        detach(self.database.plan, t)
+        detach(self.plan, t)
 
     def remove(self, tokens: list[int]) -> bool:
         """Take tokens away for good."""
-        return bool(self.database.remove_tokens(tokens))
+        return remove_tokens(self.plan, tokens) and fire(self.plan)
 
     def fact_of(self, t: int) -> int:
         """The observation that token `t` is, or that met it; NONE where there is none."""

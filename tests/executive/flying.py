@@ -95,8 +95,9 @@ def flown(
     overrides: Mapping[str, float] | None = None,
     every_tick: bool = False,
     compiles: bool = True,
+    stop: int | None = None,
 ) -> Flown:
-    """Fly one mission and judge it."""
+    """Fly one mission and judge it; `stop` ends the flight before the final tick."""
     agent = AgentConfiguration(
         "toy",
         ".",
@@ -109,7 +110,7 @@ def flown(
     programs = tuple(program(flyer.configuration.model, flyer.text) for flyer in flyers)
     solvers = tuple(default_configuration() for _ in flyers)
     outcome, record = record_mission(
-        agent, MissionPrograms(programs, solvers), seed, overrides, every_tick, compiles=compiles
+        agent, MissionPrograms(programs, solvers), seed, overrides, every_tick, stop, compiles
     )
     report = judge_mission(agent, programs, outcome, record, overrides=overrides)
     return Flown(agent, programs, outcome, record, report)

@@ -7,6 +7,8 @@ from runtime.executive.draws import Draws, World
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.planning import Planner
 from runtime.executive.rendering import event_text
+from runtime.executive.stock import SHELVES
+from runtime.executive.timelines import TimelineState
 from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
@@ -95,8 +97,23 @@ def test_what_is_visited_at_every_tick_stays_small_too() -> None:
     assert grown[0] == grown[1]
 
 
+class Hoarder(Workbench):
+    """A workbench that archives nothing."""
+
+    asked = 0
+
+    def archive(self, timelines: list[TimelineState], tick: int) -> int:
+        """Leave what is over where it is."""
+        Hoarder.asked += 1
+        return 0
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_the_archive_changes_no_outcome(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     with_archive = toy(seed)
-    monkeypatch.setattr(Workbench, "archive", lambda *_: 0)
+    monkeypatch.setattr("runtime.executive.mission.Workbench", Hoarder)
+    SHELVES.clear()
+    asked = Hoarder.asked
     assert toy(seed) == with_archive
+    assert Hoarder.asked > asked
+    SHELVES.clear()

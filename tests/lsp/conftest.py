@@ -94,15 +94,33 @@ class Client:
 
     # ---- what editors do ----
 
-    def start(self, options: Message | None = None, encodings: list[str] | None = None) -> Message:
+    def start(
+        self,
+        options: Message | None = None,
+        encodings: list[str] | None = None,
+        folder: Path | None = None,
+        capabilities: Message | None = None,
+    ) -> Message:
         """Begin the session; what the server says it can do."""
-        general = {"general": {"positionEncodings": encodings}} if encodings else {}
+        able = {**(capabilities or {}), **({"general": {"positionEncodings": encodings}} if encodings else {})}
+        uri = folder.as_uri() if folder is not None else None
+        folders = [{"uri": uri, "name": "folder"}] if folder is not None else None
         answer: Message = self.ask(
-            "initialize", processId=None, rootUri=None, capabilities=general, initializationOptions=options
+            "initialize",
+            processId=None,
+            rootUri=uri,
+            workspaceFolders=folders,
+            capabilities=able,
+            initializationOptions=options,
         )
         self.notify("initialized")
-        capabilities: Message = answer["capabilities"]
-        return capabilities
+        offered: Message = answer["capabilities"]
+        return offered
+
+    def ask_at(self, method: str, uri: str, line: int, character: int, **params: Any) -> Any:
+        """Ask about a place."""
+        position = {"line": line, "character": character}
+        return self.ask(f"textDocument/{method}", textDocument={"uri": uri}, position=position, **params)
 
     def open(self, uri: str, text: str) -> Message:
         """Open a text; what is wrong with it."""

@@ -166,7 +166,7 @@ def test_the_other_questions_are_answered_over_the_wire(client: Any, tmp_path: P
     names = [each["name"] for each in client.ask("textDocument/documentSymbol", textDocument=document)]
     assert names == ["GPS_HIT_RATE", "Gps::Active"]
     completed = client.ask("textDocument/completion", textDocument=document, position={"line": 5, "character": 5})
-    assert [each["label"] for each in completed] == ["Inactive", "Active"]
+    assert [each["label"] for each in completed["items"]] == ["Inactive", "Active"]
     (action,) = client.ask(
         "textDocument/codeAction",
         textDocument=document,

@@ -14,20 +14,27 @@ cdef long long LIST_PREDICATE, LIST_THREAT, MERGED, NONE, OP_WATCH, SCOPE_BODY, 
 cdef long long STATE
 
 
+cdef class _Sweep:
+    cdef public list edges, constraints, restrictions, variables, undecided, scopes, tokens, reopened
+
+
+@cython.locals(sweep=_Sweep)
 cpdef bint cancel(Plan plan, long long t) except -1
 
 
+@cython.locals(sweep=_Sweep)
 cpdef bint remove_tokens(Plan plan, list tokens) except -1
 
 
-@cython.locals(doomed=set, rows=Rows, t="long long")
+@cython.locals(doomed=set, rows=Rows, sweep=_Sweep, t="long long")
 cpdef bint retract_branch(Plan plan, long long s) except -1
 
 
+@cython.locals(sweep=_Sweep)
 cpdef bint reset(Plan plan, long long v) except -1
 
 
-@cython.locals(after="long long", p="long long", rows=Rows)
+@cython.locals(after="long long", p="long long", rows=Rows, sweep=_Sweep)
 cpdef bint free(Plan plan, long long first, long long second, long long span) except -1
 
 
@@ -36,7 +43,7 @@ cpdef list scopes_of(Plan plan, long long t)
 
 
 @cython.locals(rows=Rows, status="long long", v="long long")
-cpdef void _deactivate(Plan plan, long long t, sweep) except *
+cpdef void _deactivate(Plan plan, long long t, _Sweep sweep) except *
 
 
 @cython.locals(c="long long")
@@ -44,23 +51,26 @@ cpdef void wake_guards(Plan plan, long long v) except *
 
 
 @cython.locals(child="long long", following="long long", last="long long", rows=Rows, s="long long")
-cpdef void _drop_scopes(Plan plan, long long t, set doomed, sweep) except *
+cpdef void _drop_scopes(Plan plan, long long t, set doomed, _Sweep sweep) except *
 
 
 @cython.locals(c="long long", h="long long", kind="long long", rows=Rows)
-cpdef int _collect_holds(Plan plan, long long s, sweep) except -1
+cpdef int _collect_holds(Plan plan, long long s, _Sweep sweep) except -1
 
 
 cpdef list _decisions_of(Plan plan, long long v)
 
 
-@cython.locals(done="long long", freed=list, gone=set, r="long long", restrictions=list, rows=Rows)
-cpdef bint _finish(Plan plan, sweep) except -1
+@cython.locals(
+    done="long long", freed=list, gone=set, r="long long", restrictions=list, rows=Rows, s="long long", t="long long",
+    v="long long",
+)
+cpdef bint _finish(Plan plan, _Sweep sweep) except -1
 
 
 @cython.locals(
     c="long long", constraints=set, e="long long", edges=set, engine=Engine, owner="long long", owners=dict,
-    r="long long", restrictions=set, s="long long", t="long long", v="long long",
+    r="long long", restrictions=set, rows=Rows, s="long long", slot="long long", t="long long", v="long long",
 )
 cpdef int _forget_foreign(Plan plan, list gone) except -1
 

@@ -248,8 +248,7 @@ def _forget_foreign(plan: Plan, gone: list[int]) -> int:
 
     A token outlives the one that asked for it, or goes before it, once it stands by itself.
     """
-    engine = plan.engine
-    status = plan.rows.status
+    engine, rows = plan.engine, plan.rows
     edges: set[int] = set()
     constraints: set[int] = set()
     restrictions: set[int] = set()
@@ -257,19 +256,24 @@ def _forget_foreign(plan: Plan, gone: list[int]) -> int:
     for v in gone:
         for e in edges_of(engine, v):
             owner = engine.edge_owner[e]
-            if owner >= 0 and status[owner] != FREED:
+            if owner >= 0 and rows.status[owner] != FREED:
                 edges.add(e)
                 owners[owner] = None
-        for c in engine.constraints_of(v):
-            owner = engine.owner[c]
-            if owner >= 0 and status[owner] != FREED:
-                constraints.add(c)
-                owners[owner] = None
-        for r in engine.restrictions_of(v):
+        for slot in (engine.watch_head[v], engine.mute_head[v]):
+            while slot >= 0:
+                c = engine.slot_constraint[slot]
+                owner = engine.owner[c]
+                if owner >= 0 and rows.status[owner] != FREED:
+                    constraints.add(c)
+                    owners[owner] = None
+                slot = engine.slot_next[slot]
+        r = engine.restriction_head[v]
+        while r >= 0:
             owner = engine.restriction_owner[r]
-            if owner >= 0 and status[owner] != FREED:
+            if owner >= 0 and rows.status[owner] != FREED:
                 restrictions.add(r)
                 owners[owner] = None
+            r = engine.restriction_next[r]
     for t in owners:
         for s in scopes_of(plan, t):
             _drop_held(plan, s, edges, constraints, restrictions)

@@ -3,7 +3,7 @@
 cimport cython
 
 cdef long long FILTER_HORIZON, FILTER_HORIZON_VARIABLE, FILTER_INFINITE, FILTER_NOT_SINGLETON, NONE, ORDER_KEY
-cdef long long PREFER_EARLIEST
+cdef long long PREFER_EARLIEST, _FEW, _GLOBAL, _LOCAL, _MEMBER, _RESOURCE, _TOKEN, _UNKNOWN
 
 
 cdef class HandlerTable:
@@ -13,9 +13,9 @@ cdef class HandlerTable:
     cdef public long long[::1] handler_count, handler_of, heap_of, kind_of_predicate, handler_code, handler_most
     cdef public long long[::1] handler_choice, token_order, handler_constraint, handler_iterate, pairs_by_default
     cdef public long long[::1] resource_order, resource_orders, prefers_earliest, handler_guards, manager_heap
-    cdef public long long[::1] manager_heaps
+    cdef public long long[::1] manager_heaps, token_rows, variable_rows
     cdef public bint by_predicate
-    cdef public dict rows, kinds, token_rows, variable_rows
+    cdef public dict rows, kinds, other_rows
     cdef public list kind_texts
     cdef public double[::1] handler_priority, heap_priority
 
@@ -23,8 +23,10 @@ cdef class HandlerTable:
         self, long long predicate, long long parent, long long relation, long long label
     ) except? -1
 
+    @cython.locals(at="long long")
     cpdef long long token_row(self, long long manager, long long kind) except? -1
 
+    @cython.locals(at="long long")
     cpdef long long variable_row(self, long long manager, long long kind, long long number) except? -1
 
     cpdef long long local_row(self, long long manager, long long kind, long long name) except? -1
@@ -36,3 +38,8 @@ cdef class HandlerTable:
     cpdef long long resource_row(self, long long manager, long long owner) except? -1
 
     cpdef long long global_row(self, long long manager, long long name) except? -1
+
+    @cython.locals(key="long long")
+    cpdef long long _other_row(self, long long sort, long long manager, long long owner, long long name) except? -1
+
+    cpdef long long _match(self, long long sort, long long manager, long long owner, long long name) except? -1

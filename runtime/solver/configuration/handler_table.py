@@ -6,6 +6,7 @@ depend on more than their own bounds have none (NONE): they are dynamic, looked 
 
 from array import array
 
+from runtime.constraints.domains.arrays import grown
 from runtime.solver.configuration.configuration import FlawHandler
 from runtime.solver.configuration.handler_matching import HandlerMatching, HandlerRow, TokenKind
 from runtime.solver.configuration.vocabulary import PlanVocabulary
@@ -26,6 +27,10 @@ from runtime.solver.tags import (
     ORDER_KEY,
     PREFER_EARLIEST,
 )
+
+_UNKNOWN = -2  # a row that nobody has asked for yet
+_FEW = 32  # variables of a token whose rows are looked up by number
+_TOKEN, _LOCAL, _MEMBER, _RESOURCE, _GLOBAL = range(5)
 
 
 class HandlerTable:
@@ -51,8 +56,9 @@ class HandlerTable:
         self.kinds: dict[tuple[int, int, int, int], int] = {}
         self.kind_texts: list[TokenKind] = []
         self.kind_of_predicate = array("q", [NONE] * max(predicates, 1))
-        self.token_rows: dict[int, int] = {}
-        self.variable_rows: dict[tuple[int, int, int, int], int] = {}
+        self.token_rows = array("q", [_UNKNOWN]) * (8 * self.managers)  # by kind and manager
+        self.variable_rows = array("q", [_UNKNOWN]) * (8 * self.managers * _FEW)  # those of the first variables, too
+        self.other_rows: dict[int, int] = {}
 
     def _number_handlers(self) -> None:
         """Lay the handlers out in arrays, and give each manager a heap per priority, the best one first."""
@@ -144,34 +150,27 @@ class HandlerTable:
 
     def token_row(self, manager: int, kind: int) -> int:
         """The row of a manager for tokens of a kind."""
-        key = kind * self.managers + manager
-        row = self.token_rows.get(key)
-        if row is None:
-            row = self._row(manager, self.matching.token(manager, self.kind_texts[kind]))
-            self.token_rows[key] = row
-        return row
+        at = kind * self.managers + manager
+        if at >= len(self.token_rows):
+            self.token_rows = grown(self.token_rows, 2 * at, _UNKNOWN)
+        if self.token_rows[at] == _UNKNOWN:
+            self.token_rows[at] = self._row(manager, self.matching.token(manager, self.kind_texts[kind]))
+        return self.token_rows[at]
 
     def variable_row(self, manager: int, kind: int, number: int) -> int:
         """The row of a manager for variable `number` of tokens of a kind."""
-        key = (manager, kind, number, 0)
-        row = self.variable_rows.get(key)
-        if row is None:
-            token = self.kind_texts[kind]
-            text = self.matching.variable_text(token.predicate, number)
-            found = self.matching.token_variable(manager, token, text, False) if text is not None else None
-            row = self._row(manager, found)
-            self.variable_rows[key] = row
-        return row
+        if number >= _FEW:
+            return self._other_row(_TOKEN, manager, kind, number)
+        at = (kind * self.managers + manager) * _FEW + number
+        if at >= len(self.variable_rows):
+            self.variable_rows = grown(self.variable_rows, 2 * at, _UNKNOWN)
+        if self.variable_rows[at] == _UNKNOWN:
+            self.variable_rows[at] = self._match(_TOKEN, manager, kind, number)
+        return self.variable_rows[at]
 
     def local_row(self, manager: int, kind: int, name: int) -> int:
         """The row of a manager for a local variable of the rules of tokens of a kind."""
-        key = (manager, kind, name, 1)
-        row = self.variable_rows.get(key)
-        if row is None:
-            text = self.vocabulary.name_text(name)
-            row = self._row(manager, self.matching.token_variable(manager, self.kind_texts[kind], text, True))
-            self.variable_rows[key] = row
-        return row
+        return self._other_row(_LOCAL, manager, kind, name)
 
     def variable_number(self, predicate: int, name: str) -> int:
         """The number of the variable that tokens of a predicate call `name`; NONE if none."""
@@ -179,21 +178,41 @@ class HandlerTable:
 
     def member_row(self, manager: int, owner: int, name: int) -> int:
         """The row of a manager for a member of objects of class `owner`."""
-        text = self.vocabulary.member_text(owner, name)
-        return self._row(manager, self.matching.member(manager, self.vocabulary.class_text(owner), text))
+        return self._other_row(_MEMBER, manager, owner, name)
 
     def resource_row(self, manager: int, owner: int) -> int:
         """The row of a manager for resources of class `owner`."""
-        key = (manager, owner, NONE, NONE)
-        row = self.variable_rows.get(key)
-        if row is None:
-            row = self._row(manager, self.matching.resource(manager, self.vocabulary.class_text(owner)))
-            self.variable_rows[key] = row
-        return row
+        return self._other_row(_RESOURCE, manager, owner, 0)
 
     def global_row(self, manager: int, name: int) -> int:
         """The row of a manager for a global variable."""
-        return self._row(manager, self.matching.global_variable(manager, self.vocabulary.global_text(name)))
+        return self._other_row(_GLOBAL, manager, 0, name)
+
+    def _other_row(self, sort: int, manager: int, owner: int, name: int) -> int:
+        """The row of a manager for a variable or resource, found by a sort of owner, the owner and the name."""
+        key = (((owner << 30) + name) * self.managers + manager) * 8 + sort
+        row = self.other_rows.get(key)
+        if row is None:
+            row = self._match(sort, manager, owner, name)
+            self.other_rows[key] = row
+        return row
+
+    def _match(self, sort: int, manager: int, owner: int, name: int) -> int:
+        """The row that the configuration has for a variable or a resource; NONE for what is not to be decided."""
+        matching, texts = self.matching, self.vocabulary
+        if sort == _GLOBAL:
+            found = matching.global_variable(manager, texts.global_text(name))
+        elif sort == _MEMBER:
+            found = matching.member(manager, texts.class_text(owner), texts.member_text(owner, name))
+        elif sort == _RESOURCE:
+            found = matching.resource(manager, texts.class_text(owner))
+        elif sort == _LOCAL:
+            found = matching.token_variable(manager, self.kind_texts[owner], texts.name_text(name), True)
+        else:
+            token = self.kind_texts[owner]
+            text = matching.variable_text(token.predicate, name)
+            found = None if text is None else matching.token_variable(manager, token, text, False)
+        return self._row(manager, found)
 
 
 def _order_code(handler: FlawHandler) -> int:

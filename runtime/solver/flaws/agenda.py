@@ -182,7 +182,7 @@ class Agenda:
         In a rule EUROPA only equates the object of a new token with the one that the rule names: unless its class has
         a single object, it still is to be decided, in a step with one choice. Elsewhere it counts as given.
         """
-        if not self.engine.is_decided(v):
+        if (not self.engine.decided[v] and not self.filters.is_single(v)) or not self.engine.is_decided(v):
             return False
         if not self.exact or self.engine.decided[v] or self.plan.variable_role[v] != ROLE_TOKEN:
             return True

@@ -217,11 +217,12 @@ def _add_variable(agenda: Agenda, v: int) -> int:
     if role == ROLE_TOKEN or role == ROLE_LOCAL:
         if agenda.rows.status[owner] != ACTIVE:
             return 0
-        kind = _kind_of(agenda, owner)
     elif role != ROLE_GLOBAL and role != ROLE_MEMBER:
         return 0
     if agenda.is_decided(v):
         return 0
+    if role == ROLE_TOKEN or role == ROLE_LOCAL:
+        kind = _kind_of(agenda, owner)
     for manager in range(agenda.table.managers):
         if agenda.table.manager_kind[manager] != UNBOUND_VARIABLE:
             continue

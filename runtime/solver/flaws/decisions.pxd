@@ -32,6 +32,9 @@ cdef class Decisions:
 
     cpdef long long drop_pool(self, long long d) except? -1
 
+    @cython.locals(last="long long")
+    cpdef long long reverse_pool(self, long long first, long long end) except? -1
+
     @cython.locals(at="long long")
     cpdef long long add_to_pool(self, long long d, long long o, long long before, long long after) except? -1
 

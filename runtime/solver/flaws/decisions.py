@@ -127,6 +127,17 @@ class Decisions:
         self.pool_count[d] = NONE
         return 0
 
+    def reverse_pool(self, first: int, end: int) -> int:
+        """Reverse the order of the places `first` to `end` - 1 of the pool."""
+        last = end - 1
+        while first < last:
+            self.pool_object[first], self.pool_object[last] = self.pool_object[last], self.pool_object[first]
+            self.pool_before[first], self.pool_before[last] = self.pool_before[last], self.pool_before[first]
+            self.pool_after[first], self.pool_after[last] = self.pool_after[last], self.pool_after[first]
+            first += 1
+            last -= 1
+        return 0
+
     def add_to_pool(self, d: int, o: int, before: int, after: int) -> int:
         """Add an insertion on object `o` between two tokens, or a precedence between two timepoints."""
         at = self.pool_used

@@ -13,6 +13,8 @@ cdef class Restarts:
 
     cpdef int clear(self) except -1
 
+    cpdef int _reset(self) except -1
+
     @cython.locals(weight="long long")
     cpdef long long rank(self, long long v, long long size) except? -1
 

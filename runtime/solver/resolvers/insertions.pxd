@@ -9,7 +9,7 @@ from runtime.solver.flaws.sequence cimport TimelineSequence
 from runtime.solver.flaws.agenda cimport Agenda
 from runtime.constraints.stn.reach cimport Reach
 
-cdef long long DURATION, END, HALF_INF, LISTS, LIST_ORDER, NEVER, OBJECT, START
+cdef long long DURATION, END, FLAG_GOAL, HALF_INF, LISTS, LIST_ORDER, NEVER, OBJECT, START
 
 
 @cython.locals(engine=Engine, o="long long", v="long long")
@@ -17,10 +17,22 @@ cpdef long long list_insertions(Agenda agenda, Decisions stack, long long d, lon
 
 
 @cython.locals(
-    behind="long long", count="long long", first="long long", gap="long long", sequence=TimelineSequence
+    behind="long long",
+    count="long long",
+    first="long long",
+    gap="long long",
+    sequence=TimelineSequence,
+    start="long long",
 )
 cpdef long long _list_insertions_on(Agenda agenda, Decisions stack, long long d, long long t, long long o) except? -1
 
+
+cpdef bint _is_for_goal(Agenda agenda, long long t) except -1
+
+@cython.locals(
+    after="long long", at="long long", end="long long", engine=Engine, first="long long", mine="long long"
+)
+cpdef long long _list_behind_goals(Agenda agenda, Decisions stack, long long start, long long t) except? -1
 
 @cython.locals(
     high="long long", low="long long", middle="long long", step="long long", t="long long", tokens="long long[::1]"

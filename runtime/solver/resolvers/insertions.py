@@ -3,7 +3,7 @@
 from runtime.constraints.domains.bitset import next_value
 from runtime.constraints.domains.tags import HALF_INF, NEVER
 from runtime.constraints.stn.reach import Reach
-from runtime.plan.tags import DURATION, END, LIST_ORDER, LISTS, OBJECT, START
+from runtime.plan.tags import DURATION, END, FLAG_GOAL, LIST_ORDER, LISTS, OBJECT, START
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
 
@@ -34,6 +34,7 @@ def _list_insertions_on(agenda: Agenda, stack: Decisions, d: int, t: int, o: int
     `agenda.sequence.look_around(t)` came before.
     """
     sequence = agenda.sequence
+    start = stack.pool_used
     count = sequence.take(o)
     if count == 0:
         stack.add_to_pool(d, o, t, t)
@@ -47,6 +48,35 @@ def _list_insertions_on(agenda: Agenda, stack: Decisions, d: int, t: int, o: int
         stack.add_to_pool(d, o, t, sequence.tokens[gap])
     if behind == count:
         stack.add_to_pool(d, o, sequence.tokens[count - 1], t)
+    if agenda.earliest and not _is_for_goal(agenda, t):
+        _list_behind_goals(agenda, stack, start, t)
+    return 0
+
+
+def _is_for_goal(agenda: Agenda, t: int) -> bool:
+    """Whether a token is a goal, or goes back to one, rule by rule."""
+    while agenda.rows.parent[t] >= 0:
+        t = agenda.rows.parent[t]
+    return (agenda.rows.flags[t] & FLAG_GOAL) != 0
+
+
+def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> int:
+    """Let insertions, from place `start` of the pool on, begin behind what goals ask for and what may start before `t`.
+
+    Then come the later ones, and the earlier ones from right to left. Who plans for an executive keeps goals from
+    waiting by this; otherwise the order is EUROPA's, from left to right.
+    """
+    engine = agenda.engine
+    mine = agenda.rows.var0[t] + START
+    end = stack.pool_used
+    first = start
+    for at in range(start, end - 1):
+        after = stack.pool_after[at]
+        if engine.lb[agenda.rows.var0[after] + START] <= engine.lb[mine] and _is_for_goal(agenda, after):
+            first = at + 1
+    if first > start:
+        stack.reverse_pool(first, end)
+        stack.reverse_pool(start, end)
     return 0
 
 

@@ -1,0 +1,217 @@
+"""What constraints mean for many rows at once: where they plainly hold, and what they make of the other arguments.
+
+The meanings are those of `meanings.py` and `functions.py`, on arrays. A row in which a constraint does not plainly hold
+is told nothing about: the judge of single tokens looks at it.
+"""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from checker.judge.columns import FLOAT, INT, TEXT, Array, Column, Mask
+from checker.judge.values import RELATIVE, TOLERANCE
+
+Holds = Callable[..., Mask]
+Truths = Callable[..., tuple[Mask, Mask]]  # where it holds, where it does not; in between nothing is said
+
+
+def near(a: Column, b: Column) -> Mask:
+    """Where two single values are equal, as `values.is_near` has it."""
+    if a.kind == TEXT or b.kind == TEXT:
+        return (a.lower == b.lower) if a.kind == b.kind else np.zeros(len(a.lower), bool)
+    x, y = a.lower, b.lower
+    if a.kind == INT and b.kind == INT:
+        return np.asarray(x == y)
+    margin = TOLERANCE + RELATIVE * np.maximum(np.abs(x), np.abs(y))
+    return np.asarray((x == y) | (np.abs(x - y) <= margin))
+
+
+def _differ(a: Column, b: Column) -> tuple[Mask, Mask]:
+    if TEXT in (a.kind, b.kind):
+        return ~near(a, b), near(a, b)
+    return ~near(a, b), np.asarray(a.lower == b.lower)
+
+
+def _equal(a: Column, b: Column) -> tuple[Mask, Mask]:
+    return near(a, b), ~near(a, b)
+
+
+def _at_most(a: Column, b: Column) -> tuple[Mask, Mask]:
+    holds = np.asarray(a.lower <= b.lower) & _are_numbers(a, b)
+    return holds, ~holds & ~near(a, b) & _are_numbers(a, b)
+
+
+def _below(a: Column, b: Column) -> tuple[Mask, Mask]:
+    numbers = _are_numbers(a, b)
+    holds = np.asarray(a.lower < b.lower) & numbers
+    return holds, ~holds & (np.asarray(a.lower == b.lower) | ~near(a, b)) & numbers
+
+
+def _are_numbers(*columns: Column) -> bool:
+    return all(each.kind != TEXT for each in columns)
+
+
+def truth(a: Column) -> tuple[Mask, Mask]:
+    """Where a truth value, or a number, is true; and where it is false."""
+    holds = np.asarray(a.lower != 0) & _are_numbers(a)
+    return holds, ~holds & _are_numbers(a)
+
+
+def _both(a: Column, b: Column) -> tuple[Mask, Mask]:
+    (x, not_x), (y, not_y) = truth(a), truth(b)
+    return x & y, not_x | not_y
+
+
+def _either(*columns: Column) -> tuple[Mask, Mask]:
+    found = [truth(each) for each in columns]
+    return np.logical_or.reduce([x for x, _ in found]), np.logical_and.reduce([y for _, y in found])
+
+
+def _negation(a: Column) -> tuple[Mask, Mask]:
+    holds, fails = truth(a)
+    return fails, holds
+
+
+TRUTHS: dict[str, Truths] = {
+    "testEq": _equal,
+    "testNeq": _differ,
+    "testLeq": _at_most,
+    "testLessThan": _below,
+    "testAnd": _both,
+    "testOr": _either,
+    "testNot": _negation,
+}
+
+
+# ---- functions ----
+
+
+def _sum(*columns: Column) -> Array:
+    total = columns[0].lower
+    for each in columns[1:]:
+        total = total + each.lower
+    return total
+
+
+def _product(*columns: Column) -> Array:
+    total = columns[0].lower
+    for each in columns[1:]:
+        total = total * each.lower
+    return total
+
+
+def _least(*columns: Column) -> Array:
+    return np.asarray(np.minimum.reduce([each.lower for each in columns]))
+
+
+def _greatest(*columns: Column) -> Array:
+    return np.asarray(np.maximum.reduce([each.lower for each in columns]))
+
+
+def _root(x: Column) -> Array:
+    return np.where(x.lower > -1e-4, np.sqrt(np.maximum(x.lower, 0.0)), np.nan)
+
+
+def _rest(a: Column, b: Column) -> Array:
+    return np.where(b.lower != 0, np.fmod(a.lower.astype(float), b.lower), np.nan)
+
+
+def _distance(xa: Column, ya: Column, xb: Column, yb: Column) -> Array:
+    return np.asarray(np.hypot(xb.lower - xa.lower, yb.lower - ya.lower))
+
+
+def _square(a: Column, b: Column) -> Array:
+    return np.asarray((a.lower - b.lower) ** 2)
+
+
+# By name: the function of all arguments but the result, and the kind of its value; empty: that of its inputs.
+FUNCTIONS: dict[str, tuple[Callable[..., Array], str]] = {
+    "addEq": (_sum, ""),
+    "eqSum": (_sum, ""),
+    "mulEq": (_product, ""),
+    "eqProduct": (_product, ""),
+    "eqMinimum": (_least, ""),
+    "allMin": (_least, ""),
+    "eqMaximum": (_greatest, ""),
+    "allMax": (_greatest, ""),
+    "maxf": (_greatest, ""),
+    "minf": (_least, ""),
+    "absVal": (lambda x: np.abs(x.lower), ""),
+    "abs": (lambda x: np.abs(x.lower), ""),
+    "absf": (lambda x: np.abs(x.lower), ""),
+    "neg": (lambda x: -x.lower, ""),
+    "sqrt": (_root, FLOAT),
+    "sqrtf": (_root, FLOAT),
+    "floor": (lambda x: np.floor(x.lower), INT),
+    "floorf": (lambda x: np.floor(x.lower), INT),
+    "ceil": (lambda x: np.ceil(x.lower), INT),
+    "ceilf": (lambda x: np.ceil(x.lower), INT),
+    "mod": (_rest, FLOAT),
+    "sin": (lambda x: np.sin(np.radians(x.lower)), FLOAT),
+    "sinf": (lambda x: np.sin(np.radians(x.lower)), FLOAT),
+    "cosf": (lambda x: np.cos(np.radians(x.lower)), FLOAT),
+    "deg_to_rad": (lambda x: np.radians(x.lower), FLOAT),
+    "calcDistance": (_distance, FLOAT),
+    "diffSquare": (_square, ""),
+}
+_HUGE = 2.0**53
+
+
+def value_of(name: str, inputs: Sequence[Column]) -> Column | None:
+    """The value of a function in each row, bad where it has none; None where it is not known here."""
+    known = FUNCTIONS.get(name)
+    if known is None or not _are_numbers(*inputs):
+        return None
+    function, kind = known
+    found = np.asarray(function(*inputs))
+    is_whole = all(each.kind == INT for each in inputs)
+    rough = np.asarray(
+        function(*[Column(each.kind, each.lower.astype(float)) for each in inputs]) if is_whole else found
+    )
+    bad = ~(np.abs(rough) <= _HUGE) if kind == INT or is_whole else ~np.isfinite(found)
+    kind = kind or (INT if is_whole else FLOAT)
+    if kind == INT:
+        found = np.where(bad, 0, found).astype(np.int64)
+    return Column(kind, found, None, bad if bad.any() else None)
+
+
+def difference_of(later: Column, earlier: Column) -> Column | None:
+    """`later - earlier` of numbers."""
+    if not _are_numbers(later, earlier):
+        return None
+    found = later.lower - earlier.lower
+    is_whole = later.kind == INT and earlier.kind == INT
+    bad = ~(np.abs(found) <= _HUGE)
+    return Column(INT if is_whole else FLOAT, found, None, bad if bad.any() else None)
+
+
+def conforms(result: Column, expected: Column) -> Mask:
+    """Where a result plainly is what a function gives; reals within the tolerance."""
+    if result.kind == INT and expected.kind == INT:
+        return np.asarray(result.lower == expected.lower)
+    return near(result, expected)
+
+
+# ---- comparisons ----
+
+
+def _all_equal(*columns: Column) -> Mask:
+    return np.asarray(np.logical_and.reduce([near(columns[0], each) for each in columns[1:]]))
+
+
+def _all_differ(*columns: Column) -> Mask:
+    pairs = [_differ(a, b)[0] for k, a in enumerate(columns) for b in columns[k + 1 :]]
+    return np.asarray(np.logical_and.reduce(pairs))
+
+
+HOLDS: dict[str, Holds] = {
+    "eq": _all_equal,
+    "concurrent": near,
+    "neq": lambda a, b: _differ(a, b)[0],
+    "leq": lambda a, b: _at_most(a, b)[0],
+    "precedes": lambda a, b: _at_most(a, b)[0],
+    "lt": lambda a, b: _below(a, b)[0],
+    "strictlyPrecedes": lambda a, b: _below(a, b)[0],
+    "allDiff": _all_differ,
+    "or": lambda *columns: _either(*columns)[0],
+}

@@ -1,0 +1,374 @@
+"""Compile the bodies of rules and predicates into steps that judge the runs of many tokens at once."""
+
+from collections.abc import Callable, Sequence
+from typing import assert_never
+
+import numpy as np
+
+from checker.judge.bulk_frame import RowFrame, RowRead, RowStep, UnplainError, closed, column_values, row_reader
+from checker.judge.bulk_meanings import HOLDS, TRUTHS, conforms, difference_of, near, truth, value_of
+from checker.judge.bulk_relating import row_child, row_relate
+from checker.judge.columns import FLOAT, INT, TEXT, Array, Column, Mask, column_of, unknown
+from checker.judge.functions import COMPUTED
+from checker.judge.meanings import MEANINGS, SILENT, Meaning
+from checker.judge.operands import VariableNames, domain_value, is_range
+from checker.judge.solving import solver
+from checker.judge.steps import Domain, Written, domain_test
+from checker.judge.values import may_be_equal
+from compiler.program import (
+    START,
+    Assign,
+    Call,
+    Child,
+    Constant,
+    Guard,
+    Instruction,
+    LocalVariable,
+    NewGlobal,
+    NewObject,
+    NewToken,
+    NewVariable,
+    ObjectLoop,
+    Post,
+    Relate,
+    Sample,
+    UnionOf,
+)
+from runtime.executive.record import BodyRun, OpenValues, Value, ValueRange
+
+
+def compile_rows(
+    body: tuple[Instruction, ...], names: VariableNames, written: Written, undefined: set[int] | None = None
+) -> list[RowStep]:
+    """The steps of a body; `undefined` are slots of expressions that nothing has defined yet."""
+    undefined = set() if undefined is None else undefined
+    steps: list[RowStep] = []
+    for instruction in body:
+        match instruction:
+            case NewVariable():
+                steps += _variable(instruction, names, undefined)
+            case Post():
+                steps += _post(instruction, names, written, undefined)
+            case Sample():
+                steps.append(_sample(instruction, names, undefined))
+            case Child():
+                names.tokens[instruction.slot] = (instruction.label or "", instruction.predicate)
+                steps.append(row_child(instruction, names))
+            case Relate():
+                steps.append(row_relate(instruction))
+            case Guard():
+                steps.append(_guard(instruction, names, written, undefined))
+            case Assign():
+                steps.append(_assign(instruction, names))
+            case ObjectLoop() | NewObject():
+                steps.append(_unplain)
+            case NewGlobal() | NewToken() | Call():
+                pass
+            case _:
+                assert_never(instruction)
+    return steps
+
+
+def _unplain(frame: RowFrame) -> None:
+    raise UnplainError
+
+
+def _define_slot(slot: int, make: RowRead) -> RowStep:
+    def step(frame: RowFrame) -> None:
+        frame.slots[slot] = make(frame)
+
+    return step
+
+
+# ---- variables ----
+
+
+def allowed(test: Domain, column: Column, frame: RowFrame) -> Mask:
+    """Where a declaration plainly allows the values of a column."""
+    frame.use(column)
+    if column.kind == TEXT:
+        kinds, places = np.unique(column.lower, return_inverse=True)
+        values = column_values(kinds, column, frame.tables.texts.names)
+        return np.array([test(frame.bench, each) is True for each in values], bool)[places]
+    holds = np.ones(len(column.lower), bool)
+    for limit in test.limits:
+        holds &= _lies_in(limit, column)
+    if test.class_name:
+        raise UnplainError
+    fixed = closed([column])
+    return holds if fixed is None else holds & fixed
+
+
+def _lies_in(limit: Value, column: Column) -> Mask:
+    if isinstance(limit, ValueRange):
+        return np.asarray((limit.lower <= column.lower) & (column.lower <= limit.upper))
+    numbers = limit.values if isinstance(limit, OpenValues) else (limit,)
+    return np.isin(column.lower, [each for each in numbers if not isinstance(each, str)])
+
+
+def _variable(new: NewVariable, names: VariableNames, undefined: set[int]) -> list[RowStep]:
+    slot, name = new.slot, new.name
+    if name is None:
+        undefined.add(slot)
+        return []
+    names.locals[slot] = name
+    test = domain_test(new.type, new.domain, names)
+    copied = None if new.copy_of is None else row_reader(new.copy_of, names)
+
+    def step(frame: RowFrame) -> None:
+        values = next(frame.locals, None)
+        if values is None:
+            raise UnplainError
+        column = frame.slots[slot] = column_of(values, frame.tables.texts)
+        if test is not None:
+            frame.tally.judge(allowed(test, column, frame))
+        if copied is not None:
+            _count_equal(frame, column, copied(frame))
+
+    return [step]
+
+
+def _count_equal(frame: RowFrame, a: Column, b: Column) -> None:
+    """Count the rows in which two values are, or may be, the same."""
+    frame.use(a), frame.use(b)
+    same = near(a, b)
+    fixed = closed([a, b])
+    if fixed is not None:
+        texts = frame.tables.texts
+        rows = np.flatnonzero(~fixed)
+        pairs = zip(a.values(texts, rows), b.values(texts, rows), strict=True)
+        same[rows] = [may_be_equal(x, y) for x, y in pairs]
+    frame.tally.judged_more += same
+
+
+def _assign(given: Assign, names: VariableNames) -> RowStep:
+    target = row_reader(given.target, names)
+    limit = None if given.domain is None else domain_value(given.domain)
+    source = given.value
+    read = row_reader(source, names) if source is not None and not isinstance(source, NewObject) else None
+
+    def step(frame: RowFrame) -> None:
+        column = frame.use(target(frame))
+        if limit is not None:
+            if column.kind == TEXT:
+                kinds, places = np.unique(column.lower, return_inverse=True)
+                values = column_values(kinds, column, frame.tables.texts.names)
+                holds = np.array([may_be_equal(each, limit) for each in values], bool)[places]
+            else:
+                holds = _lies_in(limit, column)
+            fixed = closed([column])
+            frame.tally.judge(holds if fixed is None else holds & fixed)
+        if read is not None:
+            _count_equal(frame, column, read(frame))
+
+    return step
+
+
+def _sample(sample: Sample, names: VariableNames, undefined: set[int]) -> RowStep:
+    parameter, target = sample.parameter, sample.target
+    slot = target.slot if isinstance(target, LocalVariable) and target.slot in undefined else None
+    if slot is not None:
+        undefined.discard(slot)
+    read = row_reader(target, names)
+
+    def step(frame: RowFrame) -> None:
+        starts = frame.use(frame.tok.column(START))
+        if starts.kind != INT or starts.upper is not None:
+            raise UnplainError
+        values = frame.bench.draws(parameter, starts.lower)
+        drawn = unknown(frame.tally.count) if values is None else Column(FLOAT, values)
+        if slot is not None:
+            frame.slots[slot] = drawn
+            return
+        value = frame.use(read(frame))
+        fixed = closed([value, drawn])
+        holds = near(value, frame.use(drawn))
+        frame.tally.judge(holds if fixed is None else holds & fixed)
+
+    return step
+
+
+# ---- constraints ----
+
+
+def _post(post: Post, names: VariableNames, written: Written, undefined: set[int]) -> list[RowStep]:
+    name = post.name
+    if name in SILENT:
+        return []
+    if name == "uses":
+        return [_unplain]
+    reads = [row_reader(each, names) for each in post.operands]
+    places = [k for k, each in enumerate(post.operands) if isinstance(each, LocalVariable) and each.slot in undefined]
+    if places:
+        return [_define(post, places[0], reads, undefined)]
+    meaning = MEANINGS.get(name) or written.get(name)
+    if meaning is None:
+        return [lambda frame: frame.tally.skip(f"constraint `{name}`")]
+    is_loose = any(is_range(each) for each in post.operands)
+    if is_loose:
+        return [_loose(post, meaning, reads)]
+    return [_check(name, meaning, reads)]
+
+
+def _check(name: str, meaning: Meaning, reads: list[RowRead]) -> RowStep:
+    plain = _plain(name)
+
+    def step(frame: RowFrame) -> None:
+        columns = [frame.use(read(frame)) for read in reads]
+        holds = None if plain is None else plain(columns)
+        if holds is None:
+            holds = _one_by_one(meaning, columns, frame, np.arange(frame.tally.count))
+        else:
+            fixed = closed(columns)
+            if fixed is not None:
+                rows = np.flatnonzero(~fixed)
+                holds = holds.copy()
+                holds[rows] = _one_by_one(meaning, columns, frame, rows)
+        frame.tally.judge(holds)
+
+    return step
+
+
+def _loose(post: Post, meaning: Meaning, reads: list[RowRead]) -> RowStep:
+    """A constraint with a range in its text, any value of which will do."""
+    if any(isinstance(operand, UnionOf) for operand in post.operands):
+        return _unplain
+    ranges = [domain_value(one.domain) if isinstance(one, Constant) else None for one in post.operands]
+
+    def step(frame: RowFrame) -> None:
+        tally, texts = frame.tally, frame.tables.texts
+        rows = np.arange(tally.count)
+        columns = [frame.use(read(frame)) for read, one in zip(reads, ranges, strict=True) if one is None]
+        parts = iter([column.values(texts, rows) for column in columns])
+        given = [next(parts) if one is None else [one] * tally.count for one in ranges]
+        holds = np.array([meaning(*values) is not False for values in zip(*given, strict=True)], bool)
+        fixed = closed(columns)
+        tally.judge(holds if fixed is None else holds & fixed)
+
+    return step
+
+
+def _one_by_one(meaning: Meaning, columns: Sequence[Column], frame: RowFrame, rows: Array) -> Mask:
+    """Where a constraint holds, asked row by row."""
+    texts = frame.tables.texts
+    given = zip(*[column.values(texts, rows) for column in columns], strict=True)
+    return np.array([meaning(*values) is True for values in given], bool)
+
+
+def _plain(name: str) -> Callable[[list[Column]], Mask | None] | None:
+    """Where a constraint plainly holds over columns, if that is known here."""
+    if name in HOLDS:
+        holds = HOLDS[name]
+        return lambda columns: holds(*columns)
+    if name in TRUTHS:
+        test = TRUTHS[name]
+
+        def told(columns: list[Column]) -> Mask:
+            yes, no = truth(columns[0])
+            holds, fails = test(*columns[1:])
+            return (yes & holds) | (no & fails)
+
+        return told
+    if name in COMPUTED:
+        place = 0 if COMPUTED[name][0] == 0 else -1
+
+        def computed(columns: list[Column]) -> Mask | None:
+            inputs = columns[1:] if place == 0 else columns[:-1]
+            expected = value_of(name, inputs)
+            if expected is None:
+                return None
+            holds = conforms(columns[place], expected)
+            return holds if expected.bad is None else holds & ~expected.bad
+
+        return computed
+    if name == "temporalDistance":
+        return lambda columns: _distance(*columns)
+    return None
+
+
+def _distance(earlier: Column, gap: Column, later: Column) -> Mask | None:
+    expected = value_of("addEq", [earlier, gap])
+    return None if expected is None or expected.bad is not None else conforms(later, expected)
+
+
+def _define(post: Post, place: int, reads: list[RowRead], undefined: set[int]) -> RowStep:
+    """Compute a part of an expression from the constraint that defines it."""
+    target = post.operands[place]
+    assert isinstance(target, LocalVariable)
+    slot = target.slot
+    undefined.discard(slot)
+    solve = solver(post.name, place, len(reads))
+    others = [read for k, read in enumerate(reads) if k != place]
+    if solve is None:
+        return _define_slot(slot, lambda frame: unknown(frame.tally.count))
+    quick = _solved(post.name, place, len(reads))
+
+    def make(frame: RowFrame) -> Column:
+        columns = [frame.use(read(frame)) for read in others]
+        found = quick(columns, frame) if quick is not None and closed(columns) is None else None
+        if found is not None:
+            return found
+        texts = frame.tables.texts
+        rows = np.arange(frame.tally.count)
+        given = zip(*[column.values(texts, rows) for column in columns], strict=True)
+        return column_of([solve(*values) for values in given], texts)
+
+    return _define_slot(slot, make)
+
+
+def _solved(name: str, place: int, count: int) -> Callable[[list[Column], RowFrame], Column | None] | None:
+    """The value that a constraint gives one of its arguments, over columns without open values."""
+    if name in TRUTHS and place == 0:
+        test = TRUTHS[name]
+
+        def told(columns: list[Column], frame: RowFrame) -> Column:
+            holds, fails = test(*columns)
+            frame.tally.need(holds | fails)
+            return Column(INT, holds.astype(np.int64))
+
+        return told
+    if name in COMPUTED and place == (0 if COMPUTED[name][0] == 0 else count - 1):
+        return lambda columns, frame: value_of(name, columns)
+    if name in ("eq", "concurrent") and count == 2:
+        return lambda columns, frame: columns[0]
+    if name == "addEq":
+        return lambda columns, frame: difference_of(columns[1], columns[0])
+    if name == "neg" and place == 0:
+        return lambda columns, frame: value_of("neg", columns)
+    return None
+
+
+# ---- branches ----
+
+
+def _guard(guard: Guard, names: VariableNames, written: Written, undefined: set[int]) -> RowStep:
+    condition = row_reader(guard.condition, names)
+    then = compile_rows(guard.then, names, written, set(undefined))
+    otherwise = compile_rows(guard.otherwise, names, written, set(undefined))
+
+    def step(frame: RowFrame) -> None:
+        reached = next(frame.guards, None)
+        if reached is None:
+            raise UnplainError
+        branch = reached[0].branch
+        if branch == "waiting":
+            if reached[0].is_decided:
+                raise UnplainError
+            frame.tally.open += 1
+            return
+        column = frame.use(condition(frame))
+        if column.kind == TEXT:
+            holds = np.full(frame.tally.count, branch == "then")
+        else:
+            yes, no = truth(column)
+            holds = yes if branch == "then" else no
+            fixed = closed([column])
+            holds = holds if fixed is None else holds & fixed
+        frame.tally.judge(holds)
+        runs: list[BodyRun] = [each.run for each in reached if each.run is not None]
+        if runs:
+            inner = frame.branch(runs)
+            for each in then if branch == "then" else otherwise:
+                each(inner)
+
+    return step

@@ -1,0 +1,168 @@
+"""Judge tokens that are alike at once: of one predicate, with the same rules fired and the same branches taken.
+
+What plainly holds is settled here. All other tokens are left to the judge of single tokens, whose answer is the same
+and who finds the words; it is asked for few tokens where a mission is right.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from checker.judge.bench import Bench
+from checker.judge.bulk_frame import RowFrame, RowStep, RowTally, UnplainError
+from checker.judge.bulk_steps import allowed, compile_rows
+from checker.judge.columns import INT, Array
+from checker.judge.operands import VariableNames
+from checker.judge.steps import Domain, Written, domain_test
+from checker.judge.tables import RowTokens, Shape, Tables, shape_of
+from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
+from runtime.executive.record import BodyRun, TokenRecord
+
+_FEWEST = 4  # tokens that are alike, for which a group is worth its cost
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _PredicateRows:
+    """A predicate ready to be judged in bulk."""
+
+    code: PredicateCode
+    tests: tuple[tuple[int, Domain], ...]
+    object_test: Domain
+    body: tuple[RowStep, ...]
+
+
+@dataclass(eq=False, slots=True)
+class BulkJudge:
+    """What a program says of many tokens at once; compiled when first asked for."""
+
+    program: Program
+    written: Written
+    codes: dict[str, PredicateCode]
+    _predicates: dict[str, _PredicateRows] = field(default_factory=dict)
+    _rules: dict[int, tuple[RuleCode, list[RowStep]]] = field(default_factory=dict)
+
+    def predicate(self, name: str) -> _PredicateRows:
+        """A predicate, compiled."""
+        known = self._predicates.get(name)
+        if known is None:
+            code = self.codes[name]
+            names = VariableNames(self.program)
+            names.tokens[0] = ("", name)
+            tests = []
+            for k, parameter in enumerate(code.parameters):
+                test = domain_test(parameter.type, parameter.domain, names)
+                if test is not None:
+                    tests.append((FIRST_PARAMETER + k, test))
+            body = tuple(compile_rows(code.body, names, self.written))
+            holder = Domain((), code.class_name, names)
+            known = self._predicates[name] = _PredicateRows(code, tuple(tests), holder, body)
+        return known
+
+    def rule(self, number: int) -> tuple[RuleCode, list[RowStep]]:
+        """A rule, compiled."""
+        known = self._rules.get(number)
+        if known is None:
+            rule = self.program.rules[number]
+            names = VariableNames(self.program)
+            names.tokens[0] = ("", rule.predicate)
+            known = self._rules[number] = (rule, compile_rows(rule.body, names, self.written))
+        return known
+
+
+def judge_in_bulk(judge: BulkJudge, bench: Bench, tables: Tables) -> Iterator[TokenRecord]:
+    """Judge what plainly holds; yield the tokens that are left, in their order."""
+    settled = ~(tables.is_active | tables.is_merged)
+    if tables.is_ordered and tables.count:
+        starts = tables.times[START]
+        latest = starts.lower if starts.upper is None else starts.upper
+        fits = True if starts.bad is None else ~starts.bad
+        settled |= tables.is_active & (latest > bench.last_tick) & fits
+        _settle_merged(bench, tables, settled)
+        with np.errstate(all="ignore"):
+            for predicate, shape, rows in _groups(tables, settled):
+                holds = _judge_group(judge, bench, tables, predicate, shape, rows)
+                settled[rows[holds]] = True
+    return (tables.tokens[row] for row in np.flatnonzero(~settled).tolist())
+
+
+def _groups(tables: Tables, settled: Array) -> Iterator[tuple[str, Shape, Array]]:
+    """The tokens that are alike."""
+    found: dict[tuple[int, Shape], list[int]] = {}
+    rows = np.flatnonzero(~settled & tables.is_active & ~tables.is_cut)
+    runs, plain = tables.runs, ()
+    for row, predicate in zip(rows.tolist(), tables.predicate[rows].tolist(), strict=True):
+        own = runs[row]
+        shape = shape_of(own) if own else plain
+        found.setdefault((predicate, shape), []).append(row)
+    for (predicate, shape), alike in found.items():
+        if len(alike) >= _FEWEST:
+            yield tables.predicates[predicate], shape, np.array(alike)
+
+
+def _settle_merged(bench: Bench, tables: Tables, settled: Array) -> None:
+    """Merged tokens with the very values of the one that stands for them."""
+    rows = np.flatnonzero(tables.is_merged & ~tables.is_cut & (tables.standing != np.arange(tables.count)))
+    tokens = tables.tokens
+    for row, other in zip(rows.tolist(), tables.standing[rows].tolist(), strict=True):
+        mine, theirs = tokens[row], tokens[other]
+        if (
+            mine.predicate == theirs.predicate
+            and mine.start == theirs.start
+            and mine.end == theirs.end
+            and (mine.arguments is theirs.arguments or mine.arguments == theirs.arguments)
+        ):
+            settled[row] = True
+            bench.judged += 1
+
+
+def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, predicate: str, shape: Shape, rows: Array) -> Array:
+    """Judge tokens that are alike; those that plainly hold."""
+    nothing = np.zeros(len(rows), bool)
+    known = judge.predicate(predicate)
+    code = known.code
+    if tuple(run[0] for run in shape) != code.rules:
+        return nothing
+    tok = RowTokens(tables, rows)
+    tally = RowTally(len(rows))
+    frame = RowFrame(bench, tok, [None] * code.body_slots, [tok, *[None] * code.body_tokens])
+    frame.tally = tally
+    try:
+        _judge_own(known, frame, tables, rows)
+        for step in known.body:
+            step(frame)
+        if code.rules:
+            tally.judged += 1  # that these rules have fired
+        for place, number in enumerate(code.rules):
+            rule, steps = judge.rule(number)
+            frame = RowFrame(bench, tok, [None] * rule.slots, [tok, *[None] * rule.tokens])
+            frame.tally = tally
+            runs: Sequence[BodyRun] = [tables.runs[row][place] for row in rows.tolist()]
+            frame.follow(runs)
+            for step in steps:
+                step(frame)
+                if not tally.holds.any():
+                    return nothing
+    except UnplainError:
+        return nothing
+    tally.settle(bench)
+    return tally.holds
+
+
+def _judge_own(known: _PredicateRows, frame: RowFrame, tables: Tables, rows: Array) -> None:
+    """The times, the parameters and the object of tokens."""
+    tally = frame.tally
+    start, end, duration = (frame.use(tables.times[each].take(rows)) for each in (START, END, DURATION))
+    if not start.kind == end.kind == duration.kind == INT:
+        raise UnplainError
+    for each in (start, end, duration):
+        if each.open is not None:
+            tally.need(~each.open)
+    least = 0 if known.code.is_event else 1
+    tally.judge((duration.lower == end.lower - start.lower) & (duration.lower >= least))
+    for place, test in known.tests:
+        tally.judge(allowed(test, frame.tok.column(place), frame))
+    things = frame.use(frame.tok.column(OBJECT))
+    if things.kind != "s":
+        raise UnplainError
+    tally.judge(allowed(known.object_test, things, frame))

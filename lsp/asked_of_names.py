@@ -1,0 +1,175 @@
+"""What editors ask about names: hover, navigation, references, rename, hierarchies, symbols and completion."""
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from lsprotocol import types
+
+from lsp.completion import completions, resolved
+from lsp.diagnostics import Conversion
+from lsp.documents import DocumentContext, Documents
+from lsp.hierarchies import incoming_calls, outgoing_calls, prepare_calls, prepare_types, subtypes, supertypes
+from lsp.hover import hover_at, link
+from lsp.mission_answers import mission_completions, mission_definition, mission_hover
+from lsp.mission_texts import OpenMission
+from lsp.navigation import declaration, definition, implementations, type_definition
+from lsp.references import highlights, references
+from lsp.rename import RenameError, TextChange, prepare_rename, rename
+from lsp.session import RequestFailed, Session
+from lsp.signatures import signature_help
+from lsp.symbols import outline, workspace_symbols
+from nddl_lang.text.source import Span
+
+_Asked = types.TextDocumentPositionParams | types.ReferenceParams | types.CompletionParams
+
+
+def answer_names(session: Session) -> None:
+    """Let a session answer them."""
+    _answer_navigation(session)
+    _answer_rename(session)
+    _answer_hierarchies(session)
+    _answer_completion(session)
+
+
+def _offset(view: DocumentContext, params: _Asked) -> int:
+    return view.document.lines.offset(params.position)
+
+
+def _answer_navigation(session: Session) -> None:
+    def location(span: Span | None) -> types.Location | None:
+        return session.documents.conversion().location(span) if span is not None else None
+
+    def locations(spans: Iterable[Span]) -> list[types.Location]:
+        conversion = session.documents.conversion()
+        return [conversion.location(span) for span in spans]
+
+    def of_mission(
+        answer: Callable[[Documents, OpenMission, int, Conversion], Any],
+    ) -> Callable[[OpenMission, Any], Any]:
+        def answered(mission: OpenMission, params: Any) -> Any:
+            offset = mission.lines.offset(params.position)
+            return answer(session.documents, mission, offset, session.documents.conversion())
+
+        return answered
+
+    def find_references(view: DocumentContext, params: types.ReferenceParams) -> list[types.Location]:
+        conversion = session.documents.conversion()
+        with_declaration = params.context.include_declaration
+        return references(session.documents, view, _offset(view, params), conversion, with_declaration=with_declaration)
+
+    session.answer(
+        types.TEXT_DOCUMENT_HOVER,
+        lambda view, params: hover_at(view, params.position, session.documents.conversion()),
+        of_mission=of_mission(mission_hover),
+    )
+    session.answer(
+        types.TEXT_DOCUMENT_DEFINITION,
+        lambda view, params: location(definition(view, _offset(view, params))),
+        of_mission=of_mission(mission_definition),
+    )
+    session.answer(
+        types.TEXT_DOCUMENT_DECLARATION, lambda view, params: location(declaration(view, _offset(view, params)))
+    )
+    session.answer(
+        types.TEXT_DOCUMENT_TYPE_DEFINITION,
+        lambda view, params: location(type_definition(view, _offset(view, params))),
+    )
+    session.answer(
+        types.TEXT_DOCUMENT_IMPLEMENTATION,
+        lambda view, params: locations(implementations(view, _offset(view, params))),
+        nothing=list,
+    )
+    session.answer(types.TEXT_DOCUMENT_REFERENCES, find_references, nothing=list)
+    session.answer(
+        types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT,
+        lambda view, params: highlights(view, _offset(view, params)),
+        nothing=list,
+    )
+    session.answer(
+        types.TEXT_DOCUMENT_DOCUMENT_SYMBOL,
+        lambda view, params: outline(view.parse, view.document.lines),
+        nothing=list,
+    )
+
+    @session.feature(types.WORKSPACE_SYMBOL)
+    async def workspace_symbol(params: types.WorkspaceSymbolParams) -> list[types.SymbolInformation]:
+        await session.turn()
+        return workspace_symbols(session.documents, params.query)
+
+
+def _answer_rename(session: Session) -> None:
+    def prepare(view: DocumentContext, params: _Asked) -> types.PrepareRenamePlaceholder | None:
+        try:
+            return prepare_rename(session.documents, view, _offset(view, params))
+        except RenameError as refusal:
+            raise RequestFailed(str(refusal)) from None
+
+    def carry_out(view: DocumentContext, params: types.RenameParams) -> types.WorkspaceEdit:
+        try:
+            changes = rename(session.documents, view, view.document.lines.offset(params.position), params.new_name)
+        except RenameError as refusal:
+            raise RequestFailed(str(refusal)) from None
+        return _workspace_edit(session, changes)
+
+    session.answer(types.TEXT_DOCUMENT_PREPARE_RENAME, prepare)
+    session.answer(types.TEXT_DOCUMENT_RENAME, carry_out, types.RenameOptions(prepare_provider=True))
+
+
+def _workspace_edit(session: Session, changes: list[TextChange]) -> types.WorkspaceEdit:
+    edits: dict[str, list[types.TextEdit]] = {}
+    for change in changes:
+        key, begin, finish = change.place
+        uri, lines = session.documents.lines_of(key)
+        edits.setdefault(uri, []).append(types.TextEdit(lines.range(begin, finish), change.text))
+    return types.WorkspaceEdit(edits)
+
+
+def _answer_hierarchies(session: Session) -> None:
+    session.answer(
+        types.TEXT_DOCUMENT_PREPARE_CALL_HIERARCHY,
+        lambda view, params: prepare_calls(view, _offset(view, params), session.documents.conversion()),
+    )
+    session.answer(
+        types.TEXT_DOCUMENT_PREPARE_TYPE_HIERARCHY,
+        lambda view, params: prepare_types(view, _offset(view, params), session.documents.conversion()),
+    )
+    for feature, neighbours in (
+        (types.CALL_HIERARCHY_INCOMING_CALLS, incoming_calls),
+        (types.CALL_HIERARCHY_OUTGOING_CALLS, outgoing_calls),
+        (types.TYPE_HIERARCHY_SUPERTYPES, supertypes),
+        (types.TYPE_HIERARCHY_SUBTYPES, subtypes),
+    ):
+        session.answer_item(feature, neighbours)
+
+
+def _answer_completion(session: Session) -> None:
+    last: list[DocumentContext] = []  # what was completed last, for the details that are asked for next
+
+    def complete(view: DocumentContext, params: types.CompletionParams) -> types.CompletionList:
+        last[:] = [view]
+        offset = _offset(view, params)
+        found = completions(view.snapshot.analysis, view.parse, offset, with_snippets=session.has_snippets)
+        return types.CompletionList(is_incomplete=False, items=found)
+
+    options = types.CompletionOptions(trigger_characters=[".", ":", '"'], resolve_provider=True)
+    session.answer(
+        types.TEXT_DOCUMENT_COMPLETION,
+        complete,
+        options,
+        nothing=list,
+        of_mission=lambda mission, params: mission_completions(
+            session.documents, mission, mission.lines.offset(params.position)
+        ),
+    )
+
+    @session.feature(types.COMPLETION_ITEM_RESOLVE)
+    async def resolve(item: types.CompletionItem) -> types.CompletionItem:
+        await session.turn()
+        conversion = session.documents.conversion()
+        return resolved(last[0].snapshot.analysis, item, lambda span: link(conversion, span)) if last else item
+
+    session.answer(
+        types.TEXT_DOCUMENT_SIGNATURE_HELP,
+        lambda view, params: signature_help(view, _offset(view, params)),
+        types.SignatureHelpOptions(["(", ","], [")"]),
+    )

@@ -1,0 +1,152 @@
+"""What editors ask about texts: diagnostics, fixes, formatting, colours, hints, folds, links and lenses."""
+
+from collections.abc import Sequence
+
+from lsprotocol import types
+
+from lsp.document_links import document_links
+from lsp.documents import DocumentContext
+from lsp.folding import folding_ranges, selection_ranges
+from lsp.inlay_hints import inlay_hints
+from lsp.lenses import code_lenses
+from lsp.mending import can_fix_all, fix_all, formatting, formatting_of_lines, formatting_of_statement, mends
+from lsp.refactorings import refactorings
+from lsp.semantic_tokens import LEGEND, semantic_tokens
+from lsp.session import Session
+
+_FIX_ALL = "source.fixAll.nddlc"
+_Kind = types.CodeActionKind
+
+
+def answer_text(session: Session) -> None:
+    """Let a session answer them."""
+    _answer_diagnostics(session)
+    _answer_actions(session)
+    _answer_formatting(session)
+    _answer_tokens(session)
+    _answer_shape(session)
+
+
+def _answer_diagnostics(session: Session) -> None:
+    options = types.DiagnosticOptions(inter_file_dependencies=True, workspace_diagnostics=True, identifier="nddlc")
+
+    @session.feature(types.TEXT_DOCUMENT_DIAGNOSTIC, options)
+    async def diagnostic(params: types.DocumentDiagnosticParams) -> types.DocumentDiagnosticReport:
+        await session.turn()
+        return session.pulled.report(params.text_document.uri, params.previous_result_id)
+
+    @session.feature(types.WORKSPACE_DIAGNOSTIC)
+    async def workspace_diagnostic(params: types.WorkspaceDiagnosticParams) -> types.WorkspaceDiagnosticReport:
+        await session.turn()
+        known = {each.uri: each.value for each in params.previous_result_ids}
+        return session.pulled.workspace_report(known)
+
+
+def _answer_actions(session: Session) -> None:
+    kinds = [_Kind.QuickFix, _Kind.Refactor, _Kind.RefactorExtract, _FIX_ALL]
+
+    def actions(view: DocumentContext, params: types.CodeActionParams) -> list[types.CodeAction]:
+        documents = session.documents
+        only = params.context.only
+        found = [
+            *mends(view, params.range, documents.conversion(), documents.folders),
+            *refactorings(view, params.range),
+        ]
+        if can_fix_all(view):
+            title = "mend all that can be mended safely"
+            action = types.CodeAction(title, _FIX_ALL, data={"uri": view.document.uri})
+            if session.resolves_actions:
+                found.append(action)
+            elif only is not None and _is_wanted(_FIX_ALL, only):
+                action.edit = fix_all(documents, view)
+                found.append(action)
+        return [each for each in found if only is None or _is_wanted(_name(each.kind), only)]
+
+    options = types.CodeActionOptions(kinds, resolve_provider=True)
+    session.answer(types.TEXT_DOCUMENT_CODE_ACTION, actions, options, nothing=list)
+
+    @session.feature(types.CODE_ACTION_RESOLVE)
+    async def resolve(action: types.CodeAction) -> types.CodeAction:
+        uri = action.data.get("uri") if isinstance(action.data, dict) else None
+        view = await session.view(str(uri))
+        if view is not None:
+            action.edit = fix_all(session.documents, view)
+        return action
+
+
+def _is_wanted(kind: str, only: Sequence[types.CodeActionKind | str]) -> bool:
+    return any(not name or kind == name or kind.startswith(f"{name}.") for name in map(_name, only))
+
+
+def _name(kind: types.CodeActionKind | str | None) -> str:
+    return str(kind.value if isinstance(kind, _Kind) else kind)
+
+
+def _answer_formatting(session: Session) -> None:
+    def of_range(view: DocumentContext, params: types.DocumentRangeFormattingParams) -> list[types.TextEdit]:
+        start, end = params.range.start, params.range.end
+        last = end.line - 1 if end.character == 0 and end.line > start.line else end.line
+        return formatting_of_lines(view.parse, view.document.lines, start.line, last)
+
+    def on_type(view: DocumentContext, params: types.DocumentOnTypeFormattingParams) -> list[types.TextEdit]:
+        lines = view.document.lines
+        return formatting_of_statement(view.parse, lines, lines.offset(params.position))
+
+    session.answer(
+        types.TEXT_DOCUMENT_FORMATTING,
+        lambda view, params: formatting(view.parse, view.document.lines),
+        nothing=list,
+    )
+    session.answer(types.TEXT_DOCUMENT_RANGE_FORMATTING, of_range, nothing=list)
+    options = types.DocumentOnTypeFormattingOptions("}", [";"])
+    session.answer(types.TEXT_DOCUMENT_ON_TYPE_FORMATTING, on_type, options, nothing=list)
+
+
+def _answer_tokens(session: Session) -> None:
+    memory = session.token_memory
+
+    def full(view: DocumentContext, params: types.SemanticTokensParams) -> types.SemanticTokens:
+        return memory.full(view.document.uri, semantic_tokens(view))
+
+    def delta(
+        view: DocumentContext, params: types.SemanticTokensDeltaParams
+    ) -> types.SemanticTokens | types.SemanticTokensDelta:
+        return memory.delta(view.document.uri, params.previous_result_id, semantic_tokens(view))
+
+    def part(view: DocumentContext, params: types.SemanticTokensRangeParams) -> types.SemanticTokens:
+        lines = view.document.lines
+        return types.SemanticTokens(
+            semantic_tokens(view, lines.offset(params.range.start), lines.offset(params.range.end))
+        )
+
+    session.answer(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, full, LEGEND)
+    session.answer(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL_DELTA, delta, LEGEND)
+    session.answer(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_RANGE, part, LEGEND)
+
+
+def _answer_shape(session: Session) -> None:
+    session.answer(
+        types.TEXT_DOCUMENT_FOLDING_RANGE,
+        lambda view, params: folding_ranges(view.parse, view.document.lines),
+        nothing=list,
+    )
+    session.answer(
+        types.TEXT_DOCUMENT_SELECTION_RANGE,
+        lambda view, params: selection_ranges(view.parse, view.document.lines, params.positions),
+        nothing=list,
+    )
+    session.answer(
+        types.TEXT_DOCUMENT_DOCUMENT_LINK,
+        lambda view, params: document_links(view, session.documents.conversion()),
+        nothing=list,
+    )
+    session.answer(
+        types.TEXT_DOCUMENT_INLAY_HINT,
+        lambda view, params: inlay_hints(view, params.range, session.hints),
+        nothing=list,
+    )
+    session.answer(
+        types.TEXT_DOCUMENT_CODE_LENS,
+        lambda view, params: code_lenses(view),
+        nothing=list,
+    )

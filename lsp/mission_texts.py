@@ -1,0 +1,171 @@
+"""Mission files that are open in the editor: their texts, what is wrong with each, and where in one a cursor stands."""
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from lsprotocol.types import Diagnostic as Shown
+from lsprotocol.types import Range
+
+from lsp.diagnostics import Conversion
+from lsp.positions import Encoding, Lines, replaced
+from lsp.uris import path_of
+from nddl_lang.lint.configuration import NAME, PROJECT
+from nddl_lang.text.diagnostic import Diagnostic
+from nddl_lang.text.source import Source
+
+# All that is wrong with a text of that name in that folder; whether the workspace is trusted.
+Examine = Callable[[Source, Path, bool], Iterable[Diagnostic]]
+_SUFFIX = ".toml"
+_HEADER = re.compile(r"^[ \t]*\[(\[)?[ \t]*([^\]\n]*?)[ \t]*\]", re.MULTILINE)
+_BEGUN = re.compile(r"[ \t]*\[\[?(?=[^\]\n]*\Z)")  # a header that is not closed yet
+_KEY = re.compile(r"""^[ \t]*([A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')[ \t]*=""", re.MULTILINE)
+_MODEL = re.compile(r"""^[ \t]*model[ \t]*=[ \t]*["']([^"'\n]+)["']""", re.MULTILINE)
+_MISSION = re.compile(r"^[ \t]*\[(?:mission|\[reactor\])\]", re.MULTILINE)
+_CONFIGURATIONS = (NAME, PROJECT)
+_STRING = re.compile(r"""(["'])((?:(?!\1)[^\n\\]|\\.)*)\1?""")
+
+
+@dataclass(slots=True)
+class OpenMission:
+    """An open mission file."""
+
+    uri: str
+    path: Path
+    version: int
+    lines: Lines
+
+    @property
+    def text(self) -> str:
+        """Its characters."""
+        return self.lines.text
+
+    @property
+    def models(self) -> list[Path]:
+        """The models that its reactors run, in the order of the text, each once."""
+        return [self.path.parent / name for name in dict.fromkeys(_MODEL.findall(self.text))]
+
+
+@dataclass(frozen=True, slots=True)
+class MissionPlace:
+    """Where a cursor stands: in which table, at which key, and in which string or word, which begins at `begin`.
+
+    `is_value` where that is behind the key's `=`; `table` are the names of its header.
+    """
+
+    table: tuple[str, ...]
+    key: str | None
+    is_value: bool
+    word: str
+    begin: int
+    finish: int
+
+
+def place_at(text: str, offset: int) -> MissionPlace:
+    """The place of a cursor; also in text that is no well-formed TOML, as long as it is typed."""
+    line = text.rfind("\n", 0, offset) + 1
+    if (begun := _BEGUN.match(text, line, _line_end(text, offset))) is not None and begun.end() <= offset:
+        names = text[begun.end() : offset].split(".")
+        word, start, end = _word(text, offset)
+        return MissionPlace(tuple(name.strip(" \t\"'") for name in names[:-1]), None, False, word, start, end)
+    header = None
+    for header in _HEADER.finditer(text, 0, _line_end(text, offset)):
+        if header.start() > offset:
+            break
+    table: tuple[str, ...] = ()
+    begin = 0
+    if header is not None:
+        table = tuple(part.strip(" \t\"'") for part in header[2].split("."))
+        begin = header.start()
+    if header is not None and header.start(2) <= offset <= header.end(2):
+        start = text.rfind(".", header.start(2), offset) + 1 or header.start(2)
+        end = text.find(".", offset, header.end(2))
+        end = end if end >= 0 else header.end(2)
+        depth = text.count(".", header.start(2), start)
+        return MissionPlace(table[:depth], None, False, text[start:end].strip(" \"'"), start, end)
+    key = None
+    for found in _KEY.finditer(text, begin, _line_end(text, offset)):
+        if found.start(1) > offset:
+            break
+        key = found
+    if key is None or (offset > key.end() and "\n" in text[key.end() : offset] and not _is_open(text, key, offset)):
+        return MissionPlace(table, None, False, *_word(text, offset))
+    if offset <= key.end(1):
+        return MissionPlace(table, None, False, key[1].strip("\"'"), key.start(1), key.end(1))
+    for string in _STRING.finditer(text, key.end(), _line_end(text, offset)):
+        if string.start() < offset <= string.end() - (string[0][-1:] == string[1] and len(string[0]) > 1):
+            return MissionPlace(table, key[1].strip("\"'"), True, string[2], string.start(2), string.end(2))
+    return MissionPlace(table, key[1].strip("\"'"), True, *_word(text, offset))
+
+
+def _is_open(text: str, key: re.Match[str], offset: int) -> bool:
+    """Whether an array that begins at a key is still open."""
+    value = _STRING.sub("", text[key.end() : offset])
+    return value.count("[") > value.count("]")
+
+
+def _line_end(text: str, offset: int) -> int:
+    end = text.find("\n", offset)
+    return end if end >= 0 else len(text)
+
+
+def _word(text: str, offset: int) -> tuple[str, int, int]:
+    begin = finish = offset
+    while begin > 0 and (text[begin - 1].isalnum() or text[begin - 1] in "_-"):
+        begin -= 1
+    while finish < len(text) and (text[finish].isalnum() or text[finish] in "_-"):
+        finish += 1
+    return text[begin:finish], begin, finish
+
+
+class MissionTexts:
+    """The open mission files."""
+
+    def __init__(self, examine: Examine, encoding: Encoding = Encoding.UTF16, *, is_trusted: bool = False) -> None:
+        self._examine = examine
+        self._encoding = encoding
+        self._is_trusted = is_trusted
+        self._open: dict[str, OpenMission] = {}
+
+    @staticmethod
+    def is_mission(uri: str) -> bool:
+        """Whether a file may be a mission file, by its name."""
+        return uri.endswith(_SUFFIX) and path_of(uri) is not None
+
+    def find(self, uri: str) -> OpenMission | None:
+        """The open mission file that the editor calls `uri`."""
+        return self._open.get(uri)
+
+    def all(self) -> list[OpenMission]:
+        """The open mission files, in order of opening."""
+        return list(self._open.values())
+
+    def open(self, uri: str, version: int, text: str) -> OpenMission | None:
+        """A text is open now; None where that is neither a mission file nor a configuration, but another TOML."""
+        path = path_of(uri)
+        if path is None or not (path.name in _CONFIGURATIONS or _MISSION.search(text) or "mission" in path.name):
+            return None
+        found = self._open[uri] = OpenMission(uri, path, version, Lines(text, self._encoding))
+        return found
+
+    def change(self, uri: str, version: int, edits: list[tuple[Range | None, str]]) -> OpenMission | None:
+        """A text was edited."""
+        mission = self._open.get(uri)
+        if mission is None:
+            return None
+        for place, text in edits:
+            whole = text if place is None else replaced(mission.lines, place, text)
+            mission.lines = Lines(whole, self._encoding)
+        mission.version = version
+        return mission
+
+    def close(self, uri: str) -> bool:
+        """A text is no longer open; whether it was."""
+        return self._open.pop(uri, None) is not None
+
+    def complaints(self, mission: OpenMission, conversion: Conversion) -> tuple[Shown, ...]:
+        """What is wrong with a mission file and with what it asks of its models."""
+        source = Source(str(mission.path), mission.text)
+        found = self._examine(source, mission.path.parent, self._is_trusted)
+        return tuple(conversion.shown(each) for each in found if each.span.source.name == source.name)

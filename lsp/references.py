@@ -1,0 +1,97 @@
+"""References: a place in; all occurrences of what is named there, in every model that shares its declaration, out."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from lsprotocol.types import DocumentHighlight, DocumentHighlightKind, Location
+
+from lsp.diagnostics import Conversion
+from lsp.documents import DocumentContext, Documents
+from lsp.meaning import piece_at
+from lsp.occurrences import Occurrence, Role, Symbol
+from lsp.project import Project, Snapshot
+
+# Where a name stands: the key of its file, and the offsets of its begin and end.
+Place = tuple[str, int, int]
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Everywhere:
+    """The occurrences of one declaration in all models, by place; `projects` are those models."""
+
+    found: dict[Place, Occurrence]
+    projects: tuple[Project, ...]
+
+
+def occurrence_at(view: DocumentContext, offset: int) -> Occurrence | None:
+    """What is named at `offset`."""
+    piece = piece_at(view.parse, offset)
+    return view.snapshot.names.at(piece.anchor, offset) if piece is not None else None
+
+
+def everywhere(documents: Documents, snapshot: Snapshot, symbol: Symbol) -> Everywhere:
+    """All occurrences of `symbol`, which `snapshot` knows; also in closed models that include its declaration."""
+    found = _located(snapshot, snapshot.names.of(symbol))
+    projects: dict[str, Project] = {}
+    pending = [place for place, each in found.items() if each.role is Role.DECLARES]
+    seen: set[Place] = set()
+    while pending:
+        place = pending.pop()
+        if place in seen:
+            continue
+        seen.add(place)
+        for project in documents.holders(place[0]):
+            projects[project.key] = project
+            same = symbol_declared_at(project.snapshot, place)
+            if same is None:
+                continue
+            for other, each in _located(project.snapshot, project.snapshot.names.of(same)).items():
+                found.setdefault(other, each)
+                if each.role is Role.DECLARES:
+                    pending.append(other)
+    return Everywhere(dict(sorted(found.items())), tuple(projects.values()))
+
+
+def symbol_declared_at(snapshot: Snapshot, place: Place) -> Symbol | None:
+    """The symbol whose name stands at `place`."""
+    key, begin, _ = place
+    parse = snapshot.parses.get(key)
+    piece = piece_at(parse, begin) if parse is not None else None
+    here = snapshot.names.at(piece.anchor, begin) if piece is not None else None
+    return here.symbol if here is not None else None
+
+
+def _located(snapshot: Snapshot, occurrences: Iterable[Occurrence]) -> dict[Place, Occurrence]:
+    keys = snapshot.keys
+    return {(keys[each.span.source], each.span.begin, each.span.finish): each for each in occurrences}
+
+
+def references(
+    documents: Documents, view: DocumentContext, offset: int, conversion: Conversion, *, with_declaration: bool
+) -> list[Location]:
+    """Where what is named at `offset` is named."""
+    here = occurrence_at(view, offset)
+    if here is None:
+        return []
+    return [
+        conversion.location(each.span)
+        for each in everywhere(documents, view.snapshot, here.symbol).found.values()
+        if with_declaration or each.role is not Role.DECLARES
+    ]
+
+
+def highlights(view: DocumentContext, offset: int) -> list[DocumentHighlight]:
+    """Where the same text names the same thing, with what it does there."""
+    here = occurrence_at(view, offset)
+    if here is None:
+        return []
+    lines = view.document.lines
+    writes = (Role.DECLARES, Role.WRITES)
+    return [
+        DocumentHighlight(
+            lines.range(each.span.begin, each.span.finish),
+            DocumentHighlightKind.Write if each.role in writes else DocumentHighlightKind.Read,
+        )
+        for each in view.snapshot.names.of(here.symbol)
+        if each.span.source is view.parse.source
+    ]

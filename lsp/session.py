@@ -1,0 +1,215 @@
+"""One editor session: the server of the protocol with the documents it speaks about, and when it analyses them.
+
+Whatever has arrived is looked at before anything is computed: edits only change texts and are analysed once, in their
+newest state; a question that is taken back before its turn is never computed.
+"""
+
+import asyncio
+import logging
+from collections.abc import Callable, Sequence
+from dataclasses import fields
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from lsprotocol import types
+from pygls.exceptions import JsonRpcException
+from pygls.lsp.server import LanguageServer
+from pygls.protocol import LanguageServerProtocol, default_converter
+
+from lsp.diagnostics import Conversion
+from lsp.documents import DocumentContext, Documents, Publication
+from lsp.inlay_hints import HintSettings
+from lsp.mission_texts import Examine, MissionTexts, OpenMission
+from lsp.project import ServerSettings
+from lsp.pulled import PulledDiagnostics
+from lsp.semantic_tokens import TokenMemory
+
+_logger = logging.getLogger(__name__)
+
+
+def _is_worth_a_line(record: logging.LogRecord) -> bool:
+    """Whether a record of pygls tells of a mistake; a question without an answer is none."""
+    return record.exc_info is None or not isinstance(record.exc_info[1], RequestFailed)
+
+
+logging.getLogger("pygls.protocol.json_rpc").addFilter(_is_worth_a_line)
+
+
+class RequestFailed(JsonRpcException):
+    """A question that has no answer, for a reason that the user should read."""
+
+    CODE = int(types.LSPErrorCodes.RequestFailed)
+    MESSAGE = "the request failed"
+
+
+class _Protocol(LanguageServerProtocol):
+    """The protocol, but that texts are kept by `Documents`, and that a request always gets an answer."""
+
+    # pygls would keep the texts a second time, and cuts lines in more places than the protocol does.
+    lsp_text_document__did_open = None  # type: ignore[assignment]
+    lsp_text_document__did_change = None  # type: ignore[assignment]
+    lsp_text_document__did_close = None  # type: ignore[assignment]
+
+    def structure_message(self, data: dict[str, Any]) -> Any:
+        """Understand a message; whoever asks what cannot be understood is told so."""
+        try:
+            return super().structure_message(data)
+        except JsonRpcException as problem:
+            if "id" in data and "method" in data:
+                self._send_response(data["id"], error=problem.to_response_error())
+            raise
+
+
+class Session(LanguageServer):
+    """The server, with the documents that it speaks about."""
+
+    def __init__(self, settings: ServerSettings, examine: Examine = lambda *_: ()) -> None:
+        super().__init__("nddlc", _version(), protocol_cls=_Protocol, converter_factory=default_converter)
+        self.settings = settings
+        self._examine = examine
+        self.begin(Documents(settings))
+        self._due_missions: dict[str, OpenMission] = {}
+        self.is_dismissed = False
+        self.is_pulled = False  # the editor asks for diagnostics, so none are pushed
+        self.has_snippets = False
+        self.hints = HintSettings()
+        self.token_memory = TokenMemory()
+        self._is_due = False
+
+    def report_server_error(self, error: Exception, source: Any) -> None:
+        """Write to the log what went wrong; a box in front of the text would only be in the way."""
+        if isinstance(error, RequestFailed):
+            return
+        _logger.error("%s %s", error, getattr(error, "data", None) or "")  # pygls keeps the traceback of ours there
+        message = types.LogMessageParams(types.MessageType.Error, f"nddlc: {type(error).__name__}: {error}")
+        self.window_log_message(message)
+
+    def begin(self, documents: Documents) -> None:
+        """Speak about these documents."""
+        self.documents = documents
+        self.missions = MissionTexts(self._examine, documents.encoding, is_trusted=documents.settings.is_trusted)
+        self.mission_complaints: dict[str, tuple[types.Diagnostic, ...]] = {}
+        self.pulled = PulledDiagnostics(documents, self.mission_complaints)
+
+    def configure(self, told: Any) -> None:
+        """Take over what the user has set: `{"inlayHints": {"relations": false}}`."""
+        hints = told.get("inlayHints") if isinstance(told, dict) else None
+        if isinstance(hints, dict):
+            wanted = {each.name: hints.get(each.name) is not False for each in fields(HintSettings)}
+            self.hints = HintSettings(**wanted)
+
+    @property
+    def resolves_actions(self) -> bool:
+        """Whether the editor asks for the edit of an action once that is chosen."""
+        text = self.client_capabilities.text_document
+        action = text.code_action if text is not None else None
+        support = action.resolve_support if action is not None else None
+        return support is not None and "edit" in support.properties
+
+    def publish(self, news: Sequence[Publication]) -> None:
+        """Tell the editor what is wrong where, or that it should ask again."""
+        if not self.is_pulled:
+            for each in news:
+                self.text_document_publish_diagnostics(
+                    types.PublishDiagnosticsParams(each.uri, each.diagnostics, each.version)
+                )
+        elif len(news) > 1 or any(each.version is None for each in news):
+            support = self.client_capabilities.workspace
+            if support is not None and support.diagnostics is not None and support.diagnostics.refresh_support:
+                self.workspace_diagnostic_refresh(None)
+
+    def settle(self) -> None:
+        """Analyse what was edited since, and tell what is wrong now."""
+        self._is_due = False
+        try:
+            self.publish(self.documents.settle())
+            due, self._due_missions = self._due_missions, {}
+            for mission in due.values():
+                self.judge_mission(mission)
+        except Exception as mistake:
+            self.report_server_error(mistake, None)
+
+    def settle_soon(self) -> None:
+        """Settle after whatever has arrived by now."""
+        if not self._is_due:
+            self._is_due = True
+            asyncio.get_running_loop().call_soon(self.settle)
+
+    async def turn(self) -> None:
+        """Let what has arrived by now be looked at first, then settle."""
+        await asyncio.sleep(0)
+        if self._is_due:
+            self.settle()
+
+    async def view(self, uri: str) -> DocumentContext | None:
+        """An open text with its model, in the newest state."""
+        await self.turn()
+        return self.documents.view(uri)
+
+    def judge_missions(self) -> None:
+        """Tell what is wrong with the open mission files now that their models may have changed."""
+        for mission in self.missions.all():
+            self.judge_mission(mission)
+
+    def judge_soon(self, mission: OpenMission) -> None:
+        """Judge a mission file after whatever has arrived by now."""
+        self._due_missions[mission.uri] = mission
+        self.settle_soon()
+
+    def close_mission(self, uri: str) -> bool:
+        """A mission file is no longer open; whether it was one."""
+        if not self.missions.close(uri):
+            return False
+        del self.mission_complaints[uri]
+        self._due_missions.pop(uri, None)
+        if not self.is_pulled:
+            self.text_document_publish_diagnostics(types.PublishDiagnosticsParams(uri, []))
+        return True
+
+    def judge_mission(self, mission: OpenMission) -> None:
+        """Tell what is wrong with a mission file."""
+        found = self.missions.complaints(mission, self.documents.conversion())
+        self.mission_complaints[mission.uri] = found
+        if not self.is_pulled:
+            told = types.PublishDiagnosticsParams(mission.uri, found, mission.version)
+            self.text_document_publish_diagnostics(told)
+
+    def answer_item(self, feature: str, answer: Callable[[DocumentContext, int, Conversion], list[Any]]) -> None:
+        """Answer a question about an item of a hierarchy, which stands where its name does."""
+
+        async def handler(params: Any) -> list[Any]:
+            await self.turn()
+            view = self.documents.context(params.item.uri)
+            if view is None:
+                return []
+            at = view.document.lines.offset(params.item.selection_range.start)
+            return answer(view, at, self.documents.conversion())
+
+        self.feature(feature)(handler)
+
+    def answer(
+        self,
+        feature: str,
+        answer: Callable[[DocumentContext, Any], Any],
+        options: Any = None,
+        nothing: Callable[[], Any] = lambda: None,
+        of_mission: Callable[[OpenMission, Any], Any] | None = None,
+    ) -> None:
+        """Answer a question about an open text or mission file; `nothing` makes the answer about any other."""
+
+        async def handler(params: Any) -> Any:
+            uri = params.text_document.uri
+            view = await self.view(uri)
+            if view is not None:
+                return answer(view, params)
+            mission = self.missions.find(uri) if of_mission is not None else None
+            return of_mission(mission, params) if of_mission is not None and mission is not None else nothing()
+
+        self.feature(feature, options)(handler)
+
+
+def _version() -> str:
+    try:
+        return version("nddlc")
+    except PackageNotFoundError:
+        return "unknown"

@@ -1,0 +1,48 @@
+# The C types of `dispatch.py`.
+
+cimport cython
+from runtime.executive.timelines cimport TimelineState
+from runtime.executive.workbench cimport Workbench
+
+cdef long long NOTHING, _INFINITY
+
+
+cdef class Dispatch:
+    cdef public str name
+    cdef public Workbench bench
+    cdef public list timelines
+    cdef public object trace
+    cdef public dict owner_windows, sent, sent_tokens, refused
+
+    cpdef bint is_asked(self, long long token) except -1
+
+    cpdef bint is_refused(self, long long token) except -1
+
+    cpdef tuple refusals(self)
+
+    @cython.locals(t="long long")
+    cpdef bint is_cut_off(self, long long token) except -1
+
+    cpdef long long notice(self, TimelineState line) except? -1
+
+    cpdef bint takes_requests(self, TimelineState line) except -1
+
+    @cython.locals(asked=list, bench=Workbench, line=TimelineState, token="long long")
+    cpdef list requests(self, long long tick, long long final_tick)
+
+    @cython.locals(bench=Workbench, start="long long", time=double)
+    cpdef double due_time(self, TimelineState line, long long token, long long tick) except? -1.0
+
+    @cython.locals(token="long long")
+    cpdef long long next_request(self, TimelineState line) except? -1
+
+    @cython.locals(bench=Workbench, earliest="long long", is_command=bint, other=TimelineState)
+    cpdef object _ask(self, TimelineState line, long long token, long long tick)
+
+    cpdef list open_requests(self)
+
+    @cython.locals(is_placed=bint, numbers=list, token="long long")
+    cpdef list recalls(self, long long tick)
+
+
+cpdef long long _whole(double bound) except? -1

@@ -1,0 +1,1 @@
+# `goals.py` is compiled as it is.

@@ -1,0 +1,74 @@
+# The C types of `plan_reactor.py`.
+
+cimport cython
+from runtime.executive.clock cimport next_reading
+from runtime.executive.dispatch cimport Dispatch
+from runtime.executive.planning cimport Planner
+from runtime.executive.synchronise cimport synchronise
+from runtime.executive.timelines cimport TimelineState
+from runtime.executive.workbench cimport Workbench
+
+cdef long long EPISODE_DONE, EPISODE_MOVED, EPISODE_TOO_DEEP, NOTHING
+
+
+cdef class PlanReactor:
+    cdef public str name
+    cdef public tuple internal, external
+    cdef public long long latency, lookahead, reach, final_tick, tick, due, relaxes, relaxed_at, steps_made, work_since
+    cdef public Workbench bench
+    cdef public Planner planner
+    cdef public Dispatch dispatch
+    cdef public object trace, draws, max_steps, goals, broken
+    cdef public list timelines
+    cdef public dict by_name
+    cdef public bint is_stirred
+
+    cpdef int start_tick(self, long long tick) except -1
+
+    cpdef int notify(self, observation) except -1
+
+    @cython.locals(
+        bench=Workbench, earliest=double, first="long long", is_due=bint, line=TimelineState, soonest=double,
+        token="long long",
+    )
+    cpdef long long next_tick(self, long long tick) except? -1
+
+    @cython.locals(
+        attempt="long long", causes=tuple, events=tuple, failures=list, line=TimelineState, lines=tuple, watched=tuple
+    )
+    cpdef object synchronise(self, long long tick)
+
+    @cython.locals(token="long long")
+    cpdef object _prepare(self, long long tick)
+
+    @cython.locals(mark="long long")
+    cpdef object _synchronise(self, long long tick)
+
+    @cython.locals(line=TimelineState)
+    cpdef tuple _watched(self, conflict)
+
+    cpdef object why_it_lasts(self, long long token, long long key)
+
+    @cython.locals(line=TimelineState, published=list)
+    cpdef list observations(self, long long tick)
+
+    cpdef object record(self)
+
+    @cython.locals(deadline="long long")
+    cpdef double urgency(self, long long tick) except? -1.0
+
+    cpdef bint is_out_of_steps(self) except -1
+
+    @cython.locals(outcome="long long")
+    cpdef bint step(self, long long tick) except -1
+
+    cpdef bint _replan(self, long long tick) except -1
+
+    cpdef list requests(self, long long tick)
+
+    cpdef list recalls(self)
+
+    cpdef tuple _causes_of(self, TimelineState line)
+
+
+cpdef tuple _distinct(first, list failures)

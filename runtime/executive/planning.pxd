@@ -1,0 +1,47 @@
+# The C types of `planning.py`.
+
+cimport cython
+from runtime.executive.workbench cimport Workbench
+from runtime.plan.store.plan cimport Plan
+from runtime.solver.flaws.filters cimport PlanningScope
+from runtime.solver.search cimport Solver
+
+cdef long long EXHAUSTED, FLAG_REJECTABLE, INACTIVE, _MOST_EXPLAINED, _MOST_STEPS, _NO_LIMIT, PLAN, ROLE_LOCAL
+cdef long long ROLE_TOKEN
+
+
+cdef class _Window(PlanningScope):
+    cdef public Workbench bench
+    cdef public long long tick, end, final
+    cdef public bint is_present, is_reactive
+
+    @cython.locals(bench=Workbench, earliest=double, start="long long")
+    cpdef bint admits_token(self, long long t) except -1
+
+    @cython.locals(plan=Plan, role="long long")
+    cpdef bint admits_variable(self, long long v) except -1
+
+
+cdef class Planner:
+    cdef public Workbench bench
+    cdef public _Window window
+    cdef public Solver solver
+    cdef public object max_steps, max_depth, missed
+    cdef public bint is_fresh
+    cdef public dict rejections
+
+    @cython.locals(is_deep=bint, outcome="long long")
+    cpdef long long deliberate(self, long long tick, long long end) except? -1
+
+    cpdef int keep(self) except -1
+
+    @cython.locals(depth="long long", is_deep=bint, outcome="long long", solver=Solver, steps="long long")
+    cpdef long long resolve_present(self, long long tick) except? -1
+
+    cpdef object deadlock(self)
+
+    @cython.locals(solver=Solver)
+    cpdef object _logged(self)
+
+    @cython.locals(bench=Workbench, mark="long long", t="long long")
+    cpdef tuple reason(self)

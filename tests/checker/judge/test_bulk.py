@@ -1,0 +1,156 @@
+"""What is judged of many tokens at once is what the judge of single tokens says of each."""
+
+from collections.abc import Sequence
+from math import inf
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+
+from checker.judge import bulk_tokens
+from checker.judge.bulk_meanings import FUNCTIONS, HOLDS, TRUTHS, conforms, value_of
+from checker.judge.bulk_timelines import BulkTimelines
+from checker.judge.columns import Texts, column_of
+from checker.judge.functions import COMPUTED
+from checker.judge.functions import conforms as conforms_one
+from checker.judge.meanings import MEANINGS, TESTS
+from checker.judge.report import JudgeReport
+from runtime.executive.record import OpenValues, TokenRecord, Value, ValueRange
+from tests.checker.judge.corruption import ALTERATIONS, again
+from tests.checker.judge.missions import MISSIONS
+from tests.executive.flying import Flown
+
+
+def one_by_one(mission: Flown) -> JudgeReport:
+    """The report of the judge of single tokens alone."""
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(bulk_tokens, "_FEWEST", 10**9)
+        patched.setattr(BulkTimelines, "is_in_order", lambda *_: False)
+        patched.setattr(BulkTimelines, "is_told", lambda *_: False)
+        return again(mission)
+
+
+@pytest.mark.parametrize("name", MISSIONS)
+def test_reports_are_those_of_the_judge_of_single_tokens(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bulk_tokens, "_FEWEST", 1)
+    for seed in (0, 1, 2):
+        mission = MISSIONS[name](seed)
+        assert again(mission) == one_by_one(mission)
+        for alter in ALTERATIONS:
+            for number in range(4):
+                changed = alter(mission, Random(f"{name} {seed} {alter.__name__} {number}"))
+                if changed is not None:
+                    assert again(changed) == one_by_one(changed), (seed, alter.__name__, number)
+
+
+def test_most_of_a_mission_is_judged_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    mission = MISSIONS["surveying"](3)
+    singles: list[TokenRecord] = []
+    judge = bulk_tokens.judge_in_bulk
+
+    def counting(*given: Any) -> Sequence[TokenRecord]:
+        left = list(judge(*given))
+        singles.extend(left)
+        return left
+
+    monkeypatch.setattr("checker.judge.tokens.judge_in_bulk", counting)
+    monkeypatch.setattr(bulk_tokens, "_FEWEST", 1)
+    assert again(mission).holds
+    assert all(isinstance(one.end, ValueRange) for one in singles)  # those that go on when the mission ends
+
+
+VALUES: tuple[Value, ...] = (
+    0,
+    1,
+    -3,
+    7,
+    2**52,
+    True,
+    False,
+    0.0,
+    1.0,
+    -2.5,
+    0.3,
+    1e-6,
+    7.000001,
+    1e9,
+    inf,
+    "red",
+    "blue",
+)
+OPEN: tuple[Value, ...] = (ValueRange(0, 1), ValueRange(-inf, 5.0), OpenValues(("red", "blue")), OpenValues((1, 2)))
+
+
+def rows(dice: Random, count: int, width: int) -> list[list[Value]]:
+    """Columns of one kind each, as the parameters of a predicate are."""
+    kinds = [[each for each in VALUES if type(each) is kind] for kind in (int, float, bool, str)]
+    return [[dice.choice(each) for _ in range(count)] for each in (dice.choice(kinds) for _ in range(width))]
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.parametrize("name", [*HOLDS, *TRUTHS])
+def test_what_plainly_holds_holds(name: str) -> None:
+    dice, texts = Random(name), Texts()
+    seen = set()
+    for _ in range(60):
+        columns = rows(dice, 12, 1 if name == "testNot" else 2)
+        given = [column_of(each, texts) for each in columns]
+        if name in HOLDS:
+            answers = HOLDS[name](*given).tolist()
+            wanted = [MEANINGS[name](*each) for each in zip(*columns, strict=True)]
+            assert all(right is True for answer, right in zip(answers, wanted, strict=True) if answer)
+            if not any(isinstance(each[0], str) for each in columns):
+                assert all(answer for answer, right in zip(answers, wanted, strict=True) if right is True), columns
+            seen |= set(wanted)
+            continue
+        holds, fails = TRUTHS[name](*given)
+        wanted = [TESTS[name](*each) for each in zip(*columns, strict=True)]
+        assert all(wanted[k] is True for k in np.flatnonzero(holds)), columns
+        assert all(wanted[k] is False for k in np.flatnonzero(fails)), columns
+        seen |= set(wanted)
+    assert {True, False} <= seen
+
+
+ALONE = {"absVal", "abs", "absf", "neg", "sqrt", "sqrtf", "floor", "floorf", "ceil", "ceilf", "sin", "sinf"}
+ALONE |= {"cosf", "deg_to_rad"}
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_what_plainly_conforms_conforms(name: str) -> None:
+    dice, texts = Random(name), Texts()
+    _, function, monotone = COMPUTED[name]
+    width = 1 if name in ALONE else 4 if name == "calcDistance" else 2
+    told = 0
+    for _ in range(240):
+        columns = [each for each in rows(dice, 12, width) if not isinstance(each[0], str) and inf not in each]
+        if len(columns) < width:
+            continue
+        expected = value_of(name, [column_of(each, texts) for each in columns])
+        assert expected is not None
+        exact = [function(*each) for each in zip(*columns, strict=True)]
+        results = [each + dice.choice((0, 0, 0, 1)) for each in exact]
+        found = column_of(results, texts)
+        plain = conforms(found, expected)
+        for column in (found, expected):
+            plain &= True if column.bad is None else ~column.bad
+        for k in np.flatnonzero(plain).tolist():
+            inputs = tuple(each[k] for each in columns)
+            told += 1
+            assert conforms_one(results[k], function, inputs, monotone) is True, (results[k], inputs)
+    assert told > 50
+
+
+def test_a_column_gives_back_its_values() -> None:
+    dice, texts = Random(3), Texts()
+    for _ in range(80):
+        kind = dice.choice((int, float, bool, str))
+        plain = [each for each in VALUES if type(each) is kind]
+        given = [dice.choice((*plain, *OPEN)) for _ in range(9)]
+        column = column_of(given, texts)
+        for k, value in enumerate(given):
+            if column.bad is None or not column.bad[k]:
+                assert column.value(k, texts) == value
+            else:
+                assert not isinstance(value, kind)

@@ -1,0 +1,138 @@
+"""Columns: what a simulator did is kept as numbers, and reads as the tokens and events that they stand for."""
+
+import pickle
+from functools import lru_cache
+from math import inf
+from pathlib import Path
+
+import pytest
+
+from checker.flight import programs_of
+from checker.mission import read_mission
+from runtime.executive.columns import GuardColumns, RunColumns, TokenColumns, ValueColumn
+from runtime.executive.events import EventLog, single_events
+from runtime.executive.mission import record_mission
+from runtime.executive.outcome import EventKind, Outcome
+from runtime.executive.record import BodyRun, GuardRun, MissionRecord, Value, ValueRange
+from tests.executive.determined_models import random_case
+from tests.executive.flying import fly, simulator
+
+INL = Path(__file__).resolve().parents[2] / "models/auv/inl/mission.toml"
+
+
+@lru_cache(maxsize=1)
+def flown() -> tuple[Outcome, MissionRecord]:
+    mission, _ = read_mission(INL)
+    assert mission is not None
+    return record_mission(mission.agent, programs_of(mission.agent), 3, until=700)
+
+
+def value(column: ValueColumn, row: int, names: list[str]) -> Value:
+    number = column.numbers[row].item()
+    if number != number:
+        return ValueRange(-inf, inf)
+    return names[number] if column.kind == "name" else bool(number) if column.kind == "bool" else number
+
+
+def run_of(run: RunColumns, row: int, names: list[str]) -> BodyRun:
+    guards = tuple(guard_of(each, row, names) for each in run.guards)
+    return BodyRun(
+        run.rule,
+        tuple(value(each, row, names) for each in run.locals),
+        tuple(each[row].item() for each in run.children),
+        guards,
+    )
+
+
+def guard_of(guard: GuardColumns, row: int, names: list[str]) -> GuardRun:
+    return GuardRun(guard.branch, True, None if guard.run is None else run_of(guard.run, row, names))
+
+
+def compare(tokens: TokenColumns) -> int:
+    """Compare every group with the tokens that it stands for; how many there are."""
+    names = list(tokens.symbols)
+    seen: set[int] = set()
+    for group in tokens.groups:
+        for row, place in enumerate(group.places.tolist()):
+            token = tokens[place]
+            assert (token.predicate, token.object, token.state) == (group.predicate, group.object, "active")
+            assert token.arguments == tuple(value(each, row, names) for each in group.arguments)
+            assert token.runs == tuple(run_of(each, row, names) for each in group.runs)
+            seen.add(place)
+    active = {place for place, token in enumerate(tokens) if token.state == "active"}
+    assert seen == active
+    return len(seen)
+
+
+def test_groups_of_columns_are_the_tokens_of_the_record() -> None:
+    tokens = flown()[1].reactors[2].tokens
+    assert isinstance(tokens, TokenColumns)
+    assert compare(tokens) > 700
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_groups_of_random_simulators_are_their_tokens(seed: int) -> None:
+    agent, programs = random_case(seed).agent()
+    for reactor in record_mission(agent, programs, seed)[1].reactors:
+        if isinstance(reactor.tokens, TokenColumns):
+            compare(reactor.tokens)
+
+
+def test_times_of_columns_are_those_of_the_tokens() -> None:
+    tokens = flown()[1].reactors[2].tokens
+    assert isinstance(tokens, TokenColumns)
+    times, names = tokens.times, tokens.names
+    for place, token in enumerate(tokens):
+        assert token.key == times.keys[place]
+        assert (token.predicate, token.object) == (names[times.predicates[place]], names[times.objects[place]])
+        assert token.merged_into == times.merged_into[place]
+        assert (token.fate == "over", token.tick) == (bool(times.is_over[place]), times.ticks[place])
+        assert not isinstance(token.start, int) or token.start == times.starts[place]
+        assert not isinstance(token.end, int) or token.end == times.ends[place] == times.latest[place]
+
+
+def test_events_read_by_index_are_those_that_are_passed_by() -> None:
+    events = flown()[0].events
+    assert isinstance(events, EventLog)
+    passed = tuple(events)
+    assert [events[k] for k in range(len(events))] == list(passed)
+    assert events[-1] == passed[-1] and events[3:7] == passed[3:7] and events == passed
+    with pytest.raises(IndexError):
+        events[len(events)]
+
+
+def test_each_cause_of_an_event_came_before_it() -> None:
+    events = flown()[0].events
+    lines: dict[str, int] = {}
+    for index, event in enumerate(events):
+        assert all(cause < index for cause in event.causes)
+        if event.kind is EventKind.OBSERVATION and event.reactor == "psim":
+            last = lines.get(event.timeline)
+            assert (
+                event.causes == (() if last is None else (last,)) or events[event.causes[0]].kind is EventKind.REQUEST
+            )
+            lines[event.timeline] = index
+
+
+def test_a_sent_trace_is_the_same_trace() -> None:
+    events = flown()[0].events
+    assert pickle.loads(pickle.dumps(events)) == events
+    assert single_events(events) == [event for event in events if event in single_events(events)]
+    assert len(single_events(events)) < len(events) / 4
+
+
+COUNTER = """
+class Count extends AgentTimeline { predicate At { int n; int m; } Count(Mode m) { super(m, "At"); } }
+Count::At { duration == SPAN; meets(object.At next); m == n + 1; next.n == m; }
+Count count = new Count(Internal);
+close();
+fact(count.At a); a.start == 0; a.n == 0;
+"""
+
+
+def test_two_simulators_that_run_ahead_tell_in_the_order_of_time() -> None:
+    one = simulator("one", COUNTER.replace("SPAN", "2").replace("count", "one"), "one")
+    two = simulator("two", COUNTER.replace("SPAN", "3").replace("count", "two"), "two")
+    ticks = [event.tick for event in fly(one, two, until=600).events]
+    assert ticks == sorted(ticks) and len(ticks) > 500
+    assert fly(one, two, until=600, every_tick=True).events == fly(one, two, until=600).events

@@ -1,0 +1,163 @@
+"""Mission files in the editor: what is wrong, what may be written, and the way into the model."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from lsp.mission_texts import place_at
+
+MODEL = """\
+/// Seconds per hit.
+float GPS_HIT_RATE = [0.1 4.0];
+class Gps extends Timeline { predicate Idle { } predicate Busy { int hits; } }
+Gps gps = new Gps();
+Gps::Busy { float rate; rate == sampledParameter(GPS_HIT_RATE); duration >= 3; }
+"""
+MISSION = """\
+[mission]
+name = "one"
+final_tick = 60
+
+[[reactor]]
+name = "all"
+model = "model.nddl"
+lookahead = 60
+internal = ["gps"]
+
+[[goal]]
+timeline = "gps"
+predicate = "Busy"
+start = [5, 10]
+[goal.parameters]
+hits = 3
+
+[parameters.GPS_HIT_RATE]
+range = [0.5, 1.0]
+"""
+
+
+@pytest.fixture
+def opened(client: Any, tmp_path: Path) -> tuple[Any, str, str]:
+    (tmp_path / "model.nddl").write_text(MODEL)
+    (tmp_path / "mission.toml").write_text(MISSION)
+    client.start(folder=tmp_path)
+    uri = (tmp_path / "mission.toml").as_uri()
+    assert client.open(uri, MISSION)["diagnostics"] == []
+    return client, uri, (tmp_path / "model.nddl").as_uri()
+
+
+def place_of(text: str, mark: str) -> tuple[int, int]:
+    """The line and column behind `mark`."""
+    before = text[: text.index(mark) + len(mark)]
+    return before.count("\n"), len(before.rpartition("\n")[2])
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong", "word"),
+    [
+        ('"Busy"', '"Bussy"', "Bussy"),
+        ("final_tick", "finaltick", "finaltick"),
+        ('internal = ["gps"]', 'internal = ["gqs"]', "gps"),
+        ("hits = 3", "hitz = 3", "hitz"),
+        ("GPS_HIT_RATE]", "GPS_RATE]", "GPS_RATE"),
+        ("final_tick = 60", "final_tick = ", "final_tick"),
+    ],
+)
+def test_what_is_wrong_is_told_while_typing(opened: Any, right: str, wrong: str, word: str) -> None:
+    client, uri, _ = opened
+    text = MISSION.replace(right, wrong)
+    told = client.change(uri, {"text": text})["diagnostics"]
+    assert told
+    lines = text.split("\n")
+    assert any(word in lines[each["range"]["start"]["line"]] for each in told)
+    assert all(each["code"].startswith("NDDL7") for each in told)
+    assert client.change(uri, {"text": MISSION})["diagnostics"] == []
+
+
+@pytest.mark.parametrize(
+    ("mark", "line"),
+    [
+        ('internal = ["g', 3),
+        ('timeline = "g', 3),
+        ('predicate = "Bu', 2),
+        ("[goal.parameters]\nhi", 2),
+        ("[parameters.GPS_HIT", 1),
+    ],
+)
+def test_names_lead_into_the_model(opened: Any, mark: str, line: int) -> None:
+    client, uri, model = opened
+    found = client.ask_at("definition", uri, *place_of(MISSION, mark))
+    assert (found["uri"], found["range"]["start"]["line"]) == (model, line)
+
+
+def test_the_name_of_a_model_leads_to_it(opened: Any) -> None:
+    client, uri, model = opened
+    assert client.ask_at("definition", uri, *place_of(MISSION, 'model = "mod'))["uri"] == model
+    assert client.ask_at("definition", uri, *place_of(MISSION, 'name = "o')) is None
+
+
+def test_hover_tells_what_keys_and_names_mean(opened: Any) -> None:
+    client, uri, _ = opened
+    assert "Ticks it plans ahead" in client.hover(uri, *place_of(MISSION, "lookah"))
+    assert "The agent must get this far" in client.hover(uri, *place_of(MISSION, "final_t"))
+    assert "predicate Gps.Busy" in client.hover(uri, *place_of(MISSION, 'predicate = "Bu'))
+    assert "Seconds per hit." in client.hover(uri, *place_of(MISSION, "[parameters.GPS_H"))
+
+
+@pytest.mark.parametrize(
+    ("right", "typed", "expected"),
+    [
+        ('predicate = "Busy"', 'predicate = "', {"Busy", "Idle"}),
+        ('timeline = "gps"', 'timeline = "', {"gps"}),
+        ('model = "model.nddl"', 'model = "', {"model.nddl"}),
+        ("hits = 3", "h", {"hits"}),
+        ("[parameters.GPS_HIT_RATE]", "[parameters.", {"GPS_HIT_RATE"}),
+        ("lookahead = 60", "la", {"latency", "lookahead", "internal", "solver"}),
+        ("final_tick = 60", 'on_failure = "', {"abort_agent", "kill_reactor"}),
+        ("[mission]", "[", {"mission", "check", "parameters", "reactor"}),
+    ],
+)
+def test_what_may_be_written_is_offered(opened: Any, right: str, typed: str, expected: set[str]) -> None:
+    client, uri, _ = opened
+    text = MISSION.replace(right, typed)
+    client.change(uri, {"text": text})
+    begin = MISSION.index(right) + len(typed)
+    line, column = text[:begin].count("\n"), len(text[:begin].rpartition("\n")[2])
+    found = client.ask_at("completion", uri, line, column)
+    items = found["items"] if isinstance(found, dict) else found
+    assert expected <= {each["label"] for each in items}
+
+
+def test_a_change_of_the_model_is_told_once_it_is_saved(opened: Any, tmp_path: Path) -> None:
+    client, uri, _ = opened
+    (tmp_path / "model.nddl").write_text(MODEL.replace("predicate Idle", "predicate Rest").replace("Busy", "Idle"))
+    client.notify("workspace/didChangeWatchedFiles", changes=[])
+    assert [each["code"] for each in client.complaints(uri)["diagnostics"]] != []
+    client.notify("textDocument/didClose", textDocument={"uri": uri})
+    assert client.complaints(uri)["diagnostics"] == []
+
+
+def test_a_workspace_runs_nothing_by_being_opened(client: Any, tmp_path: Path) -> None:
+    (tmp_path / "model.nddl").write_text(MODEL)
+    (tmp_path / "evil.py").write_text(f"open({str(tmp_path / 'ran')!r}, 'w').close()\n")
+    client.start(folder=tmp_path)
+    text = MISSION + '[constraints]\nmodules = ["evil.py"]\n'
+    assert client.open((tmp_path / "mission.toml").as_uri(), text)["diagnostics"] == []
+    assert not (tmp_path / "ran").exists()
+
+
+def test_another_toml_file_is_left_alone(client: Any, tmp_path: Path) -> None:
+    client.start(folder=tmp_path)
+    uri = (tmp_path / "Cargo.toml").as_uri()
+    item = {"uri": uri, "languageId": "toml", "version": 1, "text": "[package\n"}
+    client.notify("textDocument/didOpen", textDocument=item)
+    assert client.open("untitled:a", "int a;")["diagnostics"] == []
+    assert client.hover(uri, 0, 2) is None
+
+
+@pytest.mark.parametrize("text", ["", "[", "a", "= ", '"', "[[", "x = [\n1,\n", '[a."b', "\n\n]", "a = '''\n"])
+def test_a_place_is_found_in_any_text(text: str) -> None:
+    for offset in range(len(text) + 1):
+        place = place_at(text, offset)
+        assert 0 <= place.begin <= place.finish <= len(text)
