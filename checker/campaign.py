@@ -11,7 +11,8 @@ from checker.batch.pool import Flyer, fly_all
 from checker.batch.progress import Progress
 from checker.batch.result import MissionResult
 from checker.batch.store import Run, RunStore
-from checker.batch.worker import Load, Task
+from checker.batch.worker import Load, Task, fly_one
+from checker.contrast import Contrast, find_contrast
 from checker.findings import Ending, Fault, Findings, assess
 from checker.mission import Mission
 from checker.models import ModelSet
@@ -121,6 +122,14 @@ class Campaign:
                 ending=ending,
                 focus=focus,
             )
+
+    def contrast(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Contrast | None:
+        """What sets a failed mission apart from the nearest one that passes; flown in this process."""
+
+        def trace(agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
+            return self.judged(fly_one(self.load(agent), Task(number, seed), keep_trace=True))
+
+        return find_contrast(failed, results, self.models.agent, trace)
 
     def story(self, result: MissionResult, fault: Fault | None) -> Story:
         """Why a mission failed."""

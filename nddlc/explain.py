@@ -11,6 +11,7 @@ from checker.batch.result import MissionResult
 from checker.batch.store import LATEST, Run, RunStore, StoreError, open_store
 from checker.batch.worker import fly_one
 from checker.campaign import Campaign
+from checker.contrast_rendering import contrast_data, contrast_lines
 from checker.excerpts import Excerpts
 from checker.explain import result_data, result_text, story_data, story_text
 from checker.findings import Fault, Findings
@@ -64,6 +65,11 @@ def _explain(store: RunStore, name: str, number: int | None, style: str, events:
     if not is_same and style == "text":
         click.echo("model, mission file or nddlc have changed since this run; the explanation is of what was flown\n")
     text, plain = _told(result, fault, campaign, findings, excerpts)
+    if result.verdict is Verdict.FAIL and is_same:
+        contrast = campaign.contrast(result, findings.results)
+        if contrast is not None:
+            text += "\n".join(["", *contrast_lines(contrast)]) + "\n"
+        plain |= {"contrast": contrast_data(contrast)}
     if events and result.outcome is not None:
         lines = [trace_line(event) for event in result.outcome.events]
         text += "\n" + "\n".join(lines) + "\n"

@@ -32,7 +32,7 @@ def find_condition(
     """The condition under which missions fail as those of `bucket`; None where nothing can be claimed."""
     example = next(result for result in results if result.number == bucket.example)
     space = Space(agent, results)
-    if not space.axes:
+    if not space.parameters:
         return None
     rows = _rows(space, results, example)
     if refly is None:
@@ -71,7 +71,7 @@ def _in_terms(condition: Condition, example: MissionResult, space: Space) -> tup
     row = space.row(example)
     if abort is None or abort.conflict is None or row is None:
         return ()
-    axes = {axis.name: axis for axis in space.axes if not axis.is_redrawn}
+    axes = {axis.name: axis for axis in space.parameters if not axis.is_redrawn}
     found = []
     for literal in condition.single:
         axis = axes.get(literal.feature.parameters[0])
@@ -96,10 +96,10 @@ def _rows(space: Space, results: Sequence[MissionResult], example: MissionResult
 
 def _corners(space: Space) -> list[tuple[float, ...]]:
     """Where to look for a passing mission if none is known: the middle, and the ends of each range."""
-    middle = tuple(axis.at(0.5) for axis in space.axes)
+    middle = tuple(axis.at(0.5) for axis in space.parameters)
     ends = [
         (*middle[:number], end, *middle[number + 1 :])
-        for number, axis in enumerate(space.axes)
+        for number, axis in enumerate(space.parameters)
         for end in (axis.lower, axis.upper)
     ]
     return [middle, *ends]
@@ -118,7 +118,7 @@ def _induced(
 
 def _features(space: Space, known: set[Feature]) -> list[Feature]:
     found: list[Feature] = []
-    for axis in space.axes:
+    for axis in space.parameters:
         extremes = (Extreme.GREATEST, Extreme.LEAST) if axis.is_redrawn else (Extreme.ONLY,)
         found += [axis_feature(axis.name, one) for one in extremes if axis_feature(axis.name, one) not in known]
     return found
@@ -144,5 +144,5 @@ def _condition(
         return None
     near = measured.near if has_flown else None
     found = Condition(conjunctions, measured.precision, measured.recall, measured.fresh, near, flights)
-    redrawn = {axis.name for axis in space.axes if axis.is_redrawn}
+    redrawn = {axis.name for axis in space.parameters if axis.is_redrawn}
     return None if found.is_partial and redrawn & set(found.parameters) else found

@@ -65,22 +65,24 @@ class _FreeParameter:
 
 
 class Space:
-    """The free parameters of an agent."""
+    """The free parameters of an agent; without `redrawn` those alone that are drawn once a mission."""
 
-    def __init__(self, agent: AgentConfiguration, results: Sequence[MissionResult]) -> None:
+    def __init__(self, agent: AgentConfiguration, results: Sequence[MissionResult], *, redrawn: bool = True) -> None:
         self.agent = agent
         free = [one for one in agent.parameters if not DISTRIBUTIONS[one.distribution].is_constant]
         drawn = {draw.parameter for result in results if result.outcome for draw in result.outcome.draws}
-        self.axes = tuple(_axis(one, results) for one in free if one.name in drawn)
-        self.names = tuple(axis.name for axis in self.axes)
-        self.has_redrawn = any(axis.is_redrawn for axis in self.axes)
+        self.parameters = tuple(
+            _axis(one, results) for one in free if one.name in drawn and (redrawn or one.mode == "inter")
+        )
+        self.names = tuple(axis.name for axis in self.parameters)
+        self.has_redrawn = any(axis.is_redrawn for axis in self.parameters)
 
     def row(self, result: MissionResult) -> Row | None:
         """What a mission drew; of a parameter that it did not need, what it would have drawn."""
         if result.outcome is None:
             return None
         spans: dict[str, tuple[float, float]] = {}
-        for axis in self.axes:
+        for axis in self.parameters:
             values = [draw.value for draw in result.outcome.draws if draw.parameter == axis.name]
             values = values or [sample(axis.parameter, result.seed, 0).value]
             spans[axis.name] = (min(values), max(values))
@@ -88,7 +90,7 @@ class Space:
 
     def drawn(self, seed: int) -> Row:
         """What a mission with `seed` draws first."""
-        values = [(axis.name, sample(axis.parameter, seed, 0).value) for axis in self.axes]
+        values = [(axis.name, sample(axis.parameter, seed, 0).value) for axis in self.parameters]
         return {name: (value, value) for name, value in values}
 
     def point(self, row: Row) -> Point:
