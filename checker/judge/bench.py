@@ -1,6 +1,6 @@
 """The judge's desk for one reactor: tokens by key, values of the model's variables, and what was found so far."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -47,7 +47,7 @@ class Tok:
 class _Toks:
     """The tokens of a record by key, each made when it is first asked for."""
 
-    def __init__(self, tokens: tuple[TokenRecord, ...]) -> None:
+    def __init__(self, tokens: Sequence[TokenRecord]) -> None:
         self._records = {one.key: one for one in tokens}
         self._made: dict[int, Tok] = {}
 

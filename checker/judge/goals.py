@@ -15,8 +15,8 @@ def judge_goals(agent: AgentConfiguration, outcome: Outcome, desks: dict[str, tu
     has_ended = outcome.abort is None and outcome.last_tick >= agent.final_tick
     left = [(goal.timeline, goal.predicate) for goal in outcome.open_goals]
     for number, goal in enumerate(agent.goals):
-        counts = has_ended and (goal.timeline, goal.predicate) not in left
-        if not goal.mandatory or not (counts or -1 - number in said):
+        counts = (goal.timeline, goal.predicate) not in left if has_ended else -1 - number in said
+        if not goal.mandatory or not counts:
             continue
         owner = next((one for one in agent.reactors if goal.timeline in one.internal), None)
         if owner is not None and owner.name in desks:

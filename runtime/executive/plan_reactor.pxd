@@ -18,14 +18,14 @@ cdef class PlanReactor:
     cdef public Workbench bench
     cdef public Planner planner
     cdef public Dispatch dispatch
-    cdef public object trace, draws, max_steps, goals, broken
+    cdef public object trace, draws, max_steps, goals, broken, deferral
     cdef public list timelines
     cdef public dict by_name
     cdef public bint is_stirred
 
     cpdef int start_tick(self, long long tick) except -1
 
-    cpdef int notify(self, observation) except -1
+    cpdef object notify(self, observation)
 
     @cython.locals(
         bench=Workbench, earliest=double, first="long long", is_due=bint, line=TimelineState, soonest=double,

@@ -1,7 +1,9 @@
 """AGENT_CLOCK in rules: a guard on it fires exactly when it comes to be true, and ticks are only then all visited."""
 
+import pytest
+
 from runtime.executive.configuration import GoalConfiguration
-from tests.executive.flying import Flyer, fly, history, lines, planner, simulator
+from tests.executive.flying import Flyer, flown, fly, history, lines, planner, simulator
 
 LAMP = """
 class Lamp extends AgentTimeline { predicate Off { } predicate On { int n; } Lamp(Mode m) { super(m, "Off"); } }
@@ -52,3 +54,12 @@ def test_the_mission_ends_where_the_clock_does() -> None:
         user("User::Busy { start == MISSION_END - 4; }"), OWNER, until=12, goals=(GoalConfiguration("user", "Busy"),)
     )
     assert history(outcome, "user") == ["0 Idle", "8 Busy"]
+
+
+@pytest.mark.parametrize("stop", [None, 10])
+@pytest.mark.parametrize("guard", ["start <= AGENT_CLOCK", "start + 3 <= AGENT_CLOCK", "end <= AGENT_CLOCK"])
+def test_guards_fire_at_the_final_tick_and_not_before_a_flight_is_cut_short(guard: str, stop: int | None) -> None:
+    rules = f"User::Idle {{ duration == 5; if ({guard}) {{ meets(object.Idle next); }} }}"
+    mission = flown(user(rules), OWNER, until=10 if stop is None else 30, stop=stop)
+    assert mission.report.holds, mission.report.disagreements
+    assert history(mission.outcome, "user") == ["0 Idle", "5 Idle", "10 Idle"]

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from runtime.executive import mission
 from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.plan_reactor import PlanReactor
 from runtime.executive.record import TokenRecord
@@ -42,15 +43,17 @@ GOALS = (
 VISITS: list[int] = []
 
 
+class Counted(PlanReactor):
+    """A reactor whose visits are counted."""
+
+    def start_tick(self, tick: int) -> None:
+        VISITS.append(tick)
+        super().start_tick(tick)
+
+
 @pytest.fixture(autouse=True)
 def visits(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    whole = PlanReactor.start_tick
-
-    def counted(self: PlanReactor, tick: int) -> None:
-        VISITS.append(tick)
-        whole(self, tick)
-
-    monkeypatch.setattr(PlanReactor, "start_tick", counted)
+    monkeypatch.setattr(mission, "PlanReactor", Counted)
     yield
     VISITS.clear()
 

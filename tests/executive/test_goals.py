@@ -165,3 +165,21 @@ def test_two_users_of_one_timeline_are_served_one_after_the_other() -> None:
     )
     assert outcome.abort is None and open_goals(outcome) == []
     assert history(outcome, "lamp") == ["0 Off", "2 On(n=1)", "6 Off", "12 On(n=2)", "16 Off"]
+
+
+def test_a_goal_that_cannot_begin_is_tried_once_more_and_then_given_up() -> None:
+    rules = "User::Busy { contains(Lamp.On on); on.n == k; on.end == end; if (start <= AGENT_CLOCK) { k > 5; } }"
+    goals = busy(parameters=(("k", 2),), start=(3, 40))
+    outcome = fly(user(rules), lamp("Lamp::On { duration == 3; }"), goals=goals, until=30)
+    assert lines(outcome, "relax", "reject", "request") == [
+        "0 request user Busy(k=2)",
+        "2 request user lamp On(n=2)",
+        "3 relax user keeping the past: User.Busy#2 cannot start at tick 3",
+        "4 request user lamp On(n=2)",
+        "6 relax user keeping the past: User.Busy#2 cannot start at tick 6",
+        "6 reject user user Busy(k=2): the planner found no place for it (User.Busy#2 cannot start at tick 6)",
+    ]
+    assert outcome.abort is None and len(outcome.open_goals) == 1
+    relax = next(event for event in outcome.events if event.kind == "relax")
+    assert relax.conflict is not None
+    assert "k > 5" in {one.place.text.strip(" ;") for one in relax.conflict.elements if one.place is not None}

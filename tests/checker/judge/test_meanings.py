@@ -3,6 +3,7 @@
 from math import inf
 from typing import Any
 
+import numpy as np
 import pytest
 
 from checker.judge.draws import drawn
@@ -116,4 +117,5 @@ def test_draws_are_those_of_the_mission(kind: Any) -> None:
         )
         for seed in (0, 7, 2**53 - 1):
             for tick in range(0, 70, 3):
-                assert drawn(place, seed, tick) == pytest.approx(sample(place, seed, tick).value, abs=1e-9)
+                (value,) = drawn(place, seed, np.array([tick]))
+                assert value == pytest.approx(sample(place, seed, tick).value, abs=1e-9)
