@@ -17,7 +17,9 @@ from checker.findings import Ending, Fault, Findings, assess
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Verdict, judge_losses
+from checker.regression import RegressionCase, agent_of
 from checker.sampling.seeds import mission_seed
+from checker.shrink import Shrunk, shrink
 from checker.story import Story, tell
 from runtime.executive.configuration import AgentConfiguration
 
@@ -126,10 +128,21 @@ class Campaign:
     def contrast(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Contrast | None:
         """What sets a failed mission apart from the nearest one that passes; flown in this process."""
 
-        def trace(agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
-            return self.judged(fly_one(self.load(agent), Task(number, seed), keep_trace=True))
+        return find_contrast(failed, results, self.models.agent, self._traced)
 
-        return find_contrast(failed, results, self.models.agent, trace)
+    def shrink(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Shrunk | None:
+        """The simplest mission that fails as `failed` does; flown in this process."""
+        return shrink(failed, results, self.models.agent, self._traced)
+
+    def regressions(self, cases: tuple[RegressionCase, ...]) -> tuple[tuple[RegressionCase, MissionResult], ...]:
+        """The missions that are to pass, flown."""
+        agents = [(case, agent_of(case, self.models.agent)) for case in cases]
+        with Flyer(self.load, self.models.agent, self.mission.check.time_limit) as flyer:
+            flown = [(case, flyer.fly(agent, number, case.seed)) for number, (case, agent) in enumerate(agents, 1)]
+        return tuple((case, self.judged(result)) for case, result in flown)
+
+    def _traced(self, agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
+        return self.judged(fly_one(self.load(agent), Task(number, seed), keep_trace=True))
 
     def story(self, result: MissionResult, fault: Fault | None) -> Story:
         """Why a mission failed."""

@@ -68,7 +68,7 @@ def find_contrast(
     nearest = min(passing, key=lambda one: (_distance(space, failing_point, one), one.number))
     nearest_row = space.row(nearest)
     assert nearest_row is not None
-    search = _Search(space, failed, failing_point, space.point(nearest_row), trace)
+    search = SubsetSearch(space, failed, failing_point, space.point(nearest_row), trace)
     differing = tuple(n for n, (a, b) in enumerate(zip(search.failing, search.passing, strict=True)) if a != b)
     if not differing or search.fails(()) or not search.fails(differing):
         return None
@@ -87,7 +87,7 @@ def find_contrast(
     )
 
 
-class _Search:
+class SubsetSearch:
     """Flies the passing mission with some of the failing values."""
 
     def __init__(self, space: Space, failed: MissionResult, failing: Point, passing: Point, trace: Trace) -> None:

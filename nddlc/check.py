@@ -31,6 +31,7 @@ from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_
 from nddlc.known import known_callables
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
+from nddlc.regressions import regressions_hold
 from nddlc.trust import trust_option
 
 _HOLDS, _FINDINGS, _UNUSABLE, _BUG = 0, 1, 2, 3
@@ -100,6 +101,7 @@ def command(
         if style == "text":
             click.echo(f"`{path}` and its models are in order; nothing was flown")
         return _HOLDS
+    regressed = not regressions_hold(campaign, file, is_told=style == "text")
     count, enough = workers or _cores(), Enough(seconds, max_failures)
     try:
         with ExitStack() as stack:
@@ -110,6 +112,10 @@ def command(
         raise Unusable(str(problem), problem.advice) from None
     findings = campaign.assess(flown.results, ending=flown.ending)
     code = _report(campaign, findings, style, output)
+    if regressed and code == _HOLDS:
+        code = _FINDINGS
+        if style == "text":
+            click.echo("a regression case fails again: see above")
     return code if flown.ended_by is None else _SIGNALLED + flown.ended_by
 
 

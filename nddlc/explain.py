@@ -54,7 +54,7 @@ def _explain(store: RunStore, name: str, number: int | None, style: str, events:
     if run is None:
         known = ", ".join(store.run_ids()[:10])
         raise Unusable(f"no single run is named `{name}`", f"runs in the store: {known or 'none'}")
-    campaign, is_same = _campaign(run, is_trusted)
+    campaign, is_same = campaign_of(run, is_trusted)
     results = tuple(campaign.judged(one) for one in store.results(run.id))
     first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
     findings = campaign.assess(results, may_fly=is_same, focus=first)
@@ -87,7 +87,7 @@ def _told(
     return story_text(story, findings.run_id, excerpts), story_data(story, findings.run_id, excerpts)
 
 
-def _campaign(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
+def campaign_of(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
     """The mission as its file is now, and whether that is still what was flown."""
     path = Path(run.mission_file)
     if path.is_relative_to(Path.cwd()):

@@ -32,13 +32,15 @@ COMMANDS = {
     "check": ("nddlc.check", "Fly the missions of a mission file, and say what fails and why."),
     "convert": ("nddlc.convert", "Turn a batch file in XML into tables of a mission file."),
     "explain": ("nddlc.explain", "Explain why one mission of a run failed."),
+    "shrink": ("nddlc.shrink", "Shrink a failed mission of a run to the simplest one that fails alike."),
+    "promote": ("nddlc.promote", "Keep a failed mission of a run as a regression case."),
     "store": ("nddlc.store", "Look whether a store of runs is whole, and salvage a damaged one."),
     "validate": ("nddlc.validate", "Judge a mission, a record, a trace or a plan against the model."),
     "lsp": ("nddlc.lsp", "Serve an editor over standard input and output."),
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 # What is slow where the engine is not compiled.
-_PLANNING = ("load", "compile", "plan", "run", "replay", "gold", "check", "explain", "validate")
+_PLANNING = ("load", "compile", "plan", "run", "replay", "gold", "check", "explain", "shrink", "promote", "validate")
 _UNUSABLE, _BUG, _INTERRUPTED = 2, 3, 130
 _MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
 _FORBIDDEN = (errno.EACCES, errno.EPERM, errno.ELOOP, errno.ENAMETOOLONG)

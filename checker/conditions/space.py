@@ -103,10 +103,10 @@ class Space:
 
     def agent_at(self, point: Point) -> AgentConfiguration:
         """The agent with every free parameter fixed."""
-        return _fixed(self.agent, dict(zip(self.names, point, strict=True)))
+        return fixed(self.agent, dict(zip(self.names, point, strict=True)))
 
 
-def _fixed(agent: AgentConfiguration, values: Mapping[str, float]) -> AgentConfiguration:
+def fixed(agent: AgentConfiguration, values: Mapping[str, float]) -> AgentConfiguration:
     """The agent with some parameters fixed to values."""
     parameters = tuple(
         replace(one, distribution="fixed", mode="inter", values=(values[one.name],), weights=(), clip=None)
