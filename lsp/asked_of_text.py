@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from lsprotocol import types
 
 from lsp.document_links import document_links
-from lsp.documents import DocumentContext
 from lsp.folding import folding_ranges, selection_ranges
 from lsp.inlay_hints import inlay_hints
 from lsp.lenses import code_lenses
 from lsp.mending import can_fix_all, fix_all, formatting, formatting_of_lines, formatting_of_statement, mends
+from lsp.open_text import DocumentContext
 from lsp.refactorings import refactorings
 from lsp.semantic_tokens import LEGEND, semantic_tokens
 from lsp.session import Session

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from lsprotocol.types import DocumentLink
 
 from lsp.diagnostics import Conversion
-from lsp.documents import DocumentContext
+from lsp.open_text import DocumentContext
 from nddl_lang.syntax.nodes import ClassDecl, Include
 
 

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 from lsprotocol.types import SemanticTokens, SemanticTokensDelta, SemanticTokensEdit, SemanticTokensLegend
 
-from lsp.documents import DocumentContext
 from lsp.occurrences import Occurrence, Role, SymbolType, VariableKind
+from lsp.open_text import DocumentContext
 from lsp.positions import Encoding, Lines
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.syntax.words import KINDS

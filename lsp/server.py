@@ -1,7 +1,10 @@
 """The language server: settings in; a session that answers everything that editors ask, served over a stream, out."""
 
+import gc
+
 from lsp.asked_of_names import answer_names
 from lsp.asked_of_text import answer_text
+from lsp.commands import answer_commands
 from lsp.life import answer_life
 from lsp.mission_texts import Examine
 from lsp.project import ServerSettings
@@ -15,7 +18,13 @@ def make_session(settings: ServerSettings, examine: Examine) -> Session:
     answer_life(session)
     answer_names(session)
     answer_text(session)
+    answer_commands(session)
     return session
+
+
+def calm_collector() -> None:
+    """Look for garbage rarely: what an open model consists of lives long, and to look through it costs a keystroke."""
+    gc.set_threshold(200_000, 50, 100)
 
 
 def serve(settings: ServerSettings, examine: Examine, port: int | None = None) -> bool:
@@ -25,6 +34,7 @@ def serve(settings: ServerSettings, examine: Examine, port: int | None = None) -
     connection that another program on this machine opens.
     """
     session = make_session(settings, examine)
+    calm_collector()
     try:
         if port is None:
             serve_standard_streams(session)

@@ -69,7 +69,7 @@ class Space:
 
     def __init__(self, agent: AgentConfiguration, results: Sequence[MissionResult], *, redrawn: bool = True) -> None:
         self.agent = agent
-        free = [one for one in agent.parameters if not DISTRIBUTIONS[one.distribution].is_constant]
+        free = [one for one in agent.parameters if not DISTRIBUTIONS[one.distribution].is_determined]
         drawn = {draw.parameter for result in results if result.outcome for draw in result.outcome.draws}
         self.parameters = tuple(
             _axis(one, results) for one in free if one.name in drawn and (redrawn or one.mode == "inter")
@@ -109,7 +109,7 @@ class Space:
 def fixed(agent: AgentConfiguration, values: Mapping[str, float]) -> AgentConfiguration:
     """The agent with some parameters fixed to values."""
     parameters = tuple(
-        replace(one, distribution="fixed", mode="inter", values=(values[one.name],), weights=(), clip=None)
+        replace(one, distribution="fixed", mode="inter", values=(values[one.name],), weights=(), clip=None, share=None)
         if one.name in values
         else one
         for one in agent.parameters
