@@ -15,6 +15,7 @@ from checker.batch.result import KeptFailure, MissionResult
 from checker.batch.store import Run, RunStore
 from checker.batch.worker import Load, Task, fly_one
 from checker.buckets import Key, bucket_key
+from checker.conditions.record import Conditions
 from checker.contrast import Contrast, find_contrast
 from checker.counterfactual.ranking import Causes, rank
 from checker.counterfactual.search import Suspended, find_causes
@@ -139,11 +140,12 @@ class Campaign:
         focus: int | None = None,
         sampling: Sampling | None = None,
         bounds: Bounds | None = None,
+        conditions: Conditions | None = None,
     ) -> Findings:
         """Judge the results; with `may_fly` conditions are sought and tested by flights.
 
         With a `focus` that is done only for the fault that mission `focus` belongs to, and lines that may be its cause
-        are tried within `bounds`.
+        are tried within `bounds`. Of `conditions` are those that are known already.
         """
         run, agent = self.run, self.models.agent
         points = {result.number: result.point for result in results}
@@ -163,6 +165,7 @@ class Campaign:
                 refly if may_fly and ending is not Ending.SIGNAL else None,
                 ending=ending,
                 focus=focus,
+                conditions=conditions,
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
                 find=partial(self._causes, flyer, bounds) if may_fly and bounds is not None else None,
             )

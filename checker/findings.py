@@ -9,6 +9,7 @@ from checker.buckets import Bucket, group_failures
 from checker.conditions.condition import Condition
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
+from checker.conditions.record import Conditions
 from checker.counterfactual.examples import examples_of
 from checker.counterfactual.ranking import NO_CAUSES, Causes
 from checker.counterfactual.trials import Missions
@@ -114,10 +115,12 @@ def assess(
     focus: int | None = None,
     sampling: Sampling = RANDOMLY,
     find: Find | None = None,
+    conditions: Conditions | None = None,
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
     With a `focus` it does so only for the fault that mission `focus` belongs to, whose causes `find` then finds.
+    Of `conditions` are those that are known already.
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
@@ -145,7 +148,7 @@ def assess(
         )
         is_sought = focus is not None and is_wanted
         seek = find if is_sought else None
-        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None, seek, focus)
+        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None, seek, focus, conditions or {})
         faults.append(replace(fault, interval=interval))
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
@@ -161,6 +164,7 @@ def _fault(
     refly: Refly | None,
     find: Find | None,
     focus: int | None,
+    known: Conditions,
 ) -> Fault:
     members = [result for result in results if result.number in bucket.missions]
     example = members[0]
@@ -169,4 +173,6 @@ def _fault(
     members.sort(key=lambda result: (result.number != focus, result.number))
     passed = [result for result in results if result.verdict is Verdict.PASS]
     causes = NO_CAUSES if find is None else find(examples_of(members, passed))
+    if bucket.example in known:
+        return Fault(bucket, known[bucket.example], confirmation, causes)
     return Fault(bucket, find_condition(bucket, results, agent, seed, refly), confirmation, causes)

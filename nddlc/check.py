@@ -2,7 +2,7 @@
 
 import json
 import os
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +10,7 @@ import click
 
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
+from checker.conditions.record import write_condition
 from checker.coverage import coverage_of
 from checker.excerpts import Excerpts
 from checker.findings import Findings
@@ -126,12 +127,21 @@ def command(
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
     findings = campaign.assess(flown.results, ending=flown.ending, sampling=flown.sampling)
+    if not no_store:
+        _keep(findings, store_path)
     code = _report(campaign, findings, style, output, coverage=coverage)
     if regressed and code == _HOLDS:
         code = _FINDINGS
         if style == "text":
             click.echo("a regression case fails again: see above")
     return code if flown.ended_by is None else _SIGNALLED + flown.ended_by
+
+
+def _keep(findings: Findings, store_path: Path) -> None:
+    """Have the store remember the conditions, so that `explain` need not fly for them; it can if that fails."""
+    known = {fault.bucket.example: write_condition(fault.condition) for fault in findings.faults}
+    with suppress(StoreError), open_store(store_path) as store:
+        store.keep_conditions(findings.run_id, known)
 
 
 def _prepare(

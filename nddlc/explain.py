@@ -10,6 +10,7 @@ from checker.batch.result import MissionResult
 from checker.batch.store import LATEST, Run, RunStore, StoreError, open_store
 from checker.batch.worker import fly_one
 from checker.campaign import Campaign
+from checker.conditions.record import read_condition
 from checker.contrast_rendering import contrast_data, contrast_lines
 from checker.counterfactual.trials import MOST_FLIGHTS, MOST_SECONDS, Bounds
 from checker.excerpts import Excerpts
@@ -96,7 +97,10 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
     campaign, is_same = campaign_of(run, is_trusted)
     results = tuple(campaign.judged(one) for one in store.results(run.id))
     first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
-    findings = campaign.assess(results, may_fly=is_same, focus=first, bounds=bounds if bounds.flights else None)
+    conditions = {example: read_condition(text) for example, text in store.conditions(run.id).items()}
+    findings = campaign.assess(
+        results, may_fly=is_same, focus=first, bounds=bounds if bounds.flights else None, conditions=conditions
+    )
     findings = replace(findings, run_id=run.id)
     result = _result(run, first, campaign, findings, is_same)
     fault = next((one for one in findings.faults if result.number in one.bucket.missions), None)

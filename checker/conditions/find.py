@@ -9,7 +9,7 @@ from checker.conditions.condition import Condition, Conjunction, Extreme, Featur
 from checker.conditions.crossings import FINE, find_crossings, mend_crossings
 from checker.conditions.edges import find_edges
 from checker.conditions.flights import Ended, Flights, Refly, flight_budget, fresh_budget, label_of
-from checker.conditions.measure import Measured, measure, measured_on
+from checker.conditions.measure import Quality, measure, measured_on
 from checker.conditions.rules import induce, sample_cuts
 from checker.conditions.space import Space
 from checker.smt.edges import find_failing_range
@@ -137,7 +137,7 @@ def _from_samples(space: Space, rows: Sequence[tuple[Row, Ended]]) -> Condition 
 
 
 def _condition(
-    conjunctions: tuple[Conjunction, ...], measured: Measured | None, flights: int, space: Space, *, has_flown: bool
+    conjunctions: tuple[Conjunction, ...], measured: Quality | None, flights: int, space: Space, *, has_flown: bool
 ) -> Condition | None:
     """What may be claimed: nothing that holds half the time, and of redrawn parameters only what holds."""
     if measured is None or measured.precision.value < _LEAST_PRECISION or measured.recall.value < _LEAST_RECALL:
