@@ -146,10 +146,10 @@ def assess(
             most_weight=sampling.most_weight,
             is_sequential=sampling.is_sequential,
         )
+        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None, conditions or {})
         is_sought = focus is not None and is_wanted
-        seek = find if is_sought else None
-        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None, seek, focus, conditions or {})
-        faults.append(replace(fault, interval=interval))
+        causes = _causes(bucket, ordered, find, focus) if is_sought else NO_CAUSES
+        faults.append(replace(fault, interval=interval, causes=causes))
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
         sampling, sensitivities(agent, ordered, check.confidence), kept,
@@ -162,17 +162,20 @@ def _fault(
     agent: AgentConfiguration,
     seed: int,
     refly: Refly | None,
-    find: Find | None,
-    focus: int | None,
     known: Conditions,
 ) -> Fault:
-    members = [result for result in results if result.number in bucket.missions]
-    example = members[0]
+    example = next(result for result in results if result.number == bucket.example)
     abort = example.outcome.abort if example.outcome else None
     confirmation = confirm(abort.conflict) if abort and abort.conflict else None
-    members.sort(key=lambda result: (result.number != focus, result.number))
-    passed = [result for result in results if result.verdict is Verdict.PASS]
-    causes = NO_CAUSES if find is None else find(examples_of(members, passed))
     if bucket.example in known:
-        return Fault(bucket, known[bucket.example], confirmation, causes)
-    return Fault(bucket, find_condition(bucket, results, agent, seed, refly), confirmation, causes)
+        return Fault(bucket, known[bucket.example], confirmation)
+    return Fault(bucket, find_condition(bucket, results, agent, seed, refly), confirmation)
+
+
+def _causes(bucket: Bucket, results: tuple[MissionResult, ...], find: Find | None, focus: int | None) -> Causes:
+    """The causes of a fault, tried on mission `focus` first."""
+    if find is None:
+        return NO_CAUSES
+    members = [result for result in results if result.number in bucket.missions]
+    members.sort(key=lambda result: (result.number != focus, result.number))
+    return find(examples_of(members, [result for result in results if result.verdict is Verdict.PASS]))

@@ -258,7 +258,10 @@ def _read_goals(
             end=table.bounds("end"),
             duration=table.bounds("duration"),
             parameters=tuple((key, _goal_value(parameters, key)) for key in parameters.values),
+            recall=table.whole("recall", 0, 1) or None,
         )
+        if goal.recall is not None and goal.recall <= goal.at:
+            table.complain_of_value("recall", goal.recall, f"later than `at`, {goal.at}")
         table.close()
         goals.append(goal)
         span = text.value_span((*table.path, "timeline"))

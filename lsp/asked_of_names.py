@@ -7,6 +7,7 @@ from lsprotocol import types
 
 from lsp.completion import completions, resolved
 from lsp.diagnostics import Conversion
+from lsp.document_links import included_files
 from lsp.documents import Documents
 from lsp.hierarchies import incoming_calls, outgoing_calls, prepare_calls, prepare_types, subtypes, supertypes
 from lsp.hover import hover_at, link
@@ -159,6 +160,9 @@ def _answer_completion(session: Session) -> None:
     def complete(view: DocumentContext, params: types.CompletionParams) -> types.CompletionList:
         last[:] = [view]
         offset = _offset(view, params)
+        files = included_files(view, offset, session.documents.folders)
+        if files is not None:
+            return types.CompletionList(is_incomplete=False, items=files)
         found = completions(view.snapshot.analysis, view.parse, offset, with_snippets=session.has_snippets)
         return types.CompletionList(is_incomplete=False, items=found)
 

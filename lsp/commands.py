@@ -14,11 +14,10 @@ from uuid import uuid4
 from lsprotocol import types
 
 from lsp.check_results import REPORT
+from lsp.mission_answers import CHECK, EXPLAIN
 from lsp.session import RequestFailed, Session
 from lsp.uris import path_of
 
-_CHECK = "nddl.check"
-_EXPLAIN = "nddl.explain"
 _PLAN = "nddl/viewPlan"
 _NETWORK = "nddl/viewNetwork"
 _CONFLICT = "nddl/viewConflict"
@@ -38,7 +37,7 @@ class _Ended:
 def answer_commands(session: Session) -> None:
     """Let a session carry out commands, and answer what the views of an editor ask."""
 
-    @session.command(_CHECK)
+    @session.command(CHECK)
     async def check(uri: str, *missions: Any) -> dict[str, Any]:
         path = _path(uri)
         folder = _folder(session, path)
@@ -62,7 +61,7 @@ def answer_commands(session: Session) -> None:
             "report": (folder / REPORT.with_name("report.html")).as_uri(),
         }
 
-    @session.command(_EXPLAIN)
+    @session.command(EXPLAIN)
     async def explain(uri: str) -> str:
         folder = _folder(session, _path(uri))
         ended = await _run(session, "nddlc: explaining the last failure", folder, "explain")
@@ -111,6 +110,8 @@ def _folder(session: Session, path: Path) -> Path:
 
 async def _run(session: Session, title: str, folder: Path, *arguments: str) -> _Ended:
     """Run `nddlc` in a folder, which Python does not search for modules; raises RequestFailed if it was cancelled."""
+    if session.is_distrusted:
+        raise RequestFailed("the workspace is not trusted: nothing of it is run")
     async with asyncio.TaskGroup() as group:
         process = await asyncio.create_subprocess_exec(
             *(sys.executable, "-P", "-m", "nddlc.main", *arguments),

@@ -28,6 +28,8 @@ def _answer_lifecycle(session: Session) -> None:
         encoding = Encoding(session.workspace.position_encoding)
         session.begin(Documents(_settings(session.settings, params.initialization_options), encoding))
         session.configure(params.initialization_options)
+        told = params.initialization_options
+        session.is_distrusted = isinstance(told, dict) and told.get("isTrusted") is False
         session.documents.folders = _folders(session)
         text = params.capabilities.text_document
         session.is_pulled = text is not None and text.diagnostic is not None

@@ -9,7 +9,7 @@ from lsp.life import answer_life
 from lsp.mission_texts import Examine
 from lsp.project import ServerSettings
 from lsp.session import Session
-from lsp.transport import serve_standard_streams, serve_tcp
+from lsp.transport import serve_standard_streams, serve_tcp, serve_websocket
 
 
 def make_session(settings: ServerSettings, examine: Examine) -> Session:
@@ -27,11 +27,11 @@ def calm_collector() -> None:
     gc.set_threshold(200_000, 50, 100)
 
 
-def serve(settings: ServerSettings, examine: Examine, port: int | None = None) -> bool:
+def serve(settings: ServerSettings, examine: Examine, port: int | None = None, *, is_web: bool = False) -> bool:
     """Serve until the editor leaves or is gone; whether it said goodbye first, as it should.
 
     `examine` tells what is wrong with a mission file. Over standard input and output, or, with a port, over a
-    connection that another program on this machine opens.
+    connection that another program on this machine opens: plain, or a WebSocket if it `is_web`.
     """
     session = make_session(settings, examine)
     calm_collector()
@@ -39,7 +39,8 @@ def serve(settings: ServerSettings, examine: Examine, port: int | None = None) -
         if port is None:
             serve_standard_streams(session)
         else:
-            serve_tcp(session, port, lambda free: print(f"nddlc: waiting on port {free}", flush=True))
+            serve_port = serve_websocket if is_web else serve_tcp
+            serve_port(session, port, lambda free: print(f"nddlc: waiting on port {free}", flush=True))
     except (KeyboardInterrupt, SystemExit):
         pass  # pygls ends the process after `exit`
     return session.is_dismissed

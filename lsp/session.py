@@ -74,6 +74,7 @@ class Session(LanguageServer):
         self._due_missions: dict[str, OpenMission] = {}
         self.is_dismissed = False
         self.is_pulled = False  # the editor asks for diagnostics, so none are pushed
+        self.is_distrusted = False  # the user has said that the workspace is not trusted
         self.has_snippets = False
         self.hints = HintSettings()
         self.token_memory = TokenMemory()

@@ -6,8 +6,9 @@ import numpy as np
 
 from checker.judge.columns import Array
 from checker.judge.report import Disagreement, Kind
-from checker.judge.values import UNKNOWN, difference, hull
+from checker.judge.values import UNKNOWN, difference, hull, is_open
 from nddl_lang.text.source import Span
+from runtime.executive.columns import TokenColumns
 from runtime.executive.record import ReactorRecord, TokenRecord, Value, ValueRange
 
 _Draws = Callable[[str, Array], Array | None]  # parameter and ticks in, values out; None where nothing is drawn
@@ -48,20 +49,38 @@ class _Toks:
     """The tokens of a record by key, each made when it is first asked for."""
 
     def __init__(self, tokens: Sequence[TokenRecord]) -> None:
-        self._records = {one.key: one for one in tokens}
+        self._tokens = tokens
+        keys = tokens.times.keys.tolist() if isinstance(tokens, TokenColumns) else [one.key for one in tokens]
+        self._places = {key: place for place, key in enumerate(keys)}
         self._made: dict[int, Tok] = {}
 
     def get(self, key: int) -> Tok | None:
         """The token with a key; None if there is none."""
         known = self._made.get(key)
-        if known is None and (record := self._records.get(key)) is not None:
+        if known is None and (record := self._record(key)) is not None:
             known = self._made[key] = Tok(record)
             self._complete(known)
         return known
 
+    def _record(self, key: int) -> TokenRecord | None:
+        place = self._places.get(key)
+        return None if place is None else self._tokens[place]
+
     def records(self) -> Iterator[TokenRecord]:
-        """What is on record of all tokens."""
-        return iter(self._records.values())
+        """What is on record of all tokens; of several with one key the last."""
+        return map(self._tokens.__getitem__, self._places.values())
+
+    def named(self, predicate: str) -> Iterator[TokenRecord]:
+        """What is on record of the tokens of all predicates of a short name."""
+        if isinstance(self._tokens, TokenColumns):
+            return map(self._tokens.__getitem__, self._tokens.named(predicate))
+        return (one for one in self.records() if one.predicate.rpartition(".")[2] == predicate)
+
+    def on(self, thing: str) -> Iterator[TokenRecord]:
+        """What is on record of the tokens of an object."""
+        if isinstance(self._tokens, TokenColumns):
+            return map(self._tokens.__getitem__, self._tokens.on(thing))
+        return (one for one in self.records() if one.object == thing)
 
     def of(self, records: Iterable[TokenRecord]) -> Iterator[Tok]:
         """Tokens of the record."""
@@ -74,7 +93,7 @@ class _Toks:
         """Let a merged token have the values of the one that stands for it; a token that goes on ends later."""
         last = tok.record
         for _ in range(_DEEPEST):
-            other = self._records.get(last.merged_into)
+            other = self._record(last.merged_into)
             if other is None:
                 break
             last = other
@@ -156,6 +175,12 @@ class Bench:
 def lasting(tok: Tok) -> Value:
     """How long a token lasts, from its times."""
     return difference(tok.values[4], tok.values[3])
+
+
+def duration_of(tok: Tok) -> Value:
+    """The duration of a token: from its times where these are fixed, else as it is on record."""
+    length = lasting(tok)
+    return tok.values[2] if is_open(length) and not is_open(tok.values[2]) else length
 
 
 def clock(bench: Bench, tok: Tok) -> Value:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
+from checker.judge.alike import GuardRows, RunRows
 from checker.judge.bench import Bench
 from checker.judge.bulk_meanings import difference_of
 from checker.judge.columns import INT, TEXT, Array, Column, Mask, column_of, constant
@@ -23,7 +24,7 @@ from compiler.program import (
     TokenVariable,
     UnionOf,
 )
-from runtime.executive.record import BodyRun, GuardRun, Value
+from runtime.executive.record import Value
 
 
 class UnplainError(Exception):
@@ -78,21 +79,21 @@ class RowFrame:
         self.slots = slots
         self.tokens = tokens
         self.tally = RowTally(len(tok.rows))
-        self.locals: Iterator[tuple[Value, ...]] = iter(())
-        self.children: Iterator[tuple[int, ...]] = iter(())
-        self.guards: Iterator[tuple[GuardRun, ...]] = iter(())
+        self.locals: Iterator[Column] = iter(())
+        self.children: Iterator[Array] = iter(())
+        self.guards: Iterator[GuardRows] = iter(())
 
-    def follow(self, runs: Sequence[BodyRun]) -> None:
-        """Read what comes next from `runs`, one of each row, all of one shape."""
-        self.locals = iter(list(zip(*[run.locals for run in runs], strict=True)))
-        self.children = iter(list(zip(*[run.children for run in runs], strict=True)))
-        self.guards = iter(list(zip(*[run.guards for run in runs], strict=True)))
+    def follow(self, run: RunRows) -> None:
+        """Read what comes next from `run`."""
+        self.locals = iter(run.locals)
+        self.children = iter(run.children)
+        self.guards = iter(run.guards)
 
-    def branch(self, runs: Sequence[BodyRun]) -> "RowFrame":
+    def branch(self, run: RunRows) -> "RowFrame":
         """The frame of a branch, with slots and tokens of its own."""
         inner = RowFrame(self.bench, self.tok, list(self.slots), list(self.tokens))
         inner.tally = self.tally
-        inner.follow(runs)
+        inner.follow(run)
         return inner
 
     def use(self, column: Column) -> Column:
@@ -157,17 +158,14 @@ def _variable(frame: RowFrame, token: int, variable: int) -> Column:
     if variable != DURATION:
         return tokens.column(variable)
     end, start = tokens.column(END), tokens.column(START)
-    if end.upper is None and start.upper is None:
-        found = difference_of(end, start)
-        if found is None:
-            raise UnplainError
-        bads = [each.bad for each in (end, start, found) if each.bad is not None]
-        return Column(INT, found.lower, None, np.logical_or.reduce(bads) if bads else None)
-    latest = end.lower if end.upper is None else end.upper
-    last = start.lower if start.upper is None else start.upper
-    bads = [each.bad for each in (end, start) if each.bad is not None]
-    bad = np.logical_or.reduce(bads) if bads else None
-    return Column(INT, end.lower - last.astype(float), latest - start.lower.astype(float), bad)
+    found = difference_of(end, start)
+    if found is None:
+        raise UnplainError
+    bad = np.zeros(len(found.lower), bool)
+    for mask in (end.bad, start.bad, found.bad, end.open, start.open):
+        if mask is not None:
+            bad |= mask
+    return Column(INT, found.lower.astype(np.int64), None, bad if bad.any() else None)
 
 
 def _field_reader(base: RowRead, members: tuple[str, ...], names: VariableNames) -> RowRead:

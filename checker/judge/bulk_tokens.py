@@ -4,20 +4,22 @@ What plainly holds is settled here. All other tokens are left to the judge of si
 and who finds the words; it is asked for few tokens where a mission is right.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 
+from checker.judge.alike import AlikeTokens, alike_tokens
 from checker.judge.bench import Bench
 from checker.judge.bulk_frame import RowFrame, RowStep, RowTally, UnplainError
 from checker.judge.bulk_steps import allowed, compile_rows
-from checker.judge.columns import INT, Array
+from checker.judge.columns import INT, Array, Mask
 from checker.judge.operands import VariableNames
 from checker.judge.steps import Domain, Written, domain_test
-from checker.judge.tables import RowTokens, Shape, Tables, shape_of
+from checker.judge.tables import RowTokens, Tables
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
-from runtime.executive.record import BodyRun, TokenRecord
+from runtime.executive.columns import TokenColumns
+from runtime.executive.record import TokenRecord
 
 _FEWEST = 4  # tokens that are alike, for which a group is worth its cost
 
@@ -80,48 +82,41 @@ def judge_in_bulk(judge: BulkJudge, bench: Bench, tables: Tables) -> Iterator[To
         settled |= tables.is_active & (latest > bench.last_tick) & fits
         _settle_merged(bench, tables, settled)
         with np.errstate(all="ignore"):
-            for predicate, shape, rows in _groups(tables, settled):
-                holds = _judge_group(judge, bench, tables, predicate, shape, rows)
-                settled[rows[holds]] = True
+            wanted = ~settled & tables.is_active & ~tables.is_cut
+            for group in alike_tokens(tables.tokens, tables.texts, wanted, _FEWEST):
+                holds = _judge_group(judge, bench, tables, group)
+                settled[group.rows[holds]] = True
     return (tables.tokens[row] for row in np.flatnonzero(~settled).tolist())
-
-
-def _groups(tables: Tables, settled: Array) -> Iterator[tuple[str, Shape, Array]]:
-    """The tokens that are alike."""
-    found: dict[tuple[int, Shape], list[int]] = {}
-    rows = np.flatnonzero(~settled & tables.is_active & ~tables.is_cut)
-    runs, plain = tables.runs, ()
-    for row, predicate in zip(rows.tolist(), tables.predicate[rows].tolist(), strict=True):
-        own = runs[row]
-        shape = shape_of(own) if own else plain
-        found.setdefault((predicate, shape), []).append(row)
-    for (predicate, shape), alike in found.items():
-        if len(alike) >= _FEWEST:
-            yield tables.predicates[predicate], shape, np.array(alike)
 
 
 def _settle_merged(bench: Bench, tables: Tables, settled: Array) -> None:
     """Merged tokens with the very values of the one that stands for them."""
     rows = np.flatnonzero(tables.is_merged & ~tables.is_cut & (tables.standing != np.arange(tables.count)))
-    tokens = tables.tokens
-    for row, other in zip(rows.tolist(), tables.standing[rows].tolist(), strict=True):
-        mine, theirs = tokens[row], tokens[other]
-        if (
-            mine.predicate == theirs.predicate
-            and mine.start == theirs.start
-            and mine.end == theirs.end
-            and (mine.arguments is theirs.arguments or mine.arguments == theirs.arguments)
-        ):
-            settled[row] = True
-            bench.judged += 1
+    others = tables.standing[rows]
+    alike = tables.predicate[rows] == tables.predicate[others]
+    for each in (START, END):
+        mine, theirs = tables.times[each].take(rows), tables.times[each].take(others)
+        if mine.bad is not None:
+            return
+        alike &= mine.lower == theirs.lower
+        if mine.upper is not None and theirs.upper is not None:
+            alike &= mine.upper == theirs.upper
+    if not isinstance(tables.tokens, TokenColumns):  # there they have no arguments of their own
+        alike[alike] = [
+            tables.tokens[row].arguments == tables.tokens[other].arguments
+            for row, other in zip(rows[alike].tolist(), others[alike].tolist(), strict=True)
+        ]
+    settled[rows[alike]] = True
+    bench.judged += int(np.count_nonzero(alike))
 
 
-def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, predicate: str, shape: Shape, rows: Array) -> Array:
+def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, group: AlikeTokens) -> Mask:
     """Judge tokens that are alike; those that plainly hold."""
+    rows = group.rows
     nothing = np.zeros(len(rows), bool)
-    known = judge.predicate(predicate)
+    known = judge.predicate(group.predicate)
     code = known.code
-    if tuple(run[0] for run in shape) != code.rules:
+    if tuple(run.rule for run in group.runs) != code.rules:
         return nothing
     tok = RowTokens(tables, rows)
     tally = RowTally(len(rows))
@@ -137,8 +132,7 @@ def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, predicate: str,
             rule, steps = judge.rule(number)
             frame = RowFrame(bench, tok, [None] * rule.slots, [tok, *[None] * rule.tokens])
             frame.tally = tally
-            runs: Sequence[BodyRun] = [tables.runs[row][place] for row in rows.tolist()]
-            frame.follow(runs)
+            frame.follow(group.runs[place])
             for step in steps:
                 step(frame)
                 if not tally.holds.any():

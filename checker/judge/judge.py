@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from checker.judge.bench import Bench, Tok
-from checker.judge.bulk_timelines import History
+from checker.judge.bulk_timelines import History, Publications
 from checker.judge.columns import Array
 from checker.judge.draws import Chance
 from checker.judge.goals import judge_goals
@@ -23,8 +23,8 @@ from checker.judge.values import UNKNOWN
 from checker.judge.written import meanings_of
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.events import single_events
-from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
+from runtime.executive.events import EventLog, single_events
+from runtime.executive.outcome import EventKind, Outcome, Phase, Reason, ReasonKind
 from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, Value
 from runtime.user.constraint import Constraint
 
@@ -56,7 +56,7 @@ def judge_mission(
     failed = {
         event.reactor for event in single_events(outcome.events) if event.kind in (EventKind.KILL, EventKind.ABORT)
     }
-    history = _Publications(outcome)
+    history = _Trace(outcome)
     desks: dict[str, tuple[ProgramJudge, Bench]] = {}
     for place, program in zip(agent.reactors, programs, strict=True):
         written = by_name.get(place.name)
@@ -127,11 +127,12 @@ def _judge_script(judge: ProgramJudge, bench: Bench) -> None:
         step(frame)
 
 
-class _Publications:
+class _Trace:
     """What was published in a mission, as each reactor came to see it."""
 
     def __init__(self, outcome: Outcome) -> None:
-        self.events = [event for event in outcome.events if event.kind is EventKind.OBSERVATION]
+        self.events = [event for event in single_events(outcome.events) if event.kind is EventKind.OBSERVATION]
+        self.columns = outcome.events.published() if isinstance(outcome.events, EventLog) else []
         self.deaths = {(e.tick, e.reactor) for e in single_events(outcome.events) if e.kind is EventKind.KILL}
         self.common = self._told("") if not self.deaths else None
 
@@ -140,7 +141,9 @@ class _Publications:
         return self._told(reactor) if self.common is None else self.common
 
     def _told(self, reactor: str) -> History:
-        found: dict[str, dict[int, Event]] = {}
+        found: History = {}
+        for source, each in self.columns:
+            found.setdefault(each.timeline, Publications()).columns.append((source, each))
         for event in self.events:
             one = event
             if event.predicate == "Failed" and (event.tick, event.reactor) in self.deaths:
@@ -148,8 +151,8 @@ class _Publications:
                     continue
                 if event.phase is Phase.DELIBERATE:
                     one = replace(event, tick=event.tick + 1)
-            found.setdefault(event.timeline, {})[one.tick] = one
-        return {timeline: list(ticks.values()) for timeline, ticks in found.items()}
+            found.setdefault(event.timeline, Publications()).single.append(one)
+        return found
 
 
 def _summary(benches: Sequence[Bench]) -> JudgeReport:

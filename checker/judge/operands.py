@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from math import inf
 from typing import Any, assert_never
 
-from checker.judge.bench import Bench, Tok, clock, lasting
+from checker.judge.bench import Bench, Tok, clock, duration_of
 from checker.judge.values import UNKNOWN, hull, is_open
 from compiler.program import (
     DURATION,
@@ -140,7 +140,7 @@ def _token_reader(token: int, variable: int) -> Read:
         if tok is None:
             return UNKNOWN
         if variable == DURATION:
-            return lasting(tok)
+            return duration_of(tok)
         if variable == STATE:
             return tok.record.state.upper()
         return tok.values[variable]

@@ -7,7 +7,7 @@ from checker.judge.choosing import may_be_outside
 from checker.judge.meanings import equal
 from checker.judge.operands import BodyFrame, VariableNames, reader
 from checker.judge.relations import OE, OS, TE, demands
-from checker.judge.values import difference, hull
+from checker.judge.values import difference, ends_of, hull
 from compiler.program import END, OBJECT, START, Child, Relate
 from nddl_lang.text.source import Span
 from runtime.executive.record import NOBODY, Value
@@ -73,8 +73,13 @@ def child_step(child: Child, names: VariableNames) -> Step:
 
 
 def _is_due(bench: Bench, origin: Tok, tok: Tok, pairs: tuple[tuple[int, int, float, float], ...]) -> bool:
-    """Whether a relation to a token in the plan leaves no time after the last tick for `tok` to begin or end."""
+    """Whether a relation to a token in the plan leaves no time after the last tick for `tok` to begin or end.
+
+    What ends before the mission asks for nothing in it, and of what begins at its end nobody plans the children.
+    """
     if not origin.is_planned or bench.has_failed:
+        return False
+    if ends_of(origin.values[END])[1] <= 0 or ends_of(origin.values[START])[0] >= bench.final_tick:
         return False
     for first, second, lower, upper in pairs:
         if first < 2 <= second:

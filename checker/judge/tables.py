@@ -1,38 +1,21 @@
 """The record of a reactor as tables: times and keys of all tokens in arrays, arguments in one column per parameter.
 
-This is the one place that reads many `TokenRecord`s at once; what else the judge asks of a record it asks token by
-token.
+Here and in `checker.judge.alike` many tokens of a record are read at once; what else the judge asks of a record it asks
+token by token.
 """
 
 from collections.abc import Sequence
 
 import numpy as np
 
-from checker.judge.columns import TEXT, Array, Column, Mask, Texts, column_of, joined
+from checker.judge.alike import ArgumentTable
+from checker.judge.columns import INT, TEXT, Array, Column, Mask, Texts, column_of, joined
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START
-from runtime.executive.record import NOBODY, BodyRun, ReactorRecord, TokenRecord, Value
+from runtime.executive.columns import ORIGINS, TokenColumns
+from runtime.executive.record import NOBODY, ReactorRecord, TokenRecord
 
 _DEEPEST = 64  # merged into what is merged into ...
-Shape = tuple["RunShape", ...]  # of all runs of a token
-RunShape = tuple[int, int, int, tuple["_GuardShape", ...]]  # rule, how many locals and children, guards
-_GuardShape = tuple[str, bool, RunShape | None]  # branch, whether it is decided, what it ran
-
-
-class PredicateTable:
-    """The tokens of one predicate that stand for themselves: a column per parameter, made when asked for."""
-
-    def __init__(self, tokens: Sequence[TokenRecord], texts: Texts) -> None:
-        self.texts = texts
-        self.width = min((len(one.arguments) for one in tokens), default=0)
-        self._arguments: list[tuple[Value, ...]] = list(zip(*[one.arguments for one in tokens], strict=False))
-        self._columns: dict[int, Column] = {}
-
-    def column(self, number: int) -> Column:
-        """The values of a parameter."""
-        known = self._columns.get(number)
-        if known is None:
-            known = self._columns[number] = column_of(self._arguments[number], self.texts)
-        return known
+_ACTIVE, _MERGED = 0, 1
 
 
 class Tables:
@@ -41,27 +24,13 @@ class Tables:
     def __init__(self, record: ReactorRecord) -> None:
         self.texts = Texts()
         self.tokens = record.tokens
-        fields = tuple(zip(*record.tokens, strict=True)) or ((),) * len(TokenRecord._fields)
-        keys, predicates, objects, states, durations, starts, ends, _, merged, origins, fates, ticks, runs = fields
-        self.count = len(keys)
-        self.keys = np.array(keys, np.int64)
+        if isinstance(record.tokens, TokenColumns):
+            self._take(record.tokens)
+        else:
+            self._read(record.tokens)
+        self.count = len(self.keys)
         self.is_ordered = bool((self.keys[1:] > self.keys[:-1]).all())
-        self.predicates = list(dict.fromkeys(predicates))
-        numbers = {name: k for k, name in enumerate(self.predicates)}
-        self.predicate = np.array([numbers[each] for each in predicates], np.int64)
-        self.is_active = np.array([each == "active" for each in states], bool)
-        self.is_merged = np.array([each == "merged" for each in states], bool)
-        self.is_cut = np.array([each == "cut" for each in fates], bool)
-        self.origins: tuple[str, ...] = origins
-        self.ticks = np.array(ticks, np.int64)
-        self.merged_into = np.array(merged, np.int64)
-        self.runs: tuple[tuple[BodyRun, ...], ...] = runs
-        self.times = {
-            OBJECT: column_of(objects, self.texts),
-            DURATION: column_of(durations, self.texts),
-            START: column_of(starts, self.texts),
-            END: column_of(ends, self.texts),
-        }
+        self._is_gapless = self.is_ordered and self.count > 0 and self.keys[0] == 0 and self.keys[-1] == self.count - 1
         self.standing = self._standing() if self.is_ordered else np.arange(self.count)
         own = np.where(self.standing == np.arange(self.count), self.predicate, NOBODY)
         order = np.argsort(own, kind="stable")
@@ -69,13 +38,59 @@ class Tables:
         self._kinds = own
         self.places = np.empty(self.count, np.int64)  # of each row in the table of its predicate
         self.places[order] = np.arange(self.count) - np.searchsorted(ordered, ordered)
-        self._tables: dict[int, PredicateTable] = {}
+        self._tables: dict[int, ArgumentTable] = {}
+
+    def _read(self, tokens: Sequence[TokenRecord]) -> None:
+        """Read tokens one by one."""
+        fields = tuple(zip(*tokens, strict=True)) or ((),) * len(TokenRecord._fields)
+        keys, predicates, objects, states, durations, starts, ends, _, merged, origins, fates, ticks, _ = fields
+        self.keys: Array = np.array(keys, np.int64)
+        self.predicates: list[str] = list(dict.fromkeys(predicates))
+        numbers = {name: k for k, name in enumerate(self.predicates)}
+        self.predicate: Array = np.array([numbers[each] for each in predicates], np.int64)
+        self.is_active: Mask = np.array([each == "active" for each in states], bool)
+        self.is_merged: Mask = np.array([each == "merged" for each in states], bool)
+        self.is_cut: Mask = np.array([each == "cut" for each in fates], bool)
+        self.is_observed: Mask = np.array([each == "observation" for each in origins], bool)
+        self.ticks: Array = np.array(ticks, np.int64)
+        self.merged_into: Array = np.array(merged, np.int64)
+        self.times: dict[int, Column] = {
+            OBJECT: column_of(objects, self.texts),
+            DURATION: column_of(durations, self.texts),
+            START: column_of(starts, self.texts),
+            END: column_of(ends, self.texts),
+        }
+
+    def _take(self, tokens: TokenColumns) -> None:
+        """Take tokens that were recorded in columns; what is inactive has no times yet."""
+        times, names = tokens.times, np.array([self.texts.number(name) for name in tokens.names], np.int64)
+        self.keys, self.ticks, self.merged_into = times.keys, times.ticks, times.merged_into
+        self.predicates, self.predicate = list(tokens.names), times.predicates
+        self.is_active, self.is_merged = times.states == _ACTIVE, times.states == _MERGED
+        self.is_cut = np.zeros(len(self.keys), bool)
+        self.is_observed = times.origins == ORIGINS.index("observation")
+        is_open = times.ends != times.latest
+        begun = self.is_active | self.is_merged
+        starts = Column(INT, times.starts)
+        if not begun.all():
+            starts = Column(INT, times.starts.astype(float), np.where(begun, times.starts, np.inf))
+        ends, durations = Column(INT, times.ends), Column(INT, times.ends - times.starts)
+        if is_open.any():
+            least = np.where(begun, times.ends - times.starts, 1).astype(float)
+            ends = Column(INT, times.ends.astype(float), times.latest)
+            durations = Column(INT, least, np.where(begun, times.latest - times.starts, np.inf))
+        self.times = {
+            OBJECT: Column(TEXT, names[times.objects]),
+            DURATION: durations,
+            START: starts,
+            END: ends,
+        }
 
     def rows_of(self, keys: Array) -> Array:
         """The rows of tokens by their keys; NOBODY where there is none."""
         if not self.count:
             return np.full(len(keys), NOBODY)
-        found = np.minimum(np.searchsorted(self.keys, keys), self.count - 1)
+        found = np.minimum(keys if self._is_gapless else np.searchsorted(self.keys, keys), self.count - 1)
         return np.where(self.keys[found] == keys, found, NOBODY)
 
     def _standing(self) -> Array:
@@ -90,12 +105,12 @@ class Tables:
             found = others
         return found
 
-    def table(self, predicate: int) -> PredicateTable:
+    def table(self, predicate: int) -> ArgumentTable:
         """The tokens of one predicate."""
         known = self._tables.get(predicate)
         if known is None:
             rows = np.flatnonzero(self._kinds == predicate)
-            known = PredicateTable([self.tokens[k] for k in rows.tolist()], self.texts)
+            known = ArgumentTable(self.tokens, self.predicates[predicate], rows, self.texts)
             self._tables[predicate] = known
         return known
 
@@ -125,9 +140,9 @@ class RowTokens:
         number = variable - FIRST_PARAMETER
         predicates = tables.predicate[self.standing]
         places = tables.places[self.standing]
+        if len(predicates) and (predicates == predicates[0]).all():
+            return self._part(int(predicates[0]), number, places)
         kinds = np.unique(predicates)
-        if len(kinds) == 1:
-            return self._part(int(kinds[0]), number, places)
         parts: list[tuple[Mask, Column]] = []
         for kind in kinds.tolist():
             rows = predicates == kind
@@ -139,16 +154,3 @@ class RowTokens:
         if not 0 <= number < table.width:
             return Column(TEXT, np.zeros(len(places), np.int64), None, np.ones(len(places), bool))
         return table.column(number).take(places)
-
-
-def shape_of(runs: tuple[BodyRun, ...]) -> Shape:
-    """What runs of a token have in common with those of others: rules, branches, and how much each has made."""
-    return tuple([_run_shape(run) for run in runs])
-
-
-def _run_shape(run: BodyRun) -> RunShape:
-    guards = run.guards
-    if not guards:
-        return (run.rule, len(run.locals), len(run.children), ())
-    inner = tuple([(g.branch, g.is_decided, None if g.run is None else _run_shape(g.run)) for g in guards])
-    return (run.rule, len(run.locals), len(run.children), inner)

@@ -15,8 +15,8 @@ from runtime.executive.outcome import (
     Phase,
     Reason,
     ReasonKind,
-    TimeBounds,
 )
+from runtime.executive.poster import GoalPoster
 from runtime.executive.reactor import Failure, Refusal, TeleoReactor, Watched
 from runtime.executive.trace import Trace
 from runtime.plan.readout.statements import Term
@@ -82,8 +82,7 @@ class Agent:
     ) -> None:
         self.configuration = configuration
         self.every_tick = every_tick
-        self.unsent = list(goals)
-        self.next_goal = 0  # the tick at which one is due
+        self.poster = GoalPoster(goals, configuration.goals, trace)
         self.reactors = _in_order(reactors)
         _tell_owners(self.reactors)
         self.ahead = [reactor for reactor in self.reactors if reactor.runs_ahead]
@@ -122,7 +121,7 @@ class Agent:
                 break
             self._advance(last)
         left = [goal for reactor in [*self.killed, *self.reactors] for goal in reactor.open_goals()]
-        left += [OpenGoal(r.timeline, r.predicate, r.arguments) for _, r in self.unsent if r.is_mandatory]
+        left += [OpenGoal(r.timeline, r.predicate, r.arguments) for _, r in self.poster.unsent if r.is_mandatory]
         if last < final_tick:
             # The others may still be achieved.
             left = [g for g in left if g.reason is not None and g.reason.kind is not ReasonKind.CUT_LOOSE]
@@ -147,7 +146,7 @@ class Agent:
         tick = self.tick
         for reactor in self.awake:
             reactor.due = reactor.next_tick(tick)
-        due = self.next_goal
+        due = self.poster.due
         for reactor in self.reactors:
             due = min(due, reactor.due)
         self.tick = min(max(tick + 1, due), last)
@@ -199,7 +198,7 @@ class Agent:
         Who has finished tells owners what it needs of them, and they plan for it in the same tick.
         """
         busy = list(self.awake)
-        abort = self._send_goals(busy)
+        abort = self._post_goals(busy)
         while (busy or self.stirred) and abort is None:
             while self.stirred and abort is None:
                 abort = self._wake(self.stirred.pop(), busy)
@@ -216,30 +215,17 @@ class Agent:
             abort = self._give_up(reactor, failure) if failure is not None else self._dispatch(reactor, busy)
         return abort
 
-    def _send_goals(self, busy: list[TeleoReactor]) -> Abort | None:
-        """Hand the goals of the mission file that are due to the owners of their timelines."""
+    def _post_goals(self, busy: list[TeleoReactor]) -> Abort | None:
+        """Hand the goals of the mission file that are due to the owners of their timelines, or take them back."""
         self.trace.phase = Phase.START
-        if self.tick < self.next_goal:
+        if self.tick < self.poster.due:
             return None
-        due = [goal for goal in self.unsent if goal[0] <= self.tick]
-        self.next_goal = min([at for at, _ in self.unsent if at > self.tick], default=_NEVER)
-        for goal in due:
-            request = goal[1]
-            if request.timeline in self.owners:
-                self.unsent.remove(goal)
-                bounds = TimeBounds(request.start, request.end, request.duration)
-                event = self.trace.record(
-                    EventKind.REQUEST,
-                    "",
-                    request.timeline,
-                    request.predicate,
-                    request.arguments,
-                    request=request.number,
-                    bounds=bounds,
-                )
-                abort = self._ask(replace(request, event=event), busy)
-                if abort is not None:
-                    return abort
+        for request in self.poster.hand_out(self.tick, self.owners):
+            if (abort := self._ask(request, busy)) is not None:
+                return abort
+        for number in self.poster.take_back(self.tick):
+            if (abort := self._recall(number, busy)) is not None:
+                return abort
         return None
 
     def _dispatch(self, reactor: TeleoReactor, busy: list[TeleoReactor]) -> Abort | None:

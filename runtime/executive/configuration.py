@@ -47,9 +47,9 @@ class CodeConfiguration:
 
 @dataclass(frozen=True, slots=True)
 class GoalConfiguration:
-    """A rejectable goal, sent to the owner of `timeline` at tick `at`.
+    """A rejectable goal, sent to the owner of `timeline` at tick `at`, and taken back at tick `recall`.
 
-    A mandatory goal that is not achieved at the end stands in `Outcome.unmet_goals`; others do not.
+    A mandatory goal that is not achieved at the end stands in `Outcome.open_goals`; others do not.
     A parameter is given one value, or the two ends of a range.
     """
 
@@ -61,6 +61,7 @@ class GoalConfiguration:
     end: Bounds | None = None
     duration: Bounds | None = None
     parameters: tuple[tuple[str, Value | Bounds], ...] = ()
+    recall: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

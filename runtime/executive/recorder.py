@@ -216,7 +216,7 @@ class Recorder:
             return GuardRun("waiting", self._is_decided(g), None)
         sides = (LOOSE, LOOSE) if form.has_loop else form.guards[k]
         ran = [self._run(b, key, sides[0 if branch == BRANCH_THEN else 1], inner) for b in inner.get(g, ())]
-        return GuardRun("then" if branch == BRANCH_THEN else "else", True, ran[-1] if ran else None)
+        return GuardRun("then" if branch == BRANCH_THEN else "else", True, ran[len(ran) - 1] if ran else None)
 
     def _is_decided(self, g: int) -> bool:
         """Whether everything that decides a guard is given."""

@@ -175,7 +175,7 @@ class _Search:
         if not marks:
             self._fail("F3", (), Reason(ReasonKind.UNMET))
             return False
-        self.bench.rewind_to(marks[-1])
+        self.bench.rewind_to(marks[len(marks) - 1])
         return True
 
     def choices(self, line: TimelineState) -> list[_Choice]:

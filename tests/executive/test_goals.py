@@ -183,3 +183,14 @@ def test_a_goal_that_cannot_begin_is_tried_once_more_and_then_given_up() -> None
     relax = next(event for event in outcome.events if event.kind == "relax")
     assert relax.conflict is not None
     assert "k > 5" in {one.place.text.strip(" ;") for one in relax.conflict.elements if one.place is not None}
+
+
+def test_the_mission_file_takes_a_goal_back() -> None:
+    rules = "User::Busy { duration == 6; }"
+    waiting = fly(user(rules), lamp(""), goals=busy(start=(9, 20), recall=4), until=30)
+    assert lines(waiting, "recall") == ["4 recall user Busy"]
+    assert history(waiting, "user") == ["0 Idle"] and open_goals(waiting) == ["Busy: taken back"]
+    begun = fly(user(rules), lamp(""), goals=busy(start=(3, 20), recall=4), until=30)
+    assert history(begun, "user")[1:] == ["3 Busy(k=[-inf +inf])", "9 Idle"]
+    over = fly(user(rules), lamp(""), goals=busy(start=(3, 20), recall=12), until=30)
+    assert open_goals(over) == [] and lines(over, "achieved")

@@ -113,3 +113,16 @@ def test_a_check_shows_progress_and_can_be_cancelled(client: Any, tmp_path: Path
     answer = client.wait(lambda message: message.get("id") == "check")
     assert answer["error"]["message"] == "cancelled"
     assert client.leave() == 0
+
+
+def test_nothing_is_run_in_a_workspace_that_is_not_trusted(client: Any, tmp_path: Path) -> None:
+    shutil.copytree(ROOT / "models" / "gps", tmp_path / "gps")
+    client.start({"isTrusted": False}, folder=tmp_path)
+    uri = (tmp_path / "gps" / "mission.toml").as_uri()
+    for answer in (
+        client.ask("workspace/executeCommand", command="nddl.check", arguments=[uri, 1]),
+        client.ask("workspace/executeCommand", command="nddl.explain", arguments=[uri]),
+        client.ask("nddl/viewPlan", uri=(tmp_path / "gps" / "navigator.nddl").as_uri()),
+    ):
+        assert "not trusted" in answer["error"]["message"]
+    assert not (tmp_path / "nddlc-report").exists()

@@ -9,6 +9,7 @@ import random
 import socket
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -214,3 +215,69 @@ def test_an_editor_may_come_over_a_port_of_this_machine() -> None:
         process.kill()
         process.wait()
         process.stdout.close()
+
+
+def request(origin: str, host: str = "localhost") -> bytes:
+    return (
+        f"GET / HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        f"Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nSec-WebSocket-Version: 13\r\n{origin}\r\n"
+    ).encode()
+
+
+def masked(content: bytes, kind: int = 1, *, is_last: bool = True) -> bytes:
+    head = bytes([0x80 * is_last | kind]) + (
+        bytes([0x80 | len(content)]) if len(content) < 126 else b"\xfe" + len(content).to_bytes(2, "big")
+    )
+    mask = b"\x01\x02\x03\x04"
+    return head + mask + bytes(each ^ mask[at % 4] for at, each in enumerate(content))
+
+
+@pytest.fixture
+def web() -> Iterator[tuple[subprocess.Popen[bytes], socket.socket]]:
+    """A server that waits for a WebSocket, and a connection to it, nothing said yet."""
+    command = [sys.executable, "-m", "nddlc.main", "lsp", "--port", "0", "--websocket"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, cwd=ROOT) as process:
+        assert process.stdout is not None
+        port = int(process.stdout.readline().split()[-1])
+        with socket.create_connection(("127.0.0.1", port), 60) as connection:
+            yield process, connection
+        process.kill()
+
+
+def test_a_page_of_this_machine_may_come_over_a_websocket(web: tuple[subprocess.Popen[bytes], socket.socket]) -> None:
+    process, connection = web
+    connection.sendall(request("Origin: http://localhost:3000\r\n"))
+    with connection.makefile("rb") as stream:
+        head = b"".join(iter(stream.readline, b"\r\n"))
+        assert b"101" in head
+        assert b"s3pPLMBiTxaQ9kYGzzhZRbK+xOo=" in head  # of RFC 6455, 1.3
+        connection.sendall(masked(b"hello", 9))
+        assert stream.read(7) == b"\x8a\x05hello"
+        content = body("initialize", 1, processId=None, rootUri=None, capabilities={})
+        connection.sendall(masked(content[:40], is_last=False) + masked(content[40:], 0))
+        kind, size = stream.read(2)
+        assert (kind, size) == (0x81, 126)
+        answer = json.loads(stream.read(int.from_bytes(stream.read(2), "big")))
+        assert answer["id"] == 1
+        connection.sendall(masked(b"\x03\xe8", 8))
+        assert process.wait(60) == 1
+
+
+@pytest.mark.parametrize(
+    ("origin", "host"),
+    [("Origin: https://example.org\r\n", "localhost"), ("", "example.org"), ("Origin: null\r\n", "localhost")],
+)
+def test_a_page_of_elsewhere_is_refused(
+    web: tuple[subprocess.Popen[bytes], socket.socket], origin: str, host: str
+) -> None:
+    process, connection = web
+    connection.sendall(request(origin, host))
+    assert connection.recv(100).startswith(b"HTTP/1.1 403")
+    assert process.wait(60) == 1
+
+
+def test_a_page_cannot_speak_to_the_plain_port(client: Any) -> None:
+    content = body("initialize", 1, processId=None, rootUri=None, capabilities={})
+    client.process.stdin.write(b"POST / HTTP/1.1\r\nContent-Length: %d\r\n\r\n%b" % (len(content), content))
+    client.process.stdin.flush()
+    assert client.process.wait(60) == 1
