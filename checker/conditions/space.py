@@ -1,5 +1,6 @@
 """Parameter space of a mission: its free parameters as axes, missions and chosen values as points."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -125,4 +126,5 @@ def _axis(parameter: ParameterConfiguration, results: Sequence[MissionResult]) -
         values += [draw.value for draw in draws if draw.parameter == parameter.name]
     if parameter.clip is not None:
         values = [min(max(value, parameter.clip[0]), parameter.clip[1]) for value in values]
+    values = [value for value in values if math.isfinite(value)] or [0.0]
     return _FreeParameter(parameter, min(values), max(values))

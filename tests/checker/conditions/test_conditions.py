@@ -2,17 +2,23 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from checker.batch.result import MissionResult
 from checker.conditions.condition import Condition, Extreme, Feature, Literal, Share, axis_feature, holds
 from checker.conditions.flights import Ended
 from checker.conditions.measure import measured_on
 from checker.conditions.record import read_condition, write_condition
 from checker.conditions.rendering import condition_claim, condition_text
 from checker.conditions.rules import induce
+from checker.conditions.space import Space
+from checker.oracle import Judgement, Verdict
+from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.outcome import Draw, Outcome
 from tests.checker.conditions.campaigns import RANGES, campaign, conditions
 
 WHOLE = "int P = [0 10]; int Q = [0 10]; float R = [0.0 1.0];"
@@ -148,3 +154,15 @@ def test_words_of_conditions() -> None:
     assert condition_text(told) == "2 * P / Q - R * R > 0.1"
     assert read_condition(write_condition(told)) == told
     assert read_condition(write_condition(None)) is None
+
+
+def test_an_endless_range_is_that_of_what_was_drawn() -> None:
+    parameter = ParameterConfiguration("P", -inf, inf, distribution="normal", mean=1.0, deviation=2.0)
+    agent = AgentConfiguration("endless", ".", 10, (), parameters=(parameter,))
+    draws = tuple(Draw("P", 0, value, value) for value in (-1.0, 3.0))
+    results = [
+        MissionResult(number, number, Judgement(Verdict.PASS), Outcome(number, 9, 9, None, (one,), (), ()), False)
+        for number, one in enumerate(draws, 1)
+    ]
+    (found,) = Space(agent, results).parameters
+    assert (found.lower, found.upper, found.at(0.5)) == (-1.0, 3.0, 1.0)
