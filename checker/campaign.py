@@ -13,8 +13,10 @@ from checker.batch.pool import Flyer, FlyTasks, fly_all, nothing_more
 from checker.batch.progress import Progress
 from checker.batch.result import KeptFailure, MissionResult
 from checker.batch.store import Run, RunStore
-from checker.batch.worker import Load, Task
+from checker.batch.worker import Load, Task, fly_one
 from checker.buckets import Key, bucket_key
+from checker.conditions.record import Conditions
+from checker.contrast import Contrast, find_contrast
 from checker.counterfactual.ranking import Causes, rank
 from checker.counterfactual.search import Suspended, find_causes
 from checker.counterfactual.trials import Bounds, Missions
@@ -22,10 +24,12 @@ from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Verdict, judge_losses
+from checker.regression import RegressionCase, agent_of
 from checker.report.timelines import Pair
 from checker.sampling.sampler import RANDOM_POINT, RandomSampler, Sampler, Setting, axes_of, with_point
 from checker.sampling.seeds import mission_seed
 from checker.schedule import Schedule, counted, is_random, make_task
+from checker.shrink import Shrunk, shrink
 from checker.stopping import StopRule
 from checker.story import Story, tell
 from runtime.executive.configuration import AgentConfiguration
@@ -138,11 +142,12 @@ class Campaign:
         focus: int | None = None,
         sampling: Sampling | None = None,
         bounds: Bounds | None = None,
+        conditions: Conditions | None = None,
     ) -> Findings:
         """Judge the results; with `may_fly` conditions are sought and tested by flights.
 
         With a `focus` that is done only for the fault that mission `focus` belongs to, and lines that may be its cause
-        are tried within `bounds`.
+        are tried within `bounds`. Of `conditions` are those that are known already.
         """
         run, agent = self.run, self.models.agent
         points = {result.number: result.point for result in results}
@@ -162,9 +167,29 @@ class Campaign:
                 refly if may_fly and ending is not Ending.SIGNAL else None,
                 ending=ending,
                 focus=focus,
+                conditions=conditions,
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
                 find=partial(self._causes, flyer, bounds) if may_fly and bounds is not None else None,
             )
+
+    def contrast(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Contrast | None:
+        """What sets a failed mission apart from the nearest one that passes; flown in this process."""
+
+        return find_contrast(failed, results, with_point(self.models.agent, failed.point), self._traced)
+
+    def shrink(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Shrunk | None:
+        """The simplest mission that fails as `failed` does; flown in this process."""
+        return shrink(failed, results, with_point(self.models.agent, failed.point), self._traced)
+
+    def regressions(self, cases: tuple[RegressionCase, ...]) -> tuple[tuple[RegressionCase, MissionResult], ...]:
+        """The missions that are to pass, flown."""
+        agents = [(case, agent_of(case, self.models.agent)) for case in cases]
+        with Flyer(self.load, self.models.agent, self.mission.check.time_limit) as flyer:
+            flown = [(case, flyer.fly(agent, number, case.seed)) for number, (case, agent) in enumerate(agents, 1)]
+        return tuple((case, self.judged(result)) for case, result in flown)
+
+    def _traced(self, agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
+        return self.judged(fly_one(self.load(agent), Task(number, seed), keep_trace=True))
 
     def _causes(self, flyer: Flyer, bounds: Bounds, missions: Missions) -> Causes:
         """The causes of one fault, tried on its missions."""

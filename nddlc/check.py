@@ -2,7 +2,7 @@
 
 import json
 import os
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -12,6 +12,7 @@ import click
 from checker.batch.pool import FlyTasks
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
+from checker.conditions.record import write_condition
 from checker.coverage import coverage_of
 from checker.excerpts import Excerpts
 from checker.findings import Findings
@@ -37,6 +38,7 @@ from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
+from nddlc.regressions import regressions_hold
 from nddlc.samplers import find_sampler
 from nddlc.trust import trust_option
 
@@ -122,6 +124,7 @@ def command(
         if style == "text":
             click.echo(f"`{path}` and its models are in order; nothing was flown")
         return _HOLDS
+    regressed = not regressions_hold(campaign, file, is_told=style == "text")
     count, enough = workers or cores(), Enough(seconds, max_failures, rule)
     try:
         with ExitStack() as stack:
@@ -131,8 +134,21 @@ def command(
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
     findings = campaign.assess(flown.results, ending=flown.ending, sampling=flown.sampling)
+    if not no_store:
+        _keep(findings, store_path)
     code = _report(campaign, findings, style, output, coverage=coverage)
+    if regressed and code == _HOLDS:
+        code = _FINDINGS
+        if style == "text":
+            click.echo("a regression case fails again: see above")
     return code if flown.ended_by is None else _SIGNALLED + flown.ended_by
+
+
+def _keep(findings: Findings, store_path: Path) -> None:
+    """Have the store remember the conditions, so that `explain` need not fly for them; it can if that fails."""
+    known = {fault.bucket.example: write_condition(fault.condition) for fault in findings.faults}
+    with suppress(StoreError), open_store(store_path) as store:
+        store.keep_conditions(findings.run_id, known)
 
 
 def _prepare(
