@@ -4,10 +4,12 @@ import json
 import os
 from contextlib import ExitStack, suppress
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 
 import click
 
+from checker.batch.pool import FlyTasks
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
 from checker.conditions.record import write_condition
@@ -33,6 +35,7 @@ from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_here, readable
 from nddlc.known import known_callables
+from nddlc.main import named
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
 from nddlc.regressions import regressions_hold
@@ -63,6 +66,7 @@ _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 @click.option("--stop-when", metavar="RULE", help='End when the missions show or refute a rule such as "p<0.01@95%".')
 @click.option("--sampler", default="random", metavar="NAME", help="How missions are chosen (docs/mission.md).")
 @click.option("--coverage", is_flag=True, help="Tell which rules and branches no mission exercised.")
+@click.option("--cluster", metavar="ADDRESS", help="Fly on a Dask cluster, such as tcp://127.0.0.1:8786.")
 @click.option("--dry-run", is_flag=True, help="Only look whether mission file and models are in order.")
 @trust_option
 @click.pass_context
@@ -85,6 +89,7 @@ def command(
     stop_when: str | None,
     sampler: str,
     coverage: bool,
+    cluster: str | None,
     dry_run: bool,
 ) -> int:
     """Check a model by flying many missions, or check the text of one model.
@@ -113,6 +118,8 @@ def command(
     if campaign is None:
         return _UNUSABLE
     campaign = replace(campaign, sampler_name=sampler, make_sampler=make_sampler)
+    if cluster is not None:
+        campaign = replace(campaign, fly_tasks=_cluster_at(cluster))
     if dry_run:
         if style == "text":
             click.echo(f"`{path}` and its models are in order; nothing was flown")
@@ -194,6 +201,14 @@ def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
     errors = sum(one.severity is Severity.ERROR for one in diagnostics)
     if errors:
         click.echo(f"{errors} error{'' if errors == 1 else 's'}: nothing was flown")
+
+
+def _cluster_at(address: str) -> FlyTasks:
+    """What flies missions on a cluster; asked for late, as Dask is large."""
+    if find_spec("distributed") is None:
+        raise Unusable("a cluster needs the package `distributed`", "install `nddlc[cluster]`")
+    found: FlyTasks = named("checker.batch.cluster:Cluster")(address).fly_tasks
+    return found
 
 
 def cores() -> int:

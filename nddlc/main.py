@@ -34,6 +34,7 @@ COMMANDS = {
         "nddlc.compare",
         "Compare two runs on common seeds: which missions flipped.",
     ),
+    "cluster": ("nddlc.cluster", "Start a Dask cluster on this machine, to fly missions on."),
     "process": ("nddlc.process", "Take the five steps from a model to the sea, and show which are passed."),
     "study": ("nddlc.study", "Fly variants of models under several samplings, and draw what finds which mistake."),
     "convert": ("nddlc.convert", "Turn a batch file in XML into tables of a mission file."),

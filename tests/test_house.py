@@ -27,6 +27,8 @@ HOMES = {
     "lsprotocol": ("lsp/",),
     "z3": ("checker/smt/", "checker/proofs"),
     "networkx": ("checker/causes", "checker/graph"),
+    "distributed": ("checker/batch/cluster",),
+    "scipy": ("checker/sampling/quasi_random",),
     "click": ("nddlc/",),
     "rich": ("nddlc/",),
 }

@@ -1,0 +1,134 @@
+"""Fly missions on a Dask cluster: tasks in, results out, with the interface of `fly_all`.
+
+Missions go out in chunks, one process of the cluster each; a worker that dies costs its chunk, which others fly again.
+A mission that kills every worker it meets ends as an ERROR. Models are read where the worker runs: the folder of the
+mission must be there too.
+"""
+
+import signal
+import threading
+import time
+from collections.abc import Sequence
+from typing import Any
+
+from distributed import Client, wait
+from distributed.scheduler import KilledWorker
+
+from checker.batch.pool import More, Supervisor
+from checker.batch.result import MissionResult
+from checker.batch.worker import Load, Task, error_result, fly_one
+from runtime.executive.configuration import AgentConfiguration
+
+_LARGEST_CHUNK = 8
+_QUIET = 0.25  # seconds between two looks at the clock
+_ENDING = ("SIGINT", "SIGTERM")
+
+
+class Cluster:
+    """A Dask cluster at an address."""
+
+    def __init__(self, address: str) -> None:
+        self._address = address
+
+    def fly_tasks(
+        self,
+        load: Load,
+        agent: AgentConfiguration,
+        tasks: Sequence[Task],
+        workers: int,
+        time_limit: float,
+        supervisor: Supervisor,
+        more: More,
+    ) -> signal.Signals | None:
+        """Fly `tasks`, and what `more` has after them; `workers` is the cluster's own affair."""
+        signals = _Signals()
+        with Client(self._address, timeout="30s") as client, signals:
+            while tasks and not supervisor.is_enough():
+                _Round(client, load, agent, tasks, time_limit).fly(supervisor, signals)
+                if signals.seen is not None:
+                    return signals.seen
+                tasks = more()
+        return None
+
+
+class _Signals:
+    """Notes a signal that is to end the batch."""
+
+    def __init__(self) -> None:
+        self.seen: signal.Signals | None = None
+        self._before: dict[int, Any] = {}
+
+    def __enter__(self) -> "_Signals":
+        if threading.current_thread() is threading.main_thread():
+            for name in _ENDING:
+                number = getattr(signal, name)
+                self._before[number] = signal.signal(number, self._note)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        for number, before in self._before.items():
+            signal.signal(number, before)
+
+    def _note(self, number: int, _frame: object) -> None:
+        self.seen = signal.Signals(number)
+
+
+class _Round:
+    """One generation of tasks on the cluster."""
+
+    def __init__(
+        self, client: Client, load: Load, agent: AgentConfiguration, tasks: Sequence[Task], time_limit: float
+    ) -> None:
+        self._client, self._load, self._agent, self._time_limit = client, load, agent, time_limit
+        lanes = max(1, sum(client.nthreads().values()))
+        size = max(1, min(_LARGEST_CHUNK, len(tasks) // (lanes * 4)))
+        self._futures: dict[Any, tuple[Task, ...]] = {}
+        for first in range(0, len(tasks), size):
+            self._submit(tuple(tasks[first : first + size]))
+
+    def _submit(self, chunk: tuple[Task, ...]) -> None:
+        future = self._client.submit(_fly_chunk, self._load, self._agent, chunk, pure=False, retries=0)
+        self._futures[future] = chunk
+
+    def fly(self, supervisor: Supervisor, signals: _Signals) -> None:
+        """Give each result to `supervisor` until all are there, or there are enough."""
+        deadline = time.monotonic() + self._patience()
+        while self._futures and signals.seen is None and not supervisor.is_enough():
+            finished = self._finished()
+            for future in finished:
+                self._take(future, supervisor)
+                deadline = time.monotonic() + self._patience()
+            if not finished and time.monotonic() > deadline:
+                for chunk in self._futures.values():
+                    for task in chunk:
+                        supervisor.take(error_result(task, f"took longer than {self._time_limit:g} s"))
+                break
+        self._client.cancel(list(self._futures), force=True)
+
+    def _patience(self) -> float:
+        return self._time_limit * (_LARGEST_CHUNK + 1)
+
+    def _finished(self) -> list[Any]:
+        try:
+            return list(wait(list(self._futures), timeout=_QUIET, return_when="FIRST_COMPLETED").done)
+        except TimeoutError:
+            return []
+
+    def _take(self, future: Any, supervisor: Supervisor) -> None:
+        chunk = self._futures.pop(future)
+        problem = future.exception()
+        if problem is None:
+            for result in future.result():
+                supervisor.take(result)
+        elif isinstance(problem, KilledWorker) and len(chunk) > 1:
+            for task in chunk:  # one of them is to blame: each by itself
+                self._submit((task,))
+        else:
+            reason = "the process died" if isinstance(problem, KilledWorker) else f"{type(problem).__name__}: {problem}"
+            for task in chunk:
+                supervisor.take(error_result(task, reason))
+
+
+def _fly_chunk(load: Load, agent: AgentConfiguration, chunk: Sequence[Task]) -> list[MissionResult]:
+    """What a worker of the cluster does; models are compiled once per process."""
+    return [fly_one(load(task.agent or agent), task) for task in chunk]

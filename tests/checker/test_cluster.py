@@ -1,0 +1,62 @@
+"""A Dask cluster flies what processes do, and a worker that dies costs its chunk only."""
+
+import os
+import signal
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from checker.batch.pool import nothing_more
+from checker.batch.result import MissionResult, write_result
+from checker.batch.worker import Fly, Load, Task
+from checker.oracle import Verdict
+from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.outcome import Outcome
+from tests.checker.fake_agent import load_linked
+from tests.checker.test_batch import Taker, agent, fly
+
+distributed = pytest.importorskip("distributed")
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    with distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address=None
+    ) as cluster:
+        yield cluster.scheduler_address
+
+
+def fly_there(address: str, load: Load, seeds: range) -> list[MissionResult]:
+    cluster = pytest.importorskip("checker.batch.cluster")
+    taker = Taker()
+    tasks = [Task(number, seed) for number, seed in enumerate(seeds, 1)]
+    ended = cluster.Cluster(address).fly_tasks(load, agent(), tasks, 2, 30.0, taker, nothing_more)
+    assert ended is None
+    return sorted(taker.results, key=lambda result: result.number)
+
+
+def load_mortal(agent: AgentConfiguration) -> Fly:
+    """A fake agent that kills its process in the mission with seed 7, whoever flies it."""
+    inner = load_linked(agent)
+
+    def fly_mortal(seed: int) -> Outcome:
+        if seed == 7:
+            os.kill(os.getpid(), signal.SIGKILL)
+            time.sleep(5.0)
+        return inner(seed)
+
+    return fly_mortal
+
+
+@pytest.mark.slow
+def test_a_cluster_gives_what_workers_give(address: str) -> None:
+    there, here = fly_there(address, load_linked, range(40)), fly(load_linked, range(40), 2)
+    assert [write_result(result) for result in there] == [write_result(result) for result in here]
+
+
+@pytest.mark.slow
+def test_a_dying_worker_costs_one_mission(address: str) -> None:
+    results = fly_there(address, load_mortal, range(24))
+    assert [result.number for result in results] == list(range(1, 25))
+    assert [result.seed for result in results if result.verdict is Verdict.ERROR] == [7]
