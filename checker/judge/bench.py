@@ -8,6 +8,7 @@ from checker.judge.columns import Array
 from checker.judge.report import Disagreement, Kind
 from checker.judge.values import UNKNOWN, difference, hull, is_open
 from nddl_lang.text.source import Span
+from runtime.executive.columns import TokenColumns
 from runtime.executive.record import ReactorRecord, TokenRecord, Value, ValueRange
 
 _Draws = Callable[[str, Array], Array | None]  # parameter and ticks in, values out; None where nothing is drawn
@@ -48,20 +49,31 @@ class _Toks:
     """The tokens of a record by key, each made when it is first asked for."""
 
     def __init__(self, tokens: Sequence[TokenRecord]) -> None:
-        self._records = {one.key: one for one in tokens}
+        self._tokens = tokens
+        self._keys = tokens.times.keys if isinstance(tokens, TokenColumns) else None
+        self._records = {one.key: one for one in tokens} if self._keys is None else {}
         self._made: dict[int, Tok] = {}
+
+    def _record(self, key: int) -> TokenRecord | None:
+        """What is on record of a token; of columns only those that are asked for are expanded."""
+        known = self._records.get(key)
+        if known is None and self._keys is not None:
+            place = int(np.searchsorted(self._keys, key))
+            if place < len(self._keys) and self._keys[place] == key:
+                known = self._records[key] = self._tokens[place]
+        return known
 
     def get(self, key: int) -> Tok | None:
         """The token with a key; None if there is none."""
         known = self._made.get(key)
-        if known is None and (record := self._records.get(key)) is not None:
+        if known is None and (record := self._record(key)) is not None:
             known = self._made[key] = Tok(record)
             self._complete(known)
         return known
 
     def records(self) -> Iterator[TokenRecord]:
         """What is on record of all tokens."""
-        return iter(self._records.values())
+        return iter(self._records.values() if self._keys is None else self._tokens)
 
     def of(self, records: Iterable[TokenRecord]) -> Iterator[Tok]:
         """Tokens of the record."""
@@ -74,7 +86,7 @@ class _Toks:
         """Let a merged token have the values of the one that stands for it; a token that goes on ends later."""
         last = tok.record
         for _ in range(_DEEPEST):
-            other = self._records.get(last.merged_into)
+            other = self._record(last.merged_into)
             if other is None:
                 break
             last = other

@@ -8,7 +8,7 @@ from checker.judge.bench import Bench
 from checker.judge.bulk_meanings import difference_of
 from checker.judge.columns import INT, TEXT, Array, Column, Mask, column_of, constant
 from checker.judge.operands import VariableNames, domain_value, member_of
-from checker.judge.tables import RowTokens, Tables
+from checker.judge.tables import GuardRows, RowTokens, RunRows, Tables
 from checker.judge.values import UNKNOWN
 from compiler.program import (
     DURATION,
@@ -23,7 +23,7 @@ from compiler.program import (
     TokenVariable,
     UnionOf,
 )
-from runtime.executive.record import BodyRun, GuardRun, Value
+from runtime.executive.record import Value
 
 
 class UnplainError(Exception):
@@ -78,21 +78,21 @@ class RowFrame:
         self.slots = slots
         self.tokens = tokens
         self.tally = RowTally(len(tok.rows))
-        self.locals: Iterator[tuple[Value, ...]] = iter(())
-        self.children: Iterator[tuple[int, ...]] = iter(())
-        self.guards: Iterator[tuple[GuardRun, ...]] = iter(())
+        self.locals: Iterator[Column] = iter(())
+        self.children: Iterator[Array] = iter(())
+        self.guards: Iterator[GuardRows] = iter(())
 
-    def follow(self, runs: Sequence[BodyRun]) -> None:
-        """Read what comes next from `runs`, one of each row, all of one shape."""
-        self.locals = iter(list(zip(*[run.locals for run in runs], strict=True)))
-        self.children = iter(list(zip(*[run.children for run in runs], strict=True)))
-        self.guards = iter(list(zip(*[run.guards for run in runs], strict=True)))
+    def follow(self, run: RunRows) -> None:
+        """Read what comes next from `run`."""
+        self.locals = iter(run.locals)
+        self.children = iter(run.children)
+        self.guards = iter(run.guards)
 
-    def branch(self, runs: Sequence[BodyRun]) -> "RowFrame":
+    def branch(self, run: RunRows) -> "RowFrame":
         """The frame of a branch, with slots and tokens of its own."""
         inner = RowFrame(self.bench, self.tok, list(self.slots), list(self.tokens))
         inner.tally = self.tally
-        inner.follow(runs)
+        inner.follow(run)
         return inner
 
     def use(self, column: Column) -> Column:

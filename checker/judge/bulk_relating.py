@@ -23,7 +23,7 @@ def row_child(child: Child, names: VariableNames) -> RowStep:
         if keys is None:
             raise UnplainError
         tables, tally = frame.tables, frame.tally
-        found = tables.rows_of(np.array(keys, np.int64))
+        found = tables.rows_of(keys)
         rows = np.where(found == NOBODY, 0, found)
         tally.need((found != NOBODY) & _is_of(tables, rows, child, names))
         tokens = frame.tokens[slot] = RowTokens(tables, rows)

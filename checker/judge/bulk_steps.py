@@ -34,7 +34,7 @@ from compiler.program import (
     Sample,
     UnionOf,
 )
-from runtime.executive.record import BodyRun, OpenValues, Value, ValueRange
+from runtime.executive.record import OpenValues, Value, ValueRange
 
 
 def compile_rows(
@@ -116,10 +116,10 @@ def _variable(new: NewVariable, names: VariableNames, undefined: set[int]) -> li
     copied = None if new.copy_of is None else row_reader(new.copy_of, names)
 
     def step(frame: RowFrame) -> None:
-        values = next(frame.locals, None)
-        if values is None:
+        column = next(frame.locals, None)
+        if column is None:
             raise UnplainError
-        column = frame.slots[slot] = column_of(values, frame.tables.texts)
+        frame.slots[slot] = column
         if test is not None:
             frame.tally.judge(allowed(test, column, frame))
         if copied is not None:
@@ -350,9 +350,9 @@ def _guard(guard: Guard, names: VariableNames, written: Written, undefined: set[
         reached = next(frame.guards, None)
         if reached is None:
             raise UnplainError
-        branch = reached[0].branch
+        branch = reached.branch
         if branch == "waiting":
-            if reached[0].is_decided:
+            if reached.is_decided:
                 raise UnplainError
             frame.tally.open += 1
             return
@@ -365,9 +365,8 @@ def _guard(guard: Guard, names: VariableNames, written: Written, undefined: set[
             fixed = closed([column])
             holds = holds if fixed is None else holds & fixed
         frame.tally.judge(holds)
-        runs: list[BodyRun] = [each.run for each in reached if each.run is not None]
-        if runs:
-            inner = frame.branch(runs)
+        if reached.run is not None:
+            inner = frame.branch(reached.run)
             for each in then if branch == "then" else otherwise:
                 each(inner)
 

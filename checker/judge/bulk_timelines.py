@@ -75,10 +75,8 @@ class BulkTimelines:
         begun = dict(zip(self.starts[rows].tolist(), rows.tolist(), strict=True))
         if told.keys() != begun.keys():
             return False
-        if not is_own:
-            observed = [tables.origins[row] == "observation" for row in begun.values()]
-            if not all(observed):
-                return False
+        if not is_own and not tables.is_observed[list(begun.values())].all():
+            return False
         tokens = tables.tokens
         if not all(_agrees(tokens[row], told[tick], codes) for tick, row in begun.items()):
             return False

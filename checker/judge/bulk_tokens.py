@@ -4,7 +4,7 @@ What plainly holds is settled here. All other tokens are left to the judge of si
 and who finds the words; it is asked for few tokens where a mission is right.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -15,9 +15,9 @@ from checker.judge.bulk_steps import allowed, compile_rows
 from checker.judge.columns import INT, Array
 from checker.judge.operands import VariableNames
 from checker.judge.steps import Domain, Written, domain_test
-from checker.judge.tables import RowTokens, Shape, Tables, shape_of
+from checker.judge.tables import RowTokens, Tables, TokenRows
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
-from runtime.executive.record import BodyRun, TokenRecord
+from runtime.executive.record import TokenRecord
 
 _FEWEST = 4  # tokens that are alike, for which a group is worth its cost
 
@@ -78,50 +78,24 @@ def judge_in_bulk(judge: BulkJudge, bench: Bench, tables: Tables) -> Iterator[To
         latest = starts.lower if starts.upper is None else starts.upper
         fits = True if starts.bad is None else ~starts.bad
         settled |= tables.is_active & (latest > bench.last_tick) & fits
-        _settle_merged(bench, tables, settled)
+        merged = np.flatnonzero(tables.is_merged & ~tables.is_cut & (tables.standing != np.arange(tables.count)))
+        merged = merged[tables.equals_standing(merged)]
+        settled[merged] = True
+        bench.judged += len(merged)
         with np.errstate(all="ignore"):
-            for predicate, shape, rows in _groups(tables, settled):
-                holds = _judge_group(judge, bench, tables, predicate, shape, rows)
-                settled[rows[holds]] = True
+            for alike in tables.groups(~settled & ~tables.is_cut, _FEWEST):
+                holds = _judge_group(judge, bench, tables, alike)
+                settled[alike.rows[holds]] = True
     return (tables.tokens[row] for row in np.flatnonzero(~settled).tolist())
 
 
-def _groups(tables: Tables, settled: Array) -> Iterator[tuple[str, Shape, Array]]:
-    """The tokens that are alike."""
-    found: dict[tuple[int, Shape], list[int]] = {}
-    rows = np.flatnonzero(~settled & tables.is_active & ~tables.is_cut)
-    runs, plain = tables.runs, ()
-    for row, predicate in zip(rows.tolist(), tables.predicate[rows].tolist(), strict=True):
-        own = runs[row]
-        shape = shape_of(own) if own else plain
-        found.setdefault((predicate, shape), []).append(row)
-    for (predicate, shape), alike in found.items():
-        if len(alike) >= _FEWEST:
-            yield tables.predicates[predicate], shape, np.array(alike)
-
-
-def _settle_merged(bench: Bench, tables: Tables, settled: Array) -> None:
-    """Merged tokens with the very values of the one that stands for them."""
-    rows = np.flatnonzero(tables.is_merged & ~tables.is_cut & (tables.standing != np.arange(tables.count)))
-    tokens = tables.tokens
-    for row, other in zip(rows.tolist(), tables.standing[rows].tolist(), strict=True):
-        mine, theirs = tokens[row], tokens[other]
-        if (
-            mine.predicate == theirs.predicate
-            and mine.start == theirs.start
-            and mine.end == theirs.end
-            and (mine.arguments is theirs.arguments or mine.arguments == theirs.arguments)
-        ):
-            settled[row] = True
-            bench.judged += 1
-
-
-def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, predicate: str, shape: Shape, rows: Array) -> Array:
+def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, alike: TokenRows) -> Array:
     """Judge tokens that are alike; those that plainly hold."""
+    rows = alike.rows
     nothing = np.zeros(len(rows), bool)
-    known = judge.predicate(predicate)
+    known = judge.predicate(alike.predicate)
     code = known.code
-    if tuple(run[0] for run in shape) != code.rules:
+    if tuple(run.rule for run in alike.runs) != code.rules:
         return nothing
     tok = RowTokens(tables, rows)
     tally = RowTally(len(rows))
@@ -133,12 +107,11 @@ def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, predicate: str,
             step(frame)
         if code.rules:
             tally.judged += 1  # that these rules have fired
-        for place, number in enumerate(code.rules):
-            rule, steps = judge.rule(number)
+        for run in alike.runs:
+            rule, steps = judge.rule(run.rule)
             frame = RowFrame(bench, tok, [None] * rule.slots, [tok, *[None] * rule.tokens])
             frame.tally = tally
-            runs: Sequence[BodyRun] = [tables.runs[row][place] for row in rows.tolist()]
-            frame.follow(runs)
+            frame.follow(run)
             for step in steps:
                 step(frame)
                 if not tally.holds.any():

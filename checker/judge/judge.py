@@ -9,10 +9,12 @@ from dataclasses import replace
 
 from checker.judge.bench import Bench, Tok
 from checker.judge.bulk_timelines import History
+from checker.judge.column_tables import ColumnTables
 from checker.judge.columns import Array
 from checker.judge.draws import Chance
 from checker.judge.goals import judge_goals
 from checker.judge.operands import BodyFrame
+from checker.judge.record_tables import RecordTables
 from checker.judge.report import JudgeReport
 from checker.judge.resources import judge_resources
 from checker.judge.steps import Written
@@ -22,6 +24,7 @@ from checker.judge.tokens import ProgramJudge, compile_program, judge_tokens
 from checker.judge.values import UNKNOWN
 from checker.judge.written import meanings_of
 from compiler.program import Program
+from runtime.executive.columns import TokenColumns
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
@@ -65,7 +68,7 @@ def judge_mission(
         judge = _judge_of(program, constraints)
         bench = Bench(written, agent.final_tick, chance.draws, place.name in failed)
         desks[place.name] = (judge, bench)
-        tables = Tables(written)
+        tables = _tables_of(written)
         _judge_model(judge, bench, tables)
         judge_timelines(judge, bench, tables, history.seen_by(place.name), place.internal, place.external)
     judge_goals(agent, outcome, desks)
@@ -95,7 +98,7 @@ def judge_plan(
     bench = Bench(record, record.last_tick, _undrawn)
     bench.infers = True
     bench.told = told
-    tables = Tables(record)
+    tables = _tables_of(record)
     _judge_model(judge, bench, tables)
     judge_timelines(judge, bench, tables, {}, (), ())
     return _summary([bench])
@@ -103,6 +106,12 @@ def judge_plan(
 
 def _undrawn(parameter: str, ticks: Array) -> None:
     """No draws are known."""
+
+
+def _tables_of(record: ReactorRecord) -> Tables:
+    """The tokens of a record as tables."""
+    tokens = record.tokens
+    return ColumnTables(tokens) if isinstance(tokens, TokenColumns) else RecordTables(tokens)
 
 
 def _judge_model(judge: ProgramJudge, bench: Bench, tables: Tables) -> None:

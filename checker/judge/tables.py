@@ -1,75 +1,78 @@
-"""The record of a reactor as tables: times and keys of all tokens in arrays, arguments in one column per parameter.
+"""The tokens of a reactor as tables: times and keys of all of them in arrays, arguments in one column per parameter.
 
-This is the one place that reads many `TokenRecord`s at once; what else the judge asks of a record it asks token by
-token.
+`record_tables.py` fills them from single records, `column_tables.py` from a record that was kept in columns. What else
+the judge asks of a record it asks token by token.
 """
 
-from collections.abc import Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
-from checker.judge.columns import TEXT, Array, Column, Mask, Texts, column_of, joined
-from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START
-from runtime.executive.record import NOBODY, BodyRun, ReactorRecord, TokenRecord, Value
+from checker.judge.columns import TEXT, Array, Column, Mask, Texts, joined
+from compiler.program import END, FIRST_PARAMETER, OBJECT, START
+from runtime.executive.record import NOBODY, TokenRecord
 
 _DEEPEST = 64  # merged into what is merged into ...
-Shape = tuple["RunShape", ...]  # of all runs of a token
-RunShape = tuple[int, int, int, tuple["_GuardShape", ...]]  # rule, how many locals and children, guards
-_GuardShape = tuple[str, bool, RunShape | None]  # branch, whether it is decided, what it ran
 
 
-class PredicateTable:
-    """The tokens of one predicate that stand for themselves: a column per parameter, made when asked for."""
+class GuardRows(NamedTuple):
+    """A guard that was decided the same way in each row."""
 
-    def __init__(self, tokens: Sequence[TokenRecord], texts: Texts) -> None:
-        self.texts = texts
-        self.width = min((len(one.arguments) for one in tokens), default=0)
-        self._arguments: list[tuple[Value, ...]] = list(zip(*[one.arguments for one in tokens], strict=False))
-        self._columns: dict[int, Column] = {}
-
-    def column(self, number: int) -> Column:
-        """The values of a parameter."""
-        known = self._columns.get(number)
-        if known is None:
-            known = self._columns[number] = column_of(self._arguments[number], self.texts)
-        return known
+    branch: str
+    is_decided: bool
+    run: "RunRows | None"
 
 
-class Tables:
+class RunRows(NamedTuple):
+    """Runs of one rule, the same branches taken in each row: locals, keys of children, guards."""
+
+    rule: int
+    locals: tuple[Column, ...]
+    children: tuple[Array, ...]
+    guards: tuple[GuardRows, ...]
+
+
+class TokenRows(NamedTuple):
+    """Tokens that are alike, by their places in the record."""
+
+    predicate: str
+    rows: Array
+    runs: tuple[RunRows, ...]
+
+
+class Tables(ABC):
     """All tokens of a reactor; a row is a place in the record."""
 
-    def __init__(self, record: ReactorRecord) -> None:
-        self.texts = Texts()
-        self.tokens = record.tokens
-        fields = tuple(zip(*record.tokens, strict=True)) or ((),) * len(TokenRecord._fields)
-        keys, predicates, objects, states, durations, starts, ends, _, merged, origins, fates, ticks, runs = fields
+    def __init__(self, tokens: Sequence[TokenRecord], keys: Array, texts: Texts) -> None:
+        self.tokens = tokens
+        self.texts = texts
+        self.keys = keys
         self.count = len(keys)
-        self.keys = np.array(keys, np.int64)
-        self.is_ordered = bool((self.keys[1:] > self.keys[:-1]).all())
-        self.predicates = list(dict.fromkeys(predicates))
-        numbers = {name: k for k, name in enumerate(self.predicates)}
-        self.predicate = np.array([numbers[each] for each in predicates], np.int64)
-        self.is_active = np.array([each == "active" for each in states], bool)
-        self.is_merged = np.array([each == "merged" for each in states], bool)
-        self.is_cut = np.array([each == "cut" for each in fates], bool)
-        self.origins: tuple[str, ...] = origins
-        self.ticks = np.array(ticks, np.int64)
-        self.merged_into = np.array(merged, np.int64)
-        self.runs: tuple[tuple[BodyRun, ...], ...] = runs
-        self.times = {
-            OBJECT: column_of(objects, self.texts),
-            DURATION: column_of(durations, self.texts),
-            START: column_of(starts, self.texts),
-            END: column_of(ends, self.texts),
-        }
-        self.standing = self._standing() if self.is_ordered else np.arange(self.count)
-        own = np.where(self.standing == np.arange(self.count), self.predicate, NOBODY)
-        order = np.argsort(own, kind="stable")
-        ordered = own[order]
-        self._kinds = own
-        self.places = np.empty(self.count, np.int64)  # of each row in the table of its predicate
-        self.places[order] = np.arange(self.count) - np.searchsorted(ordered, ordered)
-        self._tables: dict[int, PredicateTable] = {}
+        self.is_ordered = bool((keys[1:] > keys[:-1]).all())
+        none = np.zeros(self.count, bool)
+        self.predicates: list[str] = []
+        self.predicate: Array = np.zeros(self.count, np.int64)  # numbers of `predicates`
+        self.is_active: Mask = none
+        self.is_merged: Mask = none
+        self.is_cut: Mask = none
+        self.is_observed: Mask = none
+        self.ticks: Array = np.zeros(self.count, np.int64)
+        self.times: dict[int, Column] = {}  # object, duration, start and end, as each token has them itself
+        self.standing: Array = np.arange(self.count)  # the row of the token that stands for each
+
+    @abstractmethod
+    def argument(self, predicate: int, number: int, rows: Array) -> Column:
+        """A parameter of tokens that stand for themselves."""
+
+    @abstractmethod
+    def equals_standing(self, rows: Array) -> Mask:
+        """Where merged tokens have the very predicate and values of those that stand for them."""
+
+    @abstractmethod
+    def groups(self, wanted: Mask, fewest: int) -> Iterator[TokenRows]:
+        """Active tokens among the rows `wanted` that are alike, where there are `fewest` of them."""
 
     def rows_of(self, keys: Array) -> Array:
         """The rows of tokens by their keys; NOBODY where there is none."""
@@ -78,26 +81,17 @@ class Tables:
         found = np.minimum(np.searchsorted(self.keys, keys), self.count - 1)
         return np.where(self.keys[found] == keys, found, NOBODY)
 
-    def _standing(self) -> Array:
-        """The row of the token that stands for each."""
+    def find_standing(self, merged_into: Array) -> Array:
+        """The row of the token that stands for each, from the keys that tokens are merged into."""
         found = np.arange(self.count)
-        for _ in range(_DEEPEST):
-            into = self.merged_into[found]
+        for _ in range(_DEEPEST if self.is_ordered else 0):
+            into = merged_into[found]
             others = np.where(into == NOBODY, found, self.rows_of(into))
             others = np.where(others == NOBODY, found, others)
             if (others == found).all():
                 break
             found = others
         return found
-
-    def table(self, predicate: int) -> PredicateTable:
-        """The tokens of one predicate."""
-        known = self._tables.get(predicate)
-        if known is None:
-            rows = np.flatnonzero(self._kinds == predicate)
-            known = PredicateTable([self.tokens[k] for k in rows.tolist()], self.texts)
-            self._tables[predicate] = known
-        return known
 
 
 class RowTokens:
@@ -124,31 +118,16 @@ class RowTokens:
             return tables.times[variable].take(self.standing)
         number = variable - FIRST_PARAMETER
         predicates = tables.predicate[self.standing]
-        places = tables.places[self.standing]
         kinds = np.unique(predicates)
         if len(kinds) == 1:
-            return self._part(int(kinds[0]), number, places)
+            return tables.argument(int(kinds[0]), number, self.standing)
         parts: list[tuple[Mask, Column]] = []
         for kind in kinds.tolist():
             rows = predicates == kind
-            parts.append((rows, self._part(kind, number, places[rows])))
-        return joined(parts, len(places))
-
-    def _part(self, predicate: int, number: int, places: Array) -> Column:
-        table = self.tables.table(predicate)
-        if not 0 <= number < table.width:
-            return Column(TEXT, np.zeros(len(places), np.int64), None, np.ones(len(places), bool))
-        return table.column(number).take(places)
+            parts.append((rows, tables.argument(kind, number, self.standing[rows])))
+        return joined(parts, len(predicates))
 
 
-def shape_of(runs: tuple[BodyRun, ...]) -> Shape:
-    """What runs of a token have in common with those of others: rules, branches, and how much each has made."""
-    return tuple([_run_shape(run) for run in runs])
-
-
-def _run_shape(run: BodyRun) -> RunShape:
-    guards = run.guards
-    if not guards:
-        return (run.rule, len(run.locals), len(run.children), ())
-    inner = tuple([(g.branch, g.is_decided, None if g.run is None else _run_shape(g.run)) for g in guards])
-    return (run.rule, len(run.locals), len(run.children), inner)
+def missing(count: int) -> Column:
+    """A column of which no row fits."""
+    return Column(TEXT, np.zeros(count, np.int64), None, np.ones(count, bool))

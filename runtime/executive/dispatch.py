@@ -83,7 +83,7 @@ class Dispatch:
                 continue
             if not self.bench.is_blocked(token, line.current, tick):
                 asked.append(self._ask(line, token, tick))
-                self.sent[self.bench.key(token)] = asked[-1]
+                self.sent[self.bench.key(token)] = asked[len(asked) - 1]
                 self.sent_tokens[self.bench.key(token)] = token
         return asked
 

@@ -160,8 +160,8 @@ class PlanReactor:
                     self.name,
                     causes=causes,
                     stage=RepairStage.KEEP_PAST if attempt == 1 else RepairStage.FORGET_PAST,
-                    reason=failures[-1].reason,
-                    conflict=failures[-1].conflict,
+                    reason=failures[len(failures) - 1].reason,
+                    conflict=failures[len(failures) - 1].conflict,
                 )
                 broke = failures[0]
                 self.goals.note_repair(Repair(tick, event, broke.reason, broke.conflict, broke.deadlock), watched)
