@@ -10,8 +10,11 @@
 #   make format       let ruff format and mend what it can
 #   make plan-proof   MODELS (20000) random whole models beside judges that know only the models
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
+#   make sampling-study  BATCHES (10000) simulated batches per sampler: how often each interval covers the true rate
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
 #   make renames      rename every name of every model, and compare what the models mean
+#   make editor-proof 100,000 edit scripts and as many hostile messages; every model by the server and by `nddlc lint`
+#   make vsix         the extension for Visual Studio Code (npm fetches its tools; what it makes loads nothing)
 #   make conformance  the conformance suite of NDDL
 #   make corpus       the public models, where CORPUS=directory holds checkouts of nasa/europa and fredpy/trex2-agent
 #   make rules        the pages of docs/rules, from the tables beside the passes
@@ -30,7 +33,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof mutants renames conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study mutants renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -111,11 +114,22 @@ MODELS := 20000
 plan-proof: build
 	$(BIN)/python -m tests.solver.whole.proof $(MODELS)
 
+BATCHES := 10000
+
+sampling-study: build
+	$(BIN)/python -m tests.checker.sampling_study $(BATCHES)
+
 mutants: build
 	$(BIN)/python -m tests.executive.mutants.campaign $(MUTANTS)
 
 renames: build
 	NDDLC_RENAMES=all $(PYTEST) tests/lsp/test_rename_everything.py
+
+editor-proof: build
+	NDDLC_EDITOR=all $(PYTEST) tests/lsp/test_scheduling.py tests/lsp/test_one_engine.py
+
+vsix:
+	cd editors/vscode && npm ci --no-audit --no-fund && npm run -s types && npm run -s bundle && npm test -s && npm run -s package
 
 conformance: build
 	$(PYTEST) tests/conformance

@@ -25,7 +25,7 @@ NANO = 1e9
 
 
 @dataclass(frozen=True)
-class Figures:
+class EngineFigures:
     """What one form of the engine needs."""
 
     form: str
@@ -45,10 +45,10 @@ class Figures:
     edges_6_process_bytes: float  # what the process grew by meanwhile, points and all, per edge
 
 
-def measure(scale: int) -> Figures:
+def measure(scale: int) -> EngineFigures:
     """Run all measurements; `scale` says how long."""
     visit_ns, update_ns = measure_network(scale)
-    return Figures(
+    return EngineFigures(
         build_form(),
         visit_ns,
         update_ns,

@@ -39,7 +39,7 @@ trip.start = [1 50];
 
 
 @dataclass(frozen=True)
-class Figures:
+class PlanFigures:
     """What one form of the plan database needs."""
 
     form: str
@@ -68,7 +68,7 @@ def per_call(act: Callable[[], object], calls: int) -> float:
     return best / calls * MICRO
 
 
-def measure(calls: int, length: int) -> Figures:
+def measure(calls: int, length: int) -> PlanFigures:
     """Run all measurements."""
     database = loaded(ROVER)
     trip = next(t for t, label in database.script.labels.items() if label == "trip")
@@ -103,7 +103,7 @@ def measure(calls: int, length: int) -> Figures:
     start = time.process_time()
     assert chain.run_script() is None
     seconds = time.process_time() - start
-    return Figures(build_form(), timed[0], timed[1], timed[2], timed[3], seconds * 1e6 / length)
+    return PlanFigures(build_form(), timed[0], timed[1], timed[2], timed[3], seconds * 1e6 / length)
 
 
 def chain_text(length: int) -> str:

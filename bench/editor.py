@@ -19,7 +19,7 @@ from typing import Any
 from keystroke import UNIT  # type: ignore[import-not-found]  # beside this file
 
 from lsp.project import ServerSettings
-from lsp.server import make_session
+from lsp.server import calm_collector, make_session
 from lsp.transport import receive
 
 LINES = 1000
@@ -198,6 +198,7 @@ def show(what: str, found: float, goal: float, unit: str = "ms") -> bool:
 
 async def main(rounds: int) -> int:
     """Measure everything."""
+    calm_collector()
     wire, text, spent = await opened(LINES)
     print(f"{text.count(chr(10))} lines, opened in {spent * 1000:.0f} ms; p95 of {rounds}")
     held = [show("edit to all diagnostics", p95(await edits(wire, text, rounds)), 10)]

@@ -25,7 +25,7 @@ MISSION = Path(__file__).resolve().parent.parent / "models/gps/mission.toml"
 
 
 @dataclass(frozen=True)
-class Figures:
+class MissionFigures:
     """What one form of the engine achieves: seconds of one core, start-up and the reading of models left out."""
 
     form: str
@@ -36,7 +36,7 @@ class Figures:
     ticks_per_second: float
 
 
-def measure(missions: int) -> Figures:
+def measure(missions: int) -> MissionFigures:
     """Fly missions one after the other; the first one, which is flown twice, warms up."""
     mission, _ = read_mission(MISSION)
     assert mission is not None
@@ -46,7 +46,7 @@ def measure(missions: int) -> Figures:
     begun = time.process_time()
     outcomes = [fly(seed) for seed in seeds]
     spent = time.process_time() - begun
-    return Figures(
+    return MissionFigures(
         build_form(),
         missions,
         sum(outcome.abort is not None for outcome in outcomes),
@@ -56,12 +56,12 @@ def measure(missions: int) -> Figures:
     )
 
 
-def measured_elsewhere(missions: int, interpreted: bool) -> Figures:
+def measured_elsewhere(missions: int, interpreted: bool) -> MissionFigures:
     """Measure one form in a process of its own."""
     command = [sys.executable, __file__, "--json", "--missions", str(missions)]
     environment = {**os.environ, "NDDLC_INTERPRETED": "1" if interpreted else "0"}
     done = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)
-    return Figures(**json.loads(done.stdout))
+    return MissionFigures(**json.loads(done.stdout))
 
 
 def main() -> None:

@@ -1,26 +1,36 @@
 """A mission and how to fly it in, the findings of a whole run out; what is finished is stored as it comes."""
 
 import time
+from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from signal import Signals
 
 from checker.batch.identity import engine_digest, model_digest, run_id
-from checker.batch.pool import Flyer, fly_all
+from checker.batch.pool import Flyer, FlyTasks, fly_all, nothing_more
 from checker.batch.progress import Progress
-from checker.batch.result import MissionResult
+from checker.batch.result import KeptFailure, MissionResult
 from checker.batch.store import Run, RunStore
 from checker.batch.worker import Load, Task
-from checker.findings import Ending, Fault, Findings, assess
+from checker.buckets import Key, bucket_key
+from checker.counterfactual.ranking import Causes, rank
+from checker.counterfactual.search import Suspended, find_causes
+from checker.counterfactual.trials import Bounds, Missions
+from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Verdict, judge_losses
+from checker.sampling.sampler import RANDOM_POINT, RandomSampler, Sampler, Setting, axes_of, with_point
 from checker.sampling.seeds import mission_seed
+from checker.schedule import Schedule, counted, is_random, make_task
+from checker.stopping import StopRule
 from checker.story import Story, tell
 from runtime.executive.configuration import AgentConfiguration
 
 _MOST_STORIES = 8
+_MOST_ALIKE = 3  # failures of a bucket that are kept
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,6 +39,8 @@ class Enough:
 
     seconds: float | None = None
     failures: int | None = None
+    rule: StopRule | None = None
+    missions: int | None = None  # the first ones of those planned
 
 
 _NO_BOUND = Enough()
@@ -41,6 +53,7 @@ class Flown:
     results: tuple[MissionResult, ...]
     ending: Ending
     ended_by: Signals | None = None
+    sampling: Sampling = RANDOMLY
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -50,19 +63,30 @@ class Campaign:
     mission: Mission
     models: ModelSet
     load: Load
+    sampler_name: str = "random"
+    make_sampler: Callable[[Setting], Sampler] = RandomSampler
+    fly_tasks: FlyTasks = fly_all
+
+    @property
+    def sampler(self) -> Sampler:
+        """The sampler, for this agent, batch seed and number of missions."""
+        check = self.mission.check
+        return self.make_sampler(Setting(axes_of(self.models.agent), check.seed, check.missions))
 
     @property
     def run(self) -> Run:
         """The run that this campaign is: same content, same id."""
         check = self.mission.check
         digest = model_digest(self.models.texts)
-        identity = run_id(self.models.agent, digest, check.seed, check.missions, engine_digest())
+        agent, sampler = self.models.agent, self.sampler_name
+        identity = run_id(agent, digest, check.seed, check.missions, engine_digest(), sampler)
         path = Path(self.mission.source.name).resolve()
-        return Run(identity, str(path), check.seed, check.missions)
+        return Run(identity, str(path), check.seed, check.missions, sampler)
 
-    def task(self, number: int) -> Task:
-        """Mission `number` with its seed."""
-        return Task(number, mission_seed(self.mission.check.seed, number))
+    def task(self, number: int, result: MissionResult | None = None) -> Task:
+        """Mission `number` with its seed, at the point of its result; without one, of a plain random mission."""
+        seed = mission_seed(self.mission.check.seed, number) if result is None else result.seed
+        return make_task(self.models.agent, number, seed, RANDOM_POINT if result is None else result.point)
 
     def judged(self, result: MissionResult) -> MissionResult:
         """A result with the limits of [check] applied; these may change without a flight."""
@@ -77,20 +101,31 @@ class Campaign:
         fresh: bool = False,
         enough: Enough = _NO_BOUND,
         progress: Callable[[Progress], None] | None = None,
+        keeps_failures: bool = True,
     ) -> Flown:
-        """Fly what is not in the store yet, or with `fresh` all of it again."""
-        run, planned = self.run, self.mission.check.missions
+        """Fly what is not in the store yet, or with `fresh` all of it again.
+
+        With `keeps_failures` those of earlier runs come first, and those of this one are kept.
+        """
+        run, check = self.run, self.mission.check
         kept = store.begin(run, keep=not fresh) if store is not None else {}
+        planned = min(check.missions, enough.missions or check.missions)
         kept = {number: result for number, result in kept.items() if number <= planned}
-        tasks = [self.task(number) for number in range(1, planned + 1) if number not in kept]
-        watch = _Watch(self, run, kept, store, enough, progress)
+        failures = store.failures(run) if store is not None and keeps_failures else ()
+        watch = _Watch(self, run, kept, store, enough, progress, failures)
         ended_by = None
         if not watch.is_enough():
-            limit = self.mission.check.time_limit
-            ended_by = fly_all(self.load, self.models.agent, tasks, workers, limit, watch)
+            tasks = watch.schedule.more()
+            more = nothing_more if watch.schedule.is_settled else watch.schedule.more
+            if tasks:
+                agent, limit = self.models.agent, check.time_limit
+                ended_by = self.fly_tasks(self.load, agent, tasks, workers, limit, watch, more)
         if store is not None:
             store.flush()
-        return watch.flown(ended_by)
+        flown = watch.flown(ended_by)
+        if store is not None and keeps_failures:
+            store.keep_failures(run, _worth_keeping(flown.results))
+        return flown
 
     def assess(
         self,
@@ -99,15 +134,20 @@ class Campaign:
         ending: Ending = Ending.COMPLETE,
         may_fly: bool = True,
         focus: int | None = None,
+        sampling: Sampling | None = None,
+        bounds: Bounds | None = None,
     ) -> Findings:
         """Judge the results; with `may_fly` conditions are sought and tested by flights.
 
-        With a `focus` that is done only for the fault that mission `focus` belongs to.
+        With a `focus` that is done only for the fault that mission `focus` belongs to, and lines that may be its cause
+        are tried within `bounds`.
         """
         run, agent = self.run, self.models.agent
+        points = {result.number: result.point for result in results}
         with Flyer(self.load, agent, self.mission.check.time_limit) as flyer:
 
             def refly(changed: AgentConfiguration, number: int, seed: int) -> MissionResult:
+                changed = with_point(changed, points.get(number, RANDOM_POINT))
                 return self.judged(flyer.fly(changed, number, seed))
 
             return assess(
@@ -120,7 +160,16 @@ class Campaign:
                 refly if may_fly and ending is not Ending.SIGNAL else None,
                 ending=ending,
                 focus=focus,
+                sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
+                find=partial(self._causes, flyer, bounds) if may_fly and bounds is not None else None,
             )
+
+    def _causes(self, flyer: Flyer, bounds: Bounds, missions: Missions) -> Causes:
+        """The causes of one fault, tried on its missions."""
+        agent = self.models.agent
+        programs = [self.models.programs[each.model] for each in agent.reactors]
+        limits = self.mission.check.limits
+        return rank(find_causes(missions, Suspended(agent, programs, limits, flyer), bounds), Path(agent.root))
 
     def story(self, result: MissionResult, fault: Fault | None) -> Story:
         """Why a mission failed."""
@@ -133,6 +182,19 @@ class Campaign:
             self.story(by_number[fault.bucket.example], fault) if index < _MOST_STORIES else None
             for index, fault in enumerate(findings.faults)
         ]
+
+
+def _worth_keeping(results: tuple[MissionResult, ...]) -> list[MissionResult]:
+    """Of each bucket of failures the first ones, unless it has as many among the kept failures."""
+    found: Counter[Key] = Counter()
+    chosen = []
+    for result in results:  # kept failures come first
+        if result.verdict is Verdict.FAIL:
+            key = bucket_key(result)
+            found[key] += 1
+            if result.number > 0 and found[key] <= _MOST_ALIKE:
+                chosen.append(result)
+    return chosen
 
 
 class _Watch:
@@ -150,58 +212,82 @@ class _Watch:
         store: RunStore | None,
         enough: Enough,
         progress: Callable[[Progress], None] | None,
+        failures: tuple[KeptFailure, ...],
     ) -> None:
         self.campaign, self.run, self.store, self.enough, self.progress = campaign, run, store, enough, progress
         self.results = {number: campaign.judged(result) for number, result in kept.items()}
-        self.kept = len(kept)
-        self.planned = campaign.mission.check.missions
-        self.failures = sum(result.verdict is Verdict.FAIL for result in self.results.values())
-        self.errors = 0
+        self.kept = sum(number > 0 for number in kept)
+        planned = campaign.mission.check.missions
+        self.planned = min(planned, enough.missions or planned)
         self.begun = time.monotonic()
         self.reached = 0  # missions 1 to `reached` are finished
         self.failures_reached = 0
-        self.is_over = False
+        self.shown: bool | None = None  # what the stopping rule came to
+        self.sampler = campaign.sampler
+        seed = campaign.mission.check.seed
+        self.schedule = Schedule(campaign.models.agent, self.sampler, seed, self.planned, failures, self.results)
 
     def take(self, result: MissionResult) -> None:
         """Have one more result."""
         if self.store is not None:
             self.store.add(self.run, result)
-        judged = self.campaign.judged(result)
-        self.results[result.number] = judged
-        self.failures += judged.verdict is Verdict.FAIL
-        self.errors += judged.verdict is Verdict.ERROR
+        self.results[result.number] = self.campaign.judged(result)
 
     def is_enough(self) -> bool:
         """Store what is due, tell how far it came, and say whether time is over or there are failures enough."""
         if self.store is not None:
             self.store.flush_if_due()
         seconds = time.monotonic() - self.begun
-        most, failures = self.enough.seconds, self.enough.failures
+        most = self.enough.seconds
         if self.progress is not None:
-            done = len(self.results)
-            self.progress(Progress(self.planned, done, self.kept, self.failures, self.errors, seconds, most))
+            self.progress(self._progress(seconds, most))
         while (following := self.results.get(self.reached + 1)) is not None and self._wants_more():
             self.reached += 1
             self.failures_reached += following.verdict is Verdict.FAIL
-        self.is_over = most is not None and seconds >= most
-        return self.is_over or (failures is not None and not self._wants_more())
+            if self.enough.rule is not None:
+                self.shown = self.enough.rule.outcome(counted(self._first()), self.sampler.most_weight)
+        return (most is not None and seconds >= most) or not self._wants_more()
+
+    def _progress(self, seconds: float, most: float | None) -> Progress:
+        flown = [result for number, result in self.results.items() if number > 0]
+        failures = sum(result.verdict is Verdict.FAIL for result in flown)
+        errors = sum(result.verdict is Verdict.ERROR for result in flown)
+        has_interval = is_random([result.point for result in flown])
+        return Progress(self.planned, len(flown), self.kept, failures, errors, seconds, most, has_interval)
 
     def _wants_more(self) -> bool:
-        return self.enough.failures is None or self.failures_reached < self.enough.failures
+        failures = self.enough.failures
+        return (failures is None or self.failures_reached < failures) and self.shown is None
 
     def flown(self, ended_by: Signals | None) -> Flown:
         """What counts: all of a run that came to its end, else what has no gaps."""
         self.is_enough()
-        if not self._wants_more() and (self.reached < self.planned or len(self.results) > self.reached):
-            return Flown(self._first(), Ending.FAILURES)
+        numbers = [number for number in self.results if number > 0]
+        if not self._wants_more() and (self.reached < self.planned or len(numbers) > self.reached):
+            ending = Ending.FAILURES if self.shown is None else Ending.DECIDED
+            return self._flown(self._first(), ending)
         if ended_by is not None:
-            return Flown(self._all(), Ending.SIGNAL, ended_by)
-        if len(self.results) < self.planned:
-            return Flown(self._first(), Ending.SECONDS)
-        return Flown(self._all(), Ending.COMPLETE)
+            return self._flown(self._all(), Ending.SIGNAL, ended_by)
+        if len(numbers) < self.planned:
+            return self._flown(self._first(), Ending.SECONDS)
+        return self._flown(self._all(), Ending.COMPLETE)
+
+    def _flown(self, results: tuple[MissionResult, ...], ending: Ending, ended_by: Signals | None = None) -> Flown:
+        """With the kept failures, and what the sampling allows to say.
+
+        An exact interval keeps its confidence where plain random missions end with the k-th failure, else not.
+        """
+        kept = tuple(result for number, result in sorted(self.results.items(), reverse=True) if number < 0)
+        rule = self.enough.rule
+        is_plain = is_random([result.point for result in results])
+        is_sequential = rule is not None or (ending is Ending.FAILURES and not is_plain)
+        sampling = Sampling(
+            self.campaign.sampler_name, self.sampler.most_weight, is_sequential, self.shown, rule.text if rule else ""
+        )
+        return Flown((*kept, *results), ending, ended_by, sampling)
 
     def _all(self) -> tuple[MissionResult, ...]:
-        return tuple(self.results[number] for number in sorted(self.results))
+        return tuple(self.results[number] for number in sorted(self.results) if number > 0)
 
     def _first(self) -> tuple[MissionResult, ...]:
         return tuple(self.results[number] for number in range(1, self.reached + 1))

@@ -4,6 +4,8 @@ from typing import Any
 
 from checker.batch.result import MissionResult
 from checker.conditions.rendering import condition_claim, condition_data
+from checker.counterfactual.ranking import Causes
+from checker.counterfactual.rendering import causes_data, claim_text, effort_text
 from checker.excerpts import Excerpts
 from checker.findings import Fault
 from checker.oracle import CODE_NAMES
@@ -12,11 +14,12 @@ from checker.sampling.rendering import number
 from checker.story import Step, StepKind, Story
 from runtime.executive.outcome import SourcePlace
 
+MOST_CAUSES = 3
 _ARROW = "     │\n     ▼"
 
 
-def story_text(story: Story, run_id: str, excerpts: Excerpts) -> str:
-    """The story as `nddlc explain` prints it."""
+def story_text(story: Story, run_id: str, excerpts: Excerpts, most: int = MOST_CAUSES) -> str:
+    """The story as `nddlc explain` prints it, with so many causes."""
     code = story.judgement.code
     lines = [
         f"mission {story.number} of run {run_id} failed at tick {story.last_tick} of {story.final_tick} "
@@ -24,6 +27,8 @@ def story_text(story: Story, run_id: str, excerpts: Excerpts) -> str:
         f"  {failure_text(story.judgement, story.open_goals)}",
         "",
     ]
+    if story.fault is not None and story.fault.causes.tried:
+        lines += [*_cause_lines(story.fault.causes, excerpts, most), "", "what happened:"]
     for index, step in enumerate(story.steps, 1):
         lines += _step_lines(index, step, story, excerpts)
         if index < len(story.steps):
@@ -31,6 +36,18 @@ def story_text(story: Story, run_id: str, excerpts: Excerpts) -> str:
     if story.fault is not None:
         lines += ["", *_fault_lines(story.fault, story.number)]
     return "\n".join(lines) + "\n"
+
+
+def _cause_lines(causes: Causes, excerpts: Excerpts, most: int) -> list[str]:
+    """The lines to look at, each with what its trial showed."""
+    if not causes.ranked:
+        return [f"no change of one line makes it pass ({effort_text(causes)})"]
+    lines = [f"causes, the likeliest first ({effort_text(causes)}):"]
+    for place, cause in enumerate(causes.ranked[:most], 1):
+        lines += [f"{place:>4}  {claim_text(cause)}", *excerpt_lines(cause.place, excerpts, marked=place == 1)]
+    if len(causes.ranked) > most:
+        lines.append(f"      and {len(causes.ranked) - most} more (-v)")
+    return lines
 
 
 def _step_lines(index: int, step: Step, story: Story, excerpts: Excerpts) -> list[str]:
@@ -76,6 +93,7 @@ def story_data(story: Story, run_id: str, excerpts: Excerpts) -> dict[str, Any]:
         "reason": failure_text(story.judgement, story.open_goals),
         "last_tick": story.last_tick,
         "final_tick": story.final_tick,
+        "causes": None if fault is None else causes_data(fault.causes),
         "steps": [_step_data(step, story, excerpts) for step in story.steps],
         "z3": None if fault is None else confirmation_data(fault),
         "condition": None if fault is None else condition_data(fault.condition),

@@ -1,7 +1,7 @@
 """All missions of a run in, what there is to say about it out: the rate, and each fault with its line and condition."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from checker.batch.result import MissionResult
@@ -9,13 +9,19 @@ from checker.buckets import Bucket, group_failures
 from checker.conditions.condition import Condition
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
+from checker.counterfactual.examples import examples_of
+from checker.counterfactual.ranking import NO_CAUSES, Causes
+from checker.counterfactual.trials import Missions
 from checker.mission import Mission
 from checker.oracle import Verdict
+from checker.rate import Rate, judge_missions, rate_interval
+from checker.sensitivity import Sensitivity, sensitivities
 from checker.smt.confirm import Confirmation, confirm
-from checker.statistics import Rate, judge_rate
+from checker.statistics import Interval
 from checker.tally import Tally, tally
 from runtime.executive.configuration import AgentConfiguration
 
+Find = Callable[[Missions], Causes]
 _MOST_SHARPENED = 8  # buckets whose conditions are sought by flying again; the rest must do with samples
 
 
@@ -26,15 +32,35 @@ class Ending(StrEnum):
     SIGNAL = "signal"  # Ctrl-C, SIGTERM, a hang-up
     SECONDS = "seconds"  # the time that was given is over
     FAILURES = "failures"  # there are as many as were asked for
+    DECIDED = "decided"  # the stopping rule has its answer
 
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """A bucket of failures with what is known about it; `confirmation` is z3's word on the example's conflict."""
+    """A bucket of failures with what is known about it; `confirmation` is z3's word on the example's conflict.
+
+    `causes` are lines that were tried, empty where that was not asked for.
+    """
 
     bucket: Bucket
     condition: Condition | None
     confirmation: Confirmation | None
+    causes: Causes = NO_CAUSES
+    interval: Interval | None = None  # of the rate of this fault alone
+
+
+@dataclass(frozen=True, slots=True)
+class Sampling:
+    """How the missions of a run were chosen, and what that allows to say."""
+
+    name: str = "random"
+    most_weight: float = 1.0
+    is_sequential: bool = False  # what was seen decided when to stop
+    shown: bool | None = None  # what a stopping rule `rule` came to
+    rule: str = ""
+
+
+RANDOMLY = Sampling()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -51,6 +77,9 @@ class Findings:
     faults: tuple[Fault, ...]
     tally: Tally
     ending: Ending
+    sampling: Sampling = RANDOMLY
+    sensitivities: tuple[Sensitivity, ...] = ()
+    kept: tuple[MissionResult, ...] = ()  # failures of earlier runs, flown first; they are in no percentage
 
     @property
     def is_interrupted(self) -> bool:
@@ -83,23 +112,45 @@ def assess(
     *,
     ending: Ending = Ending.COMPLETE,
     focus: int | None = None,
+    sampling: Sampling = RANDOMLY,
+    find: Find | None = None,
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
-    With a `focus` it does so only for the fault that mission `focus` belongs to.
+    With a `focus` it does so only for the fault that mission `focus` belongs to, whose causes `find` then finds.
     """
-    ordered = tuple(sorted(results, key=lambda result: result.number))
-    counted = sum(result.verdict is not Verdict.ERROR for result in ordered)
-    failures = sum(result.verdict is Verdict.FAIL for result in ordered)
+    by_number = sorted(results, key=lambda result: result.number)
+    ordered = tuple(result for result in by_number if result.number > 0)
+    kept = tuple(result for result in reversed(by_number) if result.number < 0)
     check = mission.check
-    rate = judge_rate(failures, counted, check.max_failure_rate, check.confidence)
+    flown = [one for one in ordered if one.verdict is not Verdict.ERROR]
+    rate = judge_missions(
+        [(one.verdict is Verdict.FAIL, one.point) for one in flown],
+        check.max_failure_rate,
+        check.confidence,
+        most_weight=sampling.most_weight,
+        is_sequential=sampling.is_sequential,
+    )
+    if check.max_failure_rate == 0.0 and any(one.verdict is Verdict.FAIL for one in kept):
+        rate = replace(rate, exceeds=True, is_certain=True)
     faults: list[Fault] = []
     for position, bucket in enumerate(group_failures(ordered)):
         is_wanted = position < _MOST_SHARPENED if focus is None else focus in bucket.missions
-        faults.append(_fault(bucket, ordered, agent, seed, refly if is_wanted else None))
+        members = set(bucket.missions)
+        interval, _ = rate_interval(
+            [(one.number in members, one.point) for one in flown],
+            check.confidence,
+            most_weight=sampling.most_weight,
+            is_sequential=sampling.is_sequential,
+        )
+        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None)
+        is_sought = focus is not None and is_wanted
+        causes = _causes(bucket, ordered, find, focus) if is_sought else NO_CAUSES
+        faults.append(replace(fault, interval=interval, causes=causes))
     return Findings(
-        run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending
-    )
+        run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
+        sampling, sensitivities(agent, ordered, check.confidence), kept,
+    )  # fmt: skip
 
 
 def _fault(
@@ -109,3 +160,12 @@ def _fault(
     abort = example.outcome.abort if example.outcome else None
     confirmation = confirm(abort.conflict) if abort and abort.conflict else None
     return Fault(bucket, find_condition(bucket, results, agent, seed, refly), confirmation)
+
+
+def _causes(bucket: Bucket, results: tuple[MissionResult, ...], find: Find | None, focus: int | None) -> Causes:
+    """The causes of a fault, tried on mission `focus` first."""
+    if find is None:
+        return NO_CAUSES
+    members = [result for result in results if result.number in bucket.missions]
+    members.sort(key=lambda result: (result.number != focus, result.number))
+    return find(examples_of(members, [result for result in results if result.verdict is Verdict.PASS]))

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import overload
 
 from checker.batch.worker import Fly
+from checker.coverage import universe_of
 from checker.judge.judge import breaches, judge_mission
 from checker.judge.rendering import DisagreementError
 from checker.names import relative_name
@@ -46,14 +47,25 @@ def fly_once(
 
     It raises `DisagreementError` where the judge holds that the executive broke the model.
     """
+    return fly_programs(agent, programs_of(agent), seed, values, until)
+
+
+def fly_programs(
+    agent: AgentConfiguration,
+    programs: MissionPrograms,
+    seed: int,
+    values: Mapping[str, float] | None = None,
+    until: int | None = None,
+) -> Outcome:
+    """Fly one mission with the models as they were compiled; see `fly_once`."""
     root = Path(agent.root)
-    programs = programs_of(agent)
     with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
         outcome, record = record_mission(agent, programs, seed, values, until=until)
         report = judge_mission(agent, programs.programs, outcome, record, programs.constraints, values)
     if report.errors:
         raise DisagreementError(report)
-    return _relative(replace(outcome, breaches=breaches(report)), root)
+    behaviour = universe_of(programs.programs).features(record, outcome.events)
+    return _relative(replace(outcome, breaches=breaches(report), behaviour=behaviour), root)
 
 
 def programs_of(agent: AgentConfiguration) -> MissionPrograms:
@@ -61,7 +73,7 @@ def programs_of(agent: AgentConfiguration) -> MissionPrograms:
     root = Path(agent.root)
     reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
     programs = load_programs(root, reactors, agent.constraints, agent.constraint_seconds)
-    return replace(programs, code=_load_code(root, agent.coded))
+    return replace(programs, code=load_code(root, agent.coded))
 
 
 @lru_cache(maxsize=4)
@@ -72,17 +84,17 @@ def load_programs(root: Path, reactors: Reactors, constraints: tuple[str, ...], 
         model: compile_model(analyse_file(root / model, callables=library.callables))
         for model in dict.fromkeys(model for model, _ in reactors)
     }
-    solvers = tuple(_load_solver(root, solver) for _, solver in reactors)
+    solvers = tuple(load_solver(root, solver) for _, solver in reactors)
     return MissionPrograms(tuple(models[model] for model, _ in reactors), solvers, library.constraints)
 
 
 @lru_cache(maxsize=4)
-def _load_code(root: Path, coded: tuple[CodeConfiguration, ...]) -> tuple[type[Reactor], ...]:
+def load_code(root: Path, coded: tuple[CodeConfiguration, ...]) -> tuple[type[Reactor], ...]:
     """The classes of the reactors that are written in Python."""
     return tuple(load_reactor(root, each.file, each.class_name) for each in coded)
 
 
-def _load_solver(root: Path, path: str | None) -> Configuration:
+def load_solver(root: Path, path: str | None) -> Configuration:
     """The flaw handling in a file; the default where none is named."""
     if path is None:
         return default_configuration()

@@ -11,10 +11,11 @@ from typing import cast
 
 from checker.agent_file import read_agent_file
 from checker.batch_xml import read_batch
-from checker.codes import CYCLE, ILL_DISTRIBUTION, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_TOML, TWICE
+from checker.codes import CYCLE, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_TOML, TWICE
 from checker.goal_fit import goals_out_of_time
 from checker.losses import Limit
 from checker.mission_table import MissionText, Table, TomlTable
+from checker.parameter_tables import read_parameters
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_source
@@ -25,13 +26,10 @@ from runtime.executive.configuration import (
     Bounds,
     CodeConfiguration,
     GoalConfiguration,
-    Mode,
     OnFailure,
-    ParameterConfiguration,
     ReactorConfiguration,
     Value,
 )
-from runtime.executive.distributions import DISTRIBUTIONS
 from runtime.user.limit import USUAL
 
 LARGEST_SEED = (1 << 53) - 1  # what JSON readers agree on
@@ -87,7 +85,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
     reactors, coded = _read_reactors(top.tables("reactor", needed=True), root)
     goals = _read_goals(top.tables("goal"), (*reactors, *coded), text)
     constraints, seconds = _read_constraints(top.table("constraints", "[constraints]"), root)
-    parameters, unranged = _read_parameters(top.table("parameters", "[parameters]"))
+    parameters, unranged = read_parameters(top.table("parameters", "[parameters]"), top.table("joint", "[joint]"))
     agent = AgentConfiguration(
         name=head.string("name"),
         root=root.as_posix(),
@@ -283,60 +281,6 @@ def _goal_value(table: Table, key: str) -> Value | Bounds:
     if isinstance(value, int | float | str):
         return value
     return table.string(key)  # complains
-
-
-def _read_parameters(tables: Table) -> tuple[tuple[ParameterConfiguration, ...], tuple[str, ...]]:
-    parameters: list[ParameterConfiguration] = []
-    unranged: list[str] = []
-    for name in tables.values:
-        table = tables.table(name, f"[parameters.{name}]")
-        guess = "discrete" if table.has("values") else "fixed" if table.has("value") else "uniform"
-        shape = table.choice("distribution", tuple(DISTRIBUTIONS), guess)
-        distribution = DISTRIBUTIONS[shape]
-        bounds = table.bounds("range", is_finite=True)
-        values = table.numbers("values")
-        weights = table.numbers("weights")
-        value = table.number("value", 0.0, float("-inf"))
-        is_whole = table.choice("kind", ("float", "int"), "float") == "int"
-        mode = cast("Mode", table.choice("mode", ("inter", "intra"), "inter"))
-        update = table.whole("update", 10, 1)
-        clip = table.bounds("clip")
-        table.close()
-        for reason in _ill_distribution(table, shape, values, weights):
-            tables.text.diagnostics.append(ILL_DISTRIBUTION.at(tables.text.key_span(table.path), reason=reason))
-        if "value" in distribution.keys:
-            values = (value,)
-        if bounds is None and values and not distribution.has_range:
-            bounds = (min(values), max(values))
-        if bounds is None:
-            unranged.append(name)
-        lower, upper = bounds or (0.0, 0.0)
-        parameters.append(
-            ParameterConfiguration(
-                name, float(lower), float(upper), shape, mode, update, clip, is_whole, values, weights
-            )
-        )
-    tables.close()
-    return tuple(parameters), tuple(unranged)
-
-
-def _ill_distribution(table: Table, name: str, values: tuple[float, ...], weights: tuple[float, ...]) -> list[str]:
-    """What the keys of a distribution lack, or have in vain."""
-    reasons: list[str] = []
-    distribution = DISTRIBUTIONS[name]
-    if "values" in distribution.needs and not values:
-        reasons.append(f"a {name} distribution needs `values`, a list of numbers")
-    if "value" in distribution.needs and not table.has("value"):
-        reasons.append(f"a {name} distribution needs `value`")
-    if weights and len(weights) != len(values):
-        reasons.append(f"there are {len(weights)} weights for {len(values)} values")
-    if weights and (min(weights) < 0.0 or sum(weights) <= 0.0):
-        reasons.append("weights must not be negative, and one must be above 0")
-    for key in ("values", "weights", "value"):
-        if table.has(key) and key not in distribution.keys:
-            owners = " or ".join(other for other, row in DISTRIBUTIONS.items() if key in row.keys)
-            reasons.append(f"`{key}` belongs to a {owners} distribution, not to a {name} one")
-    return reasons
 
 
 def _find_cycle(reactors: list[ReactorConfiguration | CodeConfiguration], owners: dict[str, str]) -> list[str]:

@@ -124,6 +124,17 @@ class Table:
         self._complain_of_type(key, value, "a list of numbers")
         return ()
 
+    def rows(self, key: str, width: int) -> tuple[tuple[float, ...], ...]:
+        """A list of lists of `width` finite numbers, empty by default."""
+        value = self._take(key)
+        if isinstance(value, list) and all(
+            isinstance(row, list) and len(row) == width and all(_is_number(one) and math.isfinite(one) for one in row)
+            for row in value
+        ):
+            return tuple(tuple(float(one) for one in row) for row in value)
+        self._complain_of_type(key, value, f"a list of rows of {width} numbers")
+        return ()
+
     def bounds(self, key: str, *, is_finite: bool = False) -> Bounds | None:
         """A pair `[lower, upper]`, or one number for both; absent is None."""
         value = self._take(key)

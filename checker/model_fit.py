@@ -20,6 +20,7 @@ from compiler.program import DomainConstant, ParameterSite, PredicateCode, Progr
 from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.nearest import nearest
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.expression import parse_expression
 
 _Bounds = tuple[float, float]
 _INFINITE = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
@@ -88,6 +89,12 @@ def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> It
         elif site.kind == "int" and (wrong := _fractions(parameter)):
             notes = tuple(Note("sampled here", use) for use in site.uses[:1])
             yield ILL_DISTRIBUTION.at(span, reason=f"the model samples whole numbers, and {wrong}", notes=notes)
+        elif parameter.expression and (strange := _unread(parameter, mission, sites)):
+            yield ILL_DISTRIBUTION.at(
+                mission.text.value_span(("parameters", parameter.name, "expression")),
+                reason=f"the expression reads `{strange}`, which is no parameter",
+                help=_advice(strange, [*sites], "sampled parameters"),
+            )
         elif parameter.name in mission.needs_range and _bounds(site.default) is None:
             notes = tuple(Note("sampled here", use) for use in site.uses[:1])
             yield NO_RANGE.at(span, name=parameter.name, notes=notes)
@@ -98,12 +105,18 @@ def sampling_misfits(mission: Mission, sites: Mapping[str, ParameterSite]) -> It
             yield NO_RANGE.at(site.uses[0], name=name, help=advice)
 
 
+def _unread(parameter: ParameterConfiguration, mission: Mission, sites: Mapping[str, ParameterSite]) -> str | None:
+    """The first name in an expression that no parameter has."""
+    known = {one.name for one in mission.agent.parameters} | sites.keys()
+    return next((name for name in parse_expression(parameter.expression).names if name not in known), None)
+
+
 def _fractions(parameter: ParameterConfiguration) -> str:
     """Why a whole number cannot be drawn so; empty where it can."""
     strange = [value for value in parameter.values if value != int(value)]
     if strange:
         return f"{strange[0]:g} is none"
-    if not parameter.values and math.floor(parameter.upper) < math.ceil(parameter.lower):
+    if not parameter.values and not parameter.expression and math.floor(parameter.upper) < math.ceil(parameter.lower):
         return f"there is none from {parameter.lower:g} to {parameter.upper:g}"
     return ""
 

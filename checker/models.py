@@ -10,10 +10,11 @@ from checker.names import relative_name
 from checker.role_fit import find_role_misfits
 from compiler.lower import compile_model
 from compiler.program import ParameterSite, Program
-from nddl_lang.analysis import Analysis, analyse_file
+from nddl_lang.analysis import Analysis, analyse
 from nddl_lang.semantics.callables import Callables
+from nddl_lang.syntax.includes import OpenText, load_module_graph
 from nddl_lang.text.diagnostic import Diagnostic, Severity
-from nddl_lang.text.read import read_source
+from nddl_lang.text.read import read_source, read_text
 from runtime.executive.configuration import AgentConfiguration
 from runtime.user.library import load_library
 
@@ -43,15 +44,15 @@ def examine(path: Path) -> tuple[Diagnostic, ...]:
     return found if mission is None else (*found, *load_models(mission).diagnostics)
 
 
-def load_models(mission: Mission) -> ModelSet:
-    """Read all models of a mission; every mistake in them is reported, once.
+def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
+    """Read all models of a mission; every mistake in them is reported, once. `open_text` gives the texts of files.
 
     Raises UserCodeError where a module with constraints cannot be used.
     """
     agent = mission.agent
     root = Path(agent.root)
     library = load_library(root, agent.constraints, seconds=agent.constraint_seconds)
-    analyses = _analyse_models(agent, library.callables)
+    analyses = _analyse_models(agent, library.callables, open_text)
     texts = library.texts | {
         relative_name(source.name, root): source.text
         for analysis in analyses.values()
@@ -74,10 +75,11 @@ def load_models(mission: Mission) -> ModelSet:
     return ModelSet(completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits))
 
 
-def _analyse_models(agent: AgentConfiguration, callables: Callables) -> dict[str, Analysis]:
+def _analyse_models(agent: AgentConfiguration, callables: Callables, open_text: OpenText) -> dict[str, Analysis]:
     """The meaning of each model of an agent, by its path in the mission file."""
     names = dict.fromkeys(reactor.model for reactor in agent.reactors)
-    return {name: analyse_file(Path(agent.root) / name, callables=callables) for name in names}
+    loaded = {name: load_module_graph(Path(agent.root) / name, open_text=open_text) for name in names}
+    return {name: analyse(each, callables) for name, each in loaded.items()}
 
 
 def _sites(programs: dict[str, Program]) -> dict[str, ParameterSite]:

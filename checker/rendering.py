@@ -94,9 +94,9 @@ def step_text(step: Step, story: Story) -> str:
         case str(rule):
             return f"it acts through the rule of {rule}"
         case Event() as event:
-            return _event_text(event)
+            return event_line(event)
         case ConflictElement() as element:
-            return _element_text(element)
+            return element_line(element)
         case Deadlock() as deadlock:
             tried = ", ".join(choice_text(one.choice) for one in deadlock.tried)
             return f"{deadlock_text(deadlock)}; tried in vain: {tried}" if tried else deadlock_text(deadlock)
@@ -125,7 +125,8 @@ def confirmation_text(fault: Fault) -> str:
     return text + (f" (not told to it: {', '.join(missing)})" if missing else "")
 
 
-def _event_text(event: Event) -> str:
+def event_line(event: Event) -> str:
+    """An event with who and where, but for its tick."""
     who = event.reactor or "the mission file"
     about = f" on {event.timeline}" if event.timeline else ""
     match event.kind:
@@ -141,7 +142,7 @@ def _event_text(event: Event) -> str:
             return f"{who}: {event.kind} {event_text(event)}{about}"
 
 
-def _element_text(element: ConflictElement) -> str:
+def element_line(element: ConflictElement) -> str:
     """What an element says, whose it is, and, where no line of the model says it, what does."""
     text = element_text(element)
     if element.token is not None and not element.names(element.token):

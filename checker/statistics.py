@@ -1,41 +1,14 @@
-"""Count of failures in, an exact interval for the failure rate out, and the decision against a limit.
+"""Exact statistics of counts: Clopper and Pearson's interval, McNemar's test, a confidence sequence.
 
 Only ordinary missions count; those that ended in an ERROR of the tool say nothing about the model.
 """
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 
-_DIGITS = 9  # to which intervals are rounded, so that the last bits of `lgamma` reach no report
+DIGITS = 9  # to which intervals are rounded, so that the last bits of `lgamma` reach no report
 Interval = tuple[float, float]
-
-
-@dataclass(frozen=True, slots=True)
-class Rate:
-    """How often missions fail, and what that says about the limit.
-
-    The rule: the check fails when the observed rate is above the limit (`exceeds`). Whether the exact interval agrees
-    is said beside it: `is_certain` where the limit lies outside the interval, on the side of the decision.
-    """
-
-    failures: int
-    missions: int
-    observed: float
-    confidence: float
-    exact: Interval
-    limit: float
-    exceeds: bool
-    is_certain: bool
-
-
-def judge_rate(failures: int, missions: int, limit: float, confidence: float) -> Rate:
-    """Estimate a failure rate and compare it with what is accepted."""
-    observed = failures / missions if missions else 0.0
-    exact = exact_interval(failures, missions, confidence)
-    exceeds = observed > limit
-    is_certain = exact[0] > limit if exceeds else exact[1] <= limit
-    return Rate(failures, missions, round(observed, _DIGITS), confidence, exact, limit, exceeds, is_certain)
+_PRIORS = ((0.5, 0.5), (0.5, 50.0))  # of the confidence sequence: for any rate, and for small ones
 
 
 def exact_interval(failures: int, missions: int, confidence: float) -> Interval:
@@ -51,7 +24,48 @@ def exact_interval(failures: int, missions: int, confidence: float) -> Interval:
         lower = _solve(lambda share: incomplete_beta(failures, missions - failures + 1, share), tail)
     if failures < missions:  # P(at most `failures` | upper) = tail
         upper = _solve(lambda share: incomplete_beta(failures + 1, missions - failures, share), 1.0 - tail)
-    return (round(lower, _DIGITS), round(upper, _DIGITS))
+    return (round(lower, DIGITS), round(upper, DIGITS))
+
+
+def confidence_sequence(failures: int, missions: int, confidence: float) -> Interval:
+    """An interval that covers after every number of missions at once, so that it may be looked at while they fly.
+
+    The rates at which a mixture of beta densities has less than 1 / (1 - confidence) times the likelihood of what was
+    seen (Robbins 1970; Ville's inequality). Independent missions; when to stop may depend on all of them.
+    """
+    passes = missions - failures
+    logs = [_log_beta(a + failures, b + passes) - _log_beta(a, b) for a, b in _PRIORS]
+    top = max(logs)
+    evidence = top + math.log(sum(math.exp(one - top) for one in logs) / len(logs))
+    level = evidence + math.log(1.0 - confidence)  # of the log-likelihood: rates below it are ruled out
+
+    def likelihood(rate: float) -> float:
+        rate = min(rate, 1.0 - 2.0**-53)
+        part = failures * math.log(rate) if failures else 0.0
+        return part + (passes * math.log1p(-rate) if passes else 0.0)
+
+    middle = failures / missions if missions else 0.5
+    lower, upper = 0.0, 1.0
+    if failures:
+        lower = middle * _solve(lambda share: likelihood(max(share, 1e-300) * middle), level)
+    if passes:
+        upper = 1.0 - (1.0 - middle) * _solve(
+            lambda share: likelihood(1.0 - max(share, 1e-300) * (1.0 - middle)), level
+        )
+    return (round(max(lower, 0.0), DIGITS), round(min(upper, 1.0), DIGITS))
+
+
+def _log_beta(a: float, b: float) -> float:
+    return math.lgamma(a) + math.lgamma(b) - math.lgamma(a + b)
+
+
+def mcnemar(one_way: int, other_way: int) -> float:
+    """McNemar's exact test: how likely so uneven a count of flips is if either way is as likely (two-sided)."""
+    flips, fewer = one_way + other_way, min(one_way, other_way)
+    if not flips:
+        return 1.0
+    tail = 1.0 - incomplete_beta(fewer + 1, flips - fewer, 0.5)  # P(at most `fewer` of `flips` | 1/2)
+    return round(min(1.0, 2.0 * tail), DIGITS)
 
 
 def incomplete_beta(a: float, b: float, x: float) -> float:

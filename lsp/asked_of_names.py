@@ -7,12 +7,14 @@ from lsprotocol import types
 
 from lsp.completion import completions, resolved
 from lsp.diagnostics import Conversion
-from lsp.documents import DocumentContext, Documents
+from lsp.document_links import included_files
+from lsp.documents import Documents
 from lsp.hierarchies import incoming_calls, outgoing_calls, prepare_calls, prepare_types, subtypes, supertypes
 from lsp.hover import hover_at, link
 from lsp.mission_answers import mission_completions, mission_definition, mission_hover
 from lsp.mission_texts import OpenMission
 from lsp.navigation import declaration, definition, implementations, type_definition
+from lsp.open_text import DocumentContext
 from lsp.references import highlights, references
 from lsp.rename import RenameError, TextChange, prepare_rename, rename
 from lsp.session import RequestFailed, Session
@@ -43,6 +45,16 @@ def _answer_navigation(session: Session) -> None:
         conversion = session.documents.conversion()
         return [conversion.location(span) for span in spans]
 
+    def hover(view: DocumentContext, params: types.HoverParams) -> types.Hover | None:
+        shown = hover_at(view, params.position, session.documents.conversion())
+        failed = session.results.at(view.document.key, params.position.line)
+        if not failed:
+            return shown
+        before = str(getattr(shown.contents, "value", "")) if shown is not None else ""
+        text = "\n\n".join(part for part in (before, *failed) if part)
+        place = shown.range if shown is not None else None
+        return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), place)
+
     def of_mission(
         answer: Callable[[Documents, OpenMission, int, Conversion], Any],
     ) -> Callable[[OpenMission, Any], Any]:
@@ -59,7 +71,7 @@ def _answer_navigation(session: Session) -> None:
 
     session.answer(
         types.TEXT_DOCUMENT_HOVER,
-        lambda view, params: hover_at(view, params.position, session.documents.conversion()),
+        hover,
         of_mission=of_mission(mission_hover),
     )
     session.answer(
@@ -148,6 +160,9 @@ def _answer_completion(session: Session) -> None:
     def complete(view: DocumentContext, params: types.CompletionParams) -> types.CompletionList:
         last[:] = [view]
         offset = _offset(view, params)
+        files = included_files(view, offset, session.documents.folders)
+        if files is not None:
+            return types.CompletionList(is_incomplete=False, items=files)
         found = completions(view.snapshot.analysis, view.parse, offset, with_snippets=session.has_snippets)
         return types.CompletionList(is_incomplete=False, items=found)
 

@@ -5,13 +5,14 @@ from collections.abc import Sequence
 from lsprotocol import types
 
 from lsp.document_links import document_links
-from lsp.documents import DocumentContext
 from lsp.folding import folding_ranges, selection_ranges
 from lsp.inlay_hints import inlay_hints
 from lsp.lenses import code_lenses
 from lsp.mending import can_fix_all, fix_all, formatting, formatting_of_lines, formatting_of_statement, mends
+from lsp.mission_answers import mission_lenses
+from lsp.open_text import DocumentContext
 from lsp.refactorings import refactorings
-from lsp.semantic_tokens import LEGEND, semantic_tokens
+from lsp.semantic_tokens import LEGEND, tokens_between
 from lsp.session import Session
 
 _FIX_ALL = "source.fixAll.nddlc"
@@ -106,17 +107,17 @@ def _answer_tokens(session: Session) -> None:
     memory = session.token_memory
 
     def full(view: DocumentContext, params: types.SemanticTokensParams) -> types.SemanticTokens:
-        return memory.full(view.document.uri, semantic_tokens(view))
+        return memory.full(view)
 
     def delta(
         view: DocumentContext, params: types.SemanticTokensDeltaParams
     ) -> types.SemanticTokens | types.SemanticTokensDelta:
-        return memory.delta(view.document.uri, params.previous_result_id, semantic_tokens(view))
+        return memory.delta(view, params.previous_result_id)
 
     def part(view: DocumentContext, params: types.SemanticTokensRangeParams) -> types.SemanticTokens:
         lines = view.document.lines
         return types.SemanticTokens(
-            semantic_tokens(view, lines.offset(params.range.start), lines.offset(params.range.end))
+            tokens_between(view, lines.offset(params.range.start), lines.offset(params.range.end))
         )
 
     session.answer(types.TEXT_DOCUMENT_SEMANTIC_TOKENS_FULL, full, LEGEND)
@@ -149,4 +150,5 @@ def _answer_shape(session: Session) -> None:
         types.TEXT_DOCUMENT_CODE_LENS,
         lambda view, params: code_lenses(view),
         nothing=list,
+        of_mission=lambda mission, params: mission_lenses(mission),
     )

@@ -1,12 +1,18 @@
-"""Document links: a text in its model in; its includes, each with the file that it leads to, out."""
+"""Includes: a text in its model in; its includes, each as a link to its file, and the files that one may name, out."""
 
-from collections.abc import Iterator
+import os
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
 
-from lsprotocol.types import DocumentLink
+from lsprotocol.types import CompletionItem, CompletionItemKind, DocumentLink, TextEdit
 
 from lsp.diagnostics import Conversion
-from lsp.documents import DocumentContext
+from lsp.open_text import DocumentContext
+from lsp.roots import models_below
 from nddl_lang.syntax.nodes import ClassDecl, Include
+
+_BEGUN = re.compile(r'[ \t]*#include[ \t]*"([^"\n]*)')
 
 
 def document_links(view: DocumentContext, conversion: Conversion) -> list[DocumentLink]:
@@ -17,6 +23,28 @@ def document_links(view: DocumentContext, conversion: Conversion) -> list[Docume
         DocumentLink(lines.range(span.begin + 1, span.finish - 1), conversion.place(included[include])[0])
         for include in _includes(view)
         if include in included and (span := include.path.span).finish - span.begin > 2
+    ]
+
+
+def included_files(view: DocumentContext, offset: int, folders: Iterable[Path]) -> list[CompletionItem] | None:
+    """The files that may be named at `offset`; None where that is not the path of an include."""
+    text, path = view.parse.source.text, view.document.path
+    begun = _BEGUN.fullmatch(text, text.rfind("\n", 0, offset) + 1, offset)
+    if begun is None or path is None:
+        return None
+    end = text.find("\n", offset)
+    line_end = end if end >= 0 else len(text)
+    quote = text.find('"', offset, line_end)
+    place = view.document.lines.range(begun.start(1), quote if quote >= 0 else offset)
+    names = dict.fromkeys(
+        Path(os.path.relpath(file, path.parent)).as_posix()
+        for folder in (path.parent, *folders)
+        for file in models_below(folder)
+        if file != path
+    )
+    return [
+        CompletionItem(name, kind=CompletionItemKind.File, filter_text=name, text_edit=TextEdit(place, name))
+        for name in names
     ]
 
 

@@ -1,7 +1,6 @@
 """Keep what is open in the editor, and the models that these texts belong to; say what is wrong with each file."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
 from typing import TypeVar
@@ -10,11 +9,11 @@ from lsprotocol.types import Diagnostic as Shown
 from lsprotocol.types import Range
 
 from lsp.diagnostics import Conversion
+from lsp.open_text import Document, DocumentContext, Publication
 from lsp.positions import Encoding, Lines, replaced
 from lsp.project import Project, ServerSettings, Snapshot
 from lsp.roots import all_roots, root_of
 from lsp.uris import key_of, path_of, uri_of
-from nddl_lang.syntax.parser import Parse
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Source
@@ -22,36 +21,6 @@ from nddl_lang.text.source import Source
 _T = TypeVar("_T")
 # A text, what was found in it, and what the editor shows of that, by URI.
 _Converted = tuple[str, list[Diagnostic], dict[str, tuple[Shown, ...]]]
-
-
-@dataclass(slots=True)
-class Document:
-    """A text that is open in the editor, with the version that the editor gave it."""
-
-    uri: str
-    key: str
-    name: str
-    path: Path | None
-    version: int
-    lines: Lines
-
-
-@dataclass(frozen=True, slots=True)
-class Publication:
-    """All that is wrong with one file now; `version` is that of its open text, None where it is not open."""
-
-    uri: str
-    version: int | None
-    diagnostics: tuple[Shown, ...]
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class DocumentContext:
-    """An open text as part of its model: what requests about it are answered from."""
-
-    document: Document
-    snapshot: Snapshot
-    parse: Parse
 
 
 class Documents:
@@ -71,6 +40,8 @@ class Documents:
         self._closed: dict[str, Project] = {}  # models of which no text is open, read when somebody asks
         self._found: dict[str, dict[str, tuple[Shown, ...]]] = {}  # project -> URI -> complaints
         self._shown: dict[str, dict[str, _Converted]] = {}  # project -> name of a source -> what became of it
+        # What else is wrong with files, beside what their texts tell: by URI.
+        self.others: Callable[[], Mapping[str, tuple[Shown, ...]]] = dict
         self._published: dict[str, tuple[Shown, ...]] = {}
 
     # ---- what the editor does ----
@@ -185,6 +156,16 @@ class Documents:
     def open_documents(self) -> list[Document]:
         """The open texts, in order of opening."""
         return list(self._open.values())
+
+    def text(self, key: str) -> str | None:
+        """The text of the file at `key`: as it is open, or on the disk; None without such a file."""
+        document = self._open.get(key)
+        if document is not None:
+            return document.lines.text
+        try:
+            return read_text(Path(key))
+        except (OSError, ValueError):
+            return None
 
     def snapshots(self) -> list[Snapshot]:
         """The models of the open texts."""
@@ -367,6 +348,8 @@ class Documents:
             for uri, complaints in self._found[project.key].items():
                 before = merged.get(uri, ())
                 merged[uri] = (*before, *(each for each in complaints if each not in before)) if before else complaints
+        for uri, complaints in self.others().items():
+            merged[uri] = (*merged.get(uri, ()), *complaints)
         told = dict.fromkeys(document.uri for key in edited if (document := self._open.get(key)) is not None)
         for uri in dict.fromkeys([*told, *merged, *self._published]):
             complaints = merged.get(uri, ())

@@ -12,8 +12,8 @@ from lsprotocol.types import (
 )
 
 from lsp.diagnostics import Conversion
-from lsp.documents import DocumentContext
 from lsp.occurrences import Role, Symbol, SymbolType, symbol_of_class, symbol_of_predicate
+from lsp.open_text import DocumentContext
 from lsp.references import occurrence_at
 from nddl_lang.semantics.schema import Class, Predicate
 from nddl_lang.syntax.nodes import Instance, RuleDecl

@@ -7,8 +7,8 @@ from lsprotocol.types import Hover, MarkupContent, MarkupKind, Position
 
 from lsp.describe import Describer
 from lsp.diagnostics import Conversion
-from lsp.documents import DocumentContext
 from lsp.meaning import WORDS, Meaning, Word, meaning_at
+from lsp.open_text import DocumentContext
 from lsp.relation_demands import demanded
 from lsp.rows import (
     constraint_text,

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from lsprotocol.types import InlayHint, InlayHintKind, Range
 
-from lsp.documents import DocumentContext
+from lsp.open_text import DocumentContext
 from lsp.relation_demands import demanded
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.relations import RELATIONS

@@ -5,9 +5,9 @@ from typing import Any
 
 from lsprotocol.types import CodeLens, Command
 
-from lsp.documents import DocumentContext
 from lsp.navigation import rules_of
 from lsp.occurrences import Role, SymbolType
+from lsp.open_text import DocumentContext
 from nddl_lang.semantics.schema import Predicate
 from nddl_lang.syntax.nodes import ClassDecl, Identifier, PredicateDecl, Statement
 from nddl_lang.text.source import Span

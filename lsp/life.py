@@ -5,6 +5,7 @@ from typing import Any
 
 from lsprotocol import types
 
+from lsp.check_results import REPORT
 from lsp.documents import Documents
 from lsp.positions import Encoding
 from lsp.project import ServerSettings
@@ -27,6 +28,8 @@ def _answer_lifecycle(session: Session) -> None:
         encoding = Encoding(session.workspace.position_encoding)
         session.begin(Documents(_settings(session.settings, params.initialization_options), encoding))
         session.configure(params.initialization_options)
+        told = params.initialization_options
+        session.is_distrusted = isinstance(told, dict) and told.get("isTrusted") is False
         session.documents.folders = _folders(session)
         text = params.capabilities.text_document
         session.is_pulled = text is not None and text.diagnostic is not None
@@ -73,6 +76,8 @@ def _answer_edits(session: Session) -> None:
     @session.feature(types.TEXT_DOCUMENT_DID_OPEN)
     def did_open(params: types.DidOpenTextDocumentParams) -> None:
         document = params.text_document
+        if (path := path_of(document.uri)) is not None:
+            session.results.look(path, session.documents.folders)
         if session.missions.is_mission(document.uri):
             mission = session.missions.open(document.uri, document.version, document.text)
             if mission is not None:
@@ -104,6 +109,11 @@ def _answer_edits(session: Session) -> None:
 def _answer_surroundings(session: Session) -> None:
     @session.feature(types.WORKSPACE_DID_CHANGE_WATCHED_FILES)
     def did_change_files(params: types.DidChangeWatchedFilesParams) -> None:
+        for each in params.changes:
+            path = path_of(each.uri)
+            if path is not None and path.name == REPORT.name:
+                for mission in session.missions_known():
+                    session.results.look(mission, session.documents.folders)
         session.publish(session.documents.refresh())
         session.judge_missions()
 

@@ -8,8 +8,9 @@ from pathlib import Path
 from lsprotocol.types import CodeAction, CodeActionKind, Position, Range, TextEdit, WorkspaceEdit
 
 from lsp.diagnostics import Conversion
-from lsp.documents import DocumentContext, Documents
+from lsp.documents import Documents
 from lsp.meaning import piece_at
+from lsp.open_text import DocumentContext
 from lsp.positions import Lines
 from lsp.refactorings import additions
 from nddl_lang.formatter.format import format_parse

@@ -1,13 +1,24 @@
 """What editors ask about mission files: completion, hover, and the way into the model."""
 
 import json
+import re
 from collections.abc import Iterator
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from lsprotocol.types import CompletionItem, CompletionItemKind, Hover, Location, MarkupContent, MarkupKind, Range
+from lsprotocol.types import (
+    CodeLens,
+    Command,
+    CompletionItem,
+    CompletionItemKind,
+    Hover,
+    Location,
+    MarkupContent,
+    MarkupKind,
+    Range,
+)
 
 from lsp.describe import Describer, parameter_text
 from lsp.diagnostics import Conversion
@@ -22,6 +33,10 @@ from nddl_lang.semantics.schema import EnumValue, GlobalReference, Kind, Predica
 from nddl_lang.text.source import Span
 
 _TIMELINES = ("internal", "external", "early", "late", "timeline")
+_HEAD = re.compile(r"^[ \t]*\[mission\]", re.MULTILINE)
+# Commands of the server.
+CHECK = "nddl.check"
+EXPLAIN = "nddl.explain"
 _SOLVERS = (".toml", ".xml")
 _Thing = Variable | EnumValue | Predicate
 
@@ -73,6 +88,20 @@ def mission_definition(
         if span is not None:
             return conversion.location(span)
     return None
+
+
+def mission_lenses(mission: OpenMission) -> list[CodeLens]:
+    """What can be done with a mission file: fly some of its missions, fly all, explain what failed last."""
+    found = _HEAD.search(mission.text)
+    if found is None:
+        return []
+    place = mission.lines.range(found.start(), found.end())
+    uri = mission.uri
+    return [
+        CodeLens(place, Command("run 100 missions", CHECK, arguments=[uri, 100])),
+        CodeLens(place, Command("run all missions", CHECK, arguments=[uri])),
+        CodeLens(place, Command("explain last failure", EXPLAIN, arguments=[uri])),
+    ]
 
 
 def _span(snapshot: Snapshot, thing: _Thing) -> Span | None:

@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 
 from lsp.definition import definition_of, parameter_of
-from lsp.documents import DocumentContext
 from lsp.meaning import Meaning, meaning_at
 from lsp.occurrences import Role, Symbol, SymbolType
+from lsp.open_text import DocumentContext
 from lsp.references import occurrence_at
 from nddl_lang.analysis import Analysis
 from nddl_lang.semantics.schema import (

@@ -9,8 +9,8 @@ from pathlib import Path
 from lsprotocol.types import CodeAction, CodeActionKind, Range, TextEdit, WorkspaceEdit
 
 from lsp.diagnostics import Conversion
-from lsp.documents import DocumentContext
 from lsp.meaning import around_at, piece_at
+from lsp.open_text import DocumentContext
 from lsp.roots import models_below
 from lsp.uris import key_of
 from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_PREDICATE, UNKNOWN_TYPE

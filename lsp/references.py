@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from lsprotocol.types import DocumentHighlight, DocumentHighlightKind, Location
 
 from lsp.diagnostics import Conversion
-from lsp.documents import DocumentContext, Documents
+from lsp.documents import Documents
 from lsp.meaning import piece_at
 from lsp.occurrences import Occurrence, Role, Symbol
+from lsp.open_text import DocumentContext
 from lsp.project import Project, Snapshot
 
 # Where a name stands: the key of its file, and the offsets of its begin and end.

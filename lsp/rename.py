@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 from lsprotocol.types import PrepareRenamePlaceholder
 
-from lsp.documents import DocumentContext, Documents
+from lsp.documents import Documents
 from lsp.occurrences import Occurrence, Role, SymbolType
+from lsp.open_text import DocumentContext
 from lsp.project import Project, Snapshot
 from lsp.references import Place, everywhere, occurrence_at, symbol_declared_at
 from lsp.uris import key_of

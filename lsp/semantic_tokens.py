@@ -1,12 +1,13 @@
 """Semantic tokens: a text in its model in; what each word of it is, as the protocol packs it, out."""
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 
 from lsprotocol.types import SemanticTokens, SemanticTokensDelta, SemanticTokensEdit, SemanticTokensLegend
 
-from lsp.documents import DocumentContext
 from lsp.occurrences import Occurrence, Role, SymbolType, VariableKind
+from lsp.open_text import DocumentContext
 from lsp.positions import Encoding, Lines
 from nddl_lang.syntax.piece import Piece
 from nddl_lang.syntax.words import KINDS
@@ -52,16 +53,30 @@ _TOKEN_WORDS = frozenset({"start", "end", "duration", "object", "state", "time"}
 _Token = tuple[int, int, int, int]
 
 
-def semantic_tokens(view: DocumentContext, begin: int = 0, finish: int | None = None) -> list[int]:
-    """The packed tokens of the text, or of the part of it from `begin` to `finish`."""
+@dataclass(frozen=True, eq=False, slots=True)
+class _Packed:
+    """The tokens of one top-level statement: five numbers each, the first one counted from the line of its begin.
+
+    They stay right as long as the statement begins in the same column and its names mean the same.
+    """
+
+    column: int
+    occurrences: list[Occurrence]
+    data: list[int]
+    last_line: int
+    last_column: int
+
+
+def tokens_between(view: DocumentContext, begin: int, finish: int) -> list[int]:
+    """The packed tokens of the part of a text from `begin` to `finish`."""
     pieces = view.parse.pieces
-    finish = len(view.parse.source.text) if finish is None else finish
     starts = [piece.anchor.offset for piece in pieces]
     first = max(0, bisect_right(starts, begin) - 1)
     tokens: list[_Token] = []
     for piece in pieces[first : bisect_left(starts, finish)]:
         tokens += _tokens(piece, view.snapshot.names.within(piece.anchor))
-    return _packed(view.document.lines, [each for each in tokens if each[0] < finish and begin < each[0] + each[1]])
+    within = [each for each in tokens if each[0] < finish and begin < each[0] + each[1]]
+    return _pack(view.document.lines, within, 0)[0]
 
 
 def _tokens(piece: Piece, occurrences: list[Occurrence]) -> Iterator[_Token]:
@@ -100,13 +115,15 @@ def _of_occurrence(here: Occurrence) -> tuple[int, int]:
     return _NUMBER[name], modifiers
 
 
-def _packed(lines: Lines, tokens: list[_Token]) -> list[int]:
-    """Five numbers for each token: lines and units after the one before, length, type, modifiers."""
+def _pack(lines: Lines, tokens: Iterable[_Token], line: int) -> tuple[list[int], int, int]:
+    """Five numbers for each token: lines and units after the one before, length, type, modifiers.
+
+    The first token is counted from the begin of `line`. Beside them line and column of the last one.
+    """
     starts, text = lines.starts, lines.text
     is_plain = lines.encoding is Encoding.UTF32 or text.isascii()
     packed: list[int] = []
-    last_line = last_column = 0
-    line = 0
+    last_line, last_column = line, 0
     for begin, length, type_, modifiers in tokens:
         finish = begin + length
         while begin < finish:
@@ -127,7 +144,7 @@ def _packed(lines: Lines, tokens: list[_Token]) -> list[int]:
                 )
                 last_line, last_column = line, column
             begin = end
-    return packed
+    return packed, last_line, last_column
 
 
 class TokenMemory:
@@ -136,17 +153,46 @@ class TokenMemory:
     def __init__(self) -> None:
         self._count = 0
         self._told: dict[str, tuple[str, list[int]]] = {}
+        self._known: dict[str, dict[Piece, _Packed]] = {}
 
-    def full(self, uri: str, data: list[int]) -> SemanticTokens:
+    def full(self, view: DocumentContext) -> SemanticTokens:
         """All tokens, under a number of their own."""
+        data = self._data(view)
         self._count += 1
-        self._told[uri] = str(self._count), data
+        self._told[view.document.uri] = str(self._count), data
         return SemanticTokens(data, str(self._count))
 
-    def delta(self, uri: str, previous: str, data: list[int]) -> SemanticTokens | SemanticTokensDelta:
+    def _data(self, view: DocumentContext) -> list[int]:
+        """The packed tokens of a text; only statements that changed are looked at."""
+        before = self._known.get(view.document.uri, {})
+        now: dict[Piece, _Packed] = {}
+        lines = view.document.lines
+        data: list[int] = []
+        last_line = last_column = 0
+        for piece in view.parse.pieces:
+            begin = lines.position(piece.anchor.offset)
+            occurrences = view.snapshot.names.within(piece.anchor)
+            packed = before.get(piece)
+            if packed is None or packed.column != begin.character or packed.occurrences != occurrences:
+                tokens = _pack(lines, _tokens(piece, occurrences), begin.line)
+                packed = _Packed(begin.character, occurrences, tokens[0], tokens[1] - begin.line, tokens[2])
+            now[piece] = packed
+            if packed.data:
+                at = len(data)
+                data += packed.data
+                down = begin.line + packed.data[0] - last_line
+                data[at] = down
+                if down == 0:
+                    data[at + 1] -= last_column
+                last_line, last_column = begin.line + packed.last_line, packed.last_column
+        self._known[view.document.uri] = now
+        return data
+
+    def delta(self, view: DocumentContext, previous: str) -> SemanticTokens | SemanticTokensDelta:
         """The difference from what was said under the number `previous`, or all where that is not known any more."""
-        known = self._told.get(uri)
-        full = self.full(uri, data)
+        known = self._told.get(view.document.uri)
+        full = self.full(view)
+        data = self._told[view.document.uri][1]
         if known is None or known[0] != previous:
             return full
         old = known[1]
@@ -172,3 +218,4 @@ class TokenMemory:
     def forget(self, uri: str) -> None:
         """Nothing more is asked about a text."""
         self._told.pop(uri, None)
+        self._known.pop(uri, None)

@@ -9,6 +9,7 @@ import logging
 from collections.abc import Callable, Sequence
 from dataclasses import fields
 from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
 from typing import Any
 
 from lsprotocol import types
@@ -16,10 +17,12 @@ from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 from pygls.protocol import LanguageServerProtocol, default_converter
 
+from lsp.check_results import CheckResults
 from lsp.diagnostics import Conversion
-from lsp.documents import DocumentContext, Documents, Publication
+from lsp.documents import Documents
 from lsp.inlay_hints import HintSettings
 from lsp.mission_texts import Examine, MissionTexts, OpenMission
+from lsp.open_text import DocumentContext, Publication
 from lsp.project import ServerSettings
 from lsp.pulled import PulledDiagnostics
 from lsp.semantic_tokens import TokenMemory
@@ -71,6 +74,7 @@ class Session(LanguageServer):
         self._due_missions: dict[str, OpenMission] = {}
         self.is_dismissed = False
         self.is_pulled = False  # the editor asks for diagnostics, so none are pushed
+        self.is_distrusted = False  # the user has said that the workspace is not trusted
         self.has_snippets = False
         self.hints = HintSettings()
         self.token_memory = TokenMemory()
@@ -89,6 +93,8 @@ class Session(LanguageServer):
         self.documents = documents
         self.missions = MissionTexts(self._examine, documents.encoding, is_trusted=documents.settings.is_trusted)
         self.mission_complaints: dict[str, tuple[types.Diagnostic, ...]] = {}
+        self.results = CheckResults(documents)
+        documents.others = self.results.diagnostics
         self.pulled = PulledDiagnostics(documents, self.mission_complaints)
 
     def configure(self, told: Any) -> None:
@@ -150,6 +156,11 @@ class Session(LanguageServer):
         """Tell what is wrong with the open mission files now that their models may have changed."""
         for mission in self.missions.all():
             self.judge_mission(mission)
+
+    def missions_known(self) -> list[Path]:
+        """Open mission files and models: where missions may lie."""
+        opened = [document.path for document in self.documents.open_documents() if document.path is not None]
+        return [*(mission.path for mission in self.missions.all()), *opened]
 
     def judge_soon(self, mission: OpenMission) -> None:
         """Judge a mission file after whatever has arrived by now."""

@@ -5,8 +5,8 @@ from bisect import bisect_left
 from lsprotocol.types import MarkupContent, MarkupKind, ParameterInformation, SignatureHelp, SignatureInformation
 
 from lsp.describe import parameter_text
-from lsp.documents import DocumentContext
 from lsp.meaning import piece_at
+from lsp.open_text import DocumentContext
 from nddl_lang.semantics.functions import METHODS
 from nddl_lang.semantics.schema import Schema
 from nddl_lang.semantics.signature import Signature

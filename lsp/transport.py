@@ -11,13 +11,15 @@ import sys
 import threading
 from collections.abc import Callable
 from io import FileIO, RawIOBase
-from typing import BinaryIO
+from typing import BinaryIO, Protocol
 
 from lsp.session import Session
+from lsp.websocket import WebSocket
 
 _logger = logging.getLogger(__name__)
 _LONGEST = 256 * 1024 * 1024
 _BLOCK = 1 << 16
+_WEB = (b"HTTP/1.0", b"HTTP/1.1", b"HTTP/2.0")
 _LOOPBACK = "127.0.0.1"
 
 
@@ -85,6 +87,8 @@ def _read_messages(raw: RawIOBase, take: Callable[[bytes], None]) -> None:
     stream = _Reader(raw)
     length: int | None = None
     while line := stream.readline(8192):
+        if line.rstrip().endswith(_WEB):
+            return  # a page in a browser, whoever wrote it
         name, _, value = line.partition(b":")
         if name.strip().lower() == b"content-length":
             length = int(value) if value.strip().isdigit() and len(value) < 16 else None
@@ -98,32 +102,41 @@ def _read_messages(raw: RawIOBase, take: Callable[[bytes], None]) -> None:
             length = None
 
 
-def _serve_streams(session: Session, given: RawIOBase, told: BinaryIO) -> None:
-    """Speak over two streams until the editor leaves."""
-    session.protocol.set_writer(_Writer(told))
-    asyncio.run(_pump(session, given))
+class _Wire(Protocol):
+    """What the server writes to."""
+
+    def write(self, content: bytes) -> None: ...
+
+    def close(self) -> None: ...
 
 
-async def _pump(session: Session, stream: RawIOBase) -> None:
+# Hands over messages until there are no more.
+_Read = Callable[[Callable[[bytes], None]], None]
+
+
+async def _pump(session: Session, read: _Read) -> None:
     loop = asyncio.get_running_loop()
     is_over = asyncio.Event()
-
-    def finish() -> None:
-        is_over.set()
 
     def take(body: bytes) -> None:
         loop.call_soon_threadsafe(receive, session, body)
 
-    def read() -> None:
+    def read_all() -> None:
         try:
-            _read_messages(stream, take)
+            read(take)
         except (OSError, ValueError):
             _logger.debug("the editor is gone")
-        loop.call_soon_threadsafe(finish)
+        loop.call_soon_threadsafe(is_over.set)
 
     # A daemon: it may wait for a message while the process ends.
-    threading.Thread(target=read, daemon=True).start()
+    threading.Thread(target=read_all, daemon=True).start()
     await is_over.wait()
+
+
+def _speak(session: Session, read: _Read, writer: _Wire, *, has_headers: bool = True) -> None:
+    """Speak until the editor leaves."""
+    session.protocol.set_writer(writer, include_headers=has_headers)
+    asyncio.run(_pump(session, read))
 
 
 def receive(session: Session, body: bytes) -> None:
@@ -137,13 +150,35 @@ def receive(session: Session, body: bytes) -> None:
 def serve_standard_streams(session: Session) -> None:
     """Speak over standard input and output."""
     with FileIO(sys.stdin.fileno(), closefd=False) as given:
-        _serve_streams(session, given, sys.stdout.buffer)
+        _speak(session, lambda take: _read_messages(given, take), _Writer(sys.stdout.buffer))
 
 
 def serve_tcp(session: Session, port: int, tell: Callable[[int], None]) -> None:
     """Wait on this machine for one editor and speak with it; `tell` learns the port, a free one for 0."""
+    with (
+        _accepted(port, tell) as connection,
+        connection.makefile("rb", buffering=0) as given,
+        connection.makefile("wb") as told,
+    ):
+        _speak(session, lambda take: _read_messages(given, take), _Writer(told))
+
+
+def serve_websocket(session: Session, port: int, tell: Callable[[int], None]) -> None:
+    """The same over a WebSocket, in which each message is one of the protocol."""
+    with _accepted(port, tell) as connection:
+        web = WebSocket(connection)
+        if not web.shake_hands():
+            return
+
+        def read(take: Callable[[bytes], None]) -> None:
+            while (body := web.receive()) is not None:
+                take(body)
+
+        _speak(session, read, web, has_headers=False)
+
+
+def _accepted(port: int, tell: Callable[[int], None]) -> socket.socket:
+    """The first connection to a port of this machine."""
     with socket.create_server((_LOOPBACK, port)) as server:
         tell(server.getsockname()[1])
-        connection, _ = server.accept()
-    with connection, connection.makefile("rb", buffering=0) as given, connection.makefile("wb") as told:
-        _serve_streams(session, given, told)
+        return server.accept()[0]

@@ -10,11 +10,13 @@ import click
 
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
+from checker.coverage import coverage_of
 from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.flight import load
 from checker.mission import LARGEST_SEED, Mission, read_mission
 from checker.oracle import USER_CODE
+from checker.report.coverage import coverage_text
 from checker.report.document import json_report
 from checker.report.github import github_report
 from checker.report.html import html_report
@@ -22,6 +24,7 @@ from checker.report.junit import junit_report
 from checker.report.markdown import markdown_report
 from checker.report.sarif import sarif_report
 from checker.report.text import text_report
+from checker.stopping import parse_rule
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
@@ -31,6 +34,7 @@ from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_
 from nddlc.known import known_callables
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
+from nddlc.samplers import find_sampler
 from nddlc.trust import trust_option
 
 _HOLDS, _FINDINGS, _UNUSABLE, _BUG = 0, 1, 2, 3
@@ -54,6 +58,9 @@ _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 @click.option("--resume", is_flag=True, hidden=True, help="What is done without --fresh.")
 @click.option("--seconds", type=click.FloatRange(0.0, min_open=True), help="End when so much time is over.")
 @click.option("--max-failures", type=click.IntRange(1), help="End when so many missions have failed.")
+@click.option("--stop-when", metavar="RULE", help='End when the missions show or refute a rule such as "p<0.01@95%".')
+@click.option("--sampler", default="random", metavar="NAME", help="How missions are chosen (docs/mission.md).")
+@click.option("--coverage", is_flag=True, help="Tell which rules and branches no mission exercised.")
 @click.option("--dry-run", is_flag=True, help="Only look whether mission file and models are in order.")
 @trust_option
 @click.pass_context
@@ -73,6 +80,9 @@ def command(
     is_trusted: bool,
     seconds: float | None,
     max_failures: int | None,
+    stop_when: str | None,
+    sampler: str,
+    coverage: bool,
     dry_run: bool,
 ) -> int:
     """Check a model by flying many missions, or check the text of one model.
@@ -93,14 +103,19 @@ def command(
         if style == "text" and not analysis.has_errors:
             click.echo(f"the text of `{path}` is in order; missions are flown from a mission file (.toml)")
         return _UNUSABLE if analysis.has_errors else _HOLDS
+    rule = parse_rule(stop_when) if stop_when is not None else None
+    if stop_when is not None and rule is None:
+        raise Unusable(f"`{stop_when}` is no rule to stop by", 'write it as "p<0.01@95%" or "p>0.05@99%"')
+    sampler, make_sampler = find_sampler(sampler)
     campaign = _prepare(file, missions, seed, max_failure_rate, style, is_trusted)
     if campaign is None:
         return _UNUSABLE
+    campaign = replace(campaign, sampler_name=sampler, make_sampler=make_sampler)
     if dry_run:
         if style == "text":
             click.echo(f"`{path}` and its models are in order; nothing was flown")
         return _HOLDS
-    count, enough = workers or _cores(), Enough(seconds, max_failures)
+    count, enough = workers or cores(), Enough(seconds, max_failures, rule)
     try:
         with ExitStack() as stack:
             store = None if no_store else stack.enter_context(open_store(store_path))
@@ -108,8 +123,8 @@ def command(
             flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
-    findings = campaign.assess(flown.results, ending=flown.ending)
-    code = _report(campaign, findings, style, output)
+    findings = campaign.assess(flown.results, ending=flown.ending, sampling=flown.sampling)
+    code = _report(campaign, findings, style, output, coverage=coverage)
     return code if flown.ended_by is None else _SIGNALLED + flown.ended_by
 
 
@@ -165,16 +180,17 @@ def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
         click.echo(f"{errors} error{'' if errors == 1 else 's'}: nothing was flown")
 
 
-def _cores() -> int:
+def cores() -> int:
     """How many cores this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _report(campaign: Campaign, findings: Findings, style: str, output: Path) -> int:
+def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *, coverage: bool) -> int:
     """Write every form of the report, print the one that was asked for, and say how it ended."""
     excerpts = Excerpts(Path(campaign.models.agent.root))
+    covered = coverage_of(campaign.models, findings.results) if coverage else None
     reports = {
-        "json": ("report.json", json_report(findings, excerpts)),
+        "json": ("report.json", json_report(findings, excerpts, covered)),
         "html": ("report.html", html_report(findings, excerpts, campaign.stories(findings))),
         "junit": ("junit.xml", junit_report(findings, excerpts)),
         "sarif": ("report.sarif", sarif_report(findings, excerpts)),
@@ -191,6 +207,8 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path) ->
         click.echo(github_report(findings, excerpts), nl=False)
     elif style == "text":
         click.echo(text_report(findings, excerpts), nl=False)
+        if covered is not None:
+            click.echo("\n" + coverage_text(covered), nl=False)
         click.echo(f"\nreport: {output / 'report.html'} (beside it report.json, report.md, junit.xml, report.sarif)")
     else:
         click.echo(reports[style][1], nl=False)

@@ -1,9 +1,8 @@
 """`nddlc explain`: why one mission of a run failed, from the value that was drawn to the line that gave way."""
 
 import json
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -11,44 +10,83 @@ from checker.batch.result import MissionResult
 from checker.batch.store import LATEST, Run, RunStore, StoreError, open_store
 from checker.batch.worker import fly_one
 from checker.campaign import Campaign
+from checker.counterfactual.trials import MOST_FLIGHTS, MOST_SECONDS, Bounds
 from checker.excerpts import Excerpts
-from checker.explain import result_data, result_text, story_data, story_text
+from checker.explain import MOST_CAUSES, result_data, result_text, story_data, story_text
 from checker.findings import Fault, Findings
 from checker.flight import load
+from checker.graph import causal_graph, focused
+from checker.graph_rendering import graph_data, graph_dot, graph_svg, graph_text
 from checker.mission import read_mission
 from checker.models import ModelSet
 from checker.oracle import Verdict
 from nddlc.check import STORE
 from nddlc.inputs import Unusable
 from nddlc.mission_trust import models_of
+from nddlc.samplers import SAMPLERS, find_sampler
 from nddlc.trust import trust_option
 from runtime.executive.rendering import event_data, trace_line
+
+_DRAWN = {"dot": graph_dot, "svg": graph_svg}
 
 
 @click.command()
 @click.argument("what", metavar="RUN[#MISSION]", default=LATEST)
-@click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@click.option(
+    "--format", "style", type=click.Choice(["text", "json", "dot", "svg"]), default="text", help="How to print it."
+)
 @click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where runs are kept.")
+@click.option("-v", "--verbose", count=True, help="Show all causes and the causal graph; -vv more of it.")
+@click.option("--flights", type=click.IntRange(0), default=MOST_FLIGHTS, help=f"Trials at most ({MOST_FLIGHTS}).")
+@click.option("--seconds", type=click.FloatRange(0.0), default=MOST_SECONDS, help=f"For these ({MOST_SECONDS:g}).")
 @click.option("--events", is_flag=True, help="Print the whole trace too.")
 @trust_option
-def command(what: str, style: str, store_path: Path, events: bool, is_trusted: bool) -> int:
+def command(
+    what: str,
+    style: str,
+    store_path: Path,
+    verbose: int,
+    flights: int,
+    seconds: float,
+    events: bool,
+    is_trusted: bool,
+) -> int:
     """Explain why a mission failed.
 
     RUN is the id that `nddlc check` printed, or `latest`. Without a mission the first failed one is explained.
     """
     name, _, number = what.partition("#")
-    if number and not number.isdigit():
+    if number and not number.removeprefix("k").isdigit():
         raise Unusable(f"`{number}` is no number of a mission", "write RUN#MISSION, such as latest#37")
     if not store_path.exists():
         raise Unusable(f"there is no store `{store_path}`", "`nddlc check` makes one; --store names another")
     try:
         with open_store(store_path) as store:
-            return _explain(store, name or LATEST, int(number) if number else None, style, events, is_trusted)
+            found = _found(
+                store, name or LATEST, _number(number) if number else None, Bounds(flights, seconds), is_trusted
+            )
+            return _print(found, style, events, verbose)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
 
 
-def _explain(store: RunStore, name: str, number: int | None, style: str, events: bool, is_trusted: bool) -> int:
+def _number(text: str) -> int:
+    """`12` as it stands; `k3`, the third of the kept failures, as -3."""
+    return -int(text[1:]) if text.startswith("k") else int(text)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Found:
+    """A mission of a run and what is known of it; `is_same`: its models are still those that were flown."""
+
+    campaign: Campaign
+    run_id: str
+    result: MissionResult
+    fault: Fault | None
+    is_same: bool
+
+
+def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_trusted: bool) -> _Found:
     run = store.find(name)
     if run is None:
         known = ", ".join(store.run_ids()[:10])
@@ -56,29 +94,41 @@ def _explain(store: RunStore, name: str, number: int | None, style: str, events:
     campaign, is_same = _campaign(run, is_trusted)
     results = tuple(campaign.judged(one) for one in store.results(run.id))
     first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
-    findings = campaign.assess(results, may_fly=is_same, focus=first)
+    findings = campaign.assess(results, may_fly=is_same, focus=first, bounds=bounds if bounds.flights else None)
     findings = replace(findings, run_id=run.id)
     result = _result(run, first, campaign, findings, is_same)
     fault = next((one for one in findings.faults if result.number in one.bucket.missions), None)
+    return _Found(campaign, run.id, result, fault, is_same)
+
+
+def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
+    result, campaign = found.result, found.campaign
     excerpts = Excerpts(Path(campaign.models.agent.root))
-    if not is_same and style == "text":
+    graph = focused(causal_graph(result.outcome), verbose) if result.outcome is not None else None
+    if style in _DRAWN:
+        if graph is None or not graph.ends:
+            raise Unusable(f"mission {result.number} of run {found.run_id} has no causes to draw", "it did not fail")
+        click.echo(_DRAWN[style](graph), nl=False)
+        return 0
+    if not found.is_same and style == "text":
         click.echo("model, mission file or nddlc have changed since this run; the explanation is of what was flown\n")
-    text, plain = _told(result, fault, campaign, findings, excerpts)
+    if result.verdict is Verdict.FAIL:
+        story = campaign.story(result, found.fault)
+        most = len(found.fault.causes.ranked) if found.fault is not None and verbose else MOST_CAUSES
+        text, plain = story_text(story, found.run_id, excerpts, most), story_data(story, found.run_id, excerpts)
+        if graph is not None:
+            text += (
+                f"\nthe causal graph, each node with the numbers of its causes:\n{graph_text(graph)}" if verbose else ""
+            )
+            plain["graph"] = graph_data(graph, excerpts)
+    else:
+        text, plain = result_text(result, found.run_id), result_data(result, found.run_id)
     if events and result.outcome is not None:
         lines = [trace_line(event) for event in result.outcome.events]
         text += "\n" + "\n".join(lines) + "\n"
         plain |= {"events": lines, "trace": [event_data(event) for event in result.outcome.events]}
     click.echo(text if style == "text" else json.dumps(plain, ensure_ascii=False, indent=1), nl=style != "text")
     return 0
-
-
-def _told(
-    result: MissionResult, fault: Fault | None, campaign: Campaign, findings: Findings, excerpts: Excerpts
-) -> tuple[str, dict[str, Any]]:
-    if result.verdict is not Verdict.FAIL:
-        return result_text(result, findings.run_id), result_data(result, findings.run_id)
-    story = campaign.story(result, fault)
-    return story_text(story, findings.run_id, excerpts), story_data(story, findings.run_id, excerpts)
 
 
 def _campaign(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
@@ -97,6 +147,11 @@ def _campaign(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
     campaign = Campaign(mission, models, load)
     if models.has_errors:
         return Campaign(mission, ModelSet(mission.agent, {}, {}, {}, ()), load), False
+    if run.sampler in SAMPLERS:
+        name, make_sampler = find_sampler(run.sampler)
+        campaign = replace(campaign, sampler_name=name, make_sampler=make_sampler)
+    else:
+        campaign = replace(campaign, sampler_name=run.sampler)
     return campaign, campaign.run.id == run.id
 
 
@@ -104,11 +159,14 @@ def _result(run: Run, number: int | None, campaign: Campaign, findings: Findings
     """The mission asked for, flown again from its seed where its trace was not kept."""
     if number is None:
         raise Unusable(f"no mission of run {run.id} failed", f"{run.id}#N shows mission N all the same")
-    if not 1 <= number <= run.missions:
+    stored = next((result for result in (*findings.results, *findings.kept) if result.number == number), None)
+    if stored is None and not 1 <= number <= run.missions:
         raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number}")
-    stored = next((result for result in findings.results if result.number == number), None)
     if stored is not None and (stored.has_trace or not is_same):
         return stored
     if not is_same:
         raise Unusable(f"mission {number} of run {run.id} was not flown, and the model or nddlc has changed since")
-    return campaign.judged(fly_one(load(campaign.models.agent), campaign.task(number), keep_trace=True))
+    if stored is None and run.sampler != "random":
+        raise Unusable(f"mission {number} of run {run.id} was not flown, and only the sampler knows where it is")
+    task = campaign.task(number, stored)
+    return campaign.judged(fly_one(load(task.agent or campaign.models.agent), task, keep_trace=True))

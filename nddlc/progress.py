@@ -11,7 +11,7 @@ from rich.progress import Progress as Bar
 
 from checker.batch.progress import Progress
 from checker.report.sentences import percent
-from checker.statistics import exact_interval
+from checker.statistics import confidence_sequence
 
 _BAR_SECONDS = 0.2  # between two looks of the bar
 _LINE_SECONDS = 10.0  # between two plain lines
@@ -62,8 +62,8 @@ def _progress_text(progress: Progress, confidence: float) -> str:
     if (left := progress.seconds_left) is not None:
         parts.append(f"{_duration(left)} left")
     failed = f"{progress.failures} failed"
-    if (counted := progress.done - progress.errors) > 0:
-        lower, upper = exact_interval(progress.failures, counted, confidence)
+    if (counted := progress.done - progress.errors) > 0 and progress.has_interval:
+        lower, upper = confidence_sequence(progress.failures, counted, confidence)
         failed += f" ({percent(lower)} to {percent(upper)})"
     parts.append(failed)
     if progress.errors:

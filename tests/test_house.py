@@ -26,7 +26,7 @@ HOMES = {
     "pygls": ("lsp/",),
     "lsprotocol": ("lsp/",),
     "z3": ("checker/smt/", "checker/proofs"),
-    "networkx": ("checker/causes",),
+    "networkx": ("checker/causes", "checker/graph"),
     "click": ("nddlc/",),
     "rich": ("nddlc/",),
 }

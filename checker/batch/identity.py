@@ -31,9 +31,11 @@ def engine_digest() -> str:
     return content.hexdigest()
 
 
-def run_id(agent: AgentConfiguration, models: str, seed: int, missions: int, engine: str) -> str:
+def run_id(
+    agent: AgentConfiguration, models: str, seed: int, missions: int, engine: str, sampler: str = "random"
+) -> str:
     """Eight hexadecimal digits; where the checkout lies, how fast it is and how many fly make no difference."""
     content = asdict(agent)
     del content["root"], content["constraint_seconds"]
-    text = json.dumps([content, models, seed, missions, engine], sort_keys=True)
+    text = json.dumps([content, models, seed, missions, engine, sampler], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:_ID_LENGTH]

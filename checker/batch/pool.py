@@ -12,7 +12,7 @@ import signal
 import threading
 import time
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from types import FrameType
@@ -42,6 +42,17 @@ class Supervisor(Protocol):
         """Asked after results, and several times a second: whether to end the batch now."""
 
 
+More = Callable[[], Sequence[Task]]
+FlyTasks = Callable[
+    [Load, AgentConfiguration, Sequence[Task], int, float, Supervisor, More], "signal.Signals | None"
+]  # what `fly_all` is, and what a cluster does
+
+
+def nothing_more() -> Sequence[Task]:
+    """There is no further generation of tasks."""
+    return ()
+
+
 class WorkerError(Exception):
     """No worker can be started: a bug of the tool, or a machine that lets no process live."""
 
@@ -53,12 +64,17 @@ def fly_all(
     workers: int,
     time_limit: float,
     supervisor: Supervisor,
+    more: More = nothing_more,
 ) -> signal.Signals | None:
-    """Fly `tasks` and give each result to `supervisor`; the signal that ended the batch before all were flown."""
-    if not tasks:
+    """Fly `tasks` and give each result to `supervisor`; the signal that ended the batch before all were flown.
+
+    When all have been flown, `more` tells what to fly next.
+    """
+    if not tasks and not (tasks := more()):
         return None
     with _signal_pipe() as signalled:
-        pool = _Pool(load, agent, tasks, min(workers, len(tasks)), time_limit, supervisor)
+        count = workers if more is not nothing_more else min(workers, len(tasks))
+        pool = _Pool(load, agent, tasks, count, time_limit, supervisor, more)
         try:
             return pool.run(signalled)
         finally:
@@ -79,9 +95,12 @@ class Flyer:
         if self._worker is not None:
             self._worker.kill()
 
-    def fly(self, agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
-        """The result of one mission; an ERROR where the process died or took too long."""
-        task = Task(number, seed, agent)
+    def fly(self, agent: AgentConfiguration, number: int, seed: int, load: Load | None = None) -> MissionResult:
+        """The result of one mission; an ERROR where the process died or took too long.
+
+        `load` loads the models where they are others than those that the process was started with.
+        """
+        task = Task(number, seed, agent, load)
         if self._worker is None:
             self._worker = _Worker(self._load, self._agent)
             if not self._worker.connection.poll(_START_LIMIT):
@@ -148,8 +167,10 @@ class _Pool:
         workers: int,
         time_limit: float,
         supervisor: Supervisor,
+        more: More,
     ) -> None:
         self.load, self.agent, self.time_limit, self.supervisor = load, agent, time_limit, supervisor
+        self.more = more
         self.waiting = deque(tasks)
         self.missing = len(tasks)
         self.chunk = max(1, min(_LARGEST_CHUNK, len(tasks) // (workers * 4)))
@@ -158,7 +179,7 @@ class _Pool:
 
     def run(self, signalled: int) -> signal.Signals | None:
         """Serve workers until every task has its result, or there are enough; a signal ends that at once."""
-        while self.missing and not self.supervisor.is_enough():
+        while not self.supervisor.is_enough() and (self.missing or self._refill()):
             ends: list[Connection | int] = [worker.connection for worker in self.workers]
             soonest = min(worker.deadline for worker in self.workers if worker.owed or not worker.is_ready)
             ready = wait([*ends, signalled], min(_MOST_QUIET, max(0.0, soonest - time.monotonic())))
@@ -170,6 +191,19 @@ class _Pool:
                 elif time.monotonic() > worker.deadline and (worker.owed or not worker.is_ready):
                     self._lose(worker, f"took longer than {self.time_limit:g} s")
         return None
+
+    def _refill(self) -> bool:
+        """Take the next generation of tasks, if there is one, and have those fly it who are ready."""
+        tasks = self.more()
+        self.waiting.extend(tasks)
+        self.missing += len(tasks)
+        if tasks and not self.workers:
+            self.workers.append(_Worker(self.load, self.agent))
+        self.chunk = max(1, min(_LARGEST_CHUNK, len(tasks) // (max(1, len(self.workers)) * 4)))
+        for worker in self.workers:
+            if worker.is_ready and not worker.owed:
+                self._feed(worker)
+        return bool(tasks)
 
     def stop(self) -> None:
         """End every worker; idle ones have nothing to lose, busy ones are not waited for."""

@@ -14,6 +14,7 @@ class Progress:
     errors: int
     seconds: float
     most_seconds: float | None  # after which it ends
+    has_interval: bool = True  # missions are plain random ones
 
     @property
     def rate(self) -> float:

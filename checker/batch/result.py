@@ -11,6 +11,7 @@ from typing import Any, Union, get_args, get_origin, get_type_hints
 
 from checker.losses import NO_LOSSES, Losses
 from checker.oracle import Judgement, Verdict
+from checker.sampling.sampler import RANDOM_POINT, SamplePoint
 from runtime.executive.events import EventLog
 from runtime.executive.outcome import Draw, OpenGoal, Outcome
 
@@ -30,6 +31,13 @@ class MissionResult:
     has_trace: bool
     detail: str = ""
     losses: Losses = NO_LOSSES
+    point: SamplePoint = RANDOM_POINT
+    margins: tuple[tuple[str, float], ...] = ()  # of properties: how far each was from being violated
+
+    @property
+    def least_margin(self) -> float:
+        """The smallest margin; 0 without any."""
+        return min((margin for _, margin in self.margins), default=0.0)
 
     @property
     def verdict(self) -> Verdict:
@@ -40,6 +48,16 @@ class MissionResult:
     def open_goals(self) -> tuple[OpenGoal, ...]:
         """The goals that a mission failed for, if nothing ended it early."""
         return self.outcome.open_goals if self.outcome is not None and self.outcome.abort is None else ()
+
+
+@dataclass(frozen=True, slots=True)
+class KeptFailure:
+    """A mission that failed in an earlier run of the same mission file, and the code that it failed with."""
+
+    seed: int
+    point: SamplePoint
+    code: str
+    run: str
 
 
 def condense(outcome: Outcome) -> Outcome:
@@ -61,6 +79,18 @@ def read_result(text: str) -> MissionResult:
     """The result that `write_result` wrote."""
     found = _read(MissionResult, json.loads(text))
     assert isinstance(found, MissionResult)
+    return found
+
+
+def write_point(point: SamplePoint) -> str:
+    """A point as a line of JSON."""
+    return json.dumps(_plain(point), ensure_ascii=False, separators=(",", ":"))
+
+
+def read_point(text: str) -> SamplePoint:
+    """The point that `write_point` wrote."""
+    found = _read(SamplePoint, json.loads(text))
+    assert isinstance(found, SamplePoint)
     return found
 
 

@@ -86,10 +86,11 @@ def _runs(connection: sqlite3.Connection) -> list[Run]:
     """The runs that can be read, from either end of a table with a hole, in the order in which they began."""
     found: dict[int, Run] = {}
     for order in ("ASC", "DESC"):
-        rows = connection.execute(f"SELECT turn, id, mission_file, seed, missions FROM runs ORDER BY turn {order}")
+        query = f"SELECT turn, id, mission_file, seed, missions, sampler FROM runs ORDER BY turn {order}"
+        rows = connection.execute(query)
         try:
             for turn, *values in rows:
-                if all(isinstance(each, kind) for each, kind in zip(values, (str, str, int, int), strict=True)):
+                if all(isinstance(each, kind) for each, kind in zip(values, (str, str, int, int, str), strict=True)):
                     found[turn] = Run(*values)
         except sqlite3.Error:
             continue

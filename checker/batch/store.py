@@ -8,28 +8,39 @@ import os
 import sqlite3
 import time
 import zlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from checker.batch.lock import Locks
-from checker.batch.result import MissionResult, read_result, write_result
+from checker.batch.result import KeptFailure, MissionResult, read_point, read_result, write_point, write_result
 from checker.oracle import Verdict
 
 LATEST = "latest"
 _FOLDER = ".nddlc"
-_VERSION = 3  # of the schema and of `write_result`; other versions are not read
+_VERSION = 4  # of the schema and of `write_result`; other versions are not read
 _MARK = 0x4E44444C  # `NDDL`: the application id of SQLite's file format
 _FLUSH_SECONDS = 0.5
+_MOST_FAILURES = 40  # kept of one mission file
 _SCHEMA = """
 CREATE TABLE IF NOT EXISTS runs (
     turn INTEGER PRIMARY KEY AUTOINCREMENT,
     id TEXT NOT NULL UNIQUE,
     mission_file TEXT NOT NULL,
     seed INTEGER NOT NULL,
-    missions INTEGER NOT NULL
+    missions INTEGER NOT NULL,
+    sampler TEXT NOT NULL
+);
+CREATE TABLE IF NOT EXISTS failures (
+    turn INTEGER PRIMARY KEY AUTOINCREMENT,
+    mission_file TEXT NOT NULL,
+    seed INTEGER NOT NULL,
+    point TEXT NOT NULL,
+    code TEXT NOT NULL,
+    run TEXT NOT NULL,
+    UNIQUE (mission_file, seed, point)
 );
 CREATE TABLE IF NOT EXISTS missions (
     run TEXT NOT NULL,
@@ -60,6 +71,7 @@ class Run:
     mission_file: str  # absolute path
     seed: int
     missions: int
+    sampler: str = "random"
 
 
 def _checksum(run_id: str, number: int, verdict: str, result: str) -> int:
@@ -94,8 +106,8 @@ class RunStore:
                 self._connection.execute("DELETE FROM missions WHERE run = ?", (run.id,))
             self._connection.execute("DELETE FROM runs WHERE id = ?", (run.id,))
             self._connection.execute(
-                "INSERT INTO runs (id, mission_file, seed, missions) VALUES (?, ?, ?, ?)",
-                (run.id, run.mission_file, run.seed, run.missions),
+                "INSERT INTO runs (id, mission_file, seed, missions, sampler) VALUES (?, ?, ?, ?, ?)",
+                (run.id, run.mission_file, run.seed, run.missions, run.sampler),
             )
         return kept
 
@@ -121,7 +133,7 @@ class RunStore:
 
     def find(self, name: str) -> Run | None:
         """The run with that id, or the one that began last for `latest`; a unique beginning of an id will do."""
-        chosen = "SELECT id, mission_file, seed, missions FROM runs "
+        chosen = "SELECT id, mission_file, seed, missions, sampler FROM runs "
         if name == LATEST:
             rows = self._rows(chosen + "ORDER BY turn DESC LIMIT 1")
         else:
@@ -142,6 +154,28 @@ class RunStore:
         query = "SELECT run, number, verdict, result, checksum FROM missions WHERE run = ? AND number = ?"
         rows = self._rows(query, run_id, number)
         return self._read(rows[0]) if rows else None
+
+    def keep_failures(self, run: Run, results: Sequence[MissionResult]) -> None:
+        """Remember missions that failed, for later runs of the same mission file; of very many the latest."""
+        rows = [
+            (run.mission_file, one.seed, write_point(one.point), one.judgement.code, run.id)
+            for one in results
+            if one.verdict is Verdict.FAIL
+        ]
+        query = "INSERT OR IGNORE INTO failures (mission_file, seed, point, code, run) VALUES (?, ?, ?, ?, ?)"
+        with self._guarded(), self._connection:
+            self._connection.executemany(query, rows[:_MOST_FAILURES])
+            self._connection.execute(
+                "DELETE FROM failures WHERE mission_file = ? AND turn NOT IN"
+                " (SELECT turn FROM failures WHERE mission_file = ? ORDER BY turn DESC LIMIT ?)",
+                (run.mission_file, run.mission_file, _MOST_FAILURES),
+            )
+
+    def failures(self, run: Run) -> tuple[KeptFailure, ...]:
+        """The missions that failed in other runs of the same mission file, in the order in which they were kept."""
+        query = "SELECT seed, point, code, run FROM failures WHERE mission_file = ? AND run != ? ORDER BY turn"
+        rows = self._rows(query, run.mission_file, run.id)
+        return tuple(KeptFailure(seed, read_point(point), code, name) for seed, point, code, name in rows)
 
     def close(self) -> None:
         """Write what is pending and let go of the file."""

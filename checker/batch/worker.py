@@ -11,6 +11,7 @@ import runtime.build_form
 from checker.batch.result import MissionResult, condense
 from checker.losses import losses_of
 from checker.oracle import USER_CODE, Judgement, Verdict, judge
+from checker.sampling.sampler import RANDOM_POINT, SamplePoint
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Outcome
 from runtime.user.fault import HELP, UserCodeError
@@ -24,11 +25,13 @@ READY = "ready"
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """One mission to fly; `agent` where it is another than the one that the worker was started with."""
+    """One mission to fly; `agent` and `load` where they are others than those that the worker was started with."""
 
     number: int
     seed: int
     agent: AgentConfiguration | None = None
+    point: SamplePoint = RANDOM_POINT
+    load: Load | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +71,8 @@ def work(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
         connection.send(READY)
         while (tasks := connection.recv()) is not None:
             for task in tasks:
-                connection.send(fly_one(fly if task.agent is None else load(task.agent), task))
+                other = None if task.agent is None else (task.load or load)(task.agent)
+                connection.send(fly_one(other or fly, task))
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return  # the parent is gone
 
@@ -91,10 +95,13 @@ def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
         return error_result(task, f"{type(problem).__name__}: {problem}", traceback.format_exc())
     judgement, losses = judge(outcome), losses_of(outcome)
     if judgement.verdict is Verdict.PASS and not keep_trace:
-        return MissionResult(task.number, task.seed, judgement, condense(outcome), has_trace=False, losses=losses)
-    return MissionResult(task.number, task.seed, judgement, outcome, has_trace=True, losses=losses)
+        outcome = condense(outcome)
+    else:
+        keep_trace = True
+    return MissionResult(task.number, task.seed, judgement, outcome, keep_trace, losses=losses, point=task.point)
 
 
 def error_result(task: Task, message: str, detail: str = "", code: str = "") -> MissionResult:
     """The result of a mission that could not be flown to its end, by a fault of the tool or of code it was given."""
-    return MissionResult(task.number, task.seed, Judgement(Verdict.ERROR, code, message=message), None, False, detail)
+    judgement = Judgement(Verdict.ERROR, code, message=message)
+    return MissionResult(task.number, task.seed, judgement, None, False, detail, point=task.point)

@@ -69,7 +69,7 @@ class Space:
 
     def __init__(self, agent: AgentConfiguration, results: Sequence[MissionResult]) -> None:
         self.agent = agent
-        free = [one for one in agent.parameters if not DISTRIBUTIONS[one.distribution].is_constant]
+        free = [one for one in agent.parameters if not DISTRIBUTIONS[one.distribution].is_determined]
         drawn = {draw.parameter for result in results if result.outcome for draw in result.outcome.draws}
         self.axes = tuple(_axis(one, results) for one in free if one.name in drawn)
         self.names = tuple(axis.name for axis in self.axes)

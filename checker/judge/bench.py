@@ -50,18 +50,9 @@ class _Toks:
 
     def __init__(self, tokens: Sequence[TokenRecord]) -> None:
         self._tokens = tokens
-        self._keys = tokens.times.keys if isinstance(tokens, TokenColumns) else None
-        self._records = {one.key: one for one in tokens} if self._keys is None else {}
+        keys = tokens.times.keys.tolist() if isinstance(tokens, TokenColumns) else [one.key for one in tokens]
+        self._places = {key: place for place, key in enumerate(keys)}
         self._made: dict[int, Tok] = {}
-
-    def _record(self, key: int) -> TokenRecord | None:
-        """What is on record of a token; of columns only those that are asked for are expanded."""
-        known = self._records.get(key)
-        if known is None and self._keys is not None:
-            place = int(np.searchsorted(self._keys, key))
-            if place < len(self._keys) and self._keys[place] == key:
-                known = self._records[key] = self._tokens[place]
-        return known
 
     def get(self, key: int) -> Tok | None:
         """The token with a key; None if there is none."""
@@ -71,9 +62,25 @@ class _Toks:
             self._complete(known)
         return known
 
+    def _record(self, key: int) -> TokenRecord | None:
+        place = self._places.get(key)
+        return None if place is None else self._tokens[place]
+
     def records(self) -> Iterator[TokenRecord]:
-        """What is on record of all tokens."""
-        return iter(self._records.values() if self._keys is None else self._tokens)
+        """What is on record of all tokens; of several with one key the last."""
+        return map(self._tokens.__getitem__, self._places.values())
+
+    def named(self, predicate: str) -> Iterator[TokenRecord]:
+        """What is on record of the tokens of all predicates of a short name."""
+        if isinstance(self._tokens, TokenColumns):
+            return map(self._tokens.__getitem__, self._tokens.named(predicate))
+        return (one for one in self.records() if one.predicate.rpartition(".")[2] == predicate)
+
+    def on(self, thing: str) -> Iterator[TokenRecord]:
+        """What is on record of the tokens of an object."""
+        if isinstance(self._tokens, TokenColumns):
+            return map(self._tokens.__getitem__, self._tokens.on(thing))
+        return (one for one in self.records() if one.object == thing)
 
     def of(self, records: Iterable[TokenRecord]) -> Iterator[Tok]:
         """Tokens of the record."""

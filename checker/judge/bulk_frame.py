@@ -4,11 +4,12 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
+from checker.judge.alike import GuardRows, RunRows
 from checker.judge.bench import Bench
 from checker.judge.bulk_meanings import difference_of
 from checker.judge.columns import INT, TEXT, Array, Column, Mask, column_of, constant
 from checker.judge.operands import VariableNames, domain_value, member_of
-from checker.judge.tables import GuardRows, RowTokens, RunRows, Tables
+from checker.judge.tables import RowTokens, Tables
 from checker.judge.values import UNKNOWN
 from compiler.program import (
     DURATION,

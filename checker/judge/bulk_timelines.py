@@ -1,18 +1,40 @@
 """Judge timelines at once: where tokens plainly follow each other, and plainly are what their owner published."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
+from checker.judge.alike import SymbolNumbers
 from checker.judge.bench import Bench
-from checker.judge.columns import TEXT, Array
+from checker.judge.columns import TEXT, Array, Column
 from checker.judge.tables import Tables
 from compiler.program import END, OBJECT, START, PredicateCode
+from runtime.executive.columns import PublishedColumns
+from runtime.executive.events import EventColumns
 from runtime.executive.outcome import Event
 from runtime.executive.record import TokenRecord
 
-# What owners published, by timeline, from which tick on; of several in one tick the last.
-History = dict[str, list[Event]]
+
+@dataclass(eq=False, slots=True)
+class Publications:
+    """What was published on one timeline: events one by one, and those that are kept as columns."""
+
+    single: list[Event] = field(default_factory=list)
+    columns: list[tuple[EventColumns, PublishedColumns]] = field(default_factory=list)
+
+    def events(self, last_tick: int) -> list[Event]:
+        """All up to a tick, in order; of several in one tick the last."""
+        found: dict[int, Event] = {}
+        for source, each in self.columns:
+            for tick, place in zip(each.ticks.tolist(), each.places.tolist(), strict=True):
+                if tick <= last_tick:
+                    found[tick] = source.event(place)
+        found |= {one.tick: one for one in self.single if one.tick <= last_tick}
+        return [found[tick] for tick in sorted(found)]
+
+
+History = dict[str, Publications]  # by timeline
 
 
 class BulkTimelines:
@@ -63,25 +85,62 @@ class BulkTimelines:
         self.bench.judged += len(rows)
         return True
 
-    def is_told(
-        self, timeline: str, published: Sequence[Event], codes: Mapping[str, PredicateCode], is_own: bool
-    ) -> bool:
+    def is_told(self, timeline: str, published: Publications, codes: Mapping[str, PredicateCode], is_own: bool) -> bool:
         """Whether each token plainly began with what was published, and nothing else was; if so it is counted."""
         rows = self.rows.get(timeline, np.empty(0, np.int64))
-        if not self._is_plain(rows):
+        if not self._is_plain(rows) or not (is_own or self.tables.is_observed[rows].all()):
             return False
-        tables = self.tables
+        if published.columns and not published.single:
+            count = self._told_in_columns(rows, [each for _, each in published.columns], codes)
+        else:
+            count = self._told_one_by_one(rows, published.events(self.bench.last_tick), codes)
+        self.bench.judged += max(count, 0)
+        return count >= 0
+
+    def _told_one_by_one(self, rows: Array, published: Sequence[Event], codes: Mapping[str, PredicateCode]) -> int:
+        """How many publications agree with the tokens; -1 if not all plainly do."""
+        tokens = self.tables.tokens
         told = {one.tick: one for one in published}
         begun = dict(zip(self.starts[rows].tolist(), rows.tolist(), strict=True))
         if told.keys() != begun.keys():
-            return False
-        if not is_own and not tables.is_observed[list(begun.values())].all():
-            return False
-        tokens = tables.tokens
-        if not all(_agrees(tokens[row], told[tick], codes) for tick, row in begun.items()):
-            return False
-        self.bench.judged += len(told)
-        return True
+            return -1
+        return len(told) if all(_agrees(tokens[row], told[tick], codes) for tick, row in begun.items()) else -1
+
+    def _told_in_columns(
+        self, rows: Array, columns: Sequence[PublishedColumns], codes: Mapping[str, PredicateCode]
+    ) -> int:
+        """The same where publications are kept as columns."""
+        tables, last, count = self.tables, self.bench.last_tick, 0
+        kinds = tables.predicate[rows]
+        shorts = {kind: tables.predicates[kind].rpartition(".")[2] for kind in np.unique(kinds).tolist()}
+        for each in columns:
+            told = np.flatnonzero(each.ticks <= last)
+            kind = next((kind for kind, short in shorts.items() if short == each.predicate), None)
+            if kind is None and len(told):
+                return -1
+            if kind is None:
+                continue
+            own = rows[kinds == kind]
+            if not np.array_equal(self.starts[own], each.ticks[told]):
+                return -1
+            parameters = codes[tables.predicates[kind]].parameters
+            if [name for name, _ in each.arguments] != [parameter.name for parameter in parameters]:
+                return -1
+            table, numbers = tables.table(kind), SymbolNumbers(each.symbols, tables.texts)
+            for place, (_, column) in enumerate(each.arguments):
+                mine = table.column(place).take(tables.places[own])
+                if not _are_same(mine, numbers.column(column).take(told)):
+                    return -1
+            count += len(told)
+        return count if count == len(rows) else -1
+
+
+def _are_same(mine: Column, theirs: Column) -> bool:
+    """Whether two columns plainly have the same values; one that is open agrees with what was left open."""
+    if mine.kind != theirs.kind or mine.bad is not None or theirs.bad is not None:
+        return False
+    upper, other = (each.lower if each.upper is None else each.upper for each in (mine, theirs))
+    return bool(((mine.lower == theirs.lower) & (upper == other)).all())
 
 
 def _agrees(held: TokenRecord, one: Event, codes: Mapping[str, PredicateCode]) -> bool:

@@ -9,14 +9,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from checker.judge.alike import AlikeTokens, alike_tokens
 from checker.judge.bench import Bench
 from checker.judge.bulk_frame import RowFrame, RowStep, RowTally, UnplainError
 from checker.judge.bulk_steps import allowed, compile_rows
-from checker.judge.columns import INT, Array
+from checker.judge.columns import INT, Array, Mask
 from checker.judge.operands import VariableNames
 from checker.judge.steps import Domain, Written, domain_test
-from checker.judge.tables import RowTokens, Tables, TokenRows
+from checker.judge.tables import RowTokens, Tables
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
+from runtime.executive.columns import TokenColumns
 from runtime.executive.record import TokenRecord
 
 _FEWEST = 4  # tokens that are alike, for which a group is worth its cost
@@ -78,24 +80,43 @@ def judge_in_bulk(judge: BulkJudge, bench: Bench, tables: Tables) -> Iterator[To
         latest = starts.lower if starts.upper is None else starts.upper
         fits = True if starts.bad is None else ~starts.bad
         settled |= tables.is_active & (latest > bench.last_tick) & fits
-        merged = np.flatnonzero(tables.is_merged & ~tables.is_cut & (tables.standing != np.arange(tables.count)))
-        merged = merged[tables.equals_standing(merged)]
-        settled[merged] = True
-        bench.judged += len(merged)
+        _settle_merged(bench, tables, settled)
         with np.errstate(all="ignore"):
-            for alike in tables.groups(~settled & ~tables.is_cut, _FEWEST):
-                holds = _judge_group(judge, bench, tables, alike)
-                settled[alike.rows[holds]] = True
+            wanted = ~settled & tables.is_active & ~tables.is_cut
+            for group in alike_tokens(tables.tokens, tables.texts, wanted, _FEWEST):
+                holds = _judge_group(judge, bench, tables, group)
+                settled[group.rows[holds]] = True
     return (tables.tokens[row] for row in np.flatnonzero(~settled).tolist())
 
 
-def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, alike: TokenRows) -> Array:
+def _settle_merged(bench: Bench, tables: Tables, settled: Array) -> None:
+    """Merged tokens with the very values of the one that stands for them."""
+    rows = np.flatnonzero(tables.is_merged & ~tables.is_cut & (tables.standing != np.arange(tables.count)))
+    others = tables.standing[rows]
+    alike = tables.predicate[rows] == tables.predicate[others]
+    for each in (START, END):
+        mine, theirs = tables.times[each].take(rows), tables.times[each].take(others)
+        if mine.bad is not None:
+            return
+        alike &= mine.lower == theirs.lower
+        if mine.upper is not None and theirs.upper is not None:
+            alike &= mine.upper == theirs.upper
+    if not isinstance(tables.tokens, TokenColumns):  # there they have no arguments of their own
+        alike[alike] = [
+            tables.tokens[row].arguments == tables.tokens[other].arguments
+            for row, other in zip(rows[alike].tolist(), others[alike].tolist(), strict=True)
+        ]
+    settled[rows[alike]] = True
+    bench.judged += int(np.count_nonzero(alike))
+
+
+def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, group: AlikeTokens) -> Mask:
     """Judge tokens that are alike; those that plainly hold."""
-    rows = alike.rows
+    rows = group.rows
     nothing = np.zeros(len(rows), bool)
-    known = judge.predicate(alike.predicate)
+    known = judge.predicate(group.predicate)
     code = known.code
-    if tuple(run.rule for run in alike.runs) != code.rules:
+    if tuple(run.rule for run in group.runs) != code.rules:
         return nothing
     tok = RowTokens(tables, rows)
     tally = RowTally(len(rows))
@@ -107,11 +128,11 @@ def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, alike: TokenRow
             step(frame)
         if code.rules:
             tally.judged += 1  # that these rules have fired
-        for run in alike.runs:
-            rule, steps = judge.rule(run.rule)
+        for place, number in enumerate(code.rules):
+            rule, steps = judge.rule(number)
             frame = RowFrame(bench, tok, [None] * rule.slots, [tok, *[None] * rule.tokens])
             frame.tally = tally
-            frame.follow(run)
+            frame.follow(group.runs[place])
             for step in steps:
                 step(frame)
                 if not tally.holds.any():

@@ -4,6 +4,8 @@ The stream of a parameter is SplitMix64 started at a mix of the seed and the FNV
 index is reached without those before. Normal distributions have the mean and the variance of the uniform one.
 """
 
+import ast
+import math
 from collections.abc import Mapping
 from functools import lru_cache
 from statistics import NormalDist
@@ -23,6 +25,7 @@ _U = np.uint64
 _WORD = 2**64
 _STEP = 0x9E3779B97F4A7C15
 _STANDARD = NormalDist()
+_CALLABLE = {"abs": abs, "min": min, "max": max, "floor": math.floor, "ceil": math.ceil, "sqrt": math.sqrt}
 
 
 def _stir(words: _Words) -> _Words:
@@ -58,8 +61,12 @@ def drawn(parameter: ParameterConfiguration, seed: int, ticks: Array) -> Array |
 
 def _values(parameter: ParameterConfiguration, seed: int, indices: Array) -> Array | None:
     """The values of a parameter at some indices of its stream."""
-    parts = _shares(seed, parameter.name, indices)
+    parts = _shares(seed, parameter.stream or parameter.name, indices)
+    if parameter.share is not None:
+        parts = np.where(indices == 0, parameter.share, parts)
     lower, upper, width = parameter.lower, parameter.upper, parameter.upper - parameter.lower
+    mean = lower + width / 2 if parameter.mean is None else parameter.mean
+    deviation = width / 12**0.5 if parameter.deviation is None else parameter.deviation
     inner = (np.floor(parts * 2**52) + 0.5) / 2**52
     match parameter.distribution:
         case "uniform" if parameter.is_whole:
@@ -67,17 +74,22 @@ def _values(parameter: ParameterConfiguration, seed: int, indices: Array) -> Arr
         case "uniform":
             values = lower + parts * width
         case "normal":
-            values = lower + width / 2 + width / 12**0.5 * _quantiles(inner)
+            values = mean + deviation * _quantiles(inner)
         case "truncated_normal":
-            outside = _STANDARD.cdf(-(3**0.5))
-            values = lower + width / 2 + width / 12**0.5 * _quantiles(outside + inner * (1 - 2 * outside))
-            values = np.minimum(np.maximum(values, lower), upper)
-        case "discrete":
+            below, above = (_STANDARD.cdf((end - mean) / deviation) for end in (lower, upper))
+            inside = np.clip(below + inner * (above - below), 2**-53, 1 - 2**-53)
+            values = np.minimum(np.maximum(mean + deviation * _quantiles(inside), lower), upper)
+        case "discrete" | "choice":
             values = _picked(parameter, parts)
         case "fixed":
             values = np.full(len(parts), parameter.values[0], float)
         case _:
             return None
+    return _settled(parameter, values)
+
+
+def _settled(parameter: ParameterConfiguration, values: Array) -> Array:
+    """The values after rounding and clipping."""
     if parameter.is_whole:
         values = np.floor(values + 0.5)
     if parameter.clip is not None:
@@ -124,4 +136,16 @@ class Chance:
         if name in self.overrides:
             return np.full(len(ticks), self.overrides[name], float)
         parameter = self.parameters.get(name)
-        return None if parameter is None else drawn(parameter, self.seed, ticks)
+        if parameter is None:
+            return None
+        if not parameter.expression:
+            return drawn(parameter, self.seed, ticks)
+        text = parameter.expression.strip()  # read by checker.mission before
+        names = {node.id for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Name)}
+        given = {other: self.draws(other, ticks) for other in sorted(names & self.parameters.keys())}
+        rows = [values.tolist() for values in given.values() if values is not None]
+        if len(rows) < len(given):
+            return None
+        scope = {"__builtins__": _CALLABLE}
+        found = [float(eval(text, scope, dict(zip(given, row, strict=True)))) for row in zip(*rows, strict=True)]
+        return _settled(parameter, np.array(found, float))

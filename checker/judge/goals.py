@@ -5,13 +5,14 @@ from checker.judge.tokens import ProgramJudge
 from checker.judge.values import lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, START
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration
+from runtime.executive.events import single_events
 from runtime.executive.outcome import EventKind, Outcome
 from runtime.executive.record import Value, ValueRange
 
 
 def judge_goals(agent: AgentConfiguration, outcome: Outcome, desks: dict[str, tuple[ProgramJudge, Bench]]) -> None:
     """Judge the mandatory goals that count as achieved: said to be, or not left open when the mission had its time."""
-    said = {event.request for event in outcome.events if event.kind is EventKind.ACHIEVED}
+    said = {event.request for event in single_events(outcome.events) if event.kind is EventKind.ACHIEVED}
     has_ended = outcome.abort is None and outcome.last_tick >= agent.final_tick
     left = [(goal.timeline, goal.predicate) for goal in outcome.open_goals]
     for number, goal in enumerate(agent.goals):
@@ -26,8 +27,8 @@ def judge_goals(agent: AgentConfiguration, outcome: Outcome, desks: dict[str, tu
 def _judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, has_ended: bool) -> None:
     """Judge one goal that counts as achieved; where the flight was cut or aborted, whether it was executed at all."""
     bench.judged += 1
-    named = [one for one in bench.tokens.records() if one.predicate.rpartition(".")[2] == goal.predicate]
-    fitting = [tok for tok in bench.tokens.of(named) if _is_answer(judge, bench, goal, tok)]
+    named = bench.tokens.of(bench.tokens.named(goal.predicate))
+    fitting = [tok for tok in named if _is_answer(judge, bench, goal, tok)]
     if any(not tok.is_cut or not has_ended for tok in fitting):
         return
     values: tuple[tuple[str, Value], ...] = (("timeline", goal.timeline), ("asked from", goal.at))

@@ -8,13 +8,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from checker.judge.bench import Bench, Tok
-from checker.judge.bulk_timelines import History
-from checker.judge.column_tables import ColumnTables
+from checker.judge.bulk_timelines import History, Publications
 from checker.judge.columns import Array
 from checker.judge.draws import Chance
 from checker.judge.goals import judge_goals
 from checker.judge.operands import BodyFrame
-from checker.judge.record_tables import RecordTables
 from checker.judge.report import JudgeReport
 from checker.judge.resources import judge_resources
 from checker.judge.steps import Written
@@ -24,10 +22,9 @@ from checker.judge.tokens import ProgramJudge, compile_program, judge_tokens
 from checker.judge.values import UNKNOWN
 from checker.judge.written import meanings_of
 from compiler.program import Program
-from runtime.executive.columns import TokenColumns
 from runtime.executive.configuration import AgentConfiguration
-from runtime.executive.events import single_events
-from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
+from runtime.executive.events import EventLog, single_events
+from runtime.executive.outcome import EventKind, Outcome, Phase, Reason, ReasonKind
 from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, Value
 from runtime.user.constraint import Constraint
 
@@ -59,7 +56,7 @@ def judge_mission(
     failed = {
         event.reactor for event in single_events(outcome.events) if event.kind in (EventKind.KILL, EventKind.ABORT)
     }
-    history = _Publications(outcome)
+    history = _Trace(outcome)
     desks: dict[str, tuple[ProgramJudge, Bench]] = {}
     for place, program in zip(agent.reactors, programs, strict=True):
         written = by_name.get(place.name)
@@ -68,7 +65,7 @@ def judge_mission(
         judge = _judge_of(program, constraints)
         bench = Bench(written, agent.final_tick, chance.draws, place.name in failed)
         desks[place.name] = (judge, bench)
-        tables = _tables_of(written)
+        tables = Tables(written)
         _judge_model(judge, bench, tables)
         judge_timelines(judge, bench, tables, history.seen_by(place.name), place.internal, place.external)
     judge_goals(agent, outcome, desks)
@@ -98,7 +95,7 @@ def judge_plan(
     bench = Bench(record, record.last_tick, _undrawn)
     bench.infers = True
     bench.told = told
-    tables = _tables_of(record)
+    tables = Tables(record)
     _judge_model(judge, bench, tables)
     judge_timelines(judge, bench, tables, {}, (), ())
     return _summary([bench])
@@ -106,12 +103,6 @@ def judge_plan(
 
 def _undrawn(parameter: str, ticks: Array) -> None:
     """No draws are known."""
-
-
-def _tables_of(record: ReactorRecord) -> Tables:
-    """The tokens of a record as tables."""
-    tokens = record.tokens
-    return ColumnTables(tokens) if isinstance(tokens, TokenColumns) else RecordTables(tokens)
 
 
 def _judge_model(judge: ProgramJudge, bench: Bench, tables: Tables) -> None:
@@ -136,11 +127,12 @@ def _judge_script(judge: ProgramJudge, bench: Bench) -> None:
         step(frame)
 
 
-class _Publications:
+class _Trace:
     """What was published in a mission, as each reactor came to see it."""
 
     def __init__(self, outcome: Outcome) -> None:
-        self.events = [event for event in outcome.events if event.kind is EventKind.OBSERVATION]
+        self.events = [event for event in single_events(outcome.events) if event.kind is EventKind.OBSERVATION]
+        self.columns = outcome.events.published() if isinstance(outcome.events, EventLog) else []
         self.deaths = {(e.tick, e.reactor) for e in single_events(outcome.events) if e.kind is EventKind.KILL}
         self.common = self._told("") if not self.deaths else None
 
@@ -149,7 +141,9 @@ class _Publications:
         return self._told(reactor) if self.common is None else self.common
 
     def _told(self, reactor: str) -> History:
-        found: dict[str, dict[int, Event]] = {}
+        found: History = {}
+        for source, each in self.columns:
+            found.setdefault(each.timeline, Publications()).columns.append((source, each))
         for event in self.events:
             one = event
             if event.predicate == "Failed" and (event.tick, event.reactor) in self.deaths:
@@ -157,8 +151,8 @@ class _Publications:
                     continue
                 if event.phase is Phase.DELIBERATE:
                     one = replace(event, tick=event.tick + 1)
-            found.setdefault(event.timeline, {})[one.tick] = one
-        return {timeline: list(ticks.values()) for timeline, ticks in found.items()}
+            found.setdefault(event.timeline, Publications()).single.append(one)
+        return found
 
 
 def _summary(benches: Sequence[Bench]) -> JudgeReport:

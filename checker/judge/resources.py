@@ -76,7 +76,7 @@ def _limits_of(kind: str, members: dict[str, Value]) -> _ResourceLimits | None:
 
 def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
     """What was executed on a resource, by tokens of its own and by `uses` in rules."""
-    fitting = (one for one in bench.tokens.records() if one.state == "active" and one.object == resource)
+    fitting = (one for one in bench.tokens.on(resource) if one.state == "active")
     for tok in bench.tokens.of(fitting):
         record = tok.record
         kind = record.predicate.rpartition(".")[2]

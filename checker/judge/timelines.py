@@ -1,7 +1,7 @@
 """Judge timelines: one token at a time, nothing left out, and what the owner published is what its users hold."""
 
 from checker.judge.bench import Bench, Tok
-from checker.judge.bulk_timelines import BulkTimelines, History
+from checker.judge.bulk_timelines import BulkTimelines, History, Publications
 from checker.judge.operands import domain_value
 from checker.judge.tables import Tables
 from checker.judge.tokens import ProgramJudge
@@ -17,7 +17,7 @@ _GAPLESS = "something holds at every tick"
 def _sequences(judge: ProgramJudge, bench: Bench, timelines: set[str]) -> dict[str, list[Tok]]:
     """The tokens that have begun on some timelines, in order."""
     found: dict[str, list[Tok]] = {}
-    active = (one for one in bench.tokens.records() if one.state == "active" and one.object in timelines)
+    active = (one for line in sorted(timelines) for one in bench.tokens.on(line) if one.state == "active")
     for tok in bench.tokens.of(active):
         start, thing = tok.record.start, tok.record.object
         if not isinstance(start, int) or start > bench.last_tick:
@@ -56,7 +56,7 @@ def judge_timelines(
     bulk = BulkTimelines(bench, tables, judge.timelines)
     shared = (*internal, *external)
     in_order = {timeline for timeline in bulk.rows if bulk.is_in_order(timeline, timeline in shared)}
-    past = {line: [one for one in history.get(line, ()) if one.tick <= bench.last_tick] for line in shared}
+    past = {line: history.get(line, Publications()) for line in shared}
     told = {line for line in shared if bulk.is_told(line, past[line], judge.codes, line in internal)}
     left = {*(set(bulk.rows) - in_order), *(set(shared) - told)}
     if not left:
@@ -68,7 +68,8 @@ def judge_timelines(
     for timeline in shared:
         if timeline not in told:
             tokens = found.get(timeline, [])
-            _judge_observations(judge, bench, timeline, tokens, past[timeline], timeline in internal)
+            published = past[timeline].events(bench.last_tick)
+            _judge_observations(judge, bench, timeline, tokens, published, timeline in internal)
 
 
 def _judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool) -> None:
@@ -136,8 +137,8 @@ def _observed(bench: Bench, timeline: str) -> set[int]:
     """The ticks at which a reactor took note of something on a timeline of another."""
     return {
         one.start
-        for one in bench.tokens.records()
-        if one.origin == "observation" and one.object == timeline and one.state in ("active", "merged")
+        for one in bench.tokens.on(timeline)
+        if one.origin == "observation" and one.state in ("active", "merged")
         if isinstance(one.start, int)
     }
 

@@ -9,11 +9,13 @@ from typing import Any
 
 from checker.batch.result import MissionResult
 from checker.conditions.rendering import condition_data
+from checker.coverage import Coverage
 from checker.excerpts import Excerpts
 from checker.explain import confirmation_data, place_data
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES, Verdict
 from checker.rendering import failure_text
+from checker.report.coverage import coverage_data
 from checker.report.losses import mission_losses, tally_data
 from checker.report.sentences import verdict_word
 from checker.tally import Tally
@@ -23,9 +25,12 @@ from runtime.executive.rendering import element_text
 _FORMAT = "nddlc-report/1"
 
 
-def json_report(findings: Findings, excerpts: Excerpts) -> str:
+def json_report(findings: Findings, excerpts: Excerpts, coverage: Coverage | None = None) -> str:
     """The report as JSON text."""
-    return json.dumps(_report_data(findings, excerpts), ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+    data = _report_data(findings, excerpts)
+    if coverage is not None:
+        data["coverage"] = coverage_data(coverage)
+    return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
 
 
 def _report_data(findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
@@ -45,9 +50,22 @@ def _report_data(findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
             "exceeds": rate.exceeds,
             "is_certain": rate.is_certain,
             "confidence": rate.confidence,
-            "exact": list(rate.exact),
+            "interval": None if rate.interval is None else list(rate.interval),
+            "method": rate.method.value,
+            "counted": rate.counted,
+            "counted_failures": rate.counted_failures,
         },
         "ending": findings.ending.value,
+        "sampling": {
+            "sampler": findings.sampling.name,
+            "rule": findings.sampling.rule or None,
+            "shown": findings.sampling.shown,
+        },
+        "sensitivity": [
+            {"parameter": one.parameter, "distance": one.distance, "interval": list(one.interval)}
+            for one in findings.sensitivities
+        ],
+        "kept": [_mission(result, findings.tally) for result in findings.kept],
         "losses": tally_data(findings.tally, excerpts),
         "limits": {limit.value: most for limit, most in findings.mission.check.limits},
         "parameters": [_parameter(parameter) for parameter in agent.parameters],
@@ -82,6 +100,7 @@ def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
         "limits": [place_data(limit, excerpts) for limit in culprit.limits],
         "count": len(bucket.missions),
         "share": bucket.share,
+        "interval": None if fault.interval is None else list(fault.interval),
         "example": bucket.example,
         "missions": list(bucket.missions),
         "ticks": [bucket.first_tick, bucket.last_tick],
@@ -95,6 +114,8 @@ def _mission(result: MissionResult, tally: Tally) -> dict[str, Any]:
     return {
         "mission": result.number,
         "seed": result.seed,
+        "role": result.point.role.value,
+        "weight": result.point.weight,
         "verdict": result.verdict.value,
         "code": result.judgement.code,
         "reason": failure_text(result.judgement, result.open_goals),

@@ -150,7 +150,7 @@ def _excerpt(place: SourcePlace, excerpts: Excerpts, *, marked: bool) -> str:
 
 
 def _parameters(findings: Findings) -> list[str]:
-    drawn = [one for one in findings.agent.parameters if not DISTRIBUTIONS[one.distribution].is_constant]
+    drawn = [one for one in findings.agent.parameters if not DISTRIBUTIONS[one.distribution].is_determined]
     if not drawn or not findings.results:
         return []
     by_name = {parameter.name: _dots(findings, parameter) for parameter in drawn}

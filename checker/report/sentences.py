@@ -2,10 +2,16 @@
 
 from checker.findings import Ending, Findings
 from checker.oracle import CODE_NAMES, USER_CODE, Verdict
+from checker.rate import Method, Rate
 from checker.sampling.rendering import number
-from checker.statistics import Rate
+from checker.statistics import Interval
 
-_ENDINGS = {Ending.SECONDS: "time was over", Ending.FAILURES: "failures enough"}
+_ENDINGS = {Ending.SECONDS: "time was over", Ending.FAILURES: "failures enough", Ending.DECIDED: "decided"}
+_METHODS = {
+    Method.EXACT: "exact {level} % interval",
+    Method.SEQUENCE: "{level} % confidence sequence",
+    Method.WEIGHTED: "{level} % interval of weighted missions",
+}
 
 
 def percent(share: float) -> str:
@@ -44,9 +50,55 @@ def blamed(findings: Findings) -> str:
 
 
 def rate_line(rate: Rate) -> str:
-    """The rate with its exact (Clopper-Pearson) interval."""
+    """The rate with its interval; where there is none, why."""
     level = number(rate.confidence * 100.0)
-    return f"failure rate {percent(rate.observed)}; exact {level} % interval {_interval(rate.exact)}"
+    if rate.interval is None:
+        share = f"{percent(rate.observed)} of the missions failed" if rate.missions else "no mission was flown"
+        return f"{share}; no interval: a design chose them, so that they are not independent"
+    basis = ""
+    if rate.counted < rate.missions:
+        basis = f" in the {missions(rate.counted)} that no design chose"
+    elif rate.method is Method.WEIGHTED:
+        basis = f" ({rate.failures} of {rate.missions} missions failed, where failures were sought)"
+    method = _METHODS[rate.method].format(level=level)
+    return f"failure rate {percent(rate.observed)}{basis}; {method} {_interval_text(rate.interval)}"
+
+
+def stop_line(findings: Findings) -> str:
+    """What the stopping rule came to; empty without one."""
+    sampling = findings.sampling
+    if not sampling.rule:
+        return ""
+    fate = {True: "shown", False: "refuted", None: "still open"}[sampling.shown]
+    return f"{sampling.rule}: {fate} after {missions(len(findings.results))}"
+
+
+def kept_line(findings: Findings) -> str:
+    """What became of the failures of earlier runs; empty without any."""
+    if not findings.kept:
+        return ""
+    failing = [result for result in findings.kept if result.verdict is Verdict.FAIL]
+    named = ", ".join(_mission_name(result.number) for result in failing[:8]) + (", ..." if len(failing) > 8 else "")
+    still = f"{len(failing)} still fail ({named})" if failing else "none of them fails any more"
+    return f"{counted(len(findings.kept), 'failure')} of earlier runs flown first: {still}"
+
+
+def sensitivity_line(findings: Findings) -> str:
+    """The parameters that drive failing; empty where none can be told from chance."""
+    telling = [one for one in findings.sensitivities if one.interval[0] > 0.0]
+    if not telling:
+        return ""
+    listed = [
+        f"{one.parameter} {number(round(one.distance, 2))} "
+        f"({number(round(one.interval[0], 2))} to {number(round(one.interval[1], 2))})"
+        for one in telling
+    ]
+    return f"failing depends on {', '.join(listed)} (distance of its draws from chance, 0 to 1)"
+
+
+def _mission_name(number: int) -> str:
+    """`12`, or `k3` for the third of the kept failures."""
+    return str(number) if number > 0 else f"k{-number}"
 
 
 def decision(findings: Findings) -> str:
@@ -55,6 +107,18 @@ def decision(findings: Findings) -> str:
     limit = f"the accepted {percent(rate.limit)}"
     if rate.missions == 0:
         return "no mission was flown to its end: nothing is known"
+    still = sum(result.verdict is Verdict.FAIL for result in findings.kept)
+    if still and not rate.failures:
+        return (
+            f"FAILS: {counted(still, 'mission')} that failed in earlier runs still {'fails' if still == 1 else 'fail'}"
+        )
+    is_outside = rate.interval is not None and not rate.interval[0] <= rate.limit <= rate.interval[1]
+    if rate.exceeds and rate.is_certain and not is_outside:
+        return f"FAILS: no mission may fail, and {rate.failures} of {missions(rate.missions)} did"
+    if rate.interval is None:
+        word = "FAILS" if rate.exceeds else "HOLDS" if findings.holds else "UNDECIDED"
+        side = "above" if rate.exceeds else "within"
+        return f"{word}: the share is {side} {limit}; how sure that is a design does not tell"
     if rate.exceeds:
         sure = "and the whole interval is" if rate.is_certain else "though the interval includes it: more missions tell"
         return f"FAILS: the rate is above {limit}, {sure}{' too' if rate.is_certain else ''}"
@@ -70,7 +134,9 @@ def fault_title(findings: Findings, index: int) -> str:
     first, last = bucket.first_tick, bucket.last_tick
     when = f"at tick {first}" if first == last else f"at ticks {first} to {last}"
     name = CODE_NAMES.get(bucket.code, "unknown")
-    return f"{bucket.code} {name}: {missions(len(bucket.missions))} ({percent(bucket.share)}), {when}"
+    interval = findings.faults[index].interval
+    rate = "" if interval is None else f"; rate {_interval_text(interval)}"
+    return f"{bucket.code} {name}: {missions(len(bucket.missions))} ({percent(bucket.share)}), {when}{rate}"
 
 
 def verdict_word(findings: Findings) -> str:
@@ -82,7 +148,8 @@ def verdict_word(findings: Findings) -> str:
     return "error" if findings.count(Verdict.ERROR) else "holds"
 
 
-def _interval(bounds: tuple[float, float]) -> str:
+def _interval_text(bounds: Interval) -> str:
+    """`1.2 to 3.4 %`."""
     return f"{_percentage(bounds[0])} to {percent(bounds[1])}"
 
 

@@ -6,8 +6,8 @@ from html import escape
 
 from checker.conditions.condition import Literal
 from checker.conditions.rendering import literal_text
+from checker.rate import Rate
 from checker.sampling.rendering import number
-from checker.statistics import Rate
 from runtime.view.axis import ticks
 
 _WIDTH, _MARGIN = 760.0, 14.0
@@ -85,9 +85,10 @@ def scatter_plot(names: tuple[str, str], across: Sequence[Dot], up: Sequence[Dot
 
 def rate_plot(rate: Rate) -> str:
     """The observed rate with its exact interval, and the limit."""
-    top = max(rate.exact[1], rate.limit) * 1.15 or 1.0
+    interval = rate.interval or (rate.observed, rate.observed)
+    top = max(interval[1], rate.limit) * 1.15 or 1.0
     axis = Axis(0.0, min(top, 1.0) * 100.0, _MARGIN, _WIDTH - _MARGIN)
-    lower, upper, seen, limit = (axis.at(100.0 * share) for share in (*rate.exact, rate.observed, rate.limit))
+    lower, upper, seen, limit = (axis.at(100.0 * share) for share in (*interval, rate.observed, rate.limit))
     word = "bad" if rate.exceeds else "good"
     anchor, shift = ("end", -5.0) if limit > _WIDTH / 2 else ("start", 5.0)
     parts = [

@@ -3,7 +3,7 @@
 import math
 
 from runtime.executive.configuration import ParameterConfiguration
-from runtime.executive.distributions import DISTRIBUTIONS
+from runtime.executive.distributions import DISTRIBUTIONS, moments
 
 
 def number(value: float) -> str:
@@ -21,9 +21,21 @@ def describe(parameter: ParameterConfiguration) -> str:
         box=f"[{number(parameter.lower)}, {number(parameter.upper)}]",
         values=", ".join(values),
         value=values[0] if values else "",
+        moments=_moments(parameter),
+        expression=parameter.expression,
     )
-    if distribution.is_constant:
+    if parameter.stream:
+        shape += f", drawn with the row of `{parameter.stream}`"
+    if distribution.is_determined and not parameter.expression:
         return shape
     whole = ", whole numbers" if parameter.is_whole else ""
+    clip = "" if parameter.clip is None else f", clipped to [{number(parameter.clip[0])}, {number(parameter.clip[1])}]"
     rhythm = "one value per mission" if parameter.mode == "inter" else f"redrawn every {parameter.update} ticks"
-    return f"{shape}{whole}, {rhythm}"
+    return f"{shape}{whole}{clip}, {rhythm}"
+
+
+def _moments(parameter: ParameterConfiguration) -> str:
+    if parameter.mean is None and parameter.deviation is None:
+        return f"matched to [{number(parameter.lower)}, {number(parameter.upper)}]"
+    mean, deviation = moments(parameter)
+    return f"mean {number(mean)}, sigma {number(deviation)}"

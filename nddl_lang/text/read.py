@@ -1,6 +1,7 @@
 """Read a file into a source, whatever bytes it holds."""
 
 import os
+import re
 import stat
 from pathlib import Path
 
@@ -8,6 +9,7 @@ from nddl_lang.text.source import Source
 
 LARGEST = 64 * 2**20  # bytes of a file
 _LOOKED_AT = 4096
+_ODD = re.compile(r"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
 _MOST_ODD = 0.02  # of the characters of a text may be control characters
 _MOST_UNREADABLE = 0.6  # and bytes that are not UTF-8: comments in another encoding may be long
 
@@ -23,8 +25,7 @@ def decode(content: bytes) -> str:
 def is_text(text: str) -> bool:
     """Whether what was decoded is a text at all, with odd characters at most: looked at are the first ones."""
     head = text[:_LOOKED_AT]
-    odd = sum(sign < " " and sign not in "\t\n\v\f\r\x1b" for sign in head)
-    return odd <= _MOST_ODD * len(head) + 1 and head.count("\ufffd") <= _MOST_UNREADABLE * len(head)
+    return len(_ODD.findall(head)) <= _MOST_ODD * len(head) + 1 and head.count("\ufffd") <= _MOST_UNREADABLE * len(head)
 
 
 class NotAFileError(OSError):

@@ -9,9 +9,10 @@ from runtime.constraints.propagators.dispatch cimport propagate_constraint
 from runtime.constraints.propagators.logic cimport may_be_equal
 from runtime.constraints.domains.narrow cimport high, is_single, low, raise_to, reduce_to, round_bounds
 from runtime.constraints.stn.network cimport insert_edge, propagate_edges
+from runtime.constraints.stn.watch_lists cimport watchers_of
 from runtime.constraints.propagators.posting cimport post_constraint
 from runtime.constraints.domains.queries cimport has_finitely_many, listed, may_be, number_of_values
-from runtime.constraints.relaxation.retract cimport decisions_of, edges_of, follow_again, retract
+from runtime.constraints.relaxation.retract cimport edges_of, follow_again, retract
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.relaxation.trail cimport commit_trail, undo_to
 from runtime.constraints.domains.variables cimport (
@@ -30,18 +31,14 @@ cdef class Engine(Store):
 
     cpdef long long reserve(self, long long count) except? -1
 
-    @cython.locals(v="long long")
     cpdef long long new_interval(
         self, long long kind, double lo, double hi, long long span, long long owner
     ) except? -1
 
-    @cython.locals(r="long long", v="long long")
     cpdef long long new_values(self, long long kind, list values, long long span, long long owner) except? -1
 
-    @cython.locals(r="long long", v="long long")
     cpdef long long new_like(self, long long other, long long span, long long owner) except? -1
 
-    @cython.locals(r="long long", v="long long")
     cpdef long long new_open(self, long long kind, list values, long long span, long long owner) except? -1
 
     @cython.locals(r="long long")
@@ -53,16 +50,12 @@ cdef class Engine(Store):
 
     cpdef long long new_constant_values(self, long long kind, list values) except? -1
 
-    @cython.locals(r="long long", support="long long")
     cpdef bint restrict_base(self, long long v, double lo, double hi, long long span, long long owner) except -1
 
-    @cython.locals(r="long long")
     cpdef bint restrict_base_values(self, long long v, list values, long long span, long long owner) except -1
 
-    @cython.locals(values=list)
     cpdef bint restrict_base_to(self, long long v, long long other, long long span, long long owner) except -1
 
-    @cython.locals(r="long long")
     cpdef bint decide(self, long long v, double value, long long span, long long owner) except -1
 
     cpdef double lower(self, long long v) except? -1.0
@@ -97,12 +90,10 @@ cdef class Engine(Store):
 
     cpdef long long post(self, long long op, list arguments, long long span, long long owner) except? -1
 
-    @cython.locals(c="long long")
     cpdef long long post_element(
         self, long long result, long long index, list keys, list variables, long long span, long long owner
     ) except? -1
 
-    @cython.locals(c="long long")
     cpdef long long post_external(self, external, list arguments, long long span, long long owner) except? -1
 
     cpdef int set_parent(self, long long value, long long parent) except -1
@@ -111,21 +102,18 @@ cdef class Engine(Store):
 
     cpdef list keys(self, long long c)
 
-    @cython.locals(found=dict, head="long long", slot="long long")
     cpdef list constraints_of(self, long long v)
 
     cpdef list edges_of(self, long long v)
 
-    @cython.locals(found=list, r="long long")
+    @cython.locals(r="long long")
     cpdef list restrictions_of(self, long long v)
 
     @cython.locals(c="long long", v="long long")
     cpdef bint propagate(self) except -1
 
-    @cython.locals(holding=bint)
     cpdef bint run(self, long long c) except -1
 
-    @cython.locals(i="long long")
     cpdef int clear_woken(self) except -1
 
     cpdef long long mark(self) except? -1
@@ -134,10 +122,7 @@ cdef class Engine(Store):
 
     cpdef int commit(self) except -1
 
-    @cython.locals(again=list)
     cpdef bint retract(self, constraints=*, edges=*, restrictions=*, variables=*) except -1
-
-    cpdef bint undecide(self, long long v) except -1
 
     cpdef list explain(self)
 

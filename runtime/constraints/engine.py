@@ -42,9 +42,10 @@ from runtime.constraints.propagators.external import External
 from runtime.constraints.propagators.logic import may_be_equal
 from runtime.constraints.propagators.opcodes import OP_ELEMENT, OP_EXTERNAL
 from runtime.constraints.propagators.posting import post_constraint
-from runtime.constraints.relaxation.retract import decisions_of, edges_of, follow_again, retract
+from runtime.constraints.relaxation.retract import edges_of, follow_again, retract
 from runtime.constraints.relaxation.trail import commit_trail, undo_to
 from runtime.constraints.stn.network import insert_edge, propagate_edges
+from runtime.constraints.stn.watch_lists import watchers_of
 
 _COARSE_AFTER = 200  # runs of one constraint in one propagation, before steps of less than a hundredth are left out
 _MOST_RUNS = 5000  # and before it is left out itself
@@ -271,13 +272,7 @@ class Engine(Store):
 
     def constraints_of(self, v: int) -> list[int]:
         """List the constraints on a variable that is no constant."""
-        found: dict[int, None] = {}
-        for head in (self.watch_head[v], self.mute_head[v]):
-            slot = head
-            while slot >= 0:
-                found[self.slot_constraint[slot]] = None
-                slot = self.slot_next[slot]
-        return list(found)
+        return list(dict.fromkeys(watchers_of(self, v)))
 
     def edges_of(self, v: int) -> list[int]:
         """List the edges of a variable."""
@@ -371,17 +366,13 @@ class Engine(Store):
         restrictions: Sequence[int] = (),
         variables: Sequence[int] = (),
     ) -> bool:
-        """Remove any of these at level 0, loosen exactly what they held, and propagate; false on a conflict."""
+        """Remove any of these at level 0, relax exactly what they held, and propagate; false on a conflict."""
         assert self.marks == 0 or self.trail_size == 0
         again = retract(self, list(constraints), list(edges), list(restrictions), list(variables))
         return follow_again(self, again) and self.propagate()
 
-    def undecide(self, v: int) -> bool:
-        """Take the decision on `v` back at level 0, and propagate."""
-        return self.retract(restrictions=decisions_of(self, v))
-
     def explain(self) -> list[Cause]:
-        """Give the causes of the present conflict; `minimise.sufficient` checks them, `minimise.minimise` shrinks."""
+        """Give the causes of the present conflict; `minimise.minimise` shrinks them."""
         return explain_conflict(self)
 
     def support_chain(self, v: int, side: int) -> list[Link]:

@@ -21,6 +21,7 @@ from runtime.executive.columns import (
     TokenGroup,
     TokenTimes,
     ValueColumn,
+    value_column,
 )
 from runtime.executive.record import NOBODY, BodyRun, ReactorRecord, TokenRecord, Value, ValueRange
 
@@ -249,7 +250,7 @@ class _Expansion:
     def columns(self, code: PredicateCode, rows: Array) -> tuple[ValueColumn, ...]:
         """The parameters of tokens of one predicate."""
         at = self.rows[rows, 4]
-        return tuple(_column(self.values[at + k], each.type.kind) for k, each in enumerate(code.parameters))
+        return tuple(value_column(self.values[at + k], each.type.kind) for k, each in enumerate(code.parameters))
 
 
 class _Part:
@@ -291,7 +292,7 @@ class _Part:
             guards.append(GuardColumns("then" if is_true else "else", None if branch is None else self._run(branch)))
         return RunColumns(
             body.rule,
-            tuple(_column(self.table[:, self.shown[register]], kind) for register, kind in body.named),
+            tuple(value_column(self.table[:, self.shown[register]], kind) for register, kind in body.named),
             tuple(self.children[child] for child in body.children),
             tuple(guards),
         )
@@ -306,14 +307,6 @@ def _note_truths(body: BodyReading, table: Array, shown: dict[int, int], reached
         for branch, taken in ((guard.then, is_true), (guard.otherwise, ~is_true)):
             if branch is not None:
                 _note_truths(branch, table, shown, reached & taken, truths)
-
-
-def _column(numbers: Array, kind: str) -> ValueColumn:
-    if kind == "float":
-        return ValueColumn(kind, numbers + 0.0)  # no negative zero
-    if np.isnan(numbers).any():
-        return ValueColumn(kind, numbers)
-    return ValueColumn(kind if kind in ("int", "bool") else "name", numbers.astype(np.int64))
 
 
 def _rows_until(machine: Machine, tick: int) -> int:

@@ -1,6 +1,5 @@
 # The C types of `log.py`.
 
-cimport cython
 
 cdef long long CAUSE, EVENT, FAR, ROW, SHOWN
 
@@ -11,10 +10,8 @@ cdef class Log:
     cdef public long long row_count, row_capacity, value_count, value_capacity, draw_count, draw_capacity
     cdef public long long shown, told_count, told_rows, told_draws
 
-    @cython.locals(at="long long")
     cpdef long long note(self, long long tick, long long line, long long predicate, long long block) except? -1
 
-    @cython.locals(at="long long")
     cpdef long long take(self, long long row, long long width) except? -1
 
     @cython.locals(at="long long")

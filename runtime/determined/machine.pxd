@@ -24,37 +24,20 @@ cdef class Machine:
 
     cpdef int go_back(self) except -1
 
-    @cython.locals(due="long long", present="Present")
     cpdef long long run(self, long long tick, long long limit, long long watched) except? -1
 
-    @cython.locals(
-        n="long long", i="long long", j="long long", k="long long", first="long long", into="long long",
-        present="Present"
-    )
     cpdef bint tick(self, long long tick) except -1
 
-    @cython.locals(
-        n="long long", j="long long", first="long long", into="long long", block="long long", mask="long long",
-        row="long long", line="long long", at="long long", is_wish="bint", value="double", present="Present", log="Log"
-    )
     cpdef bint start_block(self, long long i, long long tick) except -1
 
-    @cython.locals(n="long long", j="long long", can="bint", present="Present")
     cpdef bint can_start(self, long long i, long long tick) except -1
 
-    @cython.locals(j="long long", first="long long")
     cpdef int start(self, long long i, long long predicate) except -1
 
-    @cython.locals(
-        code="int[::1]", r="double[::1]", op="int", out="long long", a="long long", b="long long", j="long long",
-        x="double", y="double", z="double"
-    )
+    @cython.locals(out="long long", a="long long", b="long long", j="long long", z="double")
     cpdef bint carry_out(self, long long at) except -1
 
-    @cython.locals(
-        n="long long", j="long long", block="long long", bound="long long", slot="long long", holds="bint", value="double",
-        present="Present"
-    )
+    @cython.locals(block="long long", bound="long long", holds="bint")
     cpdef bint arrange(self, long long op, long long line, long long a, long long b, long long at) except -1
 
     cpdef bint draw(self, long long parameter) except -1

@@ -5,11 +5,13 @@ unpredictable number of times, and again after backtracking). Only whole-number 
 the last bit are used, here and by the distributions, so every machine draws the same values.
 """
 
+from collections.abc import Mapping
 from functools import lru_cache
 from math import floor
 
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.distributions import DISTRIBUTIONS
+from runtime.executive.expression import parse_expression
 from runtime.executive.outcome import Draw
 
 _MASK = (1 << 64) - 1
@@ -47,13 +49,20 @@ def update_index(parameter: ParameterConfiguration, tick: int) -> int:
     return 0 if parameter.mode == "inter" else max(tick, 0) // parameter.update
 
 
-def sample(parameter: ParameterConfiguration, seed: int, tick: int) -> Draw:
+def sample(parameter: ParameterConfiguration, seed: int, tick: int, given: Mapping[str, float] | None = None) -> Draw:
     """The value of `parameter` that is in force at `tick`, dated by the tick of its draw.
 
-    `raw` is what the distribution gave, `value` the same rounded (whole parameters) and then clipped.
+    `raw` is what the distribution gave, `value` the same rounded (whole parameters) and then clipped. `given` are the
+    values of others in force then, which a dependent parameter needs; without a value it raises ExpressionError.
     """
     index = update_index(parameter, tick)
-    raw = DISTRIBUTIONS[parameter.distribution].quantile(parameter, draw(seed, parameter.name, index))
+    if parameter.expression:
+        raw = parse_expression(parameter.expression).value(given or {})
+    else:
+        share = parameter.share if index == 0 else None
+        if share is None:
+            share = draw(seed, parameter.stream or parameter.name, index)
+        raw = DISTRIBUTIONS[parameter.distribution].quantile(parameter, share)
     value = float(floor(raw + 0.5)) if parameter.is_whole else raw
     if parameter.clip is not None:
         value = min(max(value, parameter.clip[0]), parameter.clip[1])

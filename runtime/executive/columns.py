@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple, overload
 
+import numpy as np
 from numpy.typing import NDArray
 
 from runtime.executive.record import TokenRecord
@@ -44,8 +45,25 @@ class TokenGroup(NamedTuple):
     runs: tuple[RunColumns, ...]
 
 
+class PublishedColumns(NamedTuple):
+    """Observations of one predicate on one timeline: ticks, and a column for each parameter by its name.
+
+    `places` are those in the columns of the trace; names of values are numbers into `symbols`.
+    """
+
+    timeline: str
+    predicate: str
+    ticks: Array
+    arguments: tuple[tuple[str, ValueColumn], ...]
+    places: Array
+    symbols: Sequence[str]
+
+
 class TokenTimes(NamedTuple):
-    """What every token of a record has, by place. `latest` is the latest end, infinite if nothing bounds it."""
+    """What every token of a record has, by place.
+
+    `states` are 0 active, 1 merged, 2 inactive; `latest` is the latest end, infinite if nothing bounds it.
+    """
 
     keys: Array
     predicates: Array  # numbers of names
@@ -85,6 +103,16 @@ class TokenColumns(Sequence[TokenRecord]):
             self._groups = self._make_groups()
         return self._groups
 
+    def named(self, short: str) -> list[int]:
+        """The places of tokens of all predicates of a short name."""
+        numbers = [k for k, name in enumerate(self.names) if name.rpartition(".")[2] == short]
+        return [int(place) for place in np.flatnonzero(np.isin(self.times.predicates, numbers))]
+
+    def on(self, timeline: str) -> list[int]:
+        """The places of tokens on a timeline."""
+        numbers = [k for k, name in enumerate(self.names) if name == timeline]
+        return [int(place) for place in np.flatnonzero(np.isin(self.times.objects, numbers))]
+
     def __len__(self) -> int:
         return len(self.times.keys)
 
@@ -108,3 +136,12 @@ class TokenColumns(Sequence[TokenRecord]):
 
     def __hash__(self) -> int:
         return hash(tuple(self))
+
+
+def value_column(numbers: Array, kind: str) -> ValueColumn:
+    """The column of numbers as registers hold them."""
+    if kind == "float":
+        return ValueColumn(kind, numbers + 0.0)  # no negative zero
+    if np.isnan(numbers).any():
+        return ValueColumn(kind if kind in ("int", "bool") else "name", numbers)
+    return ValueColumn(kind if kind in ("int", "bool") else "name", numbers.astype(np.int64))

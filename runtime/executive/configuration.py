@@ -69,7 +69,9 @@ class ParameterConfiguration:
     """How the values of one `sampledParameter` are drawn; `runtime.executive.chance.sample` is the only reader.
 
     `values` (with `weights`, else equally likely) serve "discrete", the first of them alone serves "fixed".
-    An "intra" parameter is drawn again every `update` ticks, an "inter" parameter once per mission.
+    An "intra" parameter is drawn again every `update` ticks, an "inter" parameter once per mission. A normal one has
+    its own `mean` and `deviation`, or those of the uniform one. Parameters of one `stream` (else each its own, by
+    name) are drawn together. A `share` in [0, 1) stands in place of the drawn one: a sampler has chosen it.
     """
 
     name: str
@@ -82,6 +84,11 @@ class ParameterConfiguration:
     is_whole: bool = False
     values: tuple[float, ...] = ()
     weights: tuple[float, ...] = ()
+    mean: float | None = None
+    deviation: float | None = None
+    expression: str = ""  # of a dependent one, over the values of others
+    stream: str = ""
+    share: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

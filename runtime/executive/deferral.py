@@ -50,6 +50,8 @@ class Deferral:
         """Fold in what has waited since before `tick`, what came now is news; the tick of the last one, or NOTHING."""
         last = NOTHING
         self._is_loose.clear()
+        if not self.waiting:
+            return last
         for name, waiting in self.waiting.items():
             line = self.lines[name]
             if waiting and waiting[-1].tick == tick:

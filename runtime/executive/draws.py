@@ -7,9 +7,11 @@ from math import inf
 from compiler.program import Program
 from runtime.executive.chance import sample, update_index
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.expression import ExpressionError, parse_expression
 from runtime.executive.outcome import Draw, Phase
 from runtime.executive.trace import Trace
 from runtime.executive.view import PlanView
+from runtime.user.fault import UserCodeError
 
 _NOTHING = -1
 _NEVER = 2**52
@@ -57,7 +59,18 @@ class World:
             value = self.overrides[name]
             return Draw(name, 0, value, value), _NEVER
         until = _NEVER if parameter.mode == "inter" else (update_index(parameter, tick) + 1) * parameter.update
-        return sample(parameter, self.seed, tick), until
+        if not parameter.expression:
+            return sample(parameter, self.seed, tick), until
+        given = {}
+        for other in parse_expression(parameter.expression).names:
+            found = self.in_force(other, tick)
+            if found is None:
+                return None
+            given[other] = found[0].value
+        try:
+            return sample(parameter, self.seed, tick, given), until
+        except ExpressionError as problem:
+            raise UserCodeError(f"the parameter `{name}`: {problem}", "", "mend its `expression`") from problem
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol, overload
 
+from runtime.executive.columns import PublishedColumns
 from runtime.executive.outcome import Event
 
 
@@ -13,6 +14,9 @@ class EventColumns(Protocol):
 
     def event(self, place: int) -> Event:
         """The observation at a place of the columns."""
+
+    def published(self) -> tuple[PublishedColumns, ...]:
+        """All observations, by timeline and predicate."""
 
 
 @dataclass(eq=False, slots=True)
@@ -52,6 +56,14 @@ class EventLog(Sequence[Event]):
     def single(self) -> list[Event]:
         """All events but those in runs."""
         return [part for part in self._parts if isinstance(part, Event)]
+
+    def published(self) -> list[tuple[EventColumns, PublishedColumns]]:
+        """The observations in runs, as columns, each with what expands them."""
+        sources: dict[int, EventColumns] = {}
+        for part in self._parts:
+            if isinstance(part, _Run):
+                sources[id(part.columns)] = part.columns
+        return [(source, each) for source in sources.values() for each in source.published()]
 
     def changed(self, change: Callable[[Event], Event]) -> "EventLog":
         """The same events, single ones changed."""

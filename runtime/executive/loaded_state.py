@@ -31,14 +31,17 @@ _ABSENT = object()
 
 
 class LoadedState:
-    """What the objects that can be reached from some roots hold at present; `restore` brings it back."""
+    """What the objects that can be reached from some roots hold at present; `restore` brings it back.
 
-    def __init__(self, roots: Iterable[object]) -> None:
+    What `kept` names, and what only that leads to, stays as it is.
+    """
+
+    def __init__(self, roots: Iterable[object], kept: Iterable[object] = ()) -> None:
         self._lists: list[tuple[list[Any] | deque[Any], list[Any]]] = []
         self._tables: list[tuple[dict[Any, Any] | set[Any], Any]] = []
         self._fields: list[tuple[object, str, Any]] = []
         self._arrays: list[tuple[memoryview, bytes]] = []
-        self._seen: dict[int, object] = {}
+        self._seen: dict[int, object] = {id(thing): thing for thing in kept}
         self._buffers: dict[int, memoryview] = {}
         stack = list(roots)
         while stack:

@@ -331,6 +331,7 @@ class Outcome:
     events: Sequence[Event]
     open_goals: tuple[OpenGoal, ...]
     breaches: tuple[Reason, ...] = ()  # what the judge found to break the model though nothing failed
+    behaviour: tuple[int, ...] = ()  # what the checker found that it exercised: rules, branches, kinds of events
 
     @property
     def ended_early(self) -> bool:

@@ -103,11 +103,10 @@ class PlanReactor:
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published this tick; the last word counts. What cannot matter waits."""
-        if self.tick < observation.tick and self.deferral.takes(observation):
-            return
-        self.by_name[observation.timeline].news = observation
-        self.is_stirred = True
-        self.due = observation.tick
+        if not (self.tick < observation.tick and self.deferral.takes(observation)):
+            self.by_name[observation.timeline].news = observation
+            self.is_stirred = True
+            self.due = observation.tick
 
     def next_tick(self, tick: int) -> int:
         """The next tick at which something can happen here without news from outside.

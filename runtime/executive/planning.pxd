@@ -6,7 +6,7 @@ from runtime.plan.store.plan cimport Plan
 from runtime.solver.flaws.filters cimport PlanningScope
 from runtime.solver.search cimport Solver
 
-cdef long long EXHAUSTED, FLAG_REJECTABLE, INACTIVE, _MOST_EXPLAINED, _MOST_STEPS, _NO_LIMIT, PLAN, ROLE_LOCAL
+cdef long long EXHAUSTED, FLAG_REJECTABLE, INACTIVE, _MOST_EXPLAINED, _MOST_STEPS, _NEVER, _NO_LIMIT, PLAN, ROLE_LOCAL
 cdef long long ROLE_TOKEN
 
 
@@ -29,13 +29,14 @@ cdef class Planner:
     cdef public object max_steps, max_depth, missed
     cdef public bint is_fresh
     cdef public dict rejections
+    cdef public long long resolved
 
     @cython.locals(is_deep=bint, outcome="long long")
     cpdef long long deliberate(self, long long tick, long long end) except? -1
 
     cpdef int keep(self) except -1
 
-    @cython.locals(depth="long long", is_deep=bint, outcome="long long", solver=Solver, steps="long long")
+    @cython.locals(depth="long long", is_deep=bint, made="long long", outcome="long long", solver=Solver, steps="long long")
     cpdef long long resolve_present(self, long long tick) except? -1
 
     cpdef object deadlock(self)

@@ -13,6 +13,7 @@ from runtime.solver.search import Solver
 from runtime.solver.tags import EXHAUSTED, PLAN
 
 _NO_LIMIT = 2**62
+_NEVER = -1
 _MOST_STEPS = 1_000_000  # decisions about one present that the engine makes, if nobody sets a limit
 _MOST_EXPLAINED = 2_000  # decisions of a search that is repeated to find out why it failed
 
@@ -83,6 +84,7 @@ class Planner:
         self.max_steps = max_steps
         self.max_depth = max_depth
         self.is_fresh = True
+        self.resolved = _NEVER  # the propagation after which the present had no flaws, without a decision
         self.missed: Callable[[], list[int]] = list  # the mandatory goals that are rejected and that nobody was told of
         self.rejections: dict[int, Deadlock] = {}  # why, by token
 
@@ -90,7 +92,12 @@ class Planner:
         """Make one decision inside [tick, end]; how the episode stands now."""
         if self.is_fresh:
             self.window.tick, self.window.end, self.window.is_present = tick, end, False
-            self.solver.refresh()
+            # If nothing was propagated since the present was found without flaws, it is the agenda that is wanted.
+            if self.resolved == self.bench.engine.epoch:
+                self.solver.resume()
+            else:
+                self.solver.refresh()
+            self.resolved = _NEVER
             self.is_fresh = False
         outcome = self.solver.step()
         if outcome == PLAN:
@@ -117,9 +124,13 @@ class Planner:
         self.is_fresh = True
         steps = _MOST_STEPS if self.max_steps is None else self.max_steps
         depth = _MOST_STEPS if self.max_depth is None else self.max_depth
+        made = solver.steps + solver.failures
         outcome = solver.solve(steps, depth)
         solver.max_steps = solver.max_depth = _NO_LIMIT
+        self.resolved = _NEVER
         if outcome == PLAN:
+            if solver.steps + solver.failures == made and solver.relief is None:
+                self.resolved = self.bench.engine.epoch
             self._explain_rejections()
             return EPISODE_DONE
         is_deep = solver.depth > depth

@@ -87,7 +87,8 @@ class Loans:
 
             bench, planner = make(noted)
             bench.database.environment = None
-            loaded = Stocked(bench, planner, None if asked else LoadedState((bench, planner)))
+            table = planner.solver.agenda.table  # whose rows are the same in every mission, once they were asked for
+            loaded = Stocked(bench, planner, None if asked else LoadedState((bench, planner), kept=(table,)))
         loaded.bench.database.environment = draw
         if loaded.snapshot is not None:
             self._borrowed.append((shelf, loaded))

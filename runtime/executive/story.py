@@ -149,7 +149,7 @@ class _ElementReader(TermReader):
         """The name of a variable, in fields."""
         plan, reactor = self.plan, self.bench.name
         kind = _KINDS.get(self.engine.kind[v], "symbol")
-        is_known = v < plan.variable_capacity
+        is_known = v < len(plan.variable_role)
         role = plan.variable_role[v] if is_known else -1
         owner = plan.variable_owner[v] if is_known else -1
         if role == ROLE_TOKEN and owner >= 0:

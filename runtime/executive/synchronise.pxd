@@ -43,11 +43,18 @@ cdef class _Search:
     )
     cpdef list choices(self, TimelineState line)
 
+    @cython.locals(bench=Workbench, found=list, token="long long")
+    cpdef list _observing(self, TimelineState line, long long predicate)
+
+    cpdef bint _misfit(self, TimelineState line, tuple choice) except -1
+
     @cython.locals(start="long long")
     cpdef bint _may_start(self, long long token) except -1
 
     @cython.locals(bench=Workbench, fits=bint, mark="long long", predicate="long long", token="long long")
     cpdef long long fitting(self, TimelineState line, news) except? -1
+
+    cpdef long long _undefined(self, TimelineState line) except? -1
 
     @cython.locals(
         bench=Workbench, holds=bint, kind="long long", predicate="long long", tick="long long", token="long long"

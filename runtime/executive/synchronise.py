@@ -166,8 +166,14 @@ class _Search:
                     if self.first_depth == depth:
                         self.first = None  # another choice did for this timeline: it is not where things go wrong
                     break
-                self._note_failure(self.lines[depth], choice)
+                if self.explains:
+                    self._note_failure(self.lines[depth], choice)
                 bench.rewind_to(marks[depth])
+                if self._misfit(self.lines[depth], choice):
+                    tries -= 1
+                    open_choices[depth] = self._observing(self.lines[depth], self._undefined(self.lines[depth]))
+                elif not self.explains:
+                    self._note_failure(self.lines[depth], choice)
 
     def _back(self, marks: list[int]) -> bool:
         """Undo the latest decision that stands; False if there is none."""
@@ -182,20 +188,11 @@ class _Search:
         bench, tick, current = self.bench, self.tick, line.current
         if not line.is_internal:
             assert line.news is not None
-            predicate = self.fitting(line, line.news)
-            if predicate == NOTHING:
-                return []
-            found: list[_Choice] = []
-            token = bench.next_of(line.object_id, current)
-            while token >= 0:
-                if bench.predicate_of(token) == predicate and self._may_start(token):
-                    found.append((_MEET, token, predicate))
-                token = bench.following(token)
-            for _, token, _ in found:
-                if self.asked.is_answered(token, line.news.event):
-                    return found  # what was asked for has come: that is how the plan has to go on
-            found.append((_FACT, NOTHING, predicate))
-            return found
+            predicate = line.predicates.get(line.news.predicate, NOTHING)
+            found = self._observing(line, predicate)
+            if self.explains or not found or found[0][0] != _FACT:
+                found = self._observing(line, self.fitting(line, line.news))
+            return found  # of a fact by itself it shows when it is carried out whether the arguments fit
         if current != NOTHING and bench.lower(bench.end(current)) > tick:
             return [(_EXTEND, current, NOTHING)]
         extend: list[_Choice] = []
@@ -221,6 +218,31 @@ class _Search:
             return [*extend, new[0], *starts, *new[1:]]
         return [*extend, *starts, *new]
 
+    def _observing(self, line: TimelineState, predicate: int) -> list[_Choice]:
+        """How `predicate` may be observed: by a planned token that may start now, or by itself."""
+        bench = self.bench
+        found: list[_Choice] = []
+        if predicate == NOTHING:
+            return found
+        assert line.news is not None
+        token = bench.next_of(line.object_id, line.current)
+        while token >= 0:
+            if bench.predicate_of(token) == predicate and self._may_start(token):
+                found.append((_MEET, token, predicate))
+            token = bench.following(token)
+        for _, token, _ in found:
+            if self.asked.is_answered(token, line.news.event):
+                return found  # what was asked for has come: that is how the plan has to go on
+        found.append((_FACT, NOTHING, predicate))
+        return found
+
+    def _misfit(self, line: TimelineState, choice: _Choice) -> bool:
+        """Whether a choice has failed because the arguments that were observed are none of the model's."""
+        news = line.news
+        if self.explains or news is None or choice[0] != _FACT or choice[2] != line.predicates.get(news.predicate):
+            return False
+        return self.fitting(line, news) != choice[2]
+
     def _may_start(self, token: int) -> bool:
         """Whether a token may start now."""
         start = self.bench.start(token)
@@ -240,6 +262,10 @@ class _Search:
                 return predicate
         elif predicate != NOTHING:
             return predicate
+        return self._undefined(line)
+
+    def _undefined(self, line: TimelineState) -> int:
+        """The predicate that stands for what the model of a timeline does not know."""
         return line.predicates.get(_UNDEFINED, NOTHING)
 
     def apply(self, line: TimelineState, choice: _Choice) -> bool:

@@ -53,7 +53,7 @@ class PlanDatabase:
         self.plan.set_globals(len(program.globals))
         self.objects = Objects(self.plan, program, self.prototypes, self.code)
         self.written.objects = self.objects.names
-        self.script = Script(self.plan, program, self.prototypes, self.code, predicates, self.objects)
+        self.script = Script(predicates, self.objects)
         load_code(self.plan, self.code)
         self.plan.services = self
         self.plan.envelope = Envelope(self.plan.engine, self.plan.resources)

@@ -1,7 +1,5 @@
 # The C types of `lifecycle.py`.
 
-cimport cython
-from runtime.constraints.engine cimport Engine
 from runtime.constraints.stn.entailment cimport entail_distance
 from runtime.plan.rules.rule_interpreter cimport run
 from runtime.plan.rules.guards cimport choice, follow
@@ -9,33 +7,22 @@ from runtime.plan.store.scopes cimport between, decide, equate
 from runtime.plan.store.links cimport unlink
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.tokens.retraction cimport retract_branch
-from runtime.plan.store.rows cimport Rows
 from runtime.plan.tokens.tokens cimport activation
 
 cdef long long BRANCH_THEN, BRANCH_WAITING, DURATION, END, LIST_OPEN, MERGED, NONE, OBJECT, REJECTED, SCOPE_BRANCH
 cdef long long SCOPE_MERGE, START, STATE, SYMBOL_MERGED, SYMBOL_REJECTED
 
 
-@cython.locals(count="long long", engine=Engine, i="long long")
 cpdef bint fire(Plan plan) except -1
 
 
-@cython.locals(
-    at="long long", b="long long", block="long long", branch="long long", old="long long", rows=Rows,
-    t="long long"
-)
 cpdef void _decide_guard(Plan plan, long long s) except *
 
 
 cpdef bint activate(Plan plan, long long t, long long span) except -1
 
 
-@cython.locals(
-    a="long long", b="long long", engine=Engine, k="long long", mine="long long", rows=Rows, scope="long long",
-    theirs="long long"
-)
 cpdef bint merge(Plan plan, long long t, long long other, long long span) except -1
 
 
-@cython.locals(rows=Rows)
 cpdef bint reject(Plan plan, long long t, long long span) except -1

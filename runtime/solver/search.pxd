@@ -14,7 +14,7 @@ from runtime.solver.flaws.resource_selection cimport is_resource_managed
 from runtime.solver.flaws.agenda cimport Agenda
 from runtime.solver.flaws.selection cimport select
 from runtime.solver.learning.dead_end cimport explain_dead_end
-from runtime.solver.flaws.agenda_updates cimport update, rebuild, note_levels
+from runtime.solver.flaws.agenda_updates cimport note_levels, rebuild, reopen, update
 
 cdef long long ACTIVATE_ONLY, HANDLER_LISTED, KIND_FLOAT, MERGE_ONLY
 cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, _NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
@@ -35,51 +35,43 @@ cdef class Solver:
 
     cpdef int set_scope(self, object scope) except -1
 
-    @cython.locals(o="long long")
     cpdef int refresh(self) except -1
+
+    cpdef int resume(self) except -1
 
     cpdef int keep(self) except -1
 
     cpdef int undo_all(self) except -1
 
-    @cython.locals(count="long long", outcome="long long")
+    @cython.locals(count="long long")
     cpdef long long solve(self, long long max_steps, long long max_depth, object is_late=*) except? -1
 
-    @cython.locals(d="long long", most="long long", outcome="long long", agenda=Agenda, stack=Decisions)
     cpdef long long _step(self) except? -1
 
-    @cython.locals(outcome="long long")
     cpdef long long step(self) except? -1
 
-    @cython.locals(d="long long", holds=bint, number="long long")
     cpdef bint _holds(self) except -1
 
-    cpdef long long fail(self, long long d) except? -1
+    cpdef int fail(self, long long d) except -1
 
-    @cython.locals(level="long long", stack=Decisions)
+    @cython.locals(level="long long")
     cpdef bint _is_nogood(self, long long d) except -1
 
-    @cython.locals(stack=Decisions)
-    cpdef long long _retry(self, long long d) except? -1
+    cpdef int _retry(self, long long d) except -1
 
-    @cython.locals(heap="long long", agenda=Agenda)
     cpdef bint _is_reordered(self, long long d) except -1
 
-    cpdef long long restart(self) except? -1
+    cpdef int restart(self) except -1
 
-    @cython.locals(o="long long")
     cpdef int check_overload(self) except -1
 
-    @cython.locals(stack=Decisions)
     cpdef bint _left_some(self, long long d, long long most) except -1
 
-    cpdef long long _enter(self) except? -1
+    cpdef int _enter(self) except -1
 
-    @cython.locals(stack=Decisions)
-    cpdef long long _undo(self, long long d) except? -1
+    cpdef int _undo(self, long long d) except -1
 
-    @cython.locals(stack=Decisions, target="long long")
-    cpdef long long _backjump(self, long long d, bint is_explained) except? -1
+    cpdef int _backjump(self, long long d, bint is_explained) except -1
 
 
 cpdef bint _is_rejection(Agenda agenda, Decisions stack, long long d) except -1

@@ -13,7 +13,7 @@ from runtime.solver.configuration.handler_matching import HandlerMatching
 from runtime.solver.configuration.handler_table import HandlerTable
 from runtime.solver.configuration.vocabulary import PlanVocabulary, grounded
 from runtime.solver.flaws.agenda import Agenda
-from runtime.solver.flaws.agenda_updates import note_levels, rebuild, update
+from runtime.solver.flaws.agenda_updates import note_levels, rebuild, reopen, update
 from runtime.solver.flaws.decisions import Decisions
 from runtime.solver.flaws.filters import Filters, PlanningScope
 from runtime.solver.flaws.relief import Relief
@@ -119,6 +119,12 @@ class Solver:
         if self.is_exhausted and self.failure_log is not None:
             self.failure_log.note_contradiction()
         rebuild(self.agenda)
+
+    def resume(self) -> None:
+        """Look again at what was out of scope: the plan is as `refresh` found it, and no decision was made since."""
+        assert self.stack.depth == 0 and self.relief is None and self.failure_log is None
+        self.is_started = True
+        reopen(self.agenda)
 
     def keep(self) -> None:
         """Commit all decisions: the stack is empty, and nothing of it can be undone."""
@@ -242,7 +248,7 @@ class Solver:
         self.is_exhausted = not holds and d == 0
         return holds
 
-    def fail(self, d: int) -> int:
+    def fail(self, d: int) -> None:
         """Conflict analysis of the resolver of decision `d` that has just failed."""
         self.failures += 1
         self.is_dead_end = False
@@ -252,7 +258,6 @@ class Solver:
             self.is_dead_end = self.analysis.learn(d)
             if self.may_restart and self._is_reordered(d):
                 self.agenda.restarts.note_failure()
-        return 0
 
     def _is_nogood(self, d: int) -> bool:
         """Whether the resolver just chosen at `d` completes a nogood; then it is undone."""
@@ -280,20 +285,18 @@ class Solver:
         heap = agenda.table.heap_of[agenda.variable_row[self.stack.item[d] * agenda.managers + self.stack.manager[d]]]
         return heap >= 0 and agenda.sorted_by_size[heap] != 0
 
-    def restart(self) -> int:
+    def restart(self) -> None:
         """Restart from the root; nogoods stay, and in every second run dom/wdeg orders the variables."""
         self.undo_all()
         self.agenda.restarts.restart()
         rebuild(self.agenda)
-        return 0
 
-    def check_overload(self) -> int:
+    def check_overload(self) -> None:
         """Turn the overload checks on: worth their time where resolvers fail."""
         if not self.europa and not self.checks_overload:
             self.checks_overload = True
             for o in range(self.plan.object_count):
                 self.plan.resources.set_energetic(o, is_resource_managed(self.agenda, o))
-        return 0
 
     def _left_some(self, d: int, most: int) -> bool:
         """Whether decision `d` has resolvers that were not tried: values of a float, or those that a handler omits."""
@@ -307,13 +310,12 @@ class Solver:
             return self.agenda.table.handler_choice[stack.handler[d]] in (MERGE_ONLY, ACTIVATE_ONLY)
         return False
 
-    def _enter(self) -> int:
+    def _enter(self) -> None:
         """Open a decision about the flaw that was found."""
         self.stack.open(self.agenda, mark(self.plan))
         self.has_active = True
-        return 0
 
-    def _undo(self, d: int) -> int:
+    def _undo(self, d: int) -> None:
         """Undo decision `d` and drop it."""
         stack = self.stack
         release(self.plan, stack.mark[d])
@@ -321,7 +323,6 @@ class Solver:
         stack.close(d)
         stack.depth = d
         self.has_active = False
-        return 0
 
     def _backjump(self, d: int, is_explained: bool) -> int:
         """Drop a decision without resolvers, and go back to the latest one in its conflict set."""
@@ -345,14 +346,13 @@ class Solver:
         self._retry(target)
         return 0
 
-    def _retry(self, d: int) -> int:
+    def _retry(self, d: int) -> None:
         """Undo what decision `d` has chosen, for its next resolver."""
         stack = self.stack
         rewind(self.plan, stack.mark[d])
         self.agenda.backtrack(stack.dropped[d], stack.dynamic[d], stack.rows_seen[d], stack.engine_seen[d])
         stack.depth = d
         self.has_active = True
-        return 0
 
 
 def _is_rejection(agenda: Agenda, stack: Decisions, d: int) -> bool:

@@ -1,12 +1,16 @@
 """Draws are the same everywhere, and distributed as promised."""
 
+import math
+from collections import Counter
 from statistics import NormalDist, fmean, variance
 
 import pytest
+from scipy import stats
 
 from checker.sampling.seeds import mission_seed
 from runtime.executive.chance import draw, draw_bits, sample
 from runtime.executive.configuration import ParameterConfiguration
+from runtime.executive.expression import ExpressionError, parse_expression
 from runtime.executive.normal import natural_logarithm, normal_quantile
 
 
@@ -119,3 +123,83 @@ def test_missions_have_different_seeds() -> None:
 
 
 REFERENCE = [1635799601, 967531508, 3592271144]
+
+
+def test_a_given_normal_has_its_mean_and_deviation() -> None:
+    parameter = ParameterConfiguration("P", 0.0, 0.0, "normal", mean=7.0, deviation=0.5)
+    values = [sample(parameter, seed, 0).value for seed in range(20_000)]
+    assert stats.kstest(values, stats.norm(7.0, 0.5).cdf).pvalue > 0.001
+
+
+def test_a_given_normal_is_truncated_to_its_range() -> None:
+    parameter = ParameterConfiguration("P", 6.0, 7.2, "truncated_normal", mean=7.0, deviation=0.5)
+    values = [sample(parameter, seed, 0).value for seed in range(20_000)]
+    other = stats.truncnorm((6.0 - 7.0) / 0.5, (7.2 - 7.0) / 0.5, 7.0, 0.5)
+    assert stats.kstest(values, other.cdf).pvalue > 0.001
+    assert min(values) >= 6.0
+    assert max(values) <= 7.2
+
+
+def test_a_truncation_far_from_the_mean_stays_in_its_range() -> None:
+    parameter = ParameterConfiguration("P", 60.0, 61.0, "truncated_normal", mean=7.0, deviation=0.5)
+    assert all(60.0 <= sample(parameter, seed, 0).value <= 61.0 for seed in range(100))
+
+
+def test_parameters_of_one_stream_are_drawn_together() -> None:
+    columns = ((1.0, 2.0, 3.0), (10.0, 20.0, 30.0))
+    one, other = (
+        ParameterConfiguration(name, 0.0, 0.0, "discrete", values=column, weights=(1.0, 1.0, 2.0), stream="joint S")
+        for name, column in zip("AB", columns, strict=True)
+    )
+    pairs = Counter((sample(one, seed, 0).value, sample(other, seed, 0).value) for seed in range(4_000))
+    assert set(pairs) == set(zip(*columns, strict=True))
+    assert pairs[3.0, 30.0] == pytest.approx(2_000, abs=150)
+
+
+def test_a_share_stands_in_place_of_the_draw() -> None:
+    parameter = ParameterConfiguration("P", 1.0, 3.0, share=0.25)
+    assert {sample(parameter, seed, 0).value for seed in range(9)} == {1.5}
+
+
+@pytest.mark.parametrize("name", list("ABCDEF"))
+def test_streams_of_different_names_are_not_correlated(name: str) -> None:
+    draws = [draw(seed, "GPS_HIT_RATE", 0) for seed in range(100_000)]
+    others = [draw(seed, name, 0) for seed in range(100_000)]
+    assert abs(stats.pearsonr(draws, others).statistic) < 0.01
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("2 * A + B / 4", 7.0),
+        ("-A if A > B else min(A, B, 1.5) + max(0, A)", 4.5),
+        ("abs(-A) * floor(2.7) - ceil(B - 3.5) + sqrt(16)", 9.0),
+        ("not A == 3 or B >= 4 and A != B", 1.0),
+        ("1 < A < 3", 0.0),
+    ],
+)
+def test_an_expression_has_the_value_that_python_gives_it(text: str, value: float) -> None:
+    found = parse_expression(text)
+    assert set(found.names) <= {"A", "B"}
+    assert found.value({"A": 3.0, "B": 4.0}) == value
+    functions = {"abs": abs, "min": min, "max": max, "floor": math.floor, "ceil": math.ceil, "sqrt": math.sqrt}
+    assert float(eval(text, functions, {"A": 3.0, "B": 4.0})) == value
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "", "A +", "A ** 9", "__import__('os')", "A.real", "A[0]", "lambda: A", "exp(A)", "min(A)", "'a'", "True",
+        "A if", "(" * 300 + "A" + ")" * 300, "-" * 300 + "A", "A" * 2000, "1e999", "f(x=1)", "[A]", "A @ B",
+    ],
+)  # fmt: skip
+def test_what_is_no_arithmetic_is_refused(text: str) -> None:
+    with pytest.raises(ExpressionError):
+        parse_expression(text)
+
+
+def test_an_expression_without_a_value_says_so() -> None:
+    with pytest.raises(ExpressionError, match="it has no value for A = 0: float division by zero"):
+        parse_expression("1 / A").value({"A": 0.0})
+    with pytest.raises(ExpressionError, match="not finite"):
+        parse_expression("A * A").value({"A": 1e200})

@@ -87,6 +87,65 @@ value = 7.5
     assert mission.needs_range == ("D",)
 
 
+def test_parameters_that_depend_on_others_are_read() -> None:
+    mission = read(
+        HEAD
+        + """
+[parameters.A]
+mean = 1.0
+sigma = 0.5
+[parameters.B]
+range = [0, 1]
+mode = "intra"
+update = 6
+[parameters.C]
+expression = "2 * B + A"
+clip = [0, 3]
+[parameters.D]
+expression = "C + E"
+[joint.SEA]
+parameters = ["E", "F"]
+rows = [[1, 10], [2, 20]]
+weights = [3, 1]
+mode = "intra"
+update = 4
+"""
+    )
+    half = 0.5 * 3**0.5
+    assert mission.agent.parameters == (
+        ParameterConfiguration("A", 1.0 - half, 1.0 + half, "normal", mean=1.0, deviation=0.5),
+        ParameterConfiguration("B", 0.0, 1.0, "uniform", "intra", 6),
+        ParameterConfiguration("C", 0.0, 0.0, "dependent", "intra", 6, (0, 3), expression="2 * B + A"),
+        ParameterConfiguration("D", 0.0, 0.0, "dependent", "intra", 2, expression="C + E"),
+        ParameterConfiguration(
+            "E", 1.0, 2.0, "discrete", "intra", 4, values=(1.0, 2.0), weights=(3.0, 1.0), stream="joint SEA"
+        ),
+        ParameterConfiguration(
+            "F", 10.0, 20.0, "discrete", "intra", 4, values=(10.0, 20.0), weights=(3.0, 1.0), stream="joint SEA"
+        ),
+    )
+    assert mission.needs_range == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "message"),
+    [
+        ('[parameters.A]\nexpression = "A + 1"\n', 15, "parameters read each other in a cycle: A → A"),
+        ('[parameters.A]\nexpression = "open(B)"\n', 15, "`expression`: there is no function `open`"),
+        ('[parameters.A]\nexpression = "3 + 4"\n', 15, "the expression reads no other parameter: write `value`"),
+        ('[parameters.A]\ndistribution = "normal"\nmean = 3\n', 15, "without a `range` needs both `mean` and `sigma`"),
+        ("[parameters.A]\nrange = [0, 1]\ndistribution = 'uniform'\nmean = 3\n", 15, "`mean` belongs to a normal or"),
+        ('[joint.S]\nparameters = ["A", "B"]\nrows = [[1, 2], [3]]\n', 17, "`rows` must be a list of rows of 2"),
+        ('[joint.S]\nparameters = ["A"]\nrows = [[1]]\nweights = [1, 2]\n', 15, "there are 2 weights for 1 values"),
+        ('[parameters.A]\nvalue = 1\n[joint.S]\nparameters = ["A"]\nrows = [[1]]\n', 18, "the parameter `A` is there"),
+    ],
+)  # fmt: skip
+def test_a_mistake_in_what_depends_is_named_where_it_stands(text: str, line: int, message: str) -> None:
+    first = complaints(HEAD + text)[0]
+    assert first[0] == line
+    assert message in first[3]
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [
@@ -111,7 +170,8 @@ value = 7.5
                 17,
                 '"unifrom"',
                 "NDDL707",
-                "`distribution` cannot be `unifrom`; it is one of uniform, normal, truncated_normal, discrete, fixed",
+                "`distribution` cannot be `unifrom`; it is one of uniform, normal, truncated_normal, discrete, "
+                "choice, fixed, dependent",
                 "did you mean `uniform`?",
             ),
         ),

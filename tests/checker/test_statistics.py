@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from checker.statistics import exact_interval, incomplete_beta, judge_rate
+from checker.rate import judge_rate
+from checker.statistics import exact_interval, incomplete_beta
 
 
 @pytest.mark.parametrize(

@@ -12,11 +12,12 @@ from dataclasses import dataclass, field
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from runtime.constraints.explanation.cause import Cause, CauseKind
-from runtime.constraints.minimisation.minimise import Scratch, minimise, sufficient
+from runtime.constraints.minimisation.minimise import Scratch, minimise
 from runtime.constraints.propagators import opcodes
 from tests.constraints import meaning
 from tests.constraints.random_sets import Post, Problem, Tally, build, draw, holds, may_have, post, solutions
 from tests.constraints.signatures import FORWARD, images
+from tests.constraints.sufficient import sufficient
 from tests.constraints.witness import anything, quick_order, walks_to_solution
 
 MOST_COMBINATIONS = 2000

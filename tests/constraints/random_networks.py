@@ -8,9 +8,10 @@ from math import inf
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from runtime.constraints.explanation.cause import Cause, CauseKind
-from runtime.constraints.minimisation.minimise import minimise, sufficient
+from runtime.constraints.minimisation.minimise import minimise
 from runtime.constraints.propagators import opcodes
 from tests.constraints.reference import shortest_distances
+from tests.constraints.sufficient import sufficient
 
 Bounds = tuple[float, float]
 Key = tuple[CauseKind, int]

@@ -195,3 +195,9 @@ def built(problem: Problem, posts: list[Post] | None = None) -> Engine:
 def domains_of(engine: Engine, count: int) -> list[set[int]]:
     """List the domains of the first variables."""
     return [{int(x) for x in engine.values_of(v)} for v in range(count)]
+
+
+def undecide(engine: Engine, v: int) -> bool:
+    """Take the decisions on a variable back at level 0, and propagate."""
+    decisions = [r for r in engine.restrictions_of(v) if engine.restriction_flags[r] & tags.FLAG_DECISION]
+    return bool(engine.retract(restrictions=decisions))

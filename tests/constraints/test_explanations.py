@@ -11,7 +11,7 @@ from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from runtime.constraints.explanation.cause import Cause, CauseKind
 from runtime.constraints.minimisation.case_split import Budget
-from runtime.constraints.minimisation.minimise import Scratch, minimise, sufficient
+from runtime.constraints.minimisation.minimise import Scratch, minimise
 from runtime.constraints.propagators import opcodes
 from tests.constraints.reference import (
     BATCHES,
@@ -24,6 +24,7 @@ from tests.constraints.reference import (
     random_problem,
     seeds,
 )
+from tests.constraints.sufficient import sufficient
 
 JUDGED = tuple(op for op in BY_VALUE + BY_BOUND if op not in (opcodes.OP_EQ_MAXIMUM, opcodes.OP_EQ_MINIMUM))
 

@@ -6,7 +6,7 @@ import pytest
 
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
-from runtime.constraints.minimisation.minimise import minimise, sufficient
+from runtime.constraints.minimisation.minimise import minimise
 from runtime.constraints.propagators import opcodes
 from tests.constraints.reference import (
     BATCHES,
@@ -18,6 +18,7 @@ from tests.constraints.reference import (
     random_problem,
     seeds,
 )
+from tests.constraints.sufficient import sufficient
 
 
 def compare_with_naive_fixpoint(seed: int) -> None:

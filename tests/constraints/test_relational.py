@@ -8,11 +8,12 @@ import pytest
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from runtime.constraints.minimisation.case_split import Budget, fails_in_all_cases
-from runtime.constraints.minimisation.minimise import minimise, sufficient
+from runtime.constraints.minimisation.minimise import minimise
 from runtime.constraints.propagators import opcodes
 from tests.constraints import meaning
 from tests.constraints.reference import BATCHES, seeds
 from tests.constraints.signatures import FORWARD, KINDS, SIGNATURES, draw_values
+from tests.constraints.sufficient import sufficient
 from tests.constraints.witness import repairs
 
 WIDTHS = (0.0, 0.0, 1.0, 4.0, 60.0, math.inf)

@@ -1,5 +1,6 @@
 """A client that starts the real server as a process and speaks the protocol with it, byte by byte."""
 
+import asyncio
 import itertools
 import json
 import queue
@@ -11,6 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
+from lsp.project import ServerSettings
+from lsp.server import make_session
+from lsp.transport import receive
 
 TIMEOUT = 60  # seconds; only a server that never answers uses them up
 Message = dict[str, Any]
@@ -175,3 +180,94 @@ def start_client() -> Iterator[Callable[..., Client]]:
     yield start
     for session in sessions:
         session.kill()
+
+
+class Wire:
+    """An editor in the same process: messages go in and come out as they do over a stream, thousands in a second."""
+
+    def __init__(self) -> None:
+        self.session = make_session(ServerSettings(), lambda *_: ())
+        self.session.protocol.set_writer(self)
+        self.said: list[Message] = []
+        self._loop = asyncio.new_event_loop()
+
+    def write(self, content: bytes) -> None:
+        """Take what the server says."""
+        self.said.append(json.loads(content.partition(b"\r\n\r\n")[2]))
+
+    def close(self) -> None:
+        """Nothing is left to do."""
+
+    def end(self) -> None:
+        """The editor is gone."""
+        self._loop.close()
+
+    def send(self, *bodies: bytes) -> list[Message]:
+        """What the server says to messages that arrive at once."""
+
+        async def arrive() -> None:
+            for body in bodies:
+                receive(self.session, body)
+            for _ in range(6):
+                await asyncio.sleep(0)
+
+        self.said = []
+        self._loop.run_until_complete(arrive())
+        return self.said
+
+    def tell(self, method: str, **params: Any) -> list[Message]:
+        """Send one notification."""
+        return self.send(json.dumps({"jsonrpc": "2.0", "method": method, "params": params}).encode())
+
+    def ask(self, method: str, **params: Any) -> Message:
+        """Send one request; its whole answer."""
+        body = json.dumps({"jsonrpc": "2.0", "id": 1, "method": method, "params": params}).encode()
+        (answer,) = [each for each in self.send(body) if each.get("id") == 1]
+        return answer
+
+    def start(self, **capabilities: Any) -> None:
+        """Begin the session."""
+        self.ask("initialize", processId=None, rootUri=None, capabilities=capabilities)
+        self.tell("initialized")
+
+    def open(self, uri: str, text: str, version: int = 1) -> Message:
+        """Open a text; what is wrong with it."""
+        item = {"uri": uri, "languageId": "nddl", "version": version, "text": text}
+        return published(self.tell("textDocument/didOpen", textDocument=item), uri)
+
+    def change(self, uri: str, version: int, *edits: Message) -> Message:
+        """Edit a text; what is wrong with it."""
+        document = {"uri": uri, "version": version}
+        return published(self.tell("textDocument/didChange", textDocument=document, contentChanges=list(edits)), uri)
+
+
+def published(said: list[Message], uri: str) -> Message:
+    """What was published last about a file."""
+    found: list[Message] = [
+        each["params"]
+        for each in said
+        if each.get("method") == "textDocument/publishDiagnostics" and each["params"]["uri"] == uri
+    ]
+    return found[-1]
+
+
+@pytest.fixture
+def wire() -> Iterator[Wire]:
+    """A session in this process, nothing said yet."""
+    session = Wire()
+    yield session
+    session.end()
+
+
+@pytest.fixture
+def make_wire() -> Iterator[Callable[[], Wire]]:
+    """Makes sessions in this process."""
+    sessions: list[Wire] = []
+
+    def make() -> Wire:
+        sessions.append(Wire())
+        return sessions[-1]
+
+    yield make
+    for session in sessions:
+        session.end()

@@ -6,9 +6,10 @@ import pytest
 from lsprotocol.types import DocumentSymbol, SymbolKind
 
 from lsp.completion import completions
-from lsp.documents import DocumentContext, Documents
+from lsp.documents import Documents
 from lsp.links import page_of
 from lsp.mending import formatting, mends
+from lsp.open_text import DocumentContext
 from lsp.roots import root_of
 from lsp.symbols import outline
 from nddl_lang.syntax.incremental import common_ends

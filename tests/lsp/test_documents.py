@@ -7,9 +7,10 @@ from hypothesis import strategies as st
 from lsprotocol.types import DiagnosticTag, Position, Range
 
 from lsp.completion import completions
-from lsp.documents import Documents, Publication
+from lsp.documents import Documents
 from lsp.hover import hover_at
 from lsp.mending import formatting, mends
+from lsp.open_text import Publication
 from lsp.project import ServerSettings
 from lsp.symbols import outline
 

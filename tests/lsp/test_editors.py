@@ -2,6 +2,8 @@
 
 import json
 import re
+import subprocess
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -52,10 +54,36 @@ def test_the_regular_expressions_can_be_read(name: str) -> None:
 def test_the_extension_names_files_that_are_there() -> None:
     package = read("package.json")
     contributed = package["contributes"]
-    names = [package["main"], *(each["configuration"] for each in contributed["languages"])]
-    names += [each["path"] for each in contributed["grammars"]]
+    names = [package["icon"], *(each["configuration"] for each in contributed["languages"])]
+    names += [each["path"] for each in (*contributed["grammars"], *contributed["snippets"])]
+    names += ["LICENSE", "README.md"]
     assert all((VSCODE / name).is_file() for name in names)
-    text = (VSCODE / "extension.js").read_text(encoding="utf-8")
+    texts = "".join(path.read_text(encoding="utf-8") for path in sorted((VSCODE / "src").glob("*.ts")))
     for setting in contributed["configuration"]["properties"]:
         name = setting.removeprefix("nddlc.")
-        assert name == "trace.server" or f'"{name}"' in text
+        assert name == "trace.server" or f'"{name}"' in texts
+    assert all(f'"{each["command"]}"' in texts for each in contributed["commands"])
+
+
+def test_the_licence_of_the_extension_is_that_of_the_project() -> None:
+    assert (VSCODE / "LICENSE").read_bytes() == (VSCODE.parents[1] / "LICENSE").read_bytes()
+
+
+@pytest.mark.parametrize("name", ["neovim/syntax/nddl.vim", "emacs/nddl-mode.el"])
+def test_other_editors_know_the_same_words(name: str) -> None:
+    text = (VSCODE.parent / name).read_text(encoding="utf-8")
+    found = set(re.findall(r"\w+", text))
+    assert [word for word in sorted(RESERVED) if word not in found] == []
+
+
+@pytest.mark.parametrize("name", ["helix/languages.toml"])
+def test_settings_for_other_editors_can_be_read(name: str) -> None:
+    settings = tomllib.loads((VSCODE.parent / name).read_text(encoding="utf-8"))
+    assert settings["language-server"]["nddlc"]["args"] == ["lsp"]
+    assert json.loads((VSCODE.parent / "zed/settings.json").read_text())["lsp"]["clangd"]["binary"]["path"] == "nddlc"
+
+
+@pytest.mark.skipif(not (VSCODE / "node_modules").is_dir(), reason="`make vsix` fetches the tools")
+def test_the_extension_is_sound_typescript_and_its_grammar_colours(tmp_path: Path) -> None:
+    for command in (["npx", "tsc", "--noEmit"], ["npm", "test"]):
+        subprocess.run(command, cwd=VSCODE, check=True, capture_output=True, timeout=300)

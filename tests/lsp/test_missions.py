@@ -161,3 +161,11 @@ def test_a_place_is_found_in_any_text(text: str) -> None:
     for offset in range(len(text) + 1):
         place = place_at(text, offset)
         assert 0 <= place.begin <= place.finish <= len(text)
+
+
+def test_lenses_offer_to_fly_missions(opened: Any) -> None:
+    client, uri, _ = opened
+    found = client.ask("textDocument/codeLens", textDocument={"uri": uri})
+    shown = [(each["range"]["start"]["line"], each["command"]["title"]) for each in found]
+    assert shown == [(0, "run 100 missions"), (0, "run all missions"), (0, "explain last failure")]
+    assert found[0]["command"]["arguments"] == [uri, 100]

@@ -256,3 +256,12 @@ def test_rules_come_as_snippets_where_the_editor_can_show_them(start_client: Any
         assert ("C::p" in [each["label"] for each in found]) is expected
         assert any(each.get("insertTextFormat") == 2 for each in found) is expected
         assert client.leave() == 0
+
+
+def test_the_path_of_an_include_is_completed(opened: Any) -> None:
+    client, uri, _, _ = opened
+    client.change(uri, {"text": '#include "ba\n' + MODEL})
+    found = client.ask_at("completion", uri, 0, 12)["items"]
+    assert [each["label"] for each in found] == ["base.nddl", "other.nddl"]
+    place = {"start": {"line": 0, "character": 10}, "end": {"line": 0, "character": 12}}
+    assert found[0]["textEdit"] == {"range": place, "newText": "base.nddl"}

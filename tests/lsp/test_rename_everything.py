@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from lsp.documents import DocumentContext, Documents
+from lsp.documents import Documents
 from lsp.occurrences import Occurrence, Symbol
+from lsp.open_text import DocumentContext
 from lsp.references import everywhere
 from lsp.rename import RenameError, rename
 from nddl_lang.analysis import Analyser

@@ -14,11 +14,10 @@ DECLARED = sorted(RUNTIME.rglob("*.pxd"))
 def attributes(node: ast.ClassDef) -> set[str]:
     """What a class's methods set on `self`."""
     return {
-        target.attr
+        each.attr
         for each in ast.walk(node)
-        if isinstance(each, ast.Assign | ast.AnnAssign | ast.AugAssign)
-        for target in (each.targets if isinstance(each, ast.Assign) else [each.target])
-        if isinstance(target, ast.Attribute) and isinstance(target.value, ast.Name) and target.value.id == "self"
+        if isinstance(each, ast.Attribute) and isinstance(each.ctx, ast.Store)
+        if isinstance(each.value, ast.Name) and each.value.id == "self"
     }
 
 
@@ -32,6 +31,18 @@ def missing(path: Path) -> Iterator[str]:
             for name in sorted(attributes(node) - words):
                 if not is_inherited(node, name):
                     yield f"{node.name}.{name}"
+
+
+def unset(path: Path) -> Iterator[str]:
+    """Fields of compiled classes that no method sets: an array without a value is no memory at all."""
+    declared = path.read_text()
+    classes = dict(re.findall(r"^cdef class (\w+)[^\n]*:\n((?:[ \n][^\n]*\n?)*)", declared, re.MULTILINE))
+    for node in ast.parse(path.with_suffix(".py").read_text()).body:
+        if isinstance(node, ast.ClassDef) and node.name in classes:
+            for names in re.findall(
+                r"^    cdef public (?:long )*[\w:\[\]]+ ([\w, ]+)$", classes[node.name], re.MULTILINE
+            ):
+                yield from (f"{node.name}.{name}" for name in names.split(", ") if name not in attributes(node))
 
 
 def is_inherited(node: ast.ClassDef, name: str) -> bool:
@@ -51,6 +62,11 @@ BASES = {
 @pytest.mark.parametrize("path", DECLARED, ids=lambda path: str(path.relative_to(RUNTIME)))
 def test_all_attributes_of_compiled_classes_are_declared(path: Path) -> None:
     assert not list(missing(path))
+
+
+@pytest.mark.parametrize("path", DECLARED, ids=lambda path: str(path.relative_to(RUNTIME)))
+def test_all_fields_of_compiled_classes_are_set(path: Path) -> None:
+    assert not list(unset(path))
 
 
 @pytest.mark.parametrize("path", DECLARED, ids=lambda path: str(path.relative_to(RUNTIME)))

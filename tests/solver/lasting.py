@@ -14,6 +14,7 @@ from runtime.plan.database import PlanDatabase
 from runtime.solver.configuration.configuration import default_configuration
 from runtime.solver.search import Solver
 from runtime.solver.tags import PLAN
+from tests.constraints.reference import undecide
 from tests.plan.models import loaded
 from tests.plan.test_undo import MODEL
 
@@ -105,7 +106,7 @@ def tick(count: int) -> list[tuple[int, int]]:
         expected = engine.newest_restriction
         assert engine.decide(mode, 2, 0, -1) and engine.propagate()
         engine.commit()
-        assert engine.retract(restrictions=[expected]) and engine.undecide(mode)
+        assert engine.retract(restrictions=[expected]) and undecide(engine, mode)
         assert engine.restrict_base(start, k, k + 2, 0, -1) and engine.propagate()
         tokens.append([start, end, length, mode])
         if len(tokens) > 5:

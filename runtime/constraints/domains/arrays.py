@@ -37,6 +37,15 @@ def grow_rows(owner: object, names: str, length: int, fill: float = 0) -> None:
         setattr(owner, name, grown(getattr(owner, name), length, fill))
 
 
+def lengthen(owner: object, zeros: str, nones: str = "", need: int = 0) -> None:
+    """Lengthen rows of an object, at least to `need`: in new cells is 0, and -1 in those of the arrays named last."""
+    room = _next_room(len(getattr(owner, zeros.partition(" ")[0])))
+    while room < need:
+        room = _next_room(room)
+    grow_rows(owner, zeros, room)
+    grow_rows(owner, nones, room, -1)
+
+
 def _lazily_zeroed(code: Any, size: int) -> "array[Any]":
     """Zeros, of so many bytes, in pages of their own: private ones, for workers are forked."""
     try:
@@ -46,21 +55,22 @@ def _lazily_zeroed(code: Any, size: int) -> "array[Any]":
     return cast("array[Any]", memoryview(pages).cast(code))
 
 
-def next_room(room: int) -> int:
+def _next_room(room: int) -> int:
     """How long rows become that were `room` long: short ones faster, for growth is much of a small problem's time."""
     return room * (4 if room < _SHORT else 2)
 
 
 def next_log_room(room: int) -> int:
     """How long the arrays of a log become: large ones, too, grow faster where their end costs nothing."""
-    return room * 4 if _IS_LAZY and room >= 2**18 else next_room(room)
+    return room * 4 if _IS_LAZY and room >= 2**18 else _next_room(room)
 
 
-def grown_ring(old: "array[int]", first: int, last: int, room: int) -> "array[int]":
-    """Longer copy of a ring, whose live part moves to the start."""
+def grow_ring(owner: object, name: str, room: int) -> None:
+    """Lengthen the ring `name_queue` of an object, whose live part moves to the start."""
+    old, first, last = (getattr(owner, f"{name}_{part}") for part in ("queue", "first", "last"))
     new = blank(room, "i")
-    length = len(old)
-    count = (last - first) % length
+    count = (last - first) % len(old)
     for i in range(count):
-        new[i] = old[(first + i) % length]
-    return new
+        new[i] = old[(first + i) % len(old)]
+    for part, value in (("queue", new), ("first", 0), ("last", count), ("mask", room - 1)):
+        setattr(owner, f"{name}_{part}", value)

@@ -78,7 +78,7 @@ def in_order(values: list[float]) -> list[float]:
 
 
 def insert_value(values: list[float], value: float) -> None:
-    """Put a value into its place in a sorted list, unless it is there; the greatest, as a rule, goes to the end."""
+    """Insert a value into a sorted list, unless it is there; the greatest, as a rule, goes to the end."""
     index = len(values)
     if index and values[index - 1] >= value:
         index = bisect_left(values, value)

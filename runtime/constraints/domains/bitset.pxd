@@ -15,45 +15,33 @@ cpdef long long _bits_in(unsigned long long x) except? -1
 @cython.locals(n="long long")
 cpdef long long _highest_bit(unsigned long long x) except? -1
 
-@cython.locals(room="long long")
-cpdef int _grow_bits(Store s, long long need) except -1
-
-@cython.locals(first="long long")
 cpdef long long _allocate_words(Store s, long long count) except? -1
 
 cpdef int _release_words(Store s, long long first, long long count) except -1
 
-@cython.locals(count="long long", first="long long", k="long long")
 cpdef int attach_words(Store s, long long v, long long base, long long values) except -1
 
 cpdef int detach_words(Store s, long long v) except -1
 
 cpdef long long index_above(Store s, long long v, long long x) except? -1
 
-@cython.locals(index="long long")
 cpdef long long index_below(Store s, long long v, long long x) except? -1
 
 @cython.locals(first="long long", high="long long", low="long long", middle="long long")
 cpdef long long table_index(Store s, long long v, double x) except? -1
 
-@cython.locals(k="long long", x="unsigned long long")
 cpdef long long next_index(Store s, long long v, long long index) except? -1
 
-@cython.locals(k="long long", x="unsigned long long")
 cpdef long long previous_index(Store s, long long v, long long index) except? -1
 
 cpdef long long value_at(Store s, long long v, long long index) except? -1
 
-@cython.locals(index="long long")
 cpdef long long next_value(Store s, long long v, long long x) except? -1
 
-@cython.locals(index="long long")
 cpdef long long previous_value(Store s, long long v, long long x) except? -1
 
-@cython.locals(index="long long")
 cpdef bint has_value(Store s, long long v, long long x) except -1
 
-@cython.locals(entry="long long")
 cpdef int clear_bits(Store s, long long v, long long k, unsigned long long mask, long long support) except -1
 
 @cython.locals(entry="long long")
@@ -62,15 +50,9 @@ cpdef int restore_bits(Store s, long long v) except -1
 @cython.locals(entry="long long")
 cpdef int drop_log(Store s, long long v) except -1
 
-@cython.locals(room="long long")
-cpdef int _grow_log(Store s) except -1
-
-@cython.locals(count="long long", first="long long", k="long long")
+@cython.locals(count="long long", k="long long")
 cpdef int attach_table(Store s, long long v, list values) except -1
 
 cpdef int _release_table(Store s, long long first, long long count) except -1
 
-@cython.locals(
-    last="long long", index="long long", rest="long long", total="long long", x="unsigned long long"
-)
 cpdef long long count_values(Store s, long long v) except? -1

@@ -1,6 +1,6 @@
 """Keep which values between a variable's bounds are missing: words of bits, a log of who removed which."""
 
-from runtime.constraints.domains.arrays import grow_rows, grown, next_room
+from runtime.constraints.domains.arrays import grown, lengthen
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     ALL_BITS,
@@ -56,24 +56,15 @@ def _highest_bit(x: int) -> int:
     return n
 
 
-def _grow_bits(s: Store, need: int) -> None:
-    """Make room for `need` more words."""
-    room = len(s.bits)
-    while room < s.bits_used + need:
-        room *= 2
-    if room > len(s.bits):
-        s.bits = grown(s.bits, room)
-
-
 def _allocate_words(s: Store, count: int) -> int:
     """Take `count` consecutive words; small blocks come back through free lists."""
     if count < len(s.word_free) and s.word_free[count] >= 0:
         first = s.word_free[count]
         s.word_free[count] = s.bits[first] - 1
         return first
-    if s.bits_used + count > len(s.bits):
-        _grow_bits(s, count)
     first = s.bits_used
+    if first + count > len(s.bits):
+        lengthen(s, "bits", need=first + count)
     s.bits_used = first + count
     return first
 
@@ -214,7 +205,7 @@ def clear_bits(s: Store, v: int, k: int, mask: int, support: int) -> None:
     else:
         entry = s.holes_used
         if entry == len(s.hole_mask):
-            _grow_log(s)
+            lengthen(s, "hole_word hole_mask", "hole_variable hole_support hole_when hole_next")
         s.holes_used += 1
     s.bits[s.word[v] + k] &= ALL_BITS ^ mask
     s.hole_variable[entry] = v
@@ -246,13 +237,6 @@ def drop_log(s: Store, v: int) -> None:
         s.hole_head[v] = s.hole_next[entry]
         s.hole_next[entry] = s.hole_free
         s.hole_free = entry
-
-
-def _grow_log(s: Store) -> None:
-    """Lengthen the rows of the log of holes."""
-    room = next_room(len(s.hole_mask))
-    grow_rows(s, "hole_variable hole_support hole_when hole_next", room, -1)
-    grow_rows(s, "hole_word hole_mask", room)
 
 
 def attach_table(s: Store, v: int, values: list[float]) -> None:

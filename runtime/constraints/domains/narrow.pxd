@@ -20,16 +20,12 @@ cpdef bint set_upper(Store s, long long v, long long x, long long support) excep
 
 cpdef bint assign(Store s, long long v, long long x, long long support) except -1
 
-@cython.locals(index="long long")
 cpdef bint remove_value(Store s, long long v, long long x, long long support) except -1
 
-@cython.locals(x="long long")
 cpdef bint round_bounds(Store s, long long v, long long support) except -1
 
-@cython.locals(index="long long")
 cpdef bint _set_real_lower(Store s, long long v, double x, long long support) except -1
 
-@cython.locals(index="long long")
 cpdef bint _set_real_upper(Store s, long long v, double x, long long support) except -1
 
 cpdef double low(Store s, long long v) except? -1.0

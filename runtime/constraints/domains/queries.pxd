@@ -1,6 +1,5 @@
 # The C types of `queries.py`.
 
-cimport cython
 from runtime.constraints.domains.base_domain cimport base_set, is_growing
 from runtime.constraints.domains.bitset cimport count_values, has_value, next_index, index_above, index_below, value_at
 from runtime.constraints.domains.narrow cimport is_near, is_single
@@ -16,8 +15,6 @@ cpdef bint has_finitely_many(Store s, long long v) except -1
 
 cpdef long long number_of_values(Store s, long long v) except? -1
 
-@cython.locals(found=list, last="long long", place="long long")
 cpdef list listed(Store s, long long v)
 
-@cython.locals(found=list, place="long long", x=double)
 cpdef list _listed_reals(Store s, long long v)

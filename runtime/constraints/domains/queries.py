@@ -42,20 +42,20 @@ def listed(s: Store, v: int) -> list[float]:
         return list(range(s.lb[v], s.ub[v] + 1))
     found: list[float] = []
     last = index_below(s, v, s.ub[v])
-    place = next_index(s, v, index_above(s, v, s.lb[v]))
-    while 0 <= place <= last:
-        found.append(value_at(s, v, place))
-        place = next_index(s, v, place + 1)
+    index = next_index(s, v, index_above(s, v, s.lb[v]))
+    while 0 <= index <= last:
+        found.append(value_at(s, v, index))
+        index = next_index(s, v, index + 1)
     return found
 
 
 def _listed_reals(s: Store, v: int) -> list[float]:
     """List the values of a float that has a set."""
     found: list[float] = []
-    place = next_index(s, v, 0)
-    while place >= 0:
-        x = s.table_values[s.table[v] + place]
+    index = next_index(s, v, 0)
+    while index >= 0:
+        x = s.table_values[s.table[v] + index]
         if s.flo[v] - FLOAT_TOLERANCE <= x <= s.fhi[v] + FLOAT_TOLERANCE:
             found.append(x)
-        place = next_index(s, v, place + 1)
+        index = next_index(s, v, index + 1)
     return found

@@ -52,28 +52,24 @@ cdef class Store:
     @cython.locals(room="long long")
     cpdef int grow_variables(self) except -1
 
-    cpdef int grow_constraint_queues(self, long long room) except -1
+    cpdef int grow_constraints(self) except -1
 
     @cython.locals(room="long long")
     cpdef int grow_trail(self) except -1
 
-    @cython.locals(i="long long")
     cpdef long long save_real(self, double x) except -1
 
-    @cython.locals(i="long long")
     cpdef int save(self, long long name, long long code, long long value, long long support) except -1
 
-    @cython.locals(i="long long")
     cpdef int write_lower(self, long long v, long long x, long long support) except -1
 
-    @cython.locals(i="long long")
     cpdef int write_upper(self, long long v, long long x, long long support) except -1
 
-    @cython.locals(i="long long")
     cpdef int write_real_lower(self, long long v, double x, long long support) except -1
 
-    @cython.locals(i="long long")
     cpdef int write_real_upper(self, long long v, double x, long long support) except -1
+
+    cpdef int note_conflict(self, long long kind, long long v, long long side, long long support) except -1
 
     cpdef bint fail(self, long long v, long long side, long long support) except -1
 

@@ -3,7 +3,7 @@
 from array import array
 from typing import Any
 
-from runtime.constraints.domains.arrays import grow_rows, grown, grown_ring, next_log_room, next_room
+from runtime.constraints.domains.arrays import grow_ring, grow_rows, grown, lengthen, next_log_room
 from runtime.constraints.domains.tags import (
     CONFLICT_DOMAIN,
     EVENT_DECIDED,
@@ -85,7 +85,7 @@ class Store:
         self.trail_value = array("q", [0]) * room
         self.trail_support = array("i", [0]) * room
         self.trail_when = array("q", [0]) * room
-        self.real_bounds = array("d", [0.0]) * room  # those of floats; the trail has their places
+        self.real_bounds = array("d", [0.0]) * room  # those of floats; the trail has their indices
         self.real_bounds_used = 0
         self.entailed_count = 0
         self.marks = 0
@@ -198,41 +198,27 @@ class Store:
 
     def grow_variables(self) -> None:
         """Lengthen the rows of variables."""
-        room = next_room(len(self.kind))
-        grow_rows(
+        lengthen(
             self,
             "kind lb ub flo fhi words_of bit_base table_length is_open decided constant queued relaxed block_first "
             "block_size block_left",
-            room,
-        )
-        grow_rows(
-            self,
             "lower_support upper_support lower_when upper_when word table hole_head restriction_head watch_head "
             "mute_head out_head in_head block_next",
-            room,
-            -1,
         )
-        self.visit = grown(self.visit, 4 * room)
-        self.edge_queue = grown_ring(self.edge_queue, self.edge_first, self.edge_last, 4 * room)
-        self.edge_last = (self.edge_last - self.edge_first) & self.edge_mask
-        self.edge_first = 0
-        self.edge_mask = 4 * room - 1
-        self.hull_queue = grown_ring(self.hull_queue, self.hull_first, self.hull_last, 2 * room)
-        self.hull_last = (self.hull_last - self.hull_first) & self.hull_mask
-        self.hull_first = 0
-        self.hull_mask = 2 * room - 1
+        room = len(self.kind)
+        grow_rows(self, "visit", 4 * room)
+        grow_ring(self, "edge", 4 * room)
+        grow_ring(self, "hull", 2 * room)
 
-    def grow_constraint_queues(self, room: int) -> None:
-        """Make place for `room` constraints in both queues."""
-        grow_rows(self, "scheduled priority idempotent woken", room)
-        self.cheap_queue = grown_ring(self.cheap_queue, self.cheap_first, self.cheap_last, 2 * room)
-        self.cheap_last = (self.cheap_last - self.cheap_first) & self.cheap_mask
-        self.cheap_first = 0
-        self.cheap_mask = 2 * room - 1
-        self.dear_queue = grown_ring(self.dear_queue, self.dear_first, self.dear_last, 2 * room)
-        self.dear_last = (self.dear_last - self.dear_first) & self.dear_mask
-        self.dear_first = 0
-        self.dear_mask = 2 * room - 1
+    def grow_constraints(self) -> None:
+        """Lengthen the rows of constraints, and both queues of them."""
+        lengthen(
+            self,
+            "mode first arity drawn entailed run_count run_epoch scheduled priority idempotent woken",
+            "op span owner link_a link_b constraint_next",
+        )
+        grow_ring(self, "cheap", 2 * len(self.op))
+        grow_ring(self, "dear", 2 * len(self.op))
 
     def grow_trail(self) -> None:
         """Make the trail longer."""
@@ -243,7 +229,7 @@ class Store:
     # --------------------------------------------------------------------------------------------- saving, waking
 
     def save_real(self, x: float) -> int:
-        """Keep a float's bound for the way back; give its place."""
+        """Keep a float's bound for the way back; give its index."""
         i = self.real_bounds_used
         if i == len(self.real_bounds):
             self.real_bounds = grown(self.real_bounds, 2 * i)
@@ -322,13 +308,17 @@ class Store:
         self.upper_when[v] = self.trail_base + i
         self.updates += 1
 
-    def fail(self, v: int, side: int, support: int) -> bool:
-        """Record that `support` leaves no value on that side of `v`; always false."""
+    def note_conflict(self, kind: int, v: int, side: int, support: int) -> None:
+        """Record a conflict."""
         self.consistent = False
-        self.conflict_kind = CONFLICT_DOMAIN
+        self.conflict_kind = kind
         self.conflict_variable = v
         self.conflict_side = side
         self.conflict_support = support
+
+    def fail(self, v: int, side: int, support: int) -> bool:
+        """Record that `support` leaves no value on that side of `v`; always false."""
+        self.note_conflict(CONFLICT_DOMAIN, v, side, support)
         return False
 
     def wake(self, v: int, event: int) -> None:

@@ -13,13 +13,10 @@ cdef double FLOAT_TOLERANCE, inf
 cdef unsigned long long ONE_BIT
 
 
-@cython.locals(v="long long")
 cpdef long long take_row(Store s) except? -1
 
-@cython.locals(first="long long", v="long long")
 cpdef long long take_block(Store s, long long count) except? -1
 
-@cython.locals(first="long long")
 cpdef long long reserve_block(Store s, long long count) except? -1
 
 cpdef int clear_row(Store s, long long v, long long kind) except -1
@@ -27,10 +24,6 @@ cpdef int clear_row(Store s, long long v, long long kind) except -1
 @cython.locals(count="long long", first="long long")
 cpdef int drop_variable(Store s, long long v) except -1
 
-@cython.locals(room="long long")
-cpdef int _grow_restrictions(Store s) except -1
-
-@cython.locals(r="long long")
 cpdef long long add_restriction(
     Store s, long long v, double lo, double hi, long long flags, long long span, long long owner
 ) except? -1
@@ -38,16 +31,13 @@ cpdef long long add_restriction(
 @cython.locals(other="long long", v="long long")
 cpdef int drop_restriction(Store s, long long r) except -1
 
-@cython.locals(support="long long")
 cpdef void start_interval(Store s, long long v, double lo, double hi, long long r) except *
 
-@cython.locals(k="long long", place="long long", value=double, width="long long")
+@cython.locals(k="long long", index="long long", value=double)
 cpdef void start_values(Store s, long long v, list values, long long r) except *
 
-@cython.locals(inside=list, k="long long", mask="unsigned long long", place="long long", x="long long")
 cpdef bint keep_values(Store s, long long v, list values, long long support) except -1
 
-@cython.locals(inside=list, place="long long", x=double)
 cpdef bint _keep_reals(Store s, long long v, list values, long long support) except -1
 
 @cython.locals(r="long long")

@@ -2,7 +2,7 @@
 
 from math import inf
 
-from runtime.constraints.domains.arrays import grow_rows, next_room
+from runtime.constraints.domains.arrays import lengthen
 from runtime.constraints.domains.bitset import (
     attach_table,
     attach_words,
@@ -118,13 +118,6 @@ def drop_variable(s: Store, v: int) -> None:
             s.block_free[count] = first
 
 
-def _grow_restrictions(s: Store) -> None:
-    """Lengthen the rows of restrictions."""
-    room = next_room(len(s.restriction_lo))
-    grow_rows(s, "restriction_variable restriction_next restriction_span restriction_owner", room, -1)
-    grow_rows(s, "restriction_lo restriction_hi restriction_flags", room)
-
-
 def add_restriction(s: Store, v: int, lo: float, hi: float, flags: int, span: int, owner: int) -> int:
     """Put a restriction at the head of the list of `v`, without narrowing `v`."""
     r = s.restriction_free
@@ -133,7 +126,8 @@ def add_restriction(s: Store, v: int, lo: float, hi: float, flags: int, span: in
     else:
         r = s.restrictions_used
         if r == len(s.restriction_lo):
-            _grow_restrictions(s)
+            others = "restriction_variable restriction_next restriction_span restriction_owner"
+            lengthen(s, "restriction_lo restriction_hi restriction_flags", others)
         s.restrictions_used = r + 1
     s.restriction_variable[r] = v
     s.restriction_lo[r] = lo
@@ -199,8 +193,8 @@ def start_values(s: Store, v: int, values: list[float], r: int) -> None:
     for k in range(s.words_of[v]):
         s.bits[s.word[v] + k] = 0
     for value in values:
-        place = int(value) - s.lb[v]
-        s.bits[s.word[v] + (place >> 6)] |= ONE_BIT << (place & 63)
+        index = int(value) - s.lb[v]
+        s.bits[s.word[v] + (index >> 6)] |= ONE_BIT << (index & 63)
 
 
 def is_untouched_set(s: Store, v: int) -> bool:
@@ -244,15 +238,15 @@ def keep_values(s: Store, v: int, values: list[float], support: int) -> bool:
         attach_words(s, v, s.lb[v], s.ub[v] - s.lb[v] + 1)
     # Bounds that stand in a hole now are rounded, but keep their support: the log of holes has this one.
     wanted = set(values)
-    place = next_index(s, v, index_above(s, v, s.lb[v]))
-    while place >= 0 and value_at(s, v, place) <= s.ub[v]:
-        k = place >> 6
+    index = next_index(s, v, index_above(s, v, s.lb[v]))
+    while index >= 0 and value_at(s, v, index) <= s.ub[v]:
+        k = index >> 6
         mask = 0
-        while place >= 0 and place >> 6 == k:
-            x = value_at(s, v, place)
+        while index >= 0 and index >> 6 == k:
+            x = value_at(s, v, index)
             if x <= s.ub[v] and x not in wanted:
-                mask |= ONE_BIT << (place & 63)
-            place = next_index(s, v, place + 1)
+                mask |= ONE_BIT << (index & 63)
+            index = next_index(s, v, index + 1)
         if mask:
             clear_bits(s, v, k, mask, support)
     return round_bounds(s, v, support)
@@ -267,14 +261,14 @@ def _keep_reals(s: Store, v: int, values: list[float], support: int) -> bool:
         if len(inside) > 1:
             attach_table(s, v, inside)
         return raise_to(s, v, inside[0], support) and reduce_to(s, v, inside[len(inside) - 1], support)
-    place = next_index(s, v, 0)
-    while place >= 0:
-        x = s.table_values[s.table[v] + place]
+    index = next_index(s, v, 0)
+    while index >= 0:
+        x = s.table_values[s.table[v] + index]
         if not is_near(x, values):
-            clear_bits(s, v, place >> 6, ONE_BIT << (place & 63), support)
-        place = next_index(s, v, place + 1)
-    place = next_index(s, v, 0)
-    if place < 0:
+            clear_bits(s, v, index >> 6, ONE_BIT << (index & 63), support)
+        index = next_index(s, v, index + 1)
+    index = next_index(s, v, 0)
+    if index < 0:
         return s.fail(v, SIDE_HOLES, support)
     return raise_to(s, v, s.flo[v], support) and reduce_to(s, v, s.fhi[v], support)
 

@@ -9,7 +9,6 @@ cdef long long CONFLICT_CYCLE, CONFLICT_DOMAIN, FLAG_VALUES, KIND_BOOL, KIND_FLO
 cdef long long SIDE_LOWER, SIDE_UPPER, SUPPORT_EDGE, SUPPORT_RESTRICTION
 
 
-@cython.locals(name="long long")
 cpdef cause_of(Store s, long long support)
 
 
@@ -22,16 +21,15 @@ cdef class _CauseWalk(SupportWalk):
 
     cpdef int visit_support(self, long long support) except -1
 
-    @cython.locals(r="long long", s=Store)
+    @cython.locals(r="long long")
     cpdef int visit_set(self, long long v) except -1
 
-    @cython.locals(is_real=bint, s=Store, value="long long")
+    @cython.locals(is_real=bint)
     cpdef double value(self, long long v, long long side) except? -1.0
 
-    @cython.locals(e="long long", now="long long", s=Store, side="long long", support="long long", v="long long")
+    @cython.locals(e="long long")
     cpdef int ask_conflict(self) except -1
 
-    @cython.locals(e="long long", s=Store, side="long long", time="long long")
     cpdef int ask_cycle(self, long long now) except -1
 
 

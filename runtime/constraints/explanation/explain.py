@@ -58,14 +58,13 @@ class _CauseWalk(SupportWalk):
         self.links.append(Link(cause, v, side, self.value(v, side)))
         return True
 
-    def visit_support(self, support: int) -> int:
+    def visit_support(self, support: int) -> None:
         """Collect the cause that a support stands for."""
         cause = cause_of(self.engine, support)
         if cause is not None:
             self.found[cause] = None
-        return 0
 
-    def visit_set(self, v: int) -> int:
+    def visit_set(self, v: int) -> None:
         """Collect the declaration and the listings of a variable: they left values out from the start.
 
         That is more than what was read, where the values left out do not matter.
@@ -76,7 +75,6 @@ class _CauseWalk(SupportWalk):
             if s.restriction_flags[r] & FLAG_VALUES or s.restriction_next[r] < 0:
                 self.visit_support(r * 4 + SUPPORT_RESTRICTION)
             r = s.restriction_next[r]
-        return 0
 
     def value(self, v: int, side: int) -> float:
         """Value of the bound that was looked up last; holes have none."""
@@ -99,7 +97,8 @@ class _CauseWalk(SupportWalk):
         v = s.conflict_variable
         side = s.conflict_side
         if s.conflict_kind == CONFLICT_CYCLE:
-            return self.ask_cycle(now)
+            self.ask_cycle(now)
+            return 0
         self.visit_support(support)
         if s.conflict_kind == CONFLICT_DOMAIN:
             self.ask_reasons(support, v, side, now)
@@ -116,7 +115,7 @@ class _CauseWalk(SupportWalk):
                 self.ask_edge(e, now)
         return 0
 
-    def ask_cycle(self, now: int) -> int:
+    def ask_cycle(self, now: int) -> None:
         """Collect the edges of a negative cycle, and ask for the distances that their weights follow."""
         s = self.engine
         e = s.conflict_support >> 2
@@ -129,7 +128,6 @@ class _CauseWalk(SupportWalk):
             time = self.when
             e = self.support >> 2
             self.ask_edge(e, time)
-        return 0
 
 
 def explain_conflict(s: Store) -> list[Cause]:

@@ -6,7 +6,6 @@ from runtime.constraints.domains.tags import (
     KIND_BOOL,
     KIND_FLOAT,
     MODE_DISTANCE,
-    MODE_EDGES,
     SIDE_HOLES,
     SIDE_LOWER,
     SIDE_UPPER,
@@ -27,7 +26,7 @@ from runtime.constraints.propagators.row import (
 def collect_reasons(s: Store, support: int, v: int, side: int) -> None:
     """Put the keys `u * 4 + side` that `support` read for this side of `v` into `reasons`.
 
-    More than it truly read does no harm: explanations are shrunk afterwards, retraction loosens a little more.
+    More than it truly read does no harm: explanations are shrunk afterwards, retraction relaxes a little more.
     """
     s.reason_count = 0
     kind = support & 3
@@ -131,8 +130,3 @@ def _reads_itself(s: Store, op: int, v: int, side: int) -> bool:
         # A factor of what is not 0 is not 0: its bound steps from 0 to 1 or -1.
         return s.kind[v] != KIND_FLOAT and (s.lb[v] == 1 if side == SIDE_LOWER else s.ub[v] == -1)
     return READS_OWN[op] == OWN_ALWAYS
-
-
-def is_carried(s: Store, c: int) -> bool:
-    """Tell whether a constraint is carried out by edges that do not change."""
-    return s.mode[c] == MODE_EDGES

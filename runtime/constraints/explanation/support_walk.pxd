@@ -28,14 +28,12 @@ cdef class SupportWalk:
 
     cpdef int ask_edge(self, long long e, long long before) except -1
 
-    @cython.locals(k="long long")
     cpdef int ask_collected(self, long long before) except -1
 
-    @cython.locals(at="long long", engine=Store, support="long long", when="long long")
+    @cython.locals(support="long long")
     cpdef int look_up(self, long long v, long long side, long long before) except -1
 
-    @cython.locals(before="long long", engine=Store, hole="long long", side="long long", v="long long")
+    @cython.locals(hole="long long")
     cpdef int walk(self) except -1
 
-    @cython.locals(at="long long")
     cpdef int follow(self, long long support, long long v, long long side, long long when, long long before) except -1

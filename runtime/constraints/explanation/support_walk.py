@@ -5,7 +5,7 @@ acted counts, as the trail remembers it. Of what was committed only the last sta
 Each change is visited once, so the walk ends. Who walks decides at each change what is noted, and how far it goes.
 """
 
-from runtime.constraints.domains.arrays import blank, grow_rows, grown
+from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import SIDE_HOLES, SIDE_LOWER, SUPPORT_EDGE
 from runtime.constraints.explanation.reasons import collect_reasons, collect_weight_reasons
@@ -31,53 +31,49 @@ class SupportWalk:
         """Note that `support` changed a side of `v` at a time; True to go on to what it read."""
         raise NotImplementedError
 
-    def visit_support(self, support: int) -> int:
+    def visit_support(self, support: int) -> None:
         """Note an edge, constraint or restriction by itself."""
         raise NotImplementedError
 
-    def visit_set(self, v: int) -> int:
+    def visit_set(self, v: int) -> None:
         """Note a variable with a bit set: what it lacked from the start is in no log."""
-        return 0
 
     def ask_more(self) -> bool:
         """Ask for further bounds when all are answered; False if there are none."""
         return False
 
-    def start(self) -> int:
+    def start(self) -> None:
         """Begin a walk: nothing is asked and nothing was visited."""
         self.stamp += 1
         self.asked_count = self.answered = 0
         if len(self.seen) < len(self.engine.trail_key):
-            self.seen = grown(self.seen, len(self.engine.trail_key))
-        return 0
+            grow_rows(self, "seen", len(self.engine.trail_key))
 
-    def ask(self, v: int, side: int, before: int) -> int:
+    def ask(self, v: int, side: int, before: int) -> None:
         """Ask why a side of `v` was as it was before a time."""
         if self.asked_count == len(self.asked_key):
-            grow_rows(self, "asked_key asked_before", 2 * self.asked_count)
+            lengthen(self, "asked_key asked_before")
         self.asked_key[self.asked_count] = v * 4 + side
         self.asked_before[self.asked_count] = before
         self.asked_count += 1
-        return 0
 
-    def ask_reasons(self, support: int, v: int, side: int, before: int) -> int:
+    def ask_reasons(self, support: int, v: int, side: int, before: int) -> None:
         """Ask for all bounds that a support read when it narrowed a side of `v`."""
         collect_reasons(self.engine, support, v, side)
-        return self.ask_collected(before)
+        self.ask_collected(before)
 
-    def ask_edge(self, e: int, before: int) -> int:
+    def ask_edge(self, e: int, before: int) -> None:
         """Note an edge, and ask for the bound of the distance that its weight follows, if it does."""
         self.visit_support(e * 4 + SUPPORT_EDGE)
         collect_weight_reasons(self.engine, e)
-        return self.ask_collected(before)
+        self.ask_collected(before)
 
-    def ask_collected(self, before: int) -> int:
+    def ask_collected(self, before: int) -> None:
         """Ask for all bounds among the collected reasons."""
         for k in range(self.engine.reason_count):
             self.ask(self.engine.reasons[k] >> 2, self.engine.reasons[k] & 3, before)
-        return 0
 
-    def look_up(self, v: int, side: int, before: int) -> int:
+    def look_up(self, v: int, side: int, before: int) -> None:
         """Find support and time of a bound as it was before a time; of committed changes the last is known."""
         engine = self.engine
         support = engine.lower_support[v] if side == SIDE_LOWER else engine.upper_support[v]
@@ -90,9 +86,8 @@ class SupportWalk:
         self.support = support
         self.when = when
         self.overwritten = at
-        return 0
 
-    def walk(self) -> int:
+    def walk(self) -> None:
         """Answer all that was asked, and what that asks in turn, the nearest first."""
         engine = self.engine
         while self.answered < self.asked_count or self.ask_more():
@@ -114,7 +109,6 @@ class SupportWalk:
                         self.follow(engine.hole_support[hole], v, SIDE_HOLES, engine.hole_when[hole], before)
                     hole = engine.hole_next[hole]
                 self.visit_set(v)
-        return 0
 
     def follow(self, support: int, v: int, side: int, when: int, before: int) -> int:
         """Visit a change, unless that was done, and ask for what it read."""

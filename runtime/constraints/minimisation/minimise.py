@@ -12,25 +12,15 @@ from runtime.constraints.domains.tags import (
     FLAG_VALUES,
     KIND_BOOL,
     MODE_EDGES,
-    SUPPORT_CONSTRAINT,
-    SUPPORT_EDGE,
-    SUPPORT_RESTRICTION,
 )
 from runtime.constraints.engine import Engine
 from runtime.constraints.explanation.cause import Cause, CauseKind
-from runtime.constraints.explanation.explain import cause_of
 from runtime.constraints.minimisation.case_split import Budget, fails_in_all_cases
 from runtime.constraints.propagators.external import External
 from runtime.constraints.propagators.opcodes import OP_ELEMENT, OP_EXTERNAL, OP_RAND, OP_WATCH
 from runtime.constraints.propagators.registry import BY_OP
 
-_MOST_ROUNDS = 50
 _MOST_STEPS = 3000  # causes carried out while looking for what can be left out; a case counts as several
-
-
-def sufficient(engine: Engine) -> list[Cause]:
-    """Give causes of the present conflict that are inconsistent by themselves."""
-    return Scratch(engine).widened(engine.explain())
 
 
 def minimise(engine: Engine, causes: Sequence[Cause]) -> list[Cause]:
@@ -155,42 +145,6 @@ class Scratch:
             if op == OP_RAND:
                 copy.drawn[c] = engine.drawn[k]
         return True
-
-    def is_judge(self, causes: Sequence[Cause]) -> bool:
-        """Tell whether all of the causes can be carried out in a scratch engine."""
-        for cause in causes:
-            if cause.kind is CauseKind.CONSTRAINT and self.engine.op[cause.id] == OP_EXTERNAL:
-                external = self.engine.externals[cause.id]
-                if not (isinstance(external, External) and external.is_repeatable):
-                    return False
-        return True
-
-    def widened(self, causes: list[Cause]) -> list[Cause]:
-        """Add what touches the causes' variables until the set is refuted, or nothing more can be added."""
-        for _ in range(_MOST_ROUNDS):
-            if not self.is_judge(causes) or self.refutes(causes):
-                return causes
-            more = self.neighbours(causes)
-            if len(more) == len(causes):
-                return causes
-            causes = more
-        return causes
-
-    def neighbours(self, causes: list[Cause]) -> list[Cause]:
-        """Give the causes and all that shares a variable with them."""
-        engine = self.engine
-        found = dict.fromkeys(causes)
-        for v in dict.fromkeys(v for cause in causes for v in self.arguments(cause)):
-            if engine.constant[v]:
-                continue
-            supports = [4 * c + SUPPORT_CONSTRAINT for c in engine.constraints_of(v)]
-            supports += [4 * e + SUPPORT_EDGE for e in engine.edges_of(v)]
-            supports += [4 * r + SUPPORT_RESTRICTION for r in engine.restrictions_of(v)]
-            for support in supports:
-                cause = cause_of(engine, support)
-                if cause is not None:
-                    found[cause] = None
-        return list(found)
 
     def shrunk(self, background: list[Cause], causes: list[Cause], is_changed: bool) -> list[Cause]:
         """Give a smallest part of `causes` that is refuted together with the background (QuickXplain)."""

@@ -9,11 +9,10 @@ cdef long long HALF_INF, KIND_FLOAT
 cdef double FLOAT_TOLERANCE
 
 
-@cython.locals(x="long long")
 cpdef bint is_subset(Store s, long long a, long long b) except -1
 
-@cython.locals(inside="long long", j="long long", k="long long", size="long long", u="long long", v="long long")
+@cython.locals(inside="long long", u="long long", v="long long")
 cpdef bint has_hall_violation(Store s, long long first, long long count) except -1
 
-@cython.locals(found="long long", hi="long long", k="long long", lo="long long", v="long long", x="long long")
+@cython.locals(found="long long", v="long long")
 cpdef bint _has_few_values(Store s, long long first, long long count) except -1

@@ -9,51 +9,36 @@ cdef long long HALF_INF, INF, MODE_REAL, OP_ABS_VAL, OP_ADD_EQ, OP_DIV_EQ, OP_EQ
 cdef long long OP_EQ_PRODUCT, OP_EQ_SUM, OP_MUL_EQ, OP_NEG, SUPPORT_CONSTRAINT
 
 
-@cython.locals(a="long long", b="long long", first="long long", op="long long", support="long long")
+@cython.locals(a="long long", b="long long", first="long long", op="long long")
 cpdef bint propagate_arithmetic(Store s, long long c) except -1
 
 cpdef long long _clipped(long long x) except? -1
 
-@cython.locals(q="long long")
 cpdef long long _floor_of(long long x, long long y) except? -1
 
 cpdef long long _ceiling_of(long long x, long long y) except? -1
 
-@cython.locals(p=double)
 cpdef long long _product(long long x, long long y) except? -1
 
 cpdef bint _add(Store s, long long a, long long b, long long r, long long support) except -1
 
 cpdef bint _within(Store s, long long v, long long lo, long long hi, long long support) except -1
 
-@cython.locals(p="long long", q="long long", x="long long", y="long long")
 cpdef bint _multiply(Store s, long long a, long long b, long long r, long long support) except -1
 
-@cython.locals(hi="long long", lo="long long", x="long long")
 cpdef bint _divide(Store s, long long r, long long b, long long a, long long support) except -1
 
-@cython.locals(least="long long", most="long long", x="long long")
 cpdef bint _divide_apart(Store s, long long r, long long lo, long long hi, long long a, long long support) except -1
 
-@cython.locals(
-    hi="long long", k="long long", least="long long", lo="long long", most="long long", open_above="long long",
-    open_below="long long", r="long long", v="long long", x="long long"
-)
+@cython.locals(open_above="long long", open_below="long long", r="long long", v="long long")
 cpdef bint _add_all(Store s, long long first, long long count, long long support) except -1
 
-@cython.locals(
-    hi="long long", k="long long", lo="long long", p="long long", q="long long", r="long long", skip="long long",
-    v="long long", x="long long", y="long long"
-)
+@cython.locals(r="long long", v="long long")
 cpdef bint _multiply_all(Store s, long long first, long long count, long long support) except -1
 
-@cython.locals(able="long long", hi="long long", k="long long", lo="long long", r="long long", v="long long")
-cpdef bint _hold_maximum(Store s, long long first, long long count, long long support) except -1
+@cython.locals(able="long long", r="long long", v="long long")
+cpdef bint _hold_extreme(Store s, long long first, long long count, bint is_most, long long support) except -1
 
-@cython.locals(able="long long", hi="long long", k="long long", lo="long long", r="long long", v="long long")
-cpdef bint _hold_minimum(Store s, long long first, long long count, long long support) except -1
-
-@cython.locals(hi="long long", least="long long", lo="long long", most="long long")
 cpdef bint _hold_absolute(Store s, long long r, long long x, long long support) except -1
 
 cpdef bint _negate(Store s, long long a, long long b, long long support) except -1

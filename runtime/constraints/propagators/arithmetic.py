@@ -34,10 +34,8 @@ def propagate_arithmetic(s: Store, c: int) -> bool:
         return _add_all(s, first, s.arity[c], support)
     if op == OP_EQ_PRODUCT:
         return _multiply_all(s, first, s.arity[c], support)
-    if op == OP_EQ_MAXIMUM:
-        return _hold_maximum(s, first, s.arity[c], support)
-    if op == OP_EQ_MINIMUM:
-        return _hold_minimum(s, first, s.arity[c], support)
+    if op == OP_EQ_MAXIMUM or op == OP_EQ_MINIMUM:
+        return _hold_extreme(s, first, s.arity[c], op == OP_EQ_MAXIMUM, support)
     if op == OP_DIV_EQ:
         return remove_value(s, b, 0, support) and _multiply(s, s.slot_variable[first + 2], b, a, support)
     if op == OP_ABS_VAL:
@@ -217,47 +215,28 @@ def _multiply_all(s: Store, first: int, count: int, support: int) -> bool:
     return True
 
 
-def _hold_maximum(s: Store, first: int, count: int, support: int) -> bool:
-    """Narrow max(x1, x2, ...) = r; r stands first."""
+def _hold_extreme(s: Store, first: int, count: int, is_most: bool, support: int) -> bool:
+    """Narrow max(x1, x2, ...) = r, or the minimum; r stands first."""
     r = s.slot_variable[first]
-    lo = -INF
-    hi = -INF
+    lo = -INF if is_most else INF
+    hi = lo
     for k in range(first + 1, first + count):
         v = s.slot_variable[k]
-        lo = max(lo, s.lb[v])
-        hi = max(hi, s.ub[v])
+        lo = max(lo, s.lb[v]) if is_most else min(lo, s.lb[v])
+        hi = max(hi, s.ub[v]) if is_most else min(hi, s.ub[v])
     if not (set_lower(s, r, lo, support) and set_upper(s, r, hi, support)):
         return False
     able = -1
     for k in range(first + 1, first + count):
         v = s.slot_variable[k]
-        if not set_upper(s, v, s.ub[r], support):
+        if not (set_upper(s, v, s.ub[r], support) if is_most else set_lower(s, v, s.lb[r], support)):
             return False
-        if s.ub[v] >= s.lb[r]:
+        if s.ub[v] >= s.lb[r] if is_most else s.lb[v] <= s.ub[r]:
             able = v if able == -1 else -2
-    # Only one of them can reach the maximum: it must.
-    return able < 0 or set_lower(s, able, s.lb[r], support)
-
-
-def _hold_minimum(s: Store, first: int, count: int, support: int) -> bool:
-    """Narrow min(x1, x2, ...) = r; r stands first."""
-    r = s.slot_variable[first]
-    lo = INF
-    hi = INF
-    for k in range(first + 1, first + count):
-        v = s.slot_variable[k]
-        lo = min(lo, s.lb[v])
-        hi = min(hi, s.ub[v])
-    if not (set_lower(s, r, lo, support) and set_upper(s, r, hi, support)):
-        return False
-    able = -1
-    for k in range(first + 1, first + count):
-        v = s.slot_variable[k]
-        if not set_lower(s, v, s.lb[r], support):
-            return False
-        if s.lb[v] <= s.ub[r]:
-            able = v if able == -1 else -2
-    return able < 0 or set_upper(s, able, s.ub[r], support)
+    # Only one of them can reach the extreme: it must.
+    if able < 0:
+        return True
+    return set_lower(s, able, s.lb[r], support) if is_most else set_upper(s, able, s.ub[r], support)
 
 
 def _hold_absolute(s: Store, r: int, x: int, support: int) -> bool:

@@ -18,40 +18,36 @@ cdef double FLOAT_TOLERANCE, STRICT_STEP
 cdef unsigned long long ALL_BITS, ONE_BIT
 
 
-@cython.locals(
-    a="long long", b="long long", first="long long", last="long long", op="long long", support="long long"
-)
+@cython.locals(a="long long", b="long long", first="long long", last="long long", op="long long")
 cpdef bint propagate_comparison(Store s, long long c) except -1
 
-@cython.locals(step="long long", x=double)
+@cython.locals(step="long long")
 cpdef bint precede(Store s, long long a, long long b, bint strict, long long support) except -1
 
 @cython.locals(_="long long")
 cpdef bint equate(Store s, long long a, long long b, long long support) except -1
 
-@cython.locals(_="long long", a="long long", k="long long")
+@cython.locals(_="long long", a="long long")
 cpdef bint equate_all(Store s, long long first, long long count, long long support) except -1
 
-@cython.locals(k="long long", place="long long", x="unsigned long long")
 cpdef unsigned long long _chunk(Store s, long long v, long long start) except? 0
 
-@cython.locals(k="long long", mask="unsigned long long", place="long long")
+@cython.locals(k="long long")
 cpdef bint exclude_missing(Store s, long long a, long long b, long long support) except -1
 
 cpdef bint differ(Store s, long long a, long long b, long long support) except -1
 
-@cython.locals(a="long long", b="long long", following="long long", j="long long", k="long long", was_single=bint)
+@cython.locals(a="long long", b="long long", following="long long", k="long long")
 cpdef bint differ_all(Store s, long long first, long long count, long long support) except -1
 
-@cython.locals(x="long long")
 cpdef bint _keep_offset(Store s, long long c, long long a, long long k, long long b) except -1
 
-@cython.locals(is_known=bint, is_telling=bint, x="long long")
+@cython.locals(is_known=bint, is_telling=bint)
 cpdef bint _keep_distance(
     Store s, long long c, long long start, long long distance, long long end, long long support
 ) except -1
 
-@cython.locals(longest="long long", shortest="long long", support="long long")
+@cython.locals(longest="long long", shortest="long long")
 cpdef bint _follow_distance(
     Store s, long long c, long long start, long long distance, long long end, bint wholly
 ) except -1

@@ -146,15 +146,15 @@ def equate_all(s: Store, first: int, count: int, support: int) -> bool:
 
 def _chunk(s: Store, v: int, start: int) -> int:
     """Give, as 64 bits, which of the values from `start` on a variable with a dense bit set has."""
-    place = start - s.bit_base[v]
-    if place <= -64 or place >= 64 * s.words_of[v]:
+    index = start - s.bit_base[v]
+    if index <= -64 or index >= 64 * s.words_of[v]:
         return 0
-    if place < 0:
-        return (s.bits[s.word[v]] << -place) & ALL_BITS
-    k = place >> 6
-    x = s.bits[s.word[v] + k] >> (place & 63)
-    if place & 63 and k + 1 < s.words_of[v]:
-        x |= (s.bits[s.word[v] + k + 1] << (64 - (place & 63))) & ALL_BITS
+    if index < 0:
+        return (s.bits[s.word[v]] << -index) & ALL_BITS
+    k = index >> 6
+    x = s.bits[s.word[v] + k] >> (index & 63)
+    if index & 63 and k + 1 < s.words_of[v]:
+        x |= (s.bits[s.word[v] + k + 1] << (64 - (index & 63))) & ALL_BITS
     return x
 
 
@@ -174,11 +174,11 @@ def exclude_missing(s: Store, a: int, b: int, support: int) -> bool:
             if mask:
                 clear_bits(s, b, k, mask, support)
     else:
-        place = next_index(s, b, 0)
-        while place >= 0:
-            if not has_value(s, a, value_at(s, b, place)):
-                clear_bits(s, b, place >> 6, ONE_BIT << (place & 63), support)
-            place = next_index(s, b, place + 1)
+        index = next_index(s, b, 0)
+        while index >= 0:
+            if not has_value(s, a, value_at(s, b, index)):
+                clear_bits(s, b, index >> 6, ONE_BIT << (index & 63), support)
+            index = next_index(s, b, index + 1)
     return round_bounds(s, b, support)
 
 

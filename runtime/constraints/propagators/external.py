@@ -50,9 +50,5 @@ def never(s: Store, c: int, v: int, x: int) -> bool:
 
 def refuse(s: Store, c: int) -> bool:
     """Have constraint `c` say that it cannot hold, though each of its variables has values; always False."""
-    s.consistent = False
-    s.conflict_kind = CONFLICT_CONSTRAINT
-    s.conflict_variable = -1
-    s.conflict_side = 0
-    s.conflict_support = c * 4 + SUPPORT_CONSTRAINT
+    s.note_conflict(CONFLICT_CONSTRAINT, -1, 0, c * 4 + SUPPORT_CONSTRAINT)
     return False

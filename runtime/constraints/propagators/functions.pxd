@@ -11,42 +11,33 @@ cdef long long OP_SAMPLE, OP_SQRT, OP_TOWARDS, OP_TRAVEL_TIME, SIDE_HOLES, SUPPO
 cdef double FLOAT_TOLERANCE, ULP
 
 
-@cython.locals(
-    a="long long", first="long long", k="long long", op="long long", r="long long", support="long long", x=double,
-    y=double, z=double
-)
+@cython.locals(a="long long", first="long long", k="long long", op="long long", r="long long")
 cpdef bint propagate_function(Store s, long long c) except -1
 
-@cython.locals(
-    a="long long", b="long long", corner="long long", hi=double, lo=double, r="long long", x=double, y=double
-)
+@cython.locals(a="long long", b="long long", corner="long long", hi=double, lo=double, r="long long")
 cpdef bint _spread(Store s, long long op, long long first, long long count, double z, long long support) except -1
 
 cpdef double middle(Store s, long long v) except? -1.0
 
 cpdef double half_width(Store s, long long v) except? -1.0
 
-@cython.locals(x=double, y=double)
 cpdef double whole(Store s, long long v) except? -1.0
 
-@cython.locals(y=double)
 cpdef double rounded(double x) except? -1.0
 
 cpdef bint _has_power(double x, double y) except -1
 
 cpdef double _apply(long long op, double x, double y) except? -1.0
 
-@cython.locals(x=double)
 cpdef double sine(double degrees) except? -1.0
 
-@cython.locals(above="long long", below="long long", wanted="long long")
+@cython.locals(wanted="long long")
 cpdef bint _bind(Store s, long long v, double x, long long support) except -1
 
-@cython.locals(k="long long")
 cpdef bint are_known(Store s, long long first, long long last) except -1
 
-@cython.locals(distance=double, dx=double, dy=double, speed=double, ticks="long long", x=double)
+@cython.locals(ticks="long long")
 cpdef bint _travel(Store s, long long first, long long support) except -1
 
-@cython.locals(distance=double, dx=double, dy=double, k="long long", v="long long")
+@cython.locals(k="long long", v="long long")
 cpdef bint _point_towards(Store s, long long first, long long support) except -1

@@ -14,45 +14,36 @@ cdef double _DEGREE, _DISTANCE_TOLERANCE, FLOAT_TOLERANCE, _LEAST_METRES_PER_DEG
 cdef double _SLACK, STRICT_STEP, inf
 
 
-@cython.locals(first="long long", op="long long", r="long long", support="long long", x="long long")
+@cython.locals(first="long long", op="long long", r="long long", x="long long")
 cpdef bint propagate_geodesy(Store s, long long c) except -1
 
-@cython.locals(a=double, b=double, centre=double, hi=double, least=double, lo=double, most=double, sign=double)
 cpdef bint _turn(Store s, long long r, long long x, double ahead, long long support) except -1
 
 cpdef bint _passes(double lo, double hi, double peak) except -1
 
 cpdef double _angle_of(double x) except? -1.0
 
-@cython.locals(hi=double, least=double, lo=double, most=double, root=double)
 cpdef bint _hold_root(Store s, long long r, long long x, long long support) except -1
 
 cpdef bint _be_whole(Store s, long long r, long long support) except -1
 
-@cython.locals(hi=double, lo=double)
-cpdef bint _hold_floor(Store s, long long r, long long x, long long support) except -1
+cpdef bint _hold_rounded(Store s, long long r, long long x, bint is_down, long long support) except -1
 
-@cython.locals(hi=double, lo=double)
-cpdef bint _hold_ceiling(Store s, long long r, long long x, long long support) except -1
-
-@cython.locals(hi=double, lo=double)
 cpdef bint _hold_exponential(Store s, long long r, long long x, long long support) except -1
 
 cpdef double _exponential(double x, double slack) except? -1.0
 
 cpdef bint _scale(Store s, long long r, long long x, double factor, long long support) except -1
 
-@cython.locals(hi=double, lo=double, turns=double)
 cpdef bint _bring_within_turn(Store s, long long r, long long x, long long support) except -1
 
-@cython.locals(day=double, k="long long", seconds=double, tick="long long", v="long long", year=double)
+@cython.locals(k="long long", tick="long long", v="long long")
 cpdef bint _relate_date(Store s, long long first, long long support) except -1
 
-@cython.locals(slack=double, x=double)
+@cython.locals(x=double)
 cpdef bint _measure(Store s, long long first, long long support) except -1
 
-@cython.locals(k="long long", total=double)
 cpdef double _blur(Store s, long long first, long long last) except? -1.0
 
-@cython.locals(k="long long", lat=double, lon=double, slack=double, x=double, y=double)
+@cython.locals(k="long long")
 cpdef bint _displace(Store s, long long first, bint is_position, long long support) except -1

@@ -63,10 +63,8 @@ def propagate_geodesy(s: Store, c: int) -> bool:
         return _hold_root(s, r, x, support)
     if op == OP_ABSF:
         return hold_absolute(s, r, x, support)
-    if op == OP_FLOORF:
-        return _hold_floor(s, r, x, support)
-    if op == OP_CEILF:
-        return _hold_ceiling(s, r, x, support)
+    if op == OP_FLOORF or op == OP_CEILF:
+        return _hold_rounded(s, r, x, op == OP_FLOORF, support)
     if op == OP_EXPF:
         return _hold_exponential(s, r, x, support)
     if op == OP_LOGF:
@@ -135,15 +133,17 @@ def _hold_root(s: Store, r: int, x: int, support: int) -> bool:
     return raise_to(s, x, down(least * least), support) and reduce_to(s, x, up(most * most), support)
 
 
-def _hold_floor(s: Store, r: int, x: int, support: int) -> bool:
-    """Narrow r = x rounded down; x within the tolerance below a whole number counts as that number."""
+def _hold_rounded(s: Store, r: int, x: int, is_down: bool, support: int) -> bool:
+    """Narrow r = x rounded down, or up; x within the tolerance of a whole number counts as that number."""
     lo = low(s, x)
     hi = high(s, x)
-    if lo > -inf and not raise_to(s, r, math.floor(lo), support):
+    if lo > -inf and not raise_to(s, r, math.floor(lo) if is_down else math.ceil(lo - FLOAT_TOLERANCE), support):
         return False
-    if hi < inf and not reduce_to(s, r, math.floor(hi + FLOAT_TOLERANCE), support):
+    if hi < inf and not reduce_to(s, r, math.floor(hi + FLOAT_TOLERANCE) if is_down else math.ceil(hi), support):
         return False
-    return _be_whole(s, r, support) and within(s, x, low(s, r) - FLOAT_TOLERANCE, high(s, r) + 1.0, support)
+    below = FLOAT_TOLERANCE if is_down else 1.0
+    above = 1.0 if is_down else FLOAT_TOLERANCE
+    return _be_whole(s, r, support) and within(s, x, low(s, r) - below, high(s, r) + above, support)
 
 
 def _be_whole(s: Store, r: int, support: int) -> bool:
@@ -151,17 +151,6 @@ def _be_whole(s: Store, r: int, support: int) -> bool:
     if low(s, r) > -inf and not raise_to(s, r, math.ceil(low(s, r) - FLOAT_TOLERANCE), support):
         return False
     return high(s, r) == inf or reduce_to(s, r, math.floor(high(s, r) + FLOAT_TOLERANCE), support)
-
-
-def _hold_ceiling(s: Store, r: int, x: int, support: int) -> bool:
-    """Narrow r = x rounded up; x within the tolerance above a whole number counts as that number."""
-    lo = low(s, x)
-    hi = high(s, x)
-    if lo > -inf and not raise_to(s, r, math.ceil(lo - FLOAT_TOLERANCE), support):
-        return False
-    if hi < inf and not reduce_to(s, r, math.ceil(hi), support):
-        return False
-    return _be_whole(s, r, support) and within(s, x, low(s, r) - 1.0, high(s, r) + FLOAT_TOLERANCE, support)
 
 
 def _hold_exponential(s: Store, r: int, x: int, support: int) -> bool:

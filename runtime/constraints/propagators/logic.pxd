@@ -14,10 +14,7 @@ cdef long long OP_TEST_SPECIFIED, SIDE_HOLES, SUPPORT_CONSTRAINT, _UNKNOWN
 cdef double FLOAT_TOLERANCE, STRICT_STEP
 
 
-@cython.locals(
-    a="long long", b="long long", count="long long", first="long long", op="long long", support="long long",
-    t="long long"
-)
+@cython.locals(a="long long", b="long long", count="long long", first="long long", op="long long", t="long long")
 cpdef bint propagate_logic(Store s, long long c) except -1
 
 cpdef long long _truth(Store s, long long v) except? -1
@@ -28,43 +25,33 @@ cpdef bint _be_false(Store s, long long v, long long support) except -1
 
 cpdef bint _is_specified(Store s, long long v) except -1
 
-@cython.locals(hi="long long", lo="long long", x="long long")
 cpdef bint may_be_equal(Store s, long long a, long long b) except -1
 
-@cython.locals(known="long long")
 cpdef bint _test_equal(Store s, long long t, long long a, long long b, bint equal, long long support) except -1
 
-@cython.locals(known="long long", step="long long")
+@cython.locals(step="long long")
 cpdef bint _test_order(Store s, long long t, long long a, long long b, bint strict, long long support) except -1
 
-@cython.locals(known="long long", x="long long", y="long long")
 cpdef bint _test_both(Store s, long long t, long long a, long long b, long long sway, long long support) except -1
 
 cpdef bint _be(Store s, long long v, long long value, long long support) except -1
 
-@cython.locals(k="long long", known="long long", last="long long")
+@cython.locals(last="long long")
 cpdef bint _need_one(Store s, long long first, long long count, long long support) except -1
 
-@cython.locals(
-    k="long long", known="long long", n="long long", none_left=bint, sure="long long", unsure="long long",
-    v="long long"
-)
+@cython.locals(n="long long", sure="long long", unsure="long long", v="long long")
 cpdef bint _count_zeroes(Store s, long long first, long long count, bint zeroes, long long support) except -1
 
-@cython.locals(known="long long")
 cpdef bint _run_condition(
     Store s, long long op, long long t, long long first, long long count, long long support
 ) except -1
 
-@cython.locals(a="long long", j="long long", k="long long", undecided="long long", v="long long")
+@cython.locals(a="long long", undecided="long long", v="long long")
 cpdef bint _test_all_equal(
     Store s, long long t, long long known, long long first, long long count, long long support
 ) except -1
 
-@cython.locals(
-    a="long long", b="long long", j="long long", k="long long", open_pairs="long long", x="long long",
-    y="long long"
-)
+@cython.locals(a="long long", b="long long", open_pairs="long long", x="long long", y="long long")
 cpdef bint _test_all_different(
     Store s, long long t, long long known, long long first, long long count, long long support
 ) except -1

@@ -11,42 +11,29 @@ cdef const short[:] WAKES_OTHERS
 cdef unsigned long long _MASK
 
 
-@cython.locals(room="long long")
-cpdef int _grow_constraints(Store s) except -1
-
-@cython.locals(room="long long")
-cpdef int _grow_slots(Store s, long long need) except -1
-
-@cython.locals(first="long long")
 cpdef long long _allocate_slots(Store s, long long count) except? -1
 
-@cython.locals(c="long long")
 cpdef long long _new_constraint(Store s, long long op, long long arity, long long span, long long owner) except? -1
 
-@cython.locals(slot="long long")
 cpdef void _watch(Store s, long long c, long long position, long long v, long long mask) except *
 
 @cython.locals(count="long long", first="long long", slot="long long")
 cpdef int release_constraint(Store s, long long c) except -1
 
-@cython.locals(c="long long", position="long long")
+@cython.locals(position="long long", has_real=bint, is_alone=bint)
 cpdef long long post_constraint(Store s, long long op, list arguments, long long span, long long owner) except? -1
 
-@cython.locals(c="long long")
 cpdef long long start_element(
     Store s, long long result, long long index, long long rows, long long span, long long owner
 ) except? -1
 
 cpdef int add_row(Store s, long long c, long long k, long long key, long long v) except -1
 
-@cython.locals(slot="long long")
-cpdef bint _is_idempotent(Store s, long long c) except -1
-
 @cython.locals(op="long long")
 cpdef long long _events_of(Store s, long long c, long long position) except? -1
 
 @cython.locals(edges=bint, op="long long", v="long long")
-cpdef int _choose_mode(Store s, long long c, list arguments) except -1
+cpdef bint _choose_mode(Store s, long long c, list arguments) except -1
 
 cpdef bint _is_offset(Store s, long long a, long long k, long long b) except -1
 

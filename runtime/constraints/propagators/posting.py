@@ -1,6 +1,6 @@
 """Keep constraints in rows and their arguments in slots; put them on the watch lists of their variables."""
 
-from runtime.constraints.domains.arrays import grow_rows, next_room
+from runtime.constraints.domains.arrays import lengthen
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     EVENT_DOMAIN,
@@ -36,32 +36,15 @@ from runtime.constraints.stn.watch_lists import link_slot, unlink_slot
 _MASK = 2**64 - 1
 
 
-def _grow_constraints(s: Store) -> None:
-    """Lengthen the rows of constraints, and the queues with them."""
-    room = next_room(len(s.op))
-    grow_rows(s, "op span owner link_a link_b constraint_next", room, -1)
-    grow_rows(s, "mode first arity drawn entailed run_count run_epoch", room)
-    s.grow_constraint_queues(room)
-
-
-def _grow_slots(s: Store, need: int) -> None:
-    """Make room for `need` more slots."""
-    room = len(s.slot_variable)
-    while room < s.slots_used + need:
-        room = next_room(room)
-    grow_rows(s, "slot_variable slot_constraint slot_next slot_prev", room, -1)
-    grow_rows(s, "slot_mask slot_key", room)
-
-
 def _allocate_slots(s: Store, count: int) -> int:
     """Take `count` consecutive slots; blocks of up to 64 come back through free lists."""
     if count <= 64 and s.slot_free[count] >= 0:
         first = s.slot_free[count]
         s.slot_free[count] = s.slot_next[first]
         return first
-    if s.slots_used + count > len(s.slot_variable):
-        _grow_slots(s, count)
     first = s.slots_used
+    if first + count > len(s.slot_variable):
+        lengthen(s, "slot_mask slot_key", "slot_variable slot_constraint slot_next slot_prev", first + count)
     s.slots_used = first + count
     return first
 
@@ -74,7 +57,7 @@ def _new_constraint(s: Store, op: int, arity: int, span: int, owner: int) -> int
     else:
         c = s.constraints_used
         if c == len(s.op):
-            _grow_constraints(s)
+            s.grow_constraints()
         s.constraints_used = c + 1
     s.op[c] = op
     s.mode[c] = MODE_WHOLE
@@ -128,12 +111,14 @@ def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: i
     elif op == OP_ADD_EQ and s.constant[arguments[0]] and not s.constant[arguments[1]]:
         arguments = [arguments[1], arguments[0], arguments[2]]
     c = _new_constraint(s, op, len(arguments), span, owner)
-    _choose_mode(s, c, arguments)
+    has_real = _choose_mode(s, c, arguments)
     if op == OP_RAND:
         s.drawn[c] = _random_whole(s.seed, span, owner)
     for position in range(s.arity[c]):
         _watch(s, c, position, arguments[position], _events_of(s, c, position))
-    s.idempotent[c] = _is_idempotent(s, c) and len(set(arguments)) == len(arguments)
+    # One run reaches its fixpoint, where no bound has to jump over holes and no real is rounded to a whole number.
+    is_alone = not has_real and s.arity[c] <= IDEMPOTENT_UP_TO[s.op[c]]
+    s.idempotent[c] = is_alone and len(set(arguments)) == len(arguments)
     s.schedule(c)
     return c
 
@@ -158,16 +143,6 @@ def add_row(s: Store, c: int, k: int, key: int, v: int) -> None:
     s.slot_key[s.first[c] + 2 + k] = key
 
 
-def _is_idempotent(s: Store, c: int) -> bool:
-    """Tell whether one run reaches the constraint's own fixpoint, where no bound has to jump over holes."""
-    if s.arity[c] > IDEMPOTENT_UP_TO[s.op[c]]:
-        return False
-    for slot in range(s.first[c], s.first[c] + s.arity[c]):  # noqa: SIM110 (a generator cannot be compiled here)
-        if s.kind[s.slot_variable[slot]] == KIND_FLOAT:
-            return False  # rounding to whole numbers may leave more to do
-    return True
-
-
 def _events_of(s: Store, c: int, position: int) -> int:
     """Give the events of an argument that may let the constraint narrow another one."""
     op = s.op[c]
@@ -176,12 +151,17 @@ def _events_of(s: Store, c: int, position: int) -> int:
     return WAKES_OTHERS[op] if position else WAKES_FIRST[op]
 
 
-def _choose_mode(s: Store, c: int, arguments: list[int]) -> None:
-    """Have comparisons of ints, and sums of an int and a constant, carried out by edges; reals by doubles."""
+def _choose_mode(s: Store, c: int, arguments: list[int]) -> bool:
+    """Have comparisons of ints, and sums of an int and a constant, carried out by edges; reals by doubles.
+
+    Gives whether a real is among the arguments.
+    """
     op = s.op[c]
     edges = s.arity[c] <= EDGES_UP_TO[op]
+    has_real = False
     for v in arguments:
         if s.kind[v] == KIND_FLOAT:
+            has_real = True
             s.mode[c] = MODE_REAL
         if s.kind[v] != KIND_INT or s.constant[v]:
             edges = False
@@ -193,6 +173,7 @@ def _choose_mode(s: Store, c: int, arguments: list[int]) -> None:
             s.op[c] = OP_PLUS
     elif op == OP_PLUS or edges:
         s.mode[c] = MODE_EDGES
+    return has_real
 
 
 def _is_offset(s: Store, a: int, k: int, b: int) -> bool:

@@ -11,10 +11,9 @@ cdef long long SUPPORT_CONSTRAINT
 cdef double FLOAT_TOLERANCE, _TINY, ULP, inf
 
 
-@cython.locals(a="long long", b="long long", first="long long", op="long long", support="long long")
+@cython.locals(a="long long", b="long long", first="long long", op="long long")
 cpdef bint propagate_reals(Store s, long long c) except -1
 
-@cython.locals(t=double, z=double)
 cpdef double lower_sum(double x, double y) except? -1.0
 
 cpdef double upper_sum(double x, double y) except? -1.0
@@ -29,26 +28,20 @@ cpdef double up(double x) except? -1.0
 
 cpdef bint within(Store s, long long v, double lo, double hi, long long support) except -1
 
-@cython.locals(x=double)
 cpdef bint _add(Store s, long long a, long long b, long long r, long long support) except -1
 
-@cython.locals(hi=double, least=double, lo=double, most=double, p=double, q=double, x=double, y=double)
 cpdef bint _multiply(Store s, long long a, long long b, long long r, long long support) except -1
 
 cpdef bint _is_known(Store s, long long v) except -1
 
-@cython.locals(least=double, most=double, x=double)
 cpdef bint _divide(Store s, long long r, double lo, double hi, long long a, long long support) except -1
 
 cpdef bint _divide_by(Store s, long long a, long long b, long long q, long long support) except -1
 
-@cython.locals(hi=double, k="long long", least=double, lo=double, skip="long long", v="long long")
+@cython.locals(v="long long")
 cpdef bint _add_all(Store s, long long first, long long count, long long support) except -1
 
-@cython.locals(
-    exact=bint, hi=double, k="long long", lo=double, p=double, q=double, skip="long long", v="long long", x=double,
-    y=double
-)
+@cython.locals(v="long long")
 cpdef bint _multiply_all(Store s, long long first, long long count, long long support) except -1
 
 cpdef double _top(Store s, long long v, double sign) except? -1.0
@@ -59,22 +52,16 @@ cpdef bint _press(Store s, long long v, double hi, double sign, long long suppor
 
 cpdef bint _lift(Store s, long long v, double lo, double sign, long long support) except -1
 
-@cython.locals(able="long long", hi=double, k="long long", lo=double, r="long long", v="long long")
+@cython.locals(able="long long", r="long long", v="long long")
 cpdef bint hold_extreme(Store s, long long first, long long count, double sign, long long support) except -1
 
-@cython.locals(hi=double, least=double, lo=double)
 cpdef bint hold_absolute(Store s, long long r, long long x, long long support) except -1
 
-@cython.locals(exact=bint, hi=double, least=double, lo=double, most=double)
 cpdef bint _square_difference(Store s, long long a, long long b, long long r, long long support) except -1
 
-@cython.locals(x=double)
 cpdef bint _root_of_sum(Store s, long long a, long long b, long long r, long long support) except -1
 
 cpdef double _gap(double least, double most) except? -1.0
 
-@cython.locals(
-    least=double, left=double, most=double, over=double, p=double, q=double, right=double, u="long long",
-    under=double, v="long long", x="long long", y="long long"
-)
+@cython.locals(u="long long", v="long long", x="long long", y="long long")
 cpdef bint _measure_distance(Store s, long long first, long long support) except -1

@@ -46,10 +46,8 @@ def propagate_reals(s: Store, c: int) -> bool:
         return _add_all(s, first, s.arity[c], support)
     if op == OP_EQ_PRODUCT:
         return _multiply_all(s, first, s.arity[c], support)
-    if op == OP_EQ_MAXIMUM:
-        return hold_extreme(s, first, s.arity[c], 1.0, support)
-    if op == OP_EQ_MINIMUM:
-        return hold_extreme(s, first, s.arity[c], -1.0, support)
+    if op == OP_EQ_MAXIMUM or op == OP_EQ_MINIMUM:
+        return hold_extreme(s, first, s.arity[c], 1.0 if op == OP_EQ_MAXIMUM else -1.0, support)
     if op == OP_ABS_VAL:
         return hold_absolute(s, a, b, support)
     if op == OP_NEG:

@@ -15,36 +15,26 @@ cdef unsigned long long ONE_BIT
 cdef double FLOAT_TOLERANCE, inf
 
 
-@cython.locals(a="long long", b="long long", first="long long", op="long long", support="long long")
+@cython.locals(a="long long", b="long long", first="long long", op="long long")
 cpdef bint propagate_sets(Store s, long long c) except -1
 
 cpdef bint _keep_inside(Store s, long long a, long long b, long long support) except -1
 
-@cython.locals(_="long long", a="long long", hi=double, k="long long", lo=double)
+@cython.locals(_="long long", a="long long")
 cpdef bint _keep_union(Store s, long long first, long long count, long long support) except -1
 
-@cython.locals(found=bint, k="long long", x="long long")
 cpdef bint _remove_outside(Store s, long long a, long long first, long long count, long long support) except -1
 
-@cython.locals(
-    able="long long", hi=double, index="long long", k="long long", key="long long", last_key="long long",
-    lo=double, result="long long", v="long long"
-)
+@cython.locals(able="long long", index="long long", result="long long", v="long long")
 cpdef bint _look_up(Store s, long long first, long long count, long long support) except -1
 
-@cython.locals(x="long long")
 cpdef bint _remove_between(Store s, long long index, long long below, long long above, long long support) except -1
 
-@cython.locals(middle="long long")
 cpdef long long _row_of(Store s, long long first, long long end, long long key) except? -1
 
-@cython.locals(
-    base="long long", index="long long", k="long long", mask="unsigned long long", place="long long",
-    result="long long", x="long long"
-)
+@cython.locals(index="long long", result="long long")
 cpdef bint _remove_unsupported(Store s, long long first, long long count, long long support) except -1
 
-@cython.locals(x="long long")
 cpdef int _note_served(Store s, long long v, long long base, long long last) except -1
 
 cpdef bint _serves(Store s, long long v, long long x) except -1
@@ -55,10 +45,9 @@ cpdef bint _has_ancestor_in(Store s, long long value, long long p) except -1
 
 cpdef bint _is_inside(Store s, long long value, long long ancestor) except -1
 
-@cython.locals(ancestor="long long", value="long long")
 cpdef bint _lie_inside(Store s, long long x, long long p, long long support) except -1
 
 cpdef long long _next_object(Store s, long long v, long long value) except? -1
 
-@cython.locals(_="long long", ancestor="long long", value="long long")
+@cython.locals(_="long long")
 cpdef bint _share_ancestor(Store s, long long a, long long b, long long p, long long support) except -1

@@ -197,15 +197,15 @@ def _remove_unsupported(s: Store, first: int, count: int, support: int) -> bool:
                 return False
         x += 1
     # From here on by words, so that the log of holes gets one entry for many values.
-    place = next_index(s, result, x - s.bit_base[result]) if x <= s.ub[result] else -1
-    while place >= 0:
-        k = place >> 6
+    bit = next_index(s, result, x - s.bit_base[result]) if x <= s.ub[result] else -1
+    while bit >= 0:
+        k = bit >> 6
         mask = 0
-        while place >= 0 and place >> 6 == k:
-            x = s.bit_base[result] + place - base
+        while bit >= 0 and bit >> 6 == k:
+            x = s.bit_base[result] + bit - base
             if base + x <= s.ub[result] and not (s.supported[x >> 5] >> (x & 31)) & 1:
-                mask |= ONE_BIT << (place & 63)
-            place = next_index(s, result, place + 1)
+                mask |= ONE_BIT << (bit & 63)
+            bit = next_index(s, result, bit + 1)
         if mask:
             clear_bits(s, result, k, mask, support)
     return s.word[result] < 0 or round_bounds(s, result, support)

@@ -2,6 +2,7 @@
 
 from runtime.constraints.domains.store import Store
 from runtime.constraints.propagators.opcodes import OP_EQ, OP_LEQ, OP_LT
+from runtime.constraints.stn.watch_lists import watchers_of
 
 
 def is_in_strict_cycle(s: Store, c: int) -> bool:
@@ -19,20 +20,16 @@ def _is_below(s: Store, a: int, b: int, strictly: bool) -> bool:
     for v, is_strict in waiting:
         if v == b and is_strict:
             return True
-        for head in (s.watch_head[v], s.mute_head[v]):
-            slot = head
-            while slot >= 0:
-                c = s.slot_constraint[slot]
-                first = s.first[c]
-                above: list[int] = []
-                if s.op[c] == OP_EQ:
-                    above = [s.slot_variable[k] for k in range(first, first + s.arity[c])]
-                elif s.op[c] in (OP_LEQ, OP_LT) and s.slot_variable[first] == v:
-                    above = [s.slot_variable[first + 1]]
-                for u in above:
-                    step = (u, is_strict or s.op[c] == OP_LT)
-                    if step not in found:
-                        found.add(step)
-                        waiting.append(step)
-                slot = s.slot_next[slot]
+        for c in watchers_of(s, v):
+            first = s.first[c]
+            above: list[int] = []
+            if s.op[c] == OP_EQ:
+                above = [s.slot_variable[k] for k in range(first, first + s.arity[c])]
+            elif s.op[c] in (OP_LEQ, OP_LT) and s.slot_variable[first] == v:
+                above = [s.slot_variable[first + 1]]
+            for u in above:
+                step = (u, is_strict or s.op[c] == OP_LT)
+                if step not in found:
+                    found.add(step)
+                    waiting.append(step)
     return False

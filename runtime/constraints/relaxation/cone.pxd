@@ -8,7 +8,7 @@ cdef long long HALF_INF, OP_TEMPORAL_DISTANCE, OP_WATCH, SIDE_HOLES, SIDE_LOWER,
 cdef long long SUPPORT_EDGE, SUPPORT_RESTRICTION
 
 
-@cython.locals(bit="long long", bound="long long", new="long long")
+@cython.locals(bound="long long")
 cdef int _relax(Store s, long long v, long long side) except -1
 
 @cython.locals(holder="long long")
@@ -22,9 +22,7 @@ cpdef int relax_by_edge(Store s, long long e) except -1
 @cython.locals(slot="long long")
 cpdef int relax_by_constraint(Store s, long long c) except -1
 
-@cython.locals(
-    c="long long", e="long long", i="long long", is_upper=bint, side="long long", slot="long long", v="long long"
-)
+@cython.locals(c="long long", e="long long", i="long long", is_upper=bint, slot="long long")
 cpdef int close_cone(Store s) except -1
 
 @cython.locals(d="long long")

@@ -18,6 +18,7 @@ from runtime.constraints.domains.tags import (
     HALF_INF,
     INF,
     KIND_FLOAT,
+    MODE_EDGES,
     NEVER,
     SIDE_LOWER,
     SIDE_UPPER,
@@ -25,12 +26,12 @@ from runtime.constraints.domains.tags import (
     SUPPORT_RESTRICTION,
 )
 from runtime.constraints.domains.variables import drop_restriction, drop_variable, keep_values
-from runtime.constraints.explanation.reasons import is_carried
 from runtime.constraints.propagators.opcodes import OP_TEMPORAL_DISTANCE
 from runtime.constraints.propagators.posting import release_constraint
 from runtime.constraints.relaxation.cone import close_cone, relax_by, relax_by_constraint, relax_by_edge
 from runtime.constraints.relaxation.trail import clear_queues, commit_trail
 from runtime.constraints.stn.network import attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
+from runtime.constraints.stn.watch_lists import watchers_of
 
 
 def retract(
@@ -97,11 +98,7 @@ def _gather(s: Store, constraints: list[int], variables: list[int]) -> list[int]
     """List the constraints that go: the given ones and those on removed variables, each once."""
     doomed = dict.fromkeys(constraints)
     for v in variables:
-        for head in (s.watch_head[v], s.mute_head[v]):
-            slot = head
-            while slot >= 0:
-                doomed[s.slot_constraint[slot]] = None
-                slot = s.slot_next[slot]
+        doomed.update(dict.fromkeys(watchers_of(s, v)))
         for e in edges_of(s, v):
             if s.edge_link[e] >= 0:
                 doomed[s.edge_link[e]] = None
@@ -152,30 +149,25 @@ def _reset_bound(s: Store, v: int, side: int) -> None:
             best = x
             support = r * 4 + SUPPORT_RESTRICTION
         r = s.restriction_next[r]
+    _set_base(s, v, side, best, support)
+
+
+def _set_base(s: Store, v: int, side: int, x: float, support: int) -> None:
+    """Set a bound as it was before all propagation."""
     if side == SIDE_LOWER:
-        _set_base_lower(s, v, best, support)
+        s.lower_support[v] = support
+        s.lower_when[v] = -1
+        if s.kind[v] == KIND_FLOAT:
+            s.flo[v] = -inf if x <= -HALF_INF else x
+        else:
+            s.lb[v] = -INF if x <= -HALF_INF else int(math.ceil(x - FLOAT_TOLERANCE))
     else:
-        _set_base_upper(s, v, best, support)
-
-
-def _set_base_lower(s: Store, v: int, x: float, support: int) -> None:
-    """Set a lower bound as it was before all propagation."""
-    s.lower_support[v] = support
-    s.lower_when[v] = -1
-    if s.kind[v] == KIND_FLOAT:
-        s.flo[v] = -inf if x <= -HALF_INF else x
-    else:
-        s.lb[v] = -INF if x <= -HALF_INF else int(math.ceil(x - FLOAT_TOLERANCE))
-
-
-def _set_base_upper(s: Store, v: int, x: float, support: int) -> None:
-    """Set an upper bound as it was before all propagation."""
-    s.upper_support[v] = support
-    s.upper_when[v] = -1
-    if s.kind[v] == KIND_FLOAT:
-        s.fhi[v] = inf if x >= HALF_INF else x
-    else:
-        s.ub[v] = INF if x >= HALF_INF else int(math.floor(x + FLOAT_TOLERANCE))
+        s.upper_support[v] = support
+        s.upper_when[v] = -1
+        if s.kind[v] == KIND_FLOAT:
+            s.fhi[v] = inf if x >= HALF_INF else x
+        else:
+            s.ub[v] = INF if x >= HALF_INF else int(math.floor(x + FLOAT_TOLERANCE))
 
 
 def _reset_set(s: Store, v: int) -> None:
@@ -202,10 +194,8 @@ def _uncross(s: Store, v: int, side: int) -> None:
     if s.restriction_lo[r] > s.restriction_hi[r]:
         return
     s.fail(v, side, s.lower_support[v] if side == SIDE_LOWER else s.upper_support[v])
-    if side == SIDE_LOWER:
-        _set_base_lower(s, v, s.restriction_lo[r], r * 4 + SUPPORT_RESTRICTION)
-    else:
-        _set_base_upper(s, v, s.restriction_hi[r], r * 4 + SUPPORT_RESTRICTION)
+    x = s.restriction_lo[r] if side == SIDE_LOWER else s.restriction_hi[r]
+    _set_base(s, v, side, x, r * 4 + SUPPORT_RESTRICTION)
 
 
 def _renew_cone(s: Store) -> None:
@@ -229,7 +219,8 @@ def _renew_cone(s: Store) -> None:
             slot = head
             while slot >= 0:
                 c = s.slot_constraint[slot]
-                if not (is_carried(s, c) and s.link_a[c] >= 0) or s.slot_mask[slot]:
+                # Edges that do not change carry some out.
+                if s.mode[c] != MODE_EDGES or s.link_a[c] < 0 or s.slot_mask[slot]:
                     s.schedule(c)
                 slot = s.slot_next[slot]
 
@@ -311,15 +302,3 @@ def _has_decision(s: Store, v: int) -> bool:
     while r >= 0 and not s.restriction_flags[r] & FLAG_DECISION:
         r = s.restriction_next[r]
     return r >= 0
-
-
-def decisions_of(s: Store, v: int) -> list[int]:
-    """Take the mark of a decision from a variable; give the decisions to retract."""
-    s.set_decided(v, 0)
-    found = []
-    r = s.restriction_head[v]
-    while r >= 0:
-        if s.restriction_flags[r] & FLAG_DECISION:
-            found.append(r)
-        r = s.restriction_next[r]
-    return found

@@ -7,7 +7,6 @@ from runtime.constraints.domains.store cimport Store
 cdef long long _DONE, _ON_PATH, SIDE_HOLES, SIDE_LOWER, SIDE_UPPER, SUPPORT_RESTRICTION
 
 
-@cython.locals(colour="long long", depth="long long", key="long long", start="long long")
 cpdef bint is_self_supporting(Store s, long long v, long long side) except -1
 
 cdef int _push(Store s, long long depth, long long key) except -1
@@ -15,5 +14,4 @@ cdef int _push(Store s, long long depth, long long key) except -1
 @cython.locals(entry="long long")
 cdef long long _push_supports(Store s, long long depth, long long v, long long side) except? -1
 
-@cython.locals(i="long long")
 cdef long long _push_reasons(Store s, long long depth, long long support, long long v, long long side) except? -1

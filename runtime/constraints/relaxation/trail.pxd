@@ -14,11 +14,9 @@ cdef long long TRAIL_ENTAILED, TRAIL_WEIGHT, TRAIL_WORDS
 cdef double inf
 
 
-@cython.locals(i="long long")
 cpdef int clear_queues(Store s) except -1
 
-@cython.locals(code="long long", i="long long", key="long long", name="long long")
+@cython.locals(code="long long", key="long long", name="long long")
 cpdef int undo_to(Store s, long long size) except -1
 
-@cython.locals(i="long long")
 cpdef int commit_trail(Store s) except -1

@@ -4,8 +4,7 @@ cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.stn.heap cimport Heap
-
-cdef long long MODE_DISTANCE
+from runtime.constraints.stn.network cimport is_followed
 
 
 cdef class Distances:
@@ -15,11 +14,5 @@ cdef class Distances:
     cdef public long long[::1] stamped, distance, via
     cdef public bint by_bounds, temporal_only
 
-    @cython.locals(
-        e="long long", engine=Engine, heap=Heap, is_shorter=bint, length="long long", limit="long long", longer="long long",
-        u="long long", v="long long"
-    )
+    @cython.locals(e="long long", engine=Engine, is_shorter=bint, u="long long")
     cpdef bint admits(self, long long source, long long target, long long weight) except -1
-
-    @cython.locals(c="long long")
-    cpdef bint is_known(self, long long e) except -1

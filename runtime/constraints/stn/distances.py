@@ -4,8 +4,8 @@ from array import array
 
 from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import MODE_DISTANCE
 from runtime.constraints.stn.heap import Heap
+from runtime.constraints.stn.network import is_followed
 
 
 class Distances:
@@ -13,7 +13,7 @@ class Distances:
 
     def __init__(self, engine: Store, temporal_only: bool) -> None:
         self.engine = engine
-        self.temporal_only = temporal_only  # EUROPA's network does not know of comparisons such as `leq` between times
+        self.temporal_only = temporal_only
         self.heap = Heap()
         self.stamp = 0
         self.stamped = array("q", [0]) * 64
@@ -56,15 +56,10 @@ class Distances:
                 u = engine.edge_target[e]
                 longer = length + engine.edge_weight[e] + engine.ub[v] - engine.ub[u]
                 is_shorter = longer < limit and (self.stamped[u] != self.stamp or longer < self.distance[u])
-                if is_shorter and self.is_known(e):
+                if is_shorter and is_followed(engine, e, self.temporal_only):
                     self.stamped[u] = self.stamp
                     self.distance[u] = longer
                     self.via[u] = e
                     heap.push(longer, 0, u)
                 e = engine.out_next[e]
         return True
-
-    def is_known(self, e: int) -> bool:
-        """Whether edge `e` is one to follow."""
-        c = self.engine.edge_link[e] if self.temporal_only else -1
-        return c < 0 or self.engine.mode[c] == MODE_DISTANCE

@@ -4,21 +4,16 @@ cimport cython
 
 
 cdef class Heap:
-    cdef public long long capacity, length
+    cdef public long long length
     cdef public long long[::1] first, second, item
 
-    @cython.locals(above="long long", at="long long")
-    cpdef long long push(self, long long key, long long tie, long long entry) except? -1
+    cpdef int push(self, long long key, long long tie, long long entry) except -1
 
     cpdef long long top_key(self) except? -1
 
-    cpdef long long top_tie(self) except? -1
-
     cpdef long long top_item(self) except? -1
 
-    @cython.locals(
-        at="long long", below="long long", entry="long long", key="long long", last="long long", tie="long long"
-    )
-    cpdef long long pop(self) except? -1
+    @cython.locals(at="long long", below="long long")
+    cpdef int pop(self) except -1
 
     cpdef int clear(self) except -1

@@ -2,24 +2,22 @@
 
 from array import array
 
-from runtime.constraints.domains.arrays import blank, grow_rows
+from runtime.constraints.domains.arrays import blank, lengthen
 
 
 class Heap:
     """A binary heap in three arrays."""
 
     def __init__(self) -> None:
-        self.capacity = 64
         self.length = 0
         self.first: array[int] = blank(64)
         self.second: array[int] = blank(64)
         self.item: array[int] = blank(64)
 
-    def push(self, key: int, tie: int, entry: int) -> int:
+    def push(self, key: int, tie: int, entry: int) -> None:
         """Add an entry."""
-        if self.length == self.capacity:
-            self.capacity *= 2
-            grow_rows(self, "first second item", self.capacity)
+        if self.length == len(self.item):
+            lengthen(self, "first second item")
         at = self.length
         self.length = at + 1
         while at > 0:
@@ -33,21 +31,16 @@ class Heap:
         self.first[at] = key
         self.second[at] = tie
         self.item[at] = entry
-        return 0
 
     def top_key(self) -> int:
         """Key of the entry on top."""
         return self.first[0]
 
-    def top_tie(self) -> int:
-        """Tie of the entry on top."""
-        return self.second[0]
-
     def top_item(self) -> int:
         """What the entry on top is about."""
         return self.item[0]
 
-    def pop(self) -> int:
+    def pop(self) -> None:
         """Take the top off."""
         last = self.length - 1
         self.length = last
@@ -73,7 +66,6 @@ class Heap:
         self.first[at] = key
         self.second[at] = tie
         self.item[at] = entry
-        return 0
 
     def clear(self) -> None:
         """Forget all entries."""

@@ -3,14 +3,10 @@
 cimport cython
 from runtime.constraints.domains.store cimport Store
 
-cdef long long CONFLICT_CYCLE, EVENT_LOWER, EVENT_UPPER, HALF_INF, SIDE_LOWER, SIDE_UPPER, SUPPORT_EDGE
+cdef long long CONFLICT_CYCLE, EVENT_LOWER, EVENT_UPPER, HALF_INF, MODE_DISTANCE, SIDE_LOWER, SIDE_UPPER, SUPPORT_EDGE
 cdef long long TRAIL_EDGE, TRAIL_LINK, TRAIL_LOWER, TRAIL_UPPER, TRAIL_WEIGHT
 
 
-@cython.locals(room="long long")
-cpdef int _grow_edges(Store s) except -1
-
-@cython.locals(e="long long")
 cpdef long long _link_edge(
     Store s, long long source, long long target, long long weight, long long span, long long owner, long long link
 ) except? -1
@@ -23,14 +19,16 @@ cpdef int detach_edge(Store s, long long e) except -1
 
 cpdef int free_edge(Store s, long long e) except -1
 
-@cython.locals(e="long long")
+@cython.locals(c="long long")
+cpdef bint is_followed(Store s, long long e, bint temporal_only) except -1
+
 cpdef long long insert_edge(
     Store s, long long source, long long target, long long weight, long long span, long long owner, long long link
 ) except? -1
 
 cpdef bint tighten_edge(Store s, long long e, long long weight) except -1
 
-@cython.locals(u="long long", v="long long", w="long long", x="long long")
+@cython.locals(u="long long", v="long long")
 cpdef bint follow_edge(Store s, long long e) except -1
 
 cpdef int _fail_cycle(Store s, long long v, long long side, long long e, long long new) except -1
@@ -38,10 +36,10 @@ cpdef int _fail_cycle(Store s, long long v, long long side, long long e, long lo
 @cython.locals(key="long long", v="long long")
 cpdef bint propagate_edges(Store s, long long source, long long target, long long new) except -1
 
-@cython.locals(bound="long long", count="long long", e="long long", i="long long", u="long long", x="long long")
+@cython.locals(count="long long", e="long long", u="long long")
 cpdef bint _push_upper(Store s, long long v, long long source, long long new) except -1
 
-@cython.locals(bound="long long", count="long long", e="long long", i="long long", u="long long", x="long long")
+@cython.locals(count="long long", e="long long", u="long long")
 cpdef bint _push_lower(Store s, long long v, long long target, long long new) except -1
 
 cpdef bint tie_edges(

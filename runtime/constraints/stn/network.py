@@ -1,12 +1,13 @@
 """Propagate bounds along temporal edges, one new edge at a time, with exact detection of negative cycles."""
 
-from runtime.constraints.domains.arrays import grow_rows, next_room
+from runtime.constraints.domains.arrays import lengthen
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     CONFLICT_CYCLE,
     EVENT_LOWER,
     EVENT_UPPER,
     HALF_INF,
+    MODE_DISTANCE,
     SIDE_LOWER,
     SIDE_UPPER,
     SUPPORT_EDGE,
@@ -18,13 +19,6 @@ from runtime.constraints.domains.tags import (
 )
 
 
-def _grow_edges(s: Store) -> None:
-    """Lengthen the rows of edges."""
-    room = next_room(len(s.edge_weight))
-    grow_rows(s, "edge_source edge_target out_next out_prev in_next in_prev edge_span edge_owner edge_link", room, -1)
-    grow_rows(s, "edge_weight", room)
-
-
 def _link_edge(s: Store, source: int, target: int, weight: int, span: int, owner: int, link: int) -> int:
     """Put a new edge into the lists of its ends, without propagating it."""
     e = s.edge_free
@@ -33,7 +27,8 @@ def _link_edge(s: Store, source: int, target: int, weight: int, span: int, owner
     else:
         e = s.edges_used
         if e == len(s.edge_weight):
-            _grow_edges(s)
+            others = "edge_source edge_target out_next out_prev in_next in_prev edge_span edge_owner edge_link"
+            lengthen(s, "edge_weight", others)
         s.edges_used = e + 1
     s.edge_source[e] = source
     s.edge_target[e] = target
@@ -88,6 +83,12 @@ def free_edge(s: Store, e: int) -> None:
     s.edge_source[e] = -1
     s.out_next[e] = s.edge_free
     s.edge_free = e
+
+
+def is_followed(s: Store, e: int, temporal_only: bool) -> bool:
+    """Tell whether paths follow an edge; those of EUROPA's network follow no comparison of times, such as `leq`."""
+    c = s.edge_link[e] if temporal_only else -1
+    return c < 0 or s.mode[c] == MODE_DISTANCE
 
 
 def insert_edge(s: Store, source: int, target: int, weight: int, span: int, owner: int, link: int) -> int:
@@ -152,11 +153,7 @@ def follow_edge(s: Store, e: int) -> bool:
 
 def _fail_cycle(s: Store, v: int, side: int, e: int, new: int) -> None:
     """Record that a path of edges, `new` the first, comes back to `v` by `e` and tightens its own start."""
-    s.consistent = False
-    s.conflict_kind = CONFLICT_CYCLE
-    s.conflict_variable = v
-    s.conflict_side = side
-    s.conflict_support = e * 4 + SUPPORT_EDGE
+    s.note_conflict(CONFLICT_CYCLE, v, side, e * 4 + SUPPORT_EDGE)
     s.conflict_edge = new
 
 

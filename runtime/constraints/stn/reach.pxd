@@ -3,8 +3,9 @@
 cimport cython
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.stn.heap cimport Heap
+from runtime.constraints.stn.network cimport is_followed
 
-cdef long long _APART, _MOST_NEAR, MODE_DISTANCE, _REACHED, _UNKNOWN
+cdef long long _APART, _MOST_NEAR, _REACHED, _UNKNOWN
 
 
 @cython.final
@@ -18,26 +19,16 @@ cdef class Reach:
 
     cpdef int begin(self, long long origin, bint is_forward) except -1
 
-    @cython.locals(begin="long long", end="long long", engine=Store, limit="long long", near="long long")
+    @cython.locals(near="long long")
     cpdef bint is_apart(self, long long other) except -1
 
-    @cython.locals(begin="long long", end="long long", engine=Store)
     cpdef bint is_plain(self, long long other) except -1
 
-    @cython.locals(
-        at="long long", count="long long", down="long long", e="long long", engine=Store, high="long long",
-        is_shorter=bint, length="long long", low="long long", u="long long", up="long long", v="long long"
-    )
+    @cython.locals(at="long long", count="long long", e="long long", is_shorter=bint, u="long long")
     cdef int _probe(self, long long other) except -1
 
     @cython.locals(room="long long")
     cdef int _restart(self, long long most) except -1
 
-    @cython.locals(
-        e="long long", engine=Store, gap="long long", is_forward=bint, is_shorter=bint, length="long long",
-        longer="long long", u="long long", v="long long"
-    )
+    @cython.locals(e="long long", u="long long")
     cdef int _expand(self) except -1
-
-    @cython.locals(c="long long")
-    cdef bint _is_known(self, long long e) except -1

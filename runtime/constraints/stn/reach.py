@@ -4,8 +4,8 @@ from array import array
 
 from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.store import Store
-from runtime.constraints.domains.tags import MODE_DISTANCE
 from runtime.constraints.stn.heap import Heap
+from runtime.constraints.stn.network import is_followed
 
 _MOST_NEAR = 16
 _UNKNOWN, _APART, _REACHED = range(3)
@@ -16,7 +16,7 @@ class Reach:
 
     def __init__(self, engine: Store, temporal_only: bool) -> None:
         self.engine = engine
-        self.temporal_only = temporal_only  # follow no comparison of times: EUROPA's network does not know of them
+        self.temporal_only = temporal_only
         self.is_forward = True
         self.origin = -1
         self.most = 0  # paths of this reduced length or more are left out
@@ -29,12 +29,11 @@ class Reach:
         self.near = array("q", [0]) * _MOST_NEAR
         self.heap = Heap()
 
-    def begin(self, origin: int, is_forward: bool) -> int:
+    def begin(self, origin: int, is_forward: bool) -> None:
         """Have questions be about paths from `origin` (or to it) in the network as it is now; nothing is done yet."""
         self.origin = origin
         self.is_forward = is_forward
         self.most = 0
-        return 0
 
     def is_apart(self, other: int) -> bool:
         """Whether no path from `origin` to `other` (or back from it) is shorter than 0: the two may coincide that way.
@@ -94,7 +93,7 @@ class Reach:
                 up = engine.ub[u] - high if self.is_forward else high - engine.ub[u]
                 down = engine.lb[u] - low if self.is_forward else low - engine.lb[u]
                 is_shorter = self.near_stamped[u] != self.near_stamp or length < self.near_distance[u]
-                if is_shorter and length + up < 0 and length + down < 0 and self._is_known(e):
+                if is_shorter and length + up < 0 and length + down < 0 and is_followed(engine, e, self.temporal_only):
                     if u == self.origin:
                         return _REACHED
                     if count == _MOST_NEAR:
@@ -106,7 +105,7 @@ class Reach:
                 e = engine.in_next[e] if self.is_forward else engine.out_next[e]
         return _APART
 
-    def _restart(self, most: int) -> int:
+    def _restart(self, most: int) -> None:
         """Forget all paths, and from now on look for those up to a greater length."""
         self.most = most
         room = len(self.engine.kind)
@@ -117,7 +116,6 @@ class Reach:
         self.stamped[self.origin] = self.stamp
         self.distance[self.origin] = 0
         self.heap.push(0, 0, self.origin)
-        return 0
 
     def _expand(self) -> int:
         """Take the nearest point off the heap and follow its edges: those that leave it, or those that lead to it."""
@@ -136,15 +134,10 @@ class Reach:
             if (
                 longer < self.most
                 and (self.stamped[u] != self.stamp or longer < self.distance[u])
-                and self._is_known(e)
+                and is_followed(engine, e, self.temporal_only)
             ):
                 self.stamped[u] = self.stamp
                 self.distance[u] = longer
                 self.heap.push(longer, 0, u)
             e = engine.out_next[e] if is_forward else engine.in_next[e]
         return 0
-
-    def _is_known(self, e: int) -> bool:
-        """Whether edge `e` is one to follow."""
-        c = self.engine.edge_link[e] if self.temporal_only else -1
-        return c < 0 or self.engine.mode[c] == MODE_DISTANCE

@@ -29,6 +29,17 @@ def restore_slot(s: Store, slot: int) -> None:
             s.slot_prev[after] = slot
 
 
+def watchers_of(s: Store, v: int) -> list[int]:
+    """List the constraints on the lists of a variable, each as often as it stands there."""
+    found = []
+    for head in (s.watch_head[v], s.mute_head[v]):
+        slot = head
+        while slot >= 0:
+            found.append(s.slot_constraint[slot])
+            slot = s.slot_next[slot]
+    return found
+
+
 def _follow_up(s: Store, slot: int, after: int) -> None:
     """Have `after` follow what stands before a slot: another one, or the head of a list."""
     before = s.slot_prev[slot]

@@ -28,7 +28,7 @@ def level_profiles(database: PlanDatabase, begin: int) -> dict[str, LevelProfile
     return {
         name: _profile(database, o, begin)
         for o, name in enumerate(database.objects.names)
-        if o < resources.object_room and resources.is_resource[o]
+        if o < len(resources.is_resource) and resources.is_resource[o]
     }
 
 

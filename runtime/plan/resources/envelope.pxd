@@ -13,71 +13,41 @@ cdef class Envelope:
     cdef public Engine engine
     cdef public Resources resources
     cdef public Profile profile
-    cdef public long long resource, at, is_low, pair_room
-    cdef public long long pair_count, variable_room, mark, use_room
+    cdef public long long resource, at, is_low, mark
+    cdef public long long use_room
     cdef public bint grounded
     cdef public double amount
-    cdef public long long[::1] pair_before, pair_after, use_before, use_after
     cdef public long long[::1] marks, stack, via, takes, gives
     cdef public long long[::1] instants, from_taker, from_giver, queue
     cdef public long long[::1] ordered
     cdef public double[::1] supply, demand, flow
 
-    @cython.locals(profile=Profile, resources=Resources)
     cpdef bint find(self, long long o) except -1
 
-    @cython.locals(profile=Profile)
     cpdef bint find_certain(self, long long o) except -1
 
-    @cython.locals(i="long long", profile=Profile)
     cpdef bint _envelope_is_outside(self, long long sign) except -1
 
-    @cython.locals(i="long long", profile=Profile, total=double)
     cpdef double change(self, long long sign) except? -1.0
 
-    @cython.locals(count="long long", grounded=bint, k="long long", level=double, profile=Profile)
     cpdef bint _find_side(self, long long o, long long is_low) except -1
 
-    @cython.locals(
-        count="long long", i="long long", j="long long", k="long long", profile=Profile, sign="long long",
-        t="long long"
-    )
+    @cython.locals(count="long long", j="long long", k="long long", sign="long long")
     cpdef long long _collect_instants(self) except? -1
 
-    @cython.locals(
-        i="long long", j="long long", known=bint, profile=Profile, n="long long", resources=Resources,
-        taker="long long", u="long long", v="long long"
-    )
+    @cython.locals(known=bint, taker="long long")
     cpdef int prepare(self) except -1
 
     cpdef int make_room(self, long long n) except -1
 
-    @cython.locals(e="long long", engine=Engine, top="long long", u="long long")
+    @cython.locals(e="long long", top="long long", u="long long")
     cpdef int walk_back(self, long long v) except -1
 
-    @cython.locals(
-        cell="long long", i="long long", j="long long", profile=Profile, n="long long", pushed=double, t="long long",
-        total=double
-    )
     cpdef double _given_back(self) except? -1.0
 
-    @cython.locals(first="long long", i="long long", j="long long", k="long long", last="long long", n="long long")
+    @cython.locals(first="long long", last="long long")
     cpdef double _augment(self, long long source) except? -1.0
 
-    @cython.locals(amount=double, i="long long", j="long long")
     cpdef double push(self, long long source, long long giver) except? -1.0
 
-    @cython.locals(e="long long", i="long long", is_marked=bint, j="long long", n="long long", v="long long")
     cpdef int note_orders(self, list edges, list read) except -1
-
-    @cython.locals(i="long long", j="long long", profile=Profile, n="long long", v="long long")
-    cpdef long long find_pairs(self) except? -1
-
-    @cython.locals(profile=Profile)
-    cpdef bint _is_charged(self, long long j) except -1
-
-    @cython.locals(profile=Profile)
-    cpdef bint _may_give(self, long long i) except -1
-
-    @cython.locals(k="long long")
-    cpdef int _add_pair(self, long long before, long long after, long long giver, long long taker) except -1

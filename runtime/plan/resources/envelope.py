@@ -1,4 +1,4 @@
-"""Resource envelope (Muscettola 2002): bounds on a level by the order of uses; its flaws, and orders that mend them.
+"""Resource envelope (Muscettola 2002): bounds on a level by the order of uses, and its flaws.
 
 A use that comes after another's end is never charged together with it, whatever their times. The worst case at an
 instant is a closure of greatest weight among the uses that may have happened; as known orders are transitive, it is a
@@ -6,7 +6,7 @@ maximum flow from takers to givers before them. Order is read off the STN: paths
 bounds.
 """
 
-from runtime.constraints.domains.arrays import blank, grown
+from runtime.constraints.domains.arrays import blank, lengthen
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
 from runtime.plan.resources.profile import Profile
@@ -17,10 +17,7 @@ _ROOM = 64
 
 
 class Envelope:
-    """The flaw found last: `resource`, the instant `at`, `is_low` and `amount`; scratch arrays are used again.
-
-    The pairs are timepoints (and uses): the first before the second would mend the flaw.
-    """
+    """The flaw found last: `resource`, the instant `at`, `is_low` and `amount`; scratch arrays are used again."""
 
     def __init__(self, engine: Engine, resources: Resources) -> None:
         self.engine = engine
@@ -31,13 +28,6 @@ class Envelope:
         self.is_low = 1
         self.grounded = False
         self.amount = 0.0
-        self.pair_room = _ROOM
-        self.pair_count = 0
-        self.pair_before = blank(_ROOM)
-        self.pair_after = blank(_ROOM)
-        self.use_before = blank(_ROOM)
-        self.use_after = blank(_ROOM)
-        self.variable_room = _ROOM
         self.marks = blank(_ROOM)
         self.mark = 0
         self.stack = blank(_ROOM)
@@ -177,24 +167,12 @@ class Envelope:
     def make_room(self, n: int) -> None:
         """Make the arrays long enough for `n` uses and all variables."""
         if n > self.use_room:
-            while n > self.use_room:
-                self.use_room *= 2
-            self.takes = blank(self.use_room)
-            self.gives = blank(self.use_room)
-            self.instants = grown(self.instants, self.use_room)
-            self.supply = blank(self.use_room, "d")
-            self.demand = blank(self.use_room, "d")
-            self.from_taker = blank(self.use_room)
-            self.from_giver = blank(self.use_room)
-            self.queue = blank(self.use_room)
+            lengthen(self, "takes gives instants supply demand from_taker from_giver queue", need=n)
+            self.use_room = len(self.takes)
             self.flow = blank(self.use_room * self.use_room, "d")
             self.ordered = blank(self.use_room * self.use_room)
-        if self.engine.variables > self.variable_room:
-            while self.engine.variables > self.variable_room:
-                self.variable_room *= 2
-            self.marks = grown(self.marks, self.variable_room)
-            self.stack = blank(self.variable_room)
-            self.via = blank(self.variable_room)
+        if self.engine.variables > len(self.marks):
+            lengthen(self, "marks stack via", need=self.engine.variables)
 
     def walk_back(self, v: int) -> None:
         """Mark all timepoints that are known to be no later than `v`."""
@@ -318,56 +296,3 @@ class Envelope:
                     e = self.via[v]
                     edges.append(e)
                     v = self.engine.edge_source[e]
-
-    # ---- mending ----
-
-    def find_pairs(self) -> int:
-        """The orders that could mend the flaw: a giver before a taker, neither known to be so nor impossible."""
-        profile = self.profile
-        n = profile.count
-        self.pair_count = 0
-        if self.grounded:
-            self.prepare()
-        for j in range(n):
-            if self.takes[j] < 0 or not self._is_charged(j):
-                continue
-            for i in range(n):
-                v = self.gives[i]
-                if i == j or v < 0 or self.ordered[j * self.use_room + i] or not self._may_give(i):
-                    continue
-                if self.engine.lb[v] <= self.engine.ub[self.takes[j]]:
-                    self._add_pair(v, self.takes[j], profile.use[i], profile.use[j])
-        return self.pair_count
-
-    def _is_charged(self, j: int) -> bool:
-        """Whether use `j` counts at the instant of the flaw."""
-        profile = self.profile
-        if profile.start_low[j] > self.at:
-            return False
-        if profile.lasting[j]:
-            return True
-        if self.grounded:
-            return profile.end_low[j] > self.at
-        return profile.end_high[j] > self.at
-
-    def _may_give(self, i: int) -> bool:
-        """Whether use `i` could give back before, and has not certainly done so."""
-        profile = self.profile
-        if self.takes[i] >= 0:
-            return self._is_charged(i)
-        return profile.start_high[i] > self.at or self.grounded
-
-    def _add_pair(self, before: int, after: int, giver: int, taker: int) -> None:
-        """Note one possible order."""
-        k = self.pair_count
-        if k == self.pair_room:
-            self.pair_room *= 2
-            self.pair_before = grown(self.pair_before, self.pair_room)
-            self.pair_after = grown(self.pair_after, self.pair_room)
-            self.use_before = grown(self.use_before, self.pair_room)
-            self.use_after = grown(self.use_after, self.pair_room)
-        self.pair_before[k] = before
-        self.pair_after[k] = after
-        self.use_before[k] = giver
-        self.use_after[k] = taker
-        self.pair_count = k + 1

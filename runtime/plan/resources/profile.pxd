@@ -7,7 +7,7 @@ cdef double FLOAT_TOLERANCE, inf
 
 
 cdef class Profile:
-    cdef public long long room, count, wrong, at, until
+    cdef public long long count, wrong, at, until
     cdef public long long[::1] use, sign, lasting, start_low
     cdef public long long[::1] start_high, end_low, end_high, length
     cdef public double[::1] least, most
@@ -20,48 +20,34 @@ cdef class Profile:
 
     cpdef int set_flows(self, double rate, double total, double production_rate, double production_total) except -1
 
-    @cython.locals(i="long long")
     cpdef long long add(self, long long use, long long sign, long long lasting) except? -1
 
-    @cython.locals(i="long long", sign="long long")
+    @cython.locals(sign="long long")
     cpdef int add_step(self, long long start, double least, double most) except -1
 
-    cpdef int grow(self) except -1
-
-    @cython.locals(i="long long", level=double)
     cpdef double best_for_consumers(self, long long t) except? -1.0
 
-    @cython.locals(i="long long", level=double)
     cpdef double worst_for_consumers(self, long long t) except? -1.0
 
-    @cython.locals(i="long long", level=double)
     cpdef double grounded(self, long long t) except? -1.0
 
-    @cython.locals(i="long long", signs="long long")
+    @cython.locals(signs="long long")
     cpdef bint flows_both_ways(self) except -1
 
     cpdef long long violation(self) except? -1
 
-    @cython.locals(i="long long", least_consumed=double, least_produced=double)
     cpdef long long _level_violation(self) except? -1
 
-    @cython.locals(first_maximum=double, first_minimum=double, i="long long", instants=set, steps=list, t="long long")
+    @cython.locals(t="long long")
     cpdef long long _violation_of_steps(self) except? -1
 
-    @cython.locals(consumed=double, flow=double, i="long long", produced=double)
     cpdef long long _flow_violation(self) except? -1
 
-    @cython.locals(flow=double, j="long long", same=bint)
+    @cython.locals(same=bint)
     cpdef double _together(self, long long i) except? -1.0
 
-    @cython.locals(
-        end="long long", first="long long", i="long long", j="long long", last="long long", room=double,
-        start="long long"
-    )
     cpdef long long overload(self) except? -1
 
-    @cython.locals(amount=double, k="long long")
     cpdef bint _is_overloaded(self, long long start, long long end, double room) except -1
 
-    @cython.locals(early="long long", late="long long")
     cpdef long long share(self, long long k, long long start, long long end) except? -1

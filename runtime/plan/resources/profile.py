@@ -5,7 +5,7 @@ Only the bounds of times count here; `envelope` also knows the order of uses.
 
 from math import inf
 
-from runtime.constraints.domains.arrays import blank, grown
+from runtime.constraints.domains.arrays import blank, lengthen
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, HALF_INF
 from runtime.plan.tags import TOO_FAST, TOO_HIGH, TOO_LOW, TOO_MUCH, TOO_TIGHT
 
@@ -21,7 +21,6 @@ class Profile:
     """
 
     def __init__(self) -> None:
-        self.room = _ROOM
         self.count = 0
         self.use = blank(_ROOM)
         self.sign = blank(_ROOM)
@@ -59,8 +58,8 @@ class Profile:
     def add(self, use: int, sign: int, lasting: int) -> int:
         """Take a row for a use; its bounds are for the caller to fill in."""
         i = self.count
-        if i == self.room:
-            self.grow()
+        if i == len(self.use):
+            lengthen(self, "use sign lasting start_low start_high end_low end_high length least most")
         self.count = i + 1
         self.use[i] = use
         self.sign[i] = sign
@@ -76,20 +75,6 @@ class Profile:
         self.start_high[i] = start
         self.least[i] = max(least, 0.0) if sign < 0 else max(-most, 0.0)
         self.most[i] = most if sign < 0 else -least
-
-    def grow(self) -> None:
-        """Double the rows."""
-        self.room *= 2
-        self.use = grown(self.use, self.room)
-        self.sign = grown(self.sign, self.room)
-        self.lasting = grown(self.lasting, self.room)
-        self.start_low = grown(self.start_low, self.room)
-        self.start_high = grown(self.start_high, self.room)
-        self.end_low = grown(self.end_low, self.room)
-        self.end_high = grown(self.end_high, self.room)
-        self.length = grown(self.length, self.room)
-        self.least = grown(self.least, self.room)
-        self.most = grown(self.most, self.room)
 
     # ---- the level at an instant ----
 

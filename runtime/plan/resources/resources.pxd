@@ -12,8 +12,7 @@ cdef double inf
 cdef class Resources:
     cdef public Engine engine
     cdef public Profile profile
-    cdef public long long room, count, object_room, grounded_text
-    cdef public long long pending
+    cdef public long long count, grounded_text, pending
     cdef public list free, refusals, postponed
     cdef public object relief
     cdef public long long[::1] token, sign, holder, quantity
@@ -23,10 +22,8 @@ cdef class Resources:
     cdef public double[::1] least, most
     cdef public dict steps, limit_steps
 
-    @cython.locals(k="long long")
     cpdef int add_resource(self, long long o, list limits, long long profile_choice) except -1
 
-    @cython.locals(v="long long")
     cpdef bint is_grounded(self, long long o) except -1
 
     cpdef long long add_use(
@@ -36,36 +33,26 @@ cdef class Resources:
 
     cpdef int remove_use(self, long long u) except -1
 
-    @cython.locals(u="long long")
     cpdef int remove_token(self, long long t) except -1
 
     cpdef int truncate(self, long long count) except -1
-
-    cpdef int _grow_uses(self) except -1
 
     cpdef int set_capacity(self, long long o, long long start, double lower, double upper) except -1
 
     cpdef int set_limit(self, long long o, long long start, double lower, double upper) except -1
 
-    @cython.locals(
-        end="long long", engine=Engine, holder="long long", o="long long", q="long long", start="long long",
-        u="long long"
-    )
     cpdef bint is_quiet(self) except -1
 
-    @cython.locals(by_order=bint, is_tight=bint, o="long long")
+    @cython.locals(by_order=bint, is_tight=bint)
     cpdef bint check(self, envelope, long long level) except -1
 
-    @cython.locals(wrong="long long")
     cpdef bint _may_wait(self, long long o, long long is_low) except -1
 
     @cython.locals(o="long long")
     cpdef int resume(self) except -1
 
-    @cython.locals(taken=list)
     cpdef list take_refusals(self)
 
-    @cython.locals(at="long long", i="long long", u="long long")
     cpdef int fill(self, Profile profile, long long o) except -1
 
     cpdef double lower(self, long long row, double otherwise) except? -1.0
@@ -75,16 +62,9 @@ cdef class Resources:
     @cython.locals(o="long long")
     cpdef int set_energetic(self, long long o, bint is_energetic) except -1
 
-    @cython.locals(
-        c="long long", i="long long", k="long long", profile=Profile, sign="long long", span_owner="long long",
-        u="long long", variables=list
-    )
     cpdef bint refuse(self, long long o, long long level, envelope) except -1
 
-    @cython.locals(
-        end="long long", harms="long long", is_certain=bint, profile=Profile, quantity="long long", side="long long",
-        start="long long", t="long long"
-    )
+    @cython.locals(harms="long long", is_certain=bint, t="long long")
     cpdef bint _note_read(self, violation, long long i, long long u, bint by_order) except -1
 
 

@@ -6,7 +6,7 @@ are compared with those of the last check, so that going back in time needs no n
 
 from math import inf
 
-from runtime.constraints.domains.arrays import blank, grown
+from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
 from runtime.constraints.domains.tags import SIDE_LOWER, SIDE_UPPER
 from runtime.constraints.engine import Engine
 from runtime.plan.resources.profile import Profile
@@ -36,7 +36,6 @@ class Resources:
     def __init__(self, engine: Engine) -> None:
         self.engine = engine
         self.profile = Profile()
-        self.room = _ROOM
         self.count = 0
         self.free: list[int] = []
         self.token = blank(_ROOM)
@@ -54,7 +53,6 @@ class Resources:
         self.least = blank(_ROOM, "d")
         self.most = blank(_ROOM, "d")
         # Resources: the variables of their limits, and whether one of their uses has changed.
-        self.object_room = _ROOM
         self.is_resource = blank(_ROOM)
         self.is_energetic = blank(_ROOM)  # also refuse what cannot fit into a window
         self.profile_choice = blank(_ROOM)  # the variable that chooses how levels are computed
@@ -73,13 +71,9 @@ class Resources:
 
     def add_resource(self, o: int, limits: list[int], profile_choice: int) -> None:
         """Make object `o` a resource with the variables of its limits (NONE: not limited)."""
-        while o >= self.object_room:
-            self.object_room *= 2
-            self.is_resource = grown(self.is_resource, self.object_room)
-            self.is_energetic = grown(self.is_energetic, self.object_room)
-            self.profile_choice = grown(self.profile_choice, self.object_room)
-            self.changed = grown(self.changed, self.object_room)
-            self.limits = grown(self.limits, self.object_room * LIMITS)
+        if o >= len(self.is_resource):
+            lengthen(self, "is_resource is_energetic profile_choice changed", need=o + 1)
+            grow_rows(self, "limits", len(self.is_resource) * LIMITS)
         self.is_resource[o] = 1
         self.profile_choice[o] = profile_choice
         for k in range(LIMITS):
@@ -100,8 +94,9 @@ class Resources:
         if self.free and level == 0:
             u = self.free.pop()
         else:
-            if self.count == self.room:
-                self._grow_uses()
+            if self.count == len(self.token):
+                lengthen(self, "token sign holder quantity start end duration on least most")
+                grow_rows(self, "start_low start_high end_low end_high", len(self.token))
             u = self.count
             self.count += 1
         self.token[u] = token
@@ -131,24 +126,6 @@ class Resources:
     def truncate(self, count: int) -> None:
         """Forget the uses that a search has added."""
         self.count = count
-
-    def _grow_uses(self) -> None:
-        """Double the rows."""
-        self.room *= 2
-        self.token = grown(self.token, self.room)
-        self.sign = grown(self.sign, self.room)
-        self.holder = grown(self.holder, self.room)
-        self.quantity = grown(self.quantity, self.room)
-        self.start = grown(self.start, self.room)
-        self.end = grown(self.end, self.room)
-        self.duration = grown(self.duration, self.room)
-        self.on = grown(self.on, self.room)
-        self.start_low = grown(self.start_low, self.room)
-        self.start_high = grown(self.start_high, self.room)
-        self.end_low = grown(self.end_low, self.room)
-        self.end_high = grown(self.end_high, self.room)
-        self.least = grown(self.least, self.room)
-        self.most = grown(self.most, self.room)
 
     def set_capacity(self, o: int, start: int, lower: float, upper: float) -> None:
         """Change the capacity from a time on."""
@@ -201,7 +178,7 @@ class Resources:
     def check(self, envelope: "UseOrder", level: int) -> bool:
         """Refuse what certainly exceeds a resource; False if something does."""
         self.pending = 0
-        for o in range(self.object_room):
+        for o in range(len(self.is_resource)):
             if self.changed[o] and self.is_resource[o]:
                 self.changed[o] = 0
                 self.fill(self.profile, o)
@@ -284,7 +261,7 @@ class Resources:
 
     def set_energetic(self, o: int, is_energetic: bool) -> None:
         """Have resource `o` refuse what cannot fit into a window, or no longer."""
-        if o < self.object_room and self.is_energetic[o] != is_energetic:
+        if o < len(self.is_resource) and self.is_energetic[o] != is_energetic:
             self.is_energetic[o] = is_energetic
             self.changed[o] = 1
             self.pending = 1

@@ -1,6 +1,6 @@
 """Violation of a resource as a constraint: it fails, and can check itself again on other bounds for explanations."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from math import inf
 from typing import Any
 
@@ -67,24 +67,27 @@ class Violation(External):
         self.table = table
         self.judge = judge
 
+    def _uses_of(self, s: Store, c: int) -> Iterator[tuple[int, list[int]]]:
+        """The sign of each use, and its variables."""
+        position = len(self.limits)
+        for sign in self.signs:
+            yield sign, [argument(s, c, position + k) for k in range(2 + abs(sign))]
+            position += 2 + abs(sign)
+
     def propagate(self, s: Store, c: int) -> bool:
         """Refuse if the level is certainly out of bounds."""
         if self.table is not None and self.judge is not None:
             return not self._is_out_by_order(s, c) or refuse(s, c)
         profile = Profile()
-        position = 0
         bounds = [(0.0, 0.0), (-inf, -inf), (inf, inf), (inf, inf), (inf, inf), (inf, inf), (inf, inf)]
-        for k in self.limits:
+        for position, k in enumerate(self.limits):
             v = argument(s, c, position)
             bounds[k] = (s.flo[v], s.fhi[v])
-            position += 1
         initial, minimum, maximum, rate, total, production_rate, production_total = bounds
         profile.set_limits(initial[0], initial[1], minimum[0], maximum[1])
         profile.limit_steps = self.limit_steps
         profile.set_flows(rate[1], total[1], production_rate[1], production_total[1])
-        for sign in self.signs:
-            parts = [argument(s, c, position + k) for k in range(2 + abs(sign))]
-            position += len(parts)
+        for sign, parts in self._uses_of(s, c):
             holder, quantity, start = parts[:3]
             end = parts[3] if len(parts) > 3 else start
             is_there = s.lb[holder] == self.resource == s.ub[holder]
@@ -108,16 +111,12 @@ class Violation(External):
         assert self.table is not None and self.judge is not None
         table = self.table(s)
         limits = [-1] * LIMITS
-        position = 0
-        for k in self.limits:
+        for position, k in enumerate(self.limits):
             limits[k] = argument(s, c, position)
-            position += 1
         table.add_resource(self.resource, limits, -1)
         for at, lower, upper in self.steps:
             table.set_capacity(self.resource, at, lower, upper)
-        for sign in self.signs:
-            parts = [argument(s, c, position + k) for k in range(2 + abs(sign))]
-            position += len(parts)
+        for sign, parts in self._uses_of(s, c):
             end = parts[3] if len(parts) > 3 else -1
             table.add_use(-1, 1 if sign > 0 else -1, parts[0], parts[1], parts[2], end, -1, 1)
         table.is_quiet()

@@ -1,16 +1,9 @@
 """Assignments: base domains compared and intersected, for statements and constructor arguments."""
 
-from collections.abc import Sequence
-
-from nddl_lang.text.diagnostic import Diagnostic
-from nddl_lang.text.source import Span
 from runtime.constraints.domains.base_domain import is_base_growing, is_growing
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, KIND_FLOAT
 from runtime.constraints.engine import Engine
-from runtime.plan.script.codes import OUTSIDE_DOMAIN
-from runtime.plan.store.domain_texts import base_text
 from runtime.plan.store.plan import Plan
-from runtime.plan.store.prototypes import Prototypes
 from runtime.plan.store.scopes import make_variable
 from runtime.plan.tags import NONE, ROLE_INTERNAL
 
@@ -31,7 +24,7 @@ def copy_current(plan: Plan, prototype: int, source: int) -> int:
     return v
 
 
-def _overlap(engine: Engine, v: int, source: int) -> bool:
+def overlap(engine: Engine, v: int, source: int) -> bool:
     """Whether two base domains have a value in common."""
     if is_base_growing(engine, v) or is_base_growing(engine, source):
         return True
@@ -48,21 +41,3 @@ def _overlap(engine: Engine, v: int, source: int) -> bool:
         return True
     other = source if mine is not None else v
     return any(engine.base_lower(other) - tolerance <= x <= engine.base_upper(other) + tolerance for x in listed)
-
-
-def assign_domain(
-    prototypes: Prototypes,
-    objects: Sequence[str],
-    plan: Plan,
-    v: int,
-    source: int,
-    name: str,
-    span: Span,
-    number: int,
-) -> Diagnostic | None:
-    """Intersect the base domain of `v` with that of `source`; what is wrong if they have no value in common."""
-    engine = plan.engine
-    if not _overlap(engine, v, source):
-        return OUTSIDE_DOMAIN.at(span, value=base_text(prototypes, engine, source, objects), name=name)
-    engine.restrict_base_to(v, source, number, NONE)
-    return None

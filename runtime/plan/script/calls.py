@@ -2,12 +2,11 @@
 
 from collections.abc import Callable
 
-from compiler.program import OBJECT, STATE, Call, Constant, Program, TokenVariable
+from compiler.program import OBJECT, STATE, Call, Constant, TokenVariable
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.base_domain import is_base_growing, is_growing
 from runtime.plan import lifecycle
-from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.script.codes import (
     CLOSED_ALREADY,
     NOT_ONE_OBJECT,
@@ -22,8 +21,6 @@ from runtime.plan.script.codes import (
 from runtime.plan.script.objects import Objects
 from runtime.plan.store.domain_texts import base_text
 from runtime.plan.store.operands import operand
-from runtime.plan.store.plan import Plan
-from runtime.plan.store.prototypes import Prototypes
 from runtime.plan.tags import (
     ACTIVE,
     FLAG_NATIVE,
@@ -53,20 +50,11 @@ def _is_activation(call: Call) -> bool:
 class Calls:
     """The methods of the script."""
 
-    def __init__(
-        self,
-        plan: Plan,
-        program: Program,
-        prototypes: Prototypes,
-        code: RuleBytecode,
-        objects: Objects,
-        labels: dict[int, str],
-        scope: int,
-    ) -> None:
-        self.plan = plan
-        self.program = program
-        self.prototypes = prototypes
-        self.code = code
+    def __init__(self, objects: Objects, labels: dict[int, str], scope: int) -> None:
+        self.plan = objects.plan
+        self.program = objects.program
+        self.prototypes = objects.prototypes
+        self.code = objects.code
         self.objects = objects
         self.labels = labels
         self.scope = scope

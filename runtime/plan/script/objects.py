@@ -8,9 +8,10 @@ from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import KIND_FLOAT, KIND_OBJECT
 from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.rules.rule_interpreter import run
-from runtime.plan.script.assignments import assign_domain, copy_current
-from runtime.plan.script.codes import CLOSED_CLASS, ENDLESS_OBJECT
+from runtime.plan.script.assignments import copy_current, overlap
+from runtime.plan.script.codes import CLOSED_CLASS, ENDLESS_OBJECT, OUTSIDE_DOMAIN
 from runtime.plan.script.natives import DEFAULTS, FILLED, LIMITS_OF
+from runtime.plan.store.domain_texts import base_text
 from runtime.plan.store.links import new_head
 from runtime.plan.store.operands import operand
 from runtime.plan.store.plan import Plan
@@ -239,7 +240,11 @@ class Objects:
 
     def restrict(self, v: int, source: int, name: str, span: Span) -> Diagnostic | None:
         """Intersect the base domain of `v` with that of `source`; what is wrong if they have no value in common."""
-        return assign_domain(self.prototypes, self.names, self.plan, v, source, name, span, self.code.span(span))
+        engine = self.plan.engine
+        if not overlap(engine, v, source):
+            return OUTSIDE_DOMAIN.at(span, value=base_text(self.prototypes, engine, source, self.names), name=name)
+        engine.restrict_base_to(v, source, self.code.span(span), NONE)
+        return None
 
     def _fill_native(self, name: str, o: int, arguments: list[int]) -> None:
         """Give the members of a resource their values."""

@@ -15,19 +15,15 @@ from compiler.program import (
     NewVariable,
     ObjectLoop,
     Post,
-    Program,
     Relate,
     Sample,
 )
 from nddl_lang.text.diagnostic import Diagnostic
 from runtime.plan.lifecycle import fire
-from runtime.plan.rules.rule_bytecode import RuleBytecode
 from runtime.plan.script.calls import Calls
 from runtime.plan.script.codes import NO_OBJECT
 from runtime.plan.script.objects import Objects
 from runtime.plan.store.operands import operand
-from runtime.plan.store.plan import Plan
-from runtime.plan.store.prototypes import Prototypes
 from runtime.plan.store.scopes import make_variable
 from runtime.plan.tags import FLAG_FACT, FLAG_GOAL, FLAG_REJECTABLE, NONE, ROLE_GLOBAL, SCOPE_SCRIPT
 from runtime.plan.tokens.retraction import withdraw_refusals
@@ -40,28 +36,19 @@ Action = Callable[[], Diagnostic | None]
 class Script:
     """The statements of a program, ready to run."""
 
-    def __init__(
-        self,
-        plan: Plan,
-        program: Program,
-        prototypes: Prototypes,
-        code: RuleBytecode,
-        predicates: dict[str, int],
-        objects: Objects,
-    ) -> None:
-        self.plan = plan
-        self.program = program
-        self.prototypes = prototypes
-        self.code = code
+    def __init__(self, predicates: dict[str, int], objects: Objects) -> None:
+        self.plan = objects.plan
+        self.program = objects.program
+        self.prototypes = objects.prototypes
+        self.code = objects.code
         self.predicates = predicates
         self.objects = objects
         self.labels: dict[int, str] = {}
-        tokens = program.script_tokens
-        self.scope = plan.rows.new_scope(
-            SCOPE_SCRIPT, NONE, NONE, NONE, program.script_slots, program.script_slots + tokens
-        )
-        self.calls = Calls(plan, program, prototypes, code, objects, self.labels, self.scope)
-        self.actions: list[Action] = [self.prepare(instruction) for instruction in program.script]
+        slots = self.program.script_slots
+        size = slots + self.program.script_tokens
+        self.scope = self.plan.rows.new_scope(SCOPE_SCRIPT, NONE, NONE, NONE, slots, size)
+        self.calls = Calls(objects, self.labels, self.scope)
+        self.actions: list[Action] = [self.prepare(instruction) for instruction in self.program.script]
         self.next = 0
 
     def run(self) -> Diagnostic | None:

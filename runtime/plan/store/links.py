@@ -4,7 +4,7 @@ Lists are doubly linked through the rows of tokens; a token that leaves a list k
 undoing in reverse order puts it back where it was (Knuth's dancing links).
 """
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import lengthen
 from runtime.plan.store.rows import Rows
 from runtime.plan.tags import (
     FREED,
@@ -27,16 +27,8 @@ from runtime.plan.tags import (
 
 def new_head(rows: Rows, head: int) -> None:
     """Make sure that list number `head` exists."""
-    if head >= rows.head_capacity:
-        old = rows.head_capacity
-        while head >= rows.head_capacity:
-            rows.head_capacity *= 2
-        rows.head_first = grown(rows.head_first, rows.head_capacity)
-        rows.head_last = grown(rows.head_last, rows.head_capacity)
-        rows.head_length = grown(rows.head_length, rows.head_capacity)
-        for position in range(old, rows.head_capacity):
-            rows.head_first[position] = NONE
-            rows.head_last[position] = NONE
+    if head >= len(rows.head_length):
+        lengthen(rows, "head_length", "head_first head_last", head + 1)
 
 
 def link(rows: Rows, t: int, kind: int, head: int, after: int) -> None:

@@ -1,12 +1,10 @@
 # The C types of `marks.py`.
 
-cimport cython
 from runtime.plan.store.links cimport undo
 from runtime.plan.store.plan cimport Plan
 
 
 
-@cython.locals(level="long long")
 cpdef long long mark(Plan plan) except? -1
 
 

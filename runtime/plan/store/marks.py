@@ -1,6 +1,6 @@
 """Marks: states of plan and engine to go back to; they nest, and are named by their depth."""
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import lengthen
 from runtime.plan.store.links import undo
 from runtime.plan.store.plan import Plan
 
@@ -8,13 +8,8 @@ from runtime.plan.store.plan import Plan
 def mark(plan: Plan) -> int:
     """Remember the present state, which must be a fixpoint; the number of the mark."""
     level = plan.rows.level
-    if level == plan.mark_capacity:
-        plan.mark_capacity *= 2
-        plan.mark_engine = grown(plan.mark_engine, plan.mark_capacity)
-        plan.mark_rows = grown(plan.mark_rows, plan.mark_capacity)
-        plan.mark_uses = grown(plan.mark_uses, plan.mark_capacity)
-        plan.mark_awaited = grown(plan.mark_awaited, plan.mark_capacity)
-        plan.mark_objects = grown(plan.mark_objects, plan.mark_capacity)
+    if level == len(plan.mark_engine):
+        lengthen(plan, "mark_engine mark_rows mark_uses mark_awaited mark_objects")
     if level == 0:
         plan.rows.trail_length = 0
         plan.awaited_count = 0

@@ -1,38 +1,29 @@
 # The C types of `operands.py`.
 
 cimport cython
-from runtime.constraints.engine cimport Engine
 from runtime.constraints.propagators.posting cimport add_row, start_element
 from runtime.plan.store.scopes cimport copy_variable
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 
 cdef long long HOLDS_CONSTRAINT, HOLDS_VARIABLES, IN_CONSTANT, IN_FIELD, IN_GLOBAL, IN_LOCAL, IN_PROTOTYPE, IN_SELF
 cdef long long IN_TOKEN, IN_UNION, KIND_FLOAT, KIND_INT, NONE, ROLE_INTERNAL, TOKEN_SHIFT
 
 
-@cython.locals(rows=Rows, slot="long long")
 cpdef long long operand(Plan plan, long long scope, long long kind, long long value, long long span) except? -1
 
 
-@cython.locals(name="long long", o="long long", position="long long", start="long long", v="long long")
+@cython.locals(o="long long")
 cpdef long long _field(Plan plan, long long scope, long long number, long long span) except? -1
 
 
-@cython.locals(k="long long")
 cpdef long long member(Plan plan, long long o, long long name) except? -1
 
 
-@cython.locals(
-    c="long long", o="long long", objects=list, owner="long long", prototype="long long", result="long long",
-    rows="long long", v="long long", x=double
-)
+@cython.locals(o="long long", prototype="long long", rows="long long", x=double)
 cpdef long long _proxy(Plan plan, long long scope, long long index, long long name, long long span) except? -1
 
 
-@cython.locals(engine=Engine, lower=double, upper=double, values=list)
 cpdef list _base_listed(Plan plan, long long v)
 
 
-@cython.locals(engine=Engine, kind="long long", owner="long long", v="long long", values=list)
 cpdef long long _unite(Plan plan, long long scope, long long number, long long span) except? -1

@@ -86,8 +86,7 @@ def _proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
         if v >= 0:
             add_row(plan.engine, c, rows, o, v)
             rows += 1
-    if owner >= 0:
-        plan.rows.hold(scope, HOLDS_CONSTRAINT, c, 1)
+    plan.rows.hold(scope, HOLDS_CONSTRAINT, c, 1)
     return result
 
 
@@ -121,6 +120,5 @@ def _unite(plan: Plan, scope: int, number: int, span: int) -> int:
                 plan.services.note_loose_item(span)
     v = engine.new_values(kind, values, span, owner)
     plan.note_variable(v, ROLE_INTERNAL, owner, NONE)
-    if owner >= 0:
-        plan.rows.hold(scope, HOLDS_VARIABLES, v, 1)
+    plan.rows.hold(scope, HOLDS_VARIABLES, v, 1)
     return v

@@ -1,6 +1,5 @@
 # The C types of `plan.py`.
 
-cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.resources.resources cimport Resources
 from runtime.plan.store.rows cimport Rows
@@ -16,7 +15,7 @@ cdef class Plan:
     cdef public long long[::1] predicate_class, predicate_flags, predicate_timeline, predicate_resource
     cdef public long long[::1] predicate_suffix, predicate_at, predicate_parent, predicate_root
     cdef public long long[::1] parameter_start, parameter_count, parameter_prototype, parameter_copy_kind
-    cdef public long long[::1] parameter_copy_value, parameter_name, body_block, body_slots
+    cdef public long long[::1] parameter_copy_value, body_block, body_slots
     cdef public long long[::1] body_tokens, first_rule, rule_number, rule_block
     cdef public long long[::1] rule_slots, rule_tokens, rule_declared, rule_span
     cdef public long long[::1] relation_start, relation_distance, relation_duration, class_prototype
@@ -29,12 +28,9 @@ cdef class Plan:
     cdef public long long[::1] operands, mark_engine, mark_rows, mark_uses
     cdef public long long[::1] mark_awaited, mark_objects
     cdef public long long suffixes, state_prototype, rejectable_prototype, native_prototype
-    cdef public long long duration_prototype, instant_prototype, time_prototype, object_capacity
-    cdef public long long object_count, first_object_head, member_names, form_capacity
-    cdef public long long clock, variable_capacity, awaited_capacity, awaited_count
-    cdef public long long watch_capacity, stack_capacity, stack_length, queue_capacity
-    cdef public long long queue_length, operand_capacity, operands_used, mark_capacity
-    cdef public long long statement, self_object
+    cdef public long long duration_prototype, instant_prototype, time_prototype, object_count
+    cdef public long long first_object_head, member_names, clock, awaited_count, stack_length
+    cdef public long long queue_length, operands_used, statement, self_object
     cdef public bint loops_read_choices
     cdef public double[::1] form_lower, form_upper
     cdef public list unions
@@ -44,18 +40,14 @@ cdef class Plan:
 
     cpdef int set_globals(self, long long count) except -1
 
-    @cython.locals(o="long long")
     cpdef long long new_object(self, long long number, bint is_timeline) except? -1
 
-    @cython.locals(top="long long")
     cpdef int push(self, long long start, long long end, long long scope, long long slot, long long value) except -1
 
     cpdef int enqueue(self, long long guard) except -1
 
-    @cython.locals(engine=Engine, i="long long")
     cpdef int gather_woken(self) except -1
 
-    @cython.locals(i="long long", left="long long")
     cpdef int keep_queued(self, long long done) except -1
 
     cpdef int add_operand(self, long long v) except -1

@@ -3,7 +3,7 @@
 from array import array
 from typing import Protocol
 
-from runtime.constraints.domains.arrays import blank, grown
+from runtime.constraints.domains.arrays import blank, lengthen
 from runtime.constraints.engine import Engine
 from runtime.plan.resources.protocols import UseOrder
 from runtime.plan.resources.resources import Resources
@@ -70,7 +70,6 @@ class Plan:
         self.parameter_prototype = blank(1)
         self.parameter_copy_kind = blank(1)
         self.parameter_copy_value = blank(1)
-        self.parameter_name = blank(1)
         self.body_block = blank(1)
         self.body_slots = blank(1)
         self.body_tokens = blank(1)
@@ -96,7 +95,6 @@ class Plan:
         self.class_prototype = blank(1)
         self.class_closed = blank(1)
         # Objects and their members.
-        self.object_capacity = 64
         self.object_count = 0
         self.object_class = blank(64)
         self.object_var0 = blank(64)
@@ -109,7 +107,6 @@ class Plan:
         self.member_prototype = blank(1)
         self.name_prototype = blank(1)  # for a member of no known object
         # Prototypes whose domain is an interval.
-        self.form_capacity = 256
         self.twins: dict[int, tuple[int, int]] = {}  # of open prototypes: a closed constant, how many values it has
         self.form = blank(256)
         self.form_lower = blank(256, "d")
@@ -119,7 +116,6 @@ class Plan:
         self.clock = NONE  # the global that reads "now or later" during execution: a guard does not wait for its value
         # Whether a search has run a `foreach` over a domain that was narrowed: nobody noted by whom.
         self.loops_read_choices = False
-        self.variable_capacity = 256
         self.variable_role = blank(256)
         self.variable_owner = blank(256)
         self.variable_name = blank(256)
@@ -127,27 +123,21 @@ class Plan:
         self.proxy_index = blank(256)
         self.proxy_member = blank(256)
         # Variables that guards wait for, in the order in which a search made them so.
-        self.awaited_capacity = 64
         self.awaited_count = 0
         self.awaited = blank(64)
         # Constraints that wake guards.
-        self.watch_capacity = 256
         self.guard_of = blank(256)
         # What is to be run: bodies (a stack), guards (a queue).
-        self.stack_capacity = 64
         self.stack_length = 0
         self.stack_at = blank(64)
         self.stack_end = blank(64)
         self.stack_scope = blank(64)
         self.stack_slot = blank(64)
         self.stack_value = blank(64)
-        self.queue_capacity = 64
         self.queue_length = 0
         self.queue = blank(64)
-        self.operand_capacity = 64
         self.operands_used = 0
         self.operands = blank(64)
-        self.mark_capacity = 64
         self.mark_engine = blank(64)
         self.mark_rows = blank(64)
         self.mark_uses = blank(64)
@@ -166,13 +156,8 @@ class Plan:
 
     def new_object(self, number: int, is_timeline: bool) -> int:
         """Take a row for an object of class `number`."""
-        if self.object_count == self.object_capacity:
-            self.object_capacity *= 2
-            self.object_class = grown(self.object_class, self.object_capacity)
-            self.object_var0 = grown(self.object_var0, self.object_capacity)
-            self.object_constant = grown(self.object_constant, self.object_capacity)
-            self.object_head = grown(self.object_head, self.object_capacity)
-            self.object_timeline = grown(self.object_timeline, self.object_capacity)
+        if self.object_count == len(self.object_class):
+            lengthen(self, "object_class object_var0 object_constant object_head object_timeline")
         o = self.object_count
         self.object_count += 1
         self.object_class[o] = number
@@ -185,13 +170,8 @@ class Plan:
     def push(self, start: int, end: int, scope: int, slot: int, value: int) -> None:
         """Put a block on the stack; before it starts, `value` goes into variable slot `slot` (NONE: nothing does)."""
         top = self.stack_length
-        if top == self.stack_capacity:
-            self.stack_capacity *= 2
-            self.stack_at = grown(self.stack_at, self.stack_capacity)
-            self.stack_end = grown(self.stack_end, self.stack_capacity)
-            self.stack_scope = grown(self.stack_scope, self.stack_capacity)
-            self.stack_slot = grown(self.stack_slot, self.stack_capacity)
-            self.stack_value = grown(self.stack_value, self.stack_capacity)
+        if top == len(self.stack_at):
+            lengthen(self, "stack_at stack_end stack_scope stack_slot stack_value")
         self.stack_at[top] = start
         self.stack_end[top] = end
         self.stack_scope[top] = scope
@@ -201,9 +181,8 @@ class Plan:
 
     def enqueue(self, guard: int) -> None:
         """Have a guard looked at."""
-        if self.queue_length == self.queue_capacity:
-            self.queue_capacity *= 2
-            self.queue = grown(self.queue, self.queue_capacity)
+        if self.queue_length == len(self.queue):
+            lengthen(self, "queue")
         self.queue[self.queue_length] = guard
         self.queue_length += 1
 
@@ -223,28 +202,21 @@ class Plan:
 
     def add_operand(self, v: int) -> None:
         """Put a variable behind the collected operands."""
-        if self.operands_used == self.operand_capacity:
-            self.operand_capacity *= 2
-            self.operands = grown(self.operands, self.operand_capacity)
+        if self.operands_used == len(self.operands):
+            lengthen(self, "operands")
         self.operands[self.operands_used] = v
         self.operands_used += 1
 
     def note_watch(self, constraint: int, guard: int) -> None:
         """Remember which guard a constraint wakes."""
-        if constraint >= self.watch_capacity:
-            while constraint >= self.watch_capacity:
-                self.watch_capacity *= 2
-            self.guard_of = grown(self.guard_of, self.watch_capacity)
+        if constraint >= len(self.guard_of):
+            lengthen(self, "guard_of", need=constraint + 1)
         self.guard_of[constraint] = guard
 
     def note_form(self, prototype: int, lower: float, upper: float) -> None:
         """Remember that a prototype is an interval."""
-        if prototype >= self.form_capacity:
-            while prototype >= self.form_capacity:
-                self.form_capacity *= 2
-            self.form = grown(self.form, self.form_capacity)
-            self.form_lower = grown(self.form_lower, self.form_capacity)
-            self.form_upper = grown(self.form_upper, self.form_capacity)
+        if prototype >= len(self.form):
+            lengthen(self, "form form_lower form_upper", need=prototype + 1)
         self.form[prototype] = 1
         self.form_lower[prototype] = lower
         self.form_upper[prototype] = upper
@@ -253,9 +225,8 @@ class Plan:
         """Count a guard that waits for `v`."""
         self.variable_guards[v] += 1
         if self.rows.level:
-            if self.awaited_count == self.awaited_capacity:
-                self.awaited_capacity *= 2
-                self.awaited = grown(self.awaited, self.awaited_capacity)
+            if self.awaited_count == len(self.awaited):
+                lengthen(self, "awaited")
             self.awaited[self.awaited_count] = v
             self.awaited_count += 1
 
@@ -267,19 +238,13 @@ class Plan:
 
     def reserve_variables(self, count: int) -> None:
         """Have rows for the first `count` variables of the engine: constants are variables that nobody notes."""
-        if count > self.variable_capacity:
-            while count > self.variable_capacity:
-                self.variable_capacity *= 2
-            self.variable_role = grown(self.variable_role, self.variable_capacity)
-            self.variable_owner = grown(self.variable_owner, self.variable_capacity)
-            self.variable_name = grown(self.variable_name, self.variable_capacity)
-            self.variable_guards = grown(self.variable_guards, self.variable_capacity)
-            self.proxy_index = grown(self.proxy_index, self.variable_capacity)
-            self.proxy_member = grown(self.proxy_member, self.variable_capacity)
+        if count > len(self.variable_role):
+            names = "variable_role variable_owner variable_name variable_guards proxy_index proxy_member"
+            lengthen(self, names, need=count)
 
     def note_variable(self, v: int, role: int, owner: int, name: int) -> None:
         """Remember what a variable of the engine is."""
-        if v >= self.variable_capacity:
+        if v >= len(self.variable_role):
             self.reserve_variables(v + 1)
         self.variable_role[v] = role
         self.variable_owner[v] = owner

@@ -83,7 +83,7 @@ class Prototypes:
             else:
                 v = self._full(type_.kind, type_.type_name)
             for restriction in restrictions:
-                self.restrict(v, restriction)
+                restrict_constant(self, v, restriction, NONE, NONE)
             self.made[key] = v
             number = self.class_numbers.get(type_.type_name, NONE) if type_.kind == "object" else NONE
             if number >= 0:
@@ -142,10 +142,6 @@ class Prototypes:
         return self.engine.new_values(
             KIND_STRING, [self.value(each, "string") for each in domain.values or ()], NONE, NONE
         )
-
-    def restrict(self, v: int, domain: DomainConstant) -> None:
-        """Intersect the base domain of a prototype with a constant."""
-        restrict_constant(self, v, domain, NONE, NONE)
 
 
 def restrict_constant(prototypes: Prototypes, v: int, domain: DomainConstant, span: int, owner: int) -> bool:

@@ -3,15 +3,16 @@
 cimport cython
 
 cdef long long FREED, INACTIVE, NONE, SHORT, UNDO_BRANCH, UNDO_INPUTS, UNDO_MERGED, UNDO_NEW_CELLS
-cdef long long UNDO_NEW_HOLD, UNDO_NEW_SCOPE, UNDO_NEW_TOKEN, UNDO_STATUS
+cdef long long UNDO_NEW_HOLD, UNDO_NEW_PAIR, UNDO_NEW_SCOPE, UNDO_NEW_TOKEN, UNDO_STATUS
+
+
+cpdef int take_off(long long[::1] heads, long long[::1] following, long long owner, long long item) except -1
 
 
 cdef class Rows:
-    cdef public long long hold_capacity, hold_count, free_hold, pair_capacity
-    cdef public long long pair_count, free_pair, cell_capacity, cell_count
-    cdef public long long head_capacity, level, trail_capacity, trail_length
-    cdef public long long token_capacity, token_count, free_token, next_key
-    cdef public long long live, scope_capacity, scope_count, free_scope
+    cdef public long long hold_count, free_hold, pair_count, free_pair
+    cdef public long long cell_count, level, trail_length, token_count
+    cdef public long long free_token, next_key, live, scope_count, free_scope
     cdef public long long[::1] hold_kind, hold_id, hold_extent, hold_next
     cdef public long long[::1] pair_edge, pair_first, pair_second, pair_next_out
     cdef public long long[::1] pair_next_in, cells, free_cells, head_first
@@ -29,54 +30,49 @@ cdef class Rows:
 
     cpdef int _make_tokens(self, long long capacity) except -1
 
-    @cython.locals(size="long long")
     cpdef int _grow_tokens(self) except -1
 
-    @cython.locals(at="long long", t="long long")
+    @cython.locals(at="long long")
     cpdef long long new_token(
         self, long long predicate, long long flags, long long parent, long long creator, long long span
     ) except? -1
 
-    @cython.locals(child="long long", parent="long long")
     cpdef int release_token(self, long long t) except -1
+
+    cpdef int detach(self, long long t) except -1
 
     cpdef int set_status(self, long long t, long long status) except -1
 
     cpdef int set_merged(self, long long t, long long other) except -1
 
-    @cython.locals(other="long long", previous="long long")
     cpdef int unset_merged(self, long long t) except -1
 
     cpdef int _make_scopes(self, long long capacity) except -1
 
-    @cython.locals(size="long long")
     cpdef int _grow_scopes(self) except -1
 
-    @cython.locals(frame="long long", offset="long long", s="long long", source="long long")
     cpdef long long new_scope(
         self, long long kind, long long token, long long rule, long long parent, long long slots, long long size
     ) except? -1
 
-    @cython.locals(inputs="long long")
     cpdef int release_scope(self, long long s) except -1
 
     cpdef int set_branch(self, long long s, long long branch) except -1
 
     cpdef int set_inputs(self, long long s, long long inputs, long long watch) except -1
 
-    @cython.locals(h="long long")
     cpdef int hold(self, long long s, long long kind, long long identity, long long extent) except -1
 
-    @cython.locals(h="long long")
     cpdef int drop_hold(self, long long s) except -1
 
-    @cython.locals(size="long long")
-    cpdef int grow_pairs(self) except -1
+    cpdef int take_hold(self, long long s, long long h) except -1
 
-    @cython.locals(start="long long")
+    cpdef int new_pair(self, long long first, long long second, long long edge) except -1
+
+    cpdef int drop_pair(self, long long p) except -1
+
     cpdef long long new_cells(self, long long size) except? -1
 
     cpdef int _release_cells(self, long long start, long long size) except -1
 
-    @cython.locals(at="long long")
     cpdef int log(self, long long code, long long index, long long old) except -1

@@ -7,7 +7,7 @@ While a mark is open every change is logged; without marks rows go to free lists
 
 from array import array
 
-from runtime.constraints.domains.arrays import blank, grow_rows, grown, next_room
+from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
 from runtime.plan.tags import (
     FREED,
     INACTIVE,
@@ -19,10 +19,22 @@ from runtime.plan.tags import (
     UNDO_MERGED,
     UNDO_NEW_CELLS,
     UNDO_NEW_HOLD,
+    UNDO_NEW_PAIR,
     UNDO_NEW_SCOPE,
     UNDO_NEW_TOKEN,
     UNDO_STATUS,
 )
+
+
+def take_off(heads: "array[int]", following: "array[int]", owner: int, item: int) -> None:
+    """Take an item off its owner's list, which leads from the owner's head on to what is `following`."""
+    other = heads[owner]
+    if other == item:
+        heads[owner] = following[item]
+    else:
+        while following[other] != item:
+            other = following[other]
+        following[other] = following[item]
 
 
 class Rows:
@@ -31,14 +43,12 @@ class Rows:
     def __init__(self) -> None:
         self._make_tokens(64)
         self._make_scopes(64)
-        self.hold_capacity = 256
         self.hold_count = 0
         self.free_hold = NONE
         self.hold_kind = blank(256)
         self.hold_id = blank(256)
         self.hold_extent = blank(256)
         self.hold_next = blank(256)
-        self.pair_capacity = 64
         self.pair_count = 0
         self.free_pair = NONE
         self.pair_edge = blank(64)
@@ -47,15 +57,12 @@ class Rows:
         self.pair_next_out = blank(64)
         self.pair_next_in = blank(64)
         self.cells = blank(1024)
-        self.cell_capacity = 1024
         self.cell_count = 0
         self.free_cells = array("q", [NONE] * SHORT)
         self.head_first = array("q", [NONE] * 64)
         self.head_last = array("q", [NONE] * 64)
         self.head_length = blank(64)
-        self.head_capacity = 64
         self.level = 0
-        self.trail_capacity = 1024
         self.trail_length = 0
         self.trail_code = blank(1024)
         self.trail_index = blank(1024)
@@ -65,7 +72,6 @@ class Rows:
 
     def _make_tokens(self, capacity: int) -> None:
         """Make the empty token table."""
-        self.token_capacity = capacity
         self.token_count = 0
         self.free_token = NONE
         self.next_key = 0
@@ -96,15 +102,12 @@ class Rows:
 
     def _grow_tokens(self) -> None:
         """Lengthen the token table."""
-        size = next_room(self.token_capacity)
-        self.token_capacity = size
-        grow_rows(
+        lengthen(
             self,
             "status predicate var0 width flags parent relation origin label key span creator scopes children "
             "sibling merged_into merged merged_next pairs_out pairs_in",
-            size,
         )
-        grow_rows(self, "link_head link_before link_after", size * LISTS)
+        grow_rows(self, "link_head link_before link_after", len(self.status) * LISTS)
 
     def new_token(self, predicate: int, flags: int, parent: int, creator: int, span: int) -> int:
         """Take a row for a token; its variables are for the caller to make."""
@@ -112,7 +115,7 @@ class Rows:
         if t >= 0:
             self.free_token = self.sibling[t]
         else:
-            if self.token_count == self.token_capacity:
+            if self.token_count == len(self.status):
                 self._grow_tokens()
             t = self.token_count
             self.token_count += 1
@@ -152,19 +155,19 @@ class Rows:
 
     def release_token(self, t: int) -> None:
         """Give the row of `t` back; nothing may name it any more (level 0)."""
-        parent = self.parent[t]
-        if parent >= 0:
-            child = self.children[parent]
-            if child == t:
-                self.children[parent] = self.sibling[t]
-            else:
-                while self.sibling[child] != t:
-                    child = self.sibling[child]
-                self.sibling[child] = self.sibling[t]
+        if self.parent[t] >= 0:
+            take_off(self.children, self.sibling, self.parent[t], t)
         self.status[t] = FREED
         self.sibling[t] = self.free_token
         self.free_token = t
         self.live -= 1
+
+    def detach(self, t: int) -> None:
+        """Let `t`, which a rule asked for, stand by itself: it no longer goes with its parent (level 0)."""
+        take_off(self.children, self.sibling, self.parent[t], t)
+        self.parent[t] = NONE
+        self.creator[t] = NONE
+        self.sibling[t] = NONE
 
     def set_status(self, t: int, status: int) -> None:
         """Change the state of `t`."""
@@ -182,14 +185,7 @@ class Rows:
 
     def unset_merged(self, t: int) -> None:
         """Take `t` off the tokens merged into another (level 0)."""
-        other = self.merged_into[t]
-        if self.merged[other] == t:
-            self.merged[other] = self.merged_next[t]
-        else:
-            previous = self.merged[other]
-            while self.merged_next[previous] != t:
-                previous = self.merged_next[previous]
-            self.merged_next[previous] = self.merged_next[t]
+        take_off(self.merged, self.merged_next, self.merged_into[t], t)
         self.merged_into[t] = NONE
         self.merged_next[t] = NONE
 
@@ -197,7 +193,6 @@ class Rows:
 
     def _make_scopes(self, capacity: int) -> None:
         """Make the empty scope table."""
-        self.scope_capacity = capacity
         self.scope_count = 0
         self.free_scope = NONE
         self.scope_kind = blank(capacity)
@@ -216,13 +211,10 @@ class Rows:
 
     def _grow_scopes(self) -> None:
         """Lengthen the scope table."""
-        size = next_room(self.scope_capacity)
-        self.scope_capacity = size
-        grow_rows(
+        lengthen(
             self,
             "scope_kind scope_token scope_rule scope_parent scope_frame scope_size scope_slots scope_holds "
             "scope_next scope_at scope_branch scope_watch scope_inputs",
-            size,
         )
 
     def new_scope(self, kind: int, token: int, rule: int, parent: int, slots: int, size: int) -> int:
@@ -234,7 +226,7 @@ class Rows:
         if s >= 0:
             self.free_scope = self.scope_next[s]
         else:
-            if self.scope_count == self.scope_capacity:
+            if self.scope_count == len(self.scope_kind):
                 self._grow_scopes()
             s = self.scope_count
             self.scope_count += 1
@@ -288,18 +280,16 @@ class Rows:
         self.scope_inputs[s] = inputs
         self.scope_watch[s] = watch
 
-    def hold(self, s: int, kind: int, identity: int, extent: int) -> None:
-        """Hang an edge, a constraint, variables or a decision on scope `s`."""
+    def hold(self, s: int, kind: int, identity: int, extent: int) -> int:
+        """Hang an edge, a constraint, variables or a decision on scope `s`; nothing hangs on that of the script."""
+        if self.scope_token[s] < 0:
+            return 0
         h = self.free_hold
         if h >= 0:
             self.free_hold = self.hold_next[h]
         else:
-            if self.hold_count == self.hold_capacity:
-                self.hold_capacity *= 2
-                self.hold_kind = grown(self.hold_kind, self.hold_capacity)
-                self.hold_id = grown(self.hold_id, self.hold_capacity)
-                self.hold_extent = grown(self.hold_extent, self.hold_capacity)
-                self.hold_next = grown(self.hold_next, self.hold_capacity)
+            if self.hold_count == len(self.hold_kind):
+                lengthen(self, "hold_kind hold_id hold_extent hold_next")
             h = self.hold_count
             self.hold_count += 1
         self.hold_kind[h] = kind
@@ -309,6 +299,7 @@ class Rows:
         self.scope_holds[s] = h
         if self.level:
             self.log(UNDO_NEW_HOLD, s, 0)
+        return 0
 
     def drop_hold(self, s: int) -> None:
         """Give back the latest hold of `s`."""
@@ -317,11 +308,40 @@ class Rows:
         self.hold_next[h] = self.free_hold
         self.free_hold = h
 
-    def grow_pairs(self) -> None:
-        """Lengthen the table of pairs."""
-        size = next_room(self.pair_capacity)
-        self.pair_capacity = size
-        grow_rows(self, "pair_edge pair_first pair_second pair_next_out pair_next_in", size)
+    def take_hold(self, s: int, h: int) -> None:
+        """Give back one hold of `s` (level 0)."""
+        take_off(self.scope_holds, self.hold_next, s, h)
+        self.hold_next[h] = self.free_hold
+        self.free_hold = h
+
+    # ---- pairs ----
+
+    def new_pair(self, first: int, second: int, edge: int) -> None:
+        """Note the edge that puts one token in front of another."""
+        p = self.free_pair
+        if p >= 0:
+            self.free_pair = self.pair_next_out[p]
+        else:
+            if self.pair_count == len(self.pair_edge):
+                lengthen(self, "pair_edge pair_first pair_second pair_next_out pair_next_in")
+            p = self.pair_count
+            self.pair_count += 1
+        self.pair_edge[p] = edge
+        self.pair_first[p] = first
+        self.pair_second[p] = second
+        self.pair_next_out[p] = self.pairs_out[first]
+        self.pairs_out[first] = p
+        self.pair_next_in[p] = self.pairs_in[second]
+        self.pairs_in[second] = p
+        if self.level:
+            self.log(UNDO_NEW_PAIR, p, 0)
+
+    def drop_pair(self, p: int) -> None:
+        """Give back a pair (level 0)."""
+        take_off(self.pairs_out, self.pair_next_out, self.pair_first[p], p)
+        take_off(self.pairs_in, self.pair_next_in, self.pair_second[p], p)
+        self.pair_next_out[p] = self.free_pair
+        self.free_pair = p
 
     # ---- cells ----
 
@@ -335,10 +355,9 @@ class Rows:
         if start >= 0:
             self.free_cells[size] = self.cells[start]
         else:
-            while self.cell_count + size > self.cell_capacity:
-                self.cell_capacity *= 2
-                self.cells = grown(self.cells, self.cell_capacity)
             start = self.cell_count
+            if start + size > len(self.cells):
+                lengthen(self, "cells", need=start + size)
             self.cell_count += size
         if self.level:
             self.log(UNDO_NEW_CELLS, start, size)
@@ -355,11 +374,8 @@ class Rows:
     def log(self, code: int, index: int, old: int) -> None:
         """Put one entry on the trail."""
         at = self.trail_length
-        if at == self.trail_capacity:
-            self.trail_capacity *= 2
-            self.trail_code = grown(self.trail_code, self.trail_capacity)
-            self.trail_index = grown(self.trail_index, self.trail_capacity)
-            self.trail_old = grown(self.trail_old, self.trail_capacity)
+        if at == len(self.trail_code):
+            lengthen(self, "trail_code trail_index trail_old")
         self.trail_code[at] = code
         self.trail_index[at] = index
         self.trail_old[at] = old

@@ -2,33 +2,27 @@
 
 cimport cython
 from runtime.constraints.domains.base_domain cimport is_base_growing
-from runtime.constraints.engine cimport Engine
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 
 cdef long long FIRST_WRITTEN, HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES, INFINITY
 cdef long long KIND_FLOAT, NONE, OP_EQ
 
 
-@cython.locals(holds=bint)
 cpdef bint between(
     Plan plan, long long scope, long long a, long long b, long long lower, long long upper, long long span
 ) except -1
 
 
-@cython.locals(holds=bint, owner="long long", rows=Rows)
 cpdef bint _edge(
     Plan plan, long long scope, long long source, long long target, long long weight, long long span
 ) except -1
 
 
-@cython.locals(arguments=list, owner="long long", position="long long", rows=Rows)
 cpdef long long constraint(
     Plan plan, long long scope, long long operation, long long first, long long span
 ) except? -1
 
 
-@cython.locals(first="long long")
 cpdef long long post_two(
     Plan plan, long long scope, long long operation, long long a, long long b, long long span
 ) except? -1
@@ -37,33 +31,28 @@ cpdef long long post_two(
 cpdef long long equate(Plan plan, long long scope, long long a, long long b, long long span) except? -1
 
 
-@cython.locals(holds=bint, rows=Rows)
 cpdef bint decide(Plan plan, long long scope, long long v, double value, long long span) except -1
 
 
-@cython.locals(holds=bint, owner="long long", rows=Rows)
 cpdef bint restrict(Plan plan, long long scope, long long v, long long source, long long span) except -1
 
 
-@cython.locals(owner="long long", rows=Rows, v="long long")
 cpdef long long copy_variable(
     Plan plan, long long scope, long long prototype, long long role, long long name
 ) except? -1
 
 
-@cython.locals(v="long long")
 cpdef long long make_variable(
     Plan plan, long long prototype, long long role, long long owner, long long name
 ) except? -1
 
 
-@cython.locals(engine=Engine, v="long long", values=list)
 cpdef long long make_closed(
     Plan plan, long long prototype, long long role, long long owner, long long name
 ) except? -1
 
 
-@cython.locals(engine=Engine, kind="long long", values=list)
+@cython.locals(kind="long long")
 cpdef long long _copy(Plan plan, long long prototype) except? -1
 
 

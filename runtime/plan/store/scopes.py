@@ -30,8 +30,7 @@ def _edge(plan: Plan, scope: int, source: int, target: int, weight: int, span: i
     rows = plan.rows
     owner = rows.scope_token[scope]
     holds = plan.engine.add_edge(source, target, weight, span, owner)
-    if owner >= 0:
-        rows.hold(scope, HOLDS_EDGE, plan.engine.newest_edge, 1)
+    rows.hold(scope, HOLDS_EDGE, plan.engine.newest_edge, 1)
     return holds
 
 
@@ -47,8 +46,7 @@ def constraint(plan: Plan, scope: int, operation: int, first: int, span: int) ->
         c = plan.engine.post(operation, arguments, span, owner)
     else:
         c = plan.services.post_written(operation - FIRST_WRITTEN, arguments, span, owner)
-    if owner >= 0:
-        rows.hold(scope, HOLDS_CONSTRAINT, c, 1)
+    rows.hold(scope, HOLDS_CONSTRAINT, c, 1)
     return c
 
 
@@ -78,8 +76,7 @@ def restrict(plan: Plan, scope: int, v: int, source: int, span: int) -> bool:
     rows = plan.rows
     owner = rows.scope_token[scope]
     holds = plan.engine.restrict_base_to(v, source, span, owner)
-    if owner >= 0:
-        rows.hold(scope, HOLDS_RESTRICTION, plan.engine.newest_restriction, 1)
+    rows.hold(scope, HOLDS_RESTRICTION, plan.engine.newest_restriction, 1)
     return holds
 
 
@@ -88,8 +85,7 @@ def copy_variable(plan: Plan, scope: int, prototype: int, role: int, name: int) 
     rows = plan.rows
     owner = rows.scope_token[scope]
     v = make_variable(plan, prototype, role, owner, name)
-    if owner >= 0:
-        rows.hold(scope, HOLDS_VARIABLES, v, 1)
+    rows.hold(scope, HOLDS_VARIABLES, v, 1)
     return v
 
 
@@ -129,7 +125,7 @@ def _copy(plan: Plan, prototype: int) -> int:
     """Make a variable with the base domain of another one, which does not change once it is closed."""
     engine = plan.engine
     kind = engine.kind[prototype]
-    if prototype < plan.form_capacity and plan.form[prototype]:
+    if prototype < len(plan.form) and plan.form[prototype]:
         return engine.new_interval(kind, plan.form_lower[prototype], plan.form_upper[prototype], NONE, NONE)
     values = engine.base_values(prototype)
     if is_base_growing(engine, prototype):

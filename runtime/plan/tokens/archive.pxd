@@ -1,9 +1,7 @@
 # The C types of `archive.py`.
 
 cimport cython
-from runtime.constraints.engine cimport Engine
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 from runtime.plan.tokens.retraction cimport remove_tokens, scopes_of
 
 cdef long long ACTIVE, BRANCH_WAITING, FLAG_FROZEN, HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES
@@ -11,57 +9,52 @@ cdef long long KIND_FLOAT, MERGED, NONE, ROLE_LOCAL, ROLE_TOKEN, SCOPE_GUARD, ST
 cdef long long SUPPORT_RESTRICTION
 
 
-@cython.locals(doomed=dict, t="long long")
+@cython.locals(t="long long")
 cpdef long long archive(Plan plan, list tokens, long long tick, object record=*) except? -1
 
 
-@cython.locals(changed=bint, child="long long", doomed=dict, known=dict, rows=Rows, t="long long")
+@cython.locals(child="long long", known=dict, t="long long")
 cpdef dict _removable(Plan plan, list tokens, long long tick)
 
 
-@cython.locals(child="long long", is_planned=bint, other="long long", rows=Rows)
+@cython.locals(is_planned=bint)
 cpdef bint _is_free(Plan plan, long long t, dict doomed, long long tick) except -1
 
 
 cpdef bint _has_begun(Plan plan, long long t, long long tick) except -1
 
 
-@cython.locals(guards=list, rows=Rows, s="long long")
+@cython.locals(s="long long")
 cpdef bint _has_waiting_guard(Plan plan, long long t) except -1
 
 
-@cython.locals(child="long long", kept=list, rows=Rows)
+@cython.locals(child="long long")
 cpdef void _orphan(Plan plan, long long t, dict doomed) except *
 
 
-@cython.locals(child="long long", parent="long long", rows=Rows)
 cpdef void detach(Plan plan, long long t) except *
 
 
 @cython.locals(
-    c="long long", constraints=dict, e="long long", edges=dict, engine=Engine, gone=dict, limited=list, near=dict,
-    r="long long", restrictions=dict, supports=set, v="long long",
+    c="long long", constraints=dict, e="long long", edges=dict, gone=dict, k="long long", limited=list,
+    near=dict, r="long long", restrictions=dict, supports=set, v="long long",
 )
 cpdef list _freeze(Plan plan, dict doomed)
 
 
-@cython.locals(engine=Engine, found=list, lower=double, r="long long", upper=double)
+@cython.locals(lower=double, r="long long", upper=double)
 cpdef list _outdone(Plan plan, long long v)
 
 
 @cython.locals(
-    c="long long", constraints=dict, edges=dict, engine=Engine, gone=dict, h="long long", kind="long long",
-    restrictions=dict, rows=Rows, s="long long", t="long long", v="long long",
+    c="long long", constraints=dict, e="long long", edges=dict, gone=dict, h="long long",
+    kind="long long", restrictions=dict, s="long long", slot="long long", t="long long", v="long long",
 )
 cpdef tuple _belongings(Plan plan, dict doomed)
 
 
-@cython.locals(
-    bound=double, engine=Engine, is_real=bint, lower="long long", owner="long long", span="long long",
-    upper="long long",
-)
+@cython.locals(is_real=bint, lower="long long", upper="long long")
 cpdef bint _keep_domain(Plan plan, long long v, set supports) except -1
 
 
-@cython.locals(engine=Engine, identity="long long", kind="long long")
 cpdef long long _span_of(Plan plan, long long support) except? -1

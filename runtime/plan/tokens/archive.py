@@ -105,45 +105,28 @@ def _has_begun(plan: Plan, t: int, tick: int) -> bool:
 def _has_waiting_guard(plan: Plan, t: int) -> bool:
     """Whether a part of the rules of `t` may still come."""
     rows = plan.rows
-    guards = [s for s in scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_GUARD]
-    return bool([s for s in guards if rows.scope_branch[s] == BRANCH_WAITING])
+    s = rows.scopes[t]
+    while s >= 0:
+        if rows.scope_kind[s] == SCOPE_GUARD and rows.scope_branch[s] == BRANCH_WAITING:
+            return True
+        s = rows.scope_next[s]
+    return False
 
 
 def _orphan(plan: Plan, t: int, doomed: dict[int, None]) -> None:
     """Let the children of `t` that stay stand by themselves."""
-    rows = plan.rows
-    kept: list[int] = []
-    child = rows.children[t]
+    child = plan.rows.children[t]
     while child >= 0:
-        kept.append(child)
-        child = rows.sibling[child]
-    rows.children[t] = NONE
-    for child in reversed(kept):
-        if child in doomed:
-            rows.sibling[child] = rows.children[t]
-            rows.children[t] = child
-        else:
-            rows.parent[child] = NONE
-            rows.creator[child] = NONE
-            rows.sibling[child] = NONE
+        following = plan.rows.sibling[child]
+        if child not in doomed:
+            plan.rows.detach(child)
+        child = following
 
 
 def detach(plan: Plan, t: int) -> None:
     """Let `t` stand by itself: it no longer goes when the token that asked for it does."""
-    rows = plan.rows
-    parent = rows.parent[t]
-    if parent < 0:
-        return
-    child = rows.children[parent]
-    if child == t:
-        rows.children[parent] = rows.sibling[t]
-    else:
-        while rows.sibling[child] != t:
-            child = rows.sibling[child]
-        rows.sibling[child] = rows.sibling[t]
-    rows.parent[t] = NONE
-    rows.creator[t] = NONE
-    rows.sibling[t] = NONE
+    if plan.rows.parent[t] >= 0:
+        plan.rows.detach(t)
 
 
 def _freeze(plan: Plan, doomed: dict[int, None]) -> list[int]:
@@ -158,16 +141,13 @@ def _freeze(plan: Plan, doomed: dict[int, None]) -> list[int]:
         near[engine.edge_source[e]] = None
         near[engine.edge_target[e]] = None
     for c in constraints:
-        near.update(dict.fromkeys(engine.arguments(c)))
+        for k in range(engine.first[c], engine.first[c] + engine.arity[c]):
+            near[engine.slot_variable[k]] = None
     for r in restrictions:
         near[engine.restriction_variable[r]] = None
-    supports: set[int] = set()
-    for e in edges:
-        supports.add(e * 4 + SUPPORT_EDGE)
-    for c in constraints:
-        supports.add(c * 4 + SUPPORT_CONSTRAINT)
-    for r in restrictions:
-        supports.add(r * 4 + SUPPORT_RESTRICTION)
+    supports = {e * 4 + SUPPORT_EDGE for e in edges}
+    supports.update([c * 4 + SUPPORT_CONSTRAINT for c in constraints])
+    supports.update([r * 4 + SUPPORT_RESTRICTION for r in restrictions])
     limited: list[int] = []
     for v in near:
         if v not in gone and not engine.constant[v] and _keep_domain(plan, v, supports):
@@ -215,8 +195,18 @@ def _belongings(
                     gone[rows.hold_id[h]] = None
                 h = rows.hold_next[h]
     for v in gone:
-        constraints.update(dict.fromkeys(engine.constraints_of(v)))
-        edges.update(dict.fromkeys(engine.edges_of(v)))
+        for slot in (engine.watch_head[v], engine.mute_head[v]):
+            while slot >= 0:
+                constraints[engine.slot_constraint[slot]] = None
+                slot = engine.slot_next[slot]
+        e = engine.out_head[v]
+        while e >= 0:
+            edges[e] = None
+            e = engine.out_next[e]
+        e = engine.in_head[v]
+        while e >= 0:
+            edges[e] = None
+            e = engine.in_next[e]
     for c in constraints:
         if engine.link_a[c] >= 0:
             edges[engine.link_a[c]] = None

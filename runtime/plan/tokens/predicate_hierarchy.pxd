@@ -1,6 +1,5 @@
 # The C types of `predicate_hierarchy.py`.
 
-cimport cython
 from runtime.plan.store.plan cimport Plan
 
 cdef long long HEAD_PREDICATE, LISTS, LIST_PREDICATE, NONE
@@ -9,7 +8,6 @@ cdef long long HEAD_PREDICATE, LISTS, LIST_PREDICATE, NONE
 cpdef bint is_kind_of(Plan plan, long long predicate, long long other) except -1
 
 
-@cython.locals(class_="long long", found="long long")
 cpdef long long own_predicate(Plan plan, long long predicate, long long parent) except? -1
 
 

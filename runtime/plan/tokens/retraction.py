@@ -5,6 +5,7 @@ from runtime.constraints.propagators.opcodes import OP_WATCH
 from runtime.constraints.relaxation.retract import edges_of
 from runtime.plan.store.links import link_by_key, unlink
 from runtime.plan.store.plan import Plan
+from runtime.plan.store.rows import take_off
 from runtime.plan.tags import (
     ACTIVE,
     BRANCH_WAITING,
@@ -28,7 +29,7 @@ from runtime.plan.tags import (
     SCOPE_MERGE,
     STATE,
 )
-from runtime.plan.tokens.timelines import await_order, drop_pair, has_any_pair, leave_sequence
+from runtime.plan.tokens.timelines import await_order, has_any_pair, leave_sequence
 
 
 class _Sweep:
@@ -90,7 +91,7 @@ def free(plan: Plan, first: int, second: int, span: int) -> bool:
         after = rows.pair_next_out[p]
         if rows.pair_second[p] == second:
             sweep.edges.append(rows.pair_edge[p])
-            drop_pair(rows, p)
+            rows.drop_pair(p)
         p = after
     for t in (first, second):
         if not has_any_pair(rows, t):
@@ -156,19 +157,13 @@ def _drop_scopes(plan: Plan, t: int, doomed: set[int], sweep: _Sweep) -> None:
     if not doomed:
         return
     rows = plan.rows
-    last = NONE
     s = rows.scopes[t]
     while s >= 0:
         following = rows.scope_next[s]
         if s in doomed:
-            if last < 0:
-                rows.scopes[t] = following
-            else:
-                rows.scope_next[last] = following
+            take_off(rows.scopes, rows.scope_next, t, s)
             _collect_holds(plan, s, sweep)
             sweep.scopes.append(s)
-        else:
-            last = s
         s = following
     child = rows.children[t]
     while child >= 0:
@@ -243,7 +238,7 @@ def _finish(plan: Plan, sweep: _Sweep) -> bool:
     return bool(plan.engine.consistent)
 
 
-def _forget_foreign(plan: Plan, gone: list[int]) -> int:
+def _forget_foreign(plan: Plan, gone: list[int]) -> None:
     """Let scopes of tokens that stay hold nothing that goes with the variables `gone`: its number will be used again.
 
     A token outlives the one that asked for it, or goes before it, once it stands by itself.
@@ -277,10 +272,9 @@ def _forget_foreign(plan: Plan, gone: list[int]) -> int:
     for t in owners:
         for s in scopes_of(plan, t):
             _drop_held(plan, s, edges, constraints, restrictions)
-    return 0
 
 
-def _drop_held(plan: Plan, s: int, edges: set[int], constraints: set[int], restrictions: set[int]) -> int:
+def _drop_held(plan: Plan, s: int, edges: set[int], constraints: set[int], restrictions: set[int]) -> None:
     """Take off the list of what scope `s` holds some edges, constraints and restrictions."""
     rows = plan.rows
     watch = rows.scope_watch[s]
@@ -288,7 +282,6 @@ def _drop_held(plan: Plan, s: int, edges: set[int], constraints: set[int], restr
         for v in plan.engine.arguments(watch):
             plan.variable_guards[v] -= 1
         rows.scope_watch[s] = NONE  # what the guard has chosen stays
-    last = NONE
     h = rows.scope_holds[s]
     while h >= 0:
         following = rows.hold_next[h]
@@ -299,13 +292,5 @@ def _drop_held(plan: Plan, s: int, edges: set[int], constraints: set[int], restr
             or (kind == HOLDS_CONSTRAINT and identity in constraints)
             or (kind == HOLDS_RESTRICTION and identity in restrictions)
         ):
-            if last < 0:
-                rows.scope_holds[s] = following
-            else:
-                rows.hold_next[last] = following
-            rows.hold_next[h] = rows.free_hold
-            rows.free_hold = h
-        else:
-            last = h
+            rows.take_hold(s, h)
         h = following
-    return 0

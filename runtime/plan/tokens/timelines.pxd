@@ -1,42 +1,32 @@
 # The C types of `timelines.py`.
 
-cimport cython
 from runtime.plan.store.scopes cimport equate
 from runtime.plan.store.links cimport link, link_by_key, unlink
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
 
-cdef long long END, HEAD_THREAT, LISTS, LIST_ORDER, LIST_THREAT, NONE, OBJECT, SCOPE_PLACE, START, UNDO_NEW_PAIR
+cdef long long END, HEAD_THREAT, LISTS, LIST_ORDER, LIST_THREAT, NONE, OBJECT, START
 
 
-@cython.locals(head="long long", rows=Rows)
 cpdef bint order(Plan plan, long long o, long long before, long long after, long long span) except -1
 
 
-@cython.locals(following="long long", head="long long", rows=Rows)
 cpdef int _insert(Plan plan, long long o, long long t, long long previous, long long span) except -1
 
 
-@cython.locals(scope="long long", v="long long")
 cpdef int _fix_object(Plan plan, long long o, long long t, long long span) except -1
 
 
 cpdef bint _is_sequenced(Rows rows, long long t) except -1
 
 
-@cython.locals(p="long long", rows=Rows)
 cpdef int _pair(Plan plan, long long first, long long second, long long span) except -1
 
 
-@cython.locals(p="long long")
 cpdef bint has_pair(Rows rows, long long first, long long second) except -1
 
 
-@cython.locals(first="long long", other="long long", second="long long")
-cpdef int drop_pair(Rows rows, long long p) except -1
 
-
-@cython.locals(at="long long", following="long long", previous="long long", rows=Rows)
 cpdef int leave_sequence(Plan plan, long long t, list edges, long long span) except -1
 
 
@@ -46,5 +36,4 @@ cpdef bint has_any_pair(Rows rows, long long t) except -1
 cpdef int await_order(Plan plan, long long t) except -1
 
 
-@cython.locals(rows=Rows)
 cpdef bint assign_object(Plan plan, long long o, long long t, long long span) except -1

@@ -17,7 +17,6 @@ from runtime.plan.tags import (
     OBJECT,
     SCOPE_INSERTION,
     START,
-    UNDO_NEW_PAIR,
 )
 
 
@@ -81,24 +80,8 @@ def _is_sequenced(rows: Rows, t: int) -> bool:
 def _pair(plan: Plan, first: int, second: int, span: int) -> None:
     """Post `first.end <= second.start`."""
     rows = plan.rows
-    p = rows.free_pair
-    if p >= 0:
-        rows.free_pair = rows.pair_next_out[p]
-    else:
-        if rows.pair_count == rows.pair_capacity:
-            rows.grow_pairs()
-        p = rows.pair_count
-        rows.pair_count += 1
-    rows.pair_first[p] = first
-    rows.pair_second[p] = second
-    rows.pair_next_out[p] = rows.pairs_out[first]
-    rows.pairs_out[first] = p
-    rows.pair_next_in[p] = rows.pairs_in[second]
-    rows.pairs_in[second] = p
-    if rows.level:
-        rows.log(UNDO_NEW_PAIR, p, 0)
     plan.engine.add_edge(rows.var0[second] + START, rows.var0[first] + END, 0, span, first)
-    rows.pair_edge[p] = plan.engine.newest_edge
+    rows.new_pair(first, second, plan.engine.newest_edge)
 
 
 def has_pair(rows: Rows, first: int, second: int) -> bool:
@@ -109,37 +92,15 @@ def has_pair(rows: Rows, first: int, second: int) -> bool:
     return p >= 0
 
 
-def drop_pair(rows: Rows, p: int) -> None:
-    """Take a pair off both lists."""
-    first = rows.pair_first[p]
-    if rows.pairs_out[first] == p:
-        rows.pairs_out[first] = rows.pair_next_out[p]
-    else:
-        other = rows.pairs_out[first]
-        while rows.pair_next_out[other] != p:
-            other = rows.pair_next_out[other]
-        rows.pair_next_out[other] = rows.pair_next_out[p]
-    second = rows.pair_second[p]
-    if rows.pairs_in[second] == p:
-        rows.pairs_in[second] = rows.pair_next_in[p]
-    else:
-        other = rows.pairs_in[second]
-        while rows.pair_next_in[other] != p:
-            other = rows.pair_next_in[other]
-        rows.pair_next_in[other] = rows.pair_next_in[p]
-    rows.pair_next_out[p] = rows.free_pair
-    rows.free_pair = p
-
-
 def leave_sequence(plan: Plan, t: int, edges: list[int], span: int) -> None:
     """Take `t` out of its sequence and close the gap (level 0); the edges that go are added to `edges`."""
     rows = plan.rows
     while rows.pairs_out[t] >= 0:
         edges.append(rows.pair_edge[rows.pairs_out[t]])
-        drop_pair(rows, rows.pairs_out[t])
+        rows.drop_pair(rows.pairs_out[t])
     while rows.pairs_in[t] >= 0:
         edges.append(rows.pair_edge[rows.pairs_in[t]])
-        drop_pair(rows, rows.pairs_in[t])
+        rows.drop_pair(rows.pairs_in[t])
     at = LISTS * t + LIST_ORDER
     if rows.link_head[at] >= 0:
         previous = rows.link_before[at]

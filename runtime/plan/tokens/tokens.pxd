@@ -1,32 +1,22 @@
 # The C types of `tokens.py`.
 
 cimport cython
-from runtime.constraints.engine cimport Engine
 from runtime.plan.store.scopes cimport constraint, equate, make_closed, make_variable, restrict
 from runtime.plan.tokens.predicate_hierarchy cimport active_head
 from runtime.plan.store.links cimport link_by_key, unlink
 from runtime.plan.store.operands cimport operand
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 
 cdef long long ACTIVE, DURATION, END, FIRST_PARAMETER, FLAG_EVENT, FLAG_NATIVE, FLAG_REJECTABLE, HEAD_OPEN
 cdef long long HEAD_THREAT, IN_NONE, LIST_OPEN, LIST_PREDICATE, LIST_THREAT, NONE, OBJECT, OP_TEMPORAL_DISTANCE
 cdef long long RESOURCE_HOLDS, RESOURCE_PRODUCES, ROLE_TOKEN, SCOPE_BODY, SCOPE_RULE, START, STATE, SYMBOL_ACTIVE
 
 
-@cython.locals(
-    block="long long", count="long long", duration="long long", engine=Engine, first="long long", is_fixed=bint,
-    k="long long", holder="long long", rows=Rows, scope="long long", size="long long", source="long long",
-    start="long long", state="long long", t="long long", used="long long", value="long long"
-)
+@cython.locals(is_fixed=bint, holder="long long")
 cpdef long long make_token(
     Plan plan, long long predicate, long long flags, long long parent, long long creator, long long given, long long span
 ) except? -1
 
 
-@cython.locals(
-    _="long long", block="long long", end="long long", first="long long", holds=bint, index="long long",
-    kind="long long", lasting="long long", made="long long", predicate="long long", quantity="long long", rows=Rows,
-    rule="long long", s="long long", sign="long long", slots="long long"
-)
+@cython.locals(_="long long", made="long long", sign="long long")
 cpdef bint activation(Plan plan, long long t, long long span) except -1

@@ -1,6 +1,6 @@
 """Solver configuration as frozen data: which flaws are mended, in which order, and how."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 from runtime.solver.tags import WORST_PRIORITY
 
@@ -20,16 +20,7 @@ class Match:
     @property
     def weight(self) -> int:
         """How many attributes are given: the more, the more specific."""
-        given = (
-            self.class_name,
-            self.predicate,
-            self.variable,
-            self.parent_class,
-            self.parent_predicate,
-            self.parent_relation,
-            self.token_name,
-        )
-        return sum(attribute is not None for attribute in given)
+        return sum(getattr(self, attribute.name) is not None for attribute in fields(self))
 
 
 @dataclass(frozen=True, slots=True)

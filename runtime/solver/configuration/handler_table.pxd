@@ -1,6 +1,5 @@
 # The C types of `handler_table.py`.
 
-cimport cython
 
 cdef long long FILTER_HORIZON, FILTER_HORIZON_VARIABLE, FILTER_INFINITE, FILTER_NOT_SINGLETON, NONE, ORDER_KEY
 cdef long long PREFER_EARLIEST, _FEW, _GLOBAL, _LOCAL, _MEMBER, _RESOURCE, _TOKEN, _UNKNOWN

@@ -4,6 +4,7 @@ cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
+from runtime.constraints.domains.narrow cimport is_single
 from runtime.constraints.stn.distances cimport Distances
 from runtime.solver.flaws.filters cimport Filters
 from runtime.constraints.stn.heap cimport Heap
@@ -31,8 +32,7 @@ cdef class Agenda:
     cdef public Uses uses
     cdef public Restarts restarts
     cdef public long long found_at, found_low, managers, level, found_manager, found_kind, found_item, found_handler
-    cdef public long long token_room, variable_room, edge_room, constraint_room, restriction_room, dynamic_count
-    cdef public long long dropped_count, rows_seen, engine_seen
+    cdef public long long dynamic_count, dropped_count, rows_seen, engine_seen
     cdef public list heaps, effects
     cdef public long long[::1] sorted_by_size, token_row, token_key, token_deferred, token_waiting
     cdef public long long[::1] token_level, active_level, order_level, variable_row, variable_key, variable_deferred
@@ -44,19 +44,14 @@ cdef class Agenda:
 
     cpdef int _make_tables(self) except -1
 
-    @cython.locals(most="long long", room="long long", slots="long long")
     cpdef int _empty_tables(self) except -1
 
-    @cython.locals(room="long long")
-    cpdef long long reserve(self) except? -1
+    cpdef int reserve(self) except -1
 
-    @cython.locals(at="long long", count="long long", waiting="long long")
-    cpdef long long note_fired(self, long long level) except? -1
+    cpdef int note_fired(self, long long level) except -1
 
-    @cython.locals(objects="long long", t="long long")
     cpdef bint is_decided(self, long long v) except -1
 
-    @cython.locals(at="long long", last="long long")
     cpdef long long handler_now(self, long long row, long long t) except? -1
 
     cpdef int note_flaw(self, long long manager, long long item, long long handler, double priority) except -1
@@ -64,44 +59,37 @@ cdef class Agenda:
     @cython.locals(heap=Heap)
     cpdef int clear(self) except -1
 
-    @cython.locals(heap="long long", key="long long", target=Heap)
-    cpdef long long offer_token(self, long long slot) except? -1
+    @cython.locals(target=Heap)
+    cpdef int offer_token(self, long long slot) except -1
 
-    @cython.locals(start="long long")
     cpdef long long earliness(self, long long t) except? -1
 
-    @cython.locals(target=Heap, t="long long")
-    cpdef long long offer_effect(self, long long slot) except? -1
+    @cython.locals(target=Heap)
+    cpdef int offer_effect(self, long long slot) except -1
 
-    @cython.locals(heap="long long", key="long long", target=Heap, v="long long")
-    cpdef long long offer_variable(self, long long slot) except? -1
+    @cython.locals(target=Heap)
+    cpdef int offer_variable(self, long long slot) except -1
 
     cpdef long long rank(self, long long v) except? -1
 
-    @cython.locals(heap="long long", slot="long long")
-    cpdef long long resize(self, long long v) except? -1
+    cpdef int resize(self, long long v) except -1
 
-    cpdef long long _add_dynamic(self, long long slot, long long is_variable) except? -1
+    cpdef int _add_dynamic(self, long long slot, long long is_variable) except -1
 
-    cpdef long long drop(self, long long slot, long long kind) except? -1
+    cpdef int drop(self, long long slot, long long kind) except -1
 
-    cpdef long long defer_token(self, long long slot) except? -1
+    cpdef int defer_token(self, long long slot) except -1
 
-    @cython.locals(first="long long", v="long long")
-    cpdef long long defer_variable(self, long long slot, long long t) except? -1
+    cpdef int defer_variable(self, long long slot, long long t) except -1
 
     cpdef int _watch_times(self, long long t) except -1
 
-    @cython.locals(after="long long", before="long long", t="long long")
-    cpdef long long forget_waiting(self, long long v) except? -1
+    cpdef int forget_waiting(self, long long v) except -1
 
-    @cython.locals(slot="long long")
-    cpdef long long resume_token(self, long long t) except? -1
+    cpdef int resume_token(self, long long t) except -1
 
-    @cython.locals(slot="long long")
-    cpdef long long resume_variable(self, long long v) except? -1
+    cpdef int resume_variable(self, long long v) except -1
 
-    @cython.locals(at="long long", slot="long long", kind="long long")
-    cpdef long long backtrack(
+    cpdef int backtrack(
         self, long long dropped, long long dynamic, long long rows_seen, long long engine_seen
-    ) except? -1
+    ) except -1

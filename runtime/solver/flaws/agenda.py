@@ -6,7 +6,8 @@ key that a slot has now is in `token_key` or `variable_key`, NO_KEY if it is in 
 
 from array import array
 
-from runtime.constraints.domains.arrays import blank, grown
+from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
+from runtime.constraints.domains.narrow import is_single
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
 from runtime.plan.store.plan import Plan
@@ -69,8 +70,6 @@ class Agenda:
 
     def _make_tables(self) -> None:
         """Make the tables, empty."""
-        self.token_room = 64
-        self.variable_room = self.edge_room = self.constraint_room = self.restriction_room = 256
         self.token_row = array("q", [NONE]) * (64 * self.managers)
         self.token_key = array("q", [NO_KEY]) * (64 * self.managers)
         self.token_waiting = array("q", [NONE]) * 64
@@ -90,14 +89,14 @@ class Agenda:
 
     def _empty_tables(self) -> None:
         """Empty the tables, which stay as long as they are."""
-        most = max(self.managers * max(self.token_room, self.variable_room), self.edge_room, self.constraint_room)
-        most = max(most, self.restriction_room, len(self.fired_scope), len(self.fired_end))
+        most = max(len(self.token_row), len(self.variable_row), len(self.edge_level), len(self.constraint_level))
+        most = max(most, len(self.restriction_level), len(self.fired_scope), len(self.fired_end))
         if len(self.zeros) < most:
             self.zeros = array("q", [0]) * most
             self.nones = array("q", [NONE]) * most
             self.no_keys = array("q", [NO_KEY]) * most
             self.unwatched = array("b", [0]) * most
-        slots, room = self.token_room * self.managers, self.token_room
+        slots, room = len(self.token_row), len(self.token_level)
         self.token_row[:slots] = self.nones[:slots]
         self.token_key[:slots] = self.no_keys[:slots]
         self.token_deferred[:room] = self.zeros[:room]
@@ -105,7 +104,7 @@ class Agenda:
         self.token_level[:room] = self.zeros[:room]
         self.active_level[:room] = self.zeros[:room]
         self.order_level[:room] = self.zeros[:room]
-        slots, room = self.variable_room * self.managers, self.variable_room
+        slots, room = len(self.variable_row), len(self.variable_level)
         self.variable_row[:slots] = self.nones[:slots]
         self.variable_key[:slots] = self.no_keys[:slots]
         self.variable_deferred[:room] = self.zeros[:room]
@@ -114,59 +113,45 @@ class Agenda:
         self.waits_for[:room] = self.nones[:room]
         self.waiting_next[:room] = self.nones[:room]
         self.waiting_before[:room] = self.nones[:room]
-        self.edge_level[: self.edge_room] = self.zeros[: self.edge_room]
-        self.constraint_level[: self.constraint_room] = self.zeros[: self.constraint_room]
-        self.restriction_level[: self.restriction_room] = self.zeros[: self.restriction_room]
+        self.edge_level[:] = self.zeros[: len(self.edge_level)]
+        self.constraint_level[:] = self.zeros[: len(self.constraint_level)]
+        self.restriction_level[:] = self.zeros[: len(self.restriction_level)]
         self.fired_scope[:] = self.nones[: len(self.fired_scope)]
         self.fired_end[:] = self.zeros[: len(self.fired_end)]
         self.waiting_guards[:] = self.zeros[: len(self.waiting_guards)]
         self.dynamic_count = self.dropped_count = self.rows_seen = self.engine_seen = 0
 
-    def reserve(self) -> int:
+    def reserve(self) -> None:
         """Make the tables as long as those of the plan and the engine."""
-        if self.token_room < self.rows.token_capacity:
-            room = self.rows.token_capacity
-            self.token_row = grown(self.token_row, room * self.managers, NONE)
-            self.token_key = grown(self.token_key, room * self.managers, NO_KEY)
-            self.token_deferred = grown(self.token_deferred, room)
-            self.token_waiting = grown(self.token_waiting, room, NONE)
-            self.token_level = grown(self.token_level, room)
-            self.active_level = grown(self.active_level, room)
-            self.order_level = grown(self.order_level, room)
-            self.token_room = room
-        if self.variable_room < len(self.engine.kind):
-            room = len(self.engine.kind)
-            self.variable_row = grown(self.variable_row, room * self.managers, NONE)
-            self.variable_key = grown(self.variable_key, room * self.managers, NO_KEY)
-            self.variable_deferred = grown(self.variable_deferred, room)
-            self.watched = grown(self.watched, room)
-            self.variable_level = grown(self.variable_level, room)
-            self.waits_for = grown(self.waits_for, room, NONE)
-            self.waiting_next = grown(self.waiting_next, room, NONE)
-            self.waiting_before = grown(self.waiting_before, room, NONE)
-            self.variable_room = room
-        if self.edge_room < len(self.engine.edge_weight):
-            self.edge_room = len(self.engine.edge_weight)
-            self.edge_level = grown(self.edge_level, self.edge_room)
-        if self.constraint_room < len(self.engine.op):
-            self.constraint_room = len(self.engine.op)
-            self.constraint_level = grown(self.constraint_level, self.constraint_room)
-        if self.restriction_room < len(self.engine.restriction_span):
-            self.restriction_room = len(self.engine.restriction_span)
-            self.restriction_level = grown(self.restriction_level, self.restriction_room)
-        return 0
+        room = len(self.rows.status)
+        if len(self.token_level) < room:
+            grow_rows(self, "token_row", room * self.managers, NONE)
+            grow_rows(self, "token_key", room * self.managers, NO_KEY)
+            grow_rows(self, "token_waiting", room, NONE)
+            grow_rows(self, "token_deferred token_level active_level order_level", room)
+        room = len(self.engine.kind)
+        if len(self.variable_level) < room:
+            grow_rows(self, "variable_row", room * self.managers, NONE)
+            grow_rows(self, "variable_key", room * self.managers, NO_KEY)
+            grow_rows(self, "waits_for waiting_next waiting_before", room, NONE)
+            grow_rows(self, "variable_deferred watched variable_level", room)
+        if len(self.edge_level) < len(self.engine.edge_weight):
+            grow_rows(self, "edge_level", len(self.engine.edge_weight))
+        if len(self.constraint_level) < len(self.engine.op):
+            grow_rows(self, "constraint_level", len(self.engine.op))
+        if len(self.restriction_level) < len(self.engine.restriction_span):
+            grow_rows(self, "restriction_level", len(self.engine.restriction_span))
 
-    def note_fired(self, level: int) -> int:
+    def note_fired(self, level: int) -> None:
         """Note for a level above 0 the guards that have fired since the last time."""
         if level >= len(self.fired_end):
-            self.fired_end = grown(self.fired_end, 2 * level)
-            self.waiting_guards = grown(self.waiting_guards, 2 * level)
+            lengthen(self, "fired_end waiting_guards", need=level + 1)
         count = self.fired_end[level - 1]
         waiting = self.waiting_guards[level - 1]
         for at in range(self.rows_seen, self.rows.trail_length):
             if self.rows.trail_code[at] == UNDO_BRANCH:
                 if count == len(self.fired_scope):
-                    self.fired_scope = grown(self.fired_scope, 2 * count, NONE)
+                    grow_rows(self, "fired_scope", 2 * count, NONE)
                 self.fired_scope[count] = self.rows.trail_index[at]
                 count += 1
                 waiting -= 1
@@ -174,7 +159,6 @@ class Agenda:
                 waiting += 1
         self.fired_end[level] = count
         self.waiting_guards[level] = waiting
-        return 0
 
     def is_decided(self, v: int) -> bool:
         """Whether a variable is decided.
@@ -182,7 +166,7 @@ class Agenda:
         In a rule EUROPA only equates the object of a new token with the one that the rule names: unless its class has
         a single object, it still is to be decided, in a step with one choice. Elsewhere it counts as given.
         """
-        if (not self.engine.decided[v] and not self.filters.is_single(v)) or not self.engine.is_decided(v):
+        if (not self.engine.decided[v] and not is_single(self.engine, v)) or not self.engine.is_decided(v):
             return False
         if not self.exact or self.engine.decided[v] or self.plan.variable_role[v] != ROLE_TOKEN:
             return True
@@ -206,14 +190,13 @@ class Agenda:
             at += 1
         return self.table.handler_of[at]
 
-    def note_flaw(self, manager: int, item: int, handler: int, priority: float) -> int:
+    def note_flaw(self, manager: int, item: int, handler: int, priority: float) -> None:
         """Note the best flaw so far."""
         self.found_manager = manager
         self.found_kind = self.table.manager_kind[manager]
         self.found_item = item
         self.found_handler = handler
         self.found_priority = priority
-        return 0
 
     def clear(self) -> None:
         """Forget all candidates."""
@@ -233,7 +216,8 @@ class Agenda:
         heap = self.table.heap_of[self.token_row[slot]]
         if heap < 0:
             self.token_key[slot] = 0
-            return self._add_dynamic(slot, 0)
+            self._add_dynamic(slot, 0)
+            return 0
         key = self.rows.key[slot // self.managers]
         if self.table.heap_priority[heap] != 0.0:
             key = -key
@@ -249,12 +233,11 @@ class Agenda:
         start = min(max(self.engine.lb[self.rows.var0[t] + START], 0), _LATEST)
         return start * _YOUNGEST + min(self.rows.key[t], _YOUNGEST - 1) - _LATEST * _YOUNGEST - _YOUNGEST
 
-    def offer_effect(self, slot: int) -> int:
+    def offer_effect(self, slot: int) -> None:
         """Add an effect of an action, which is selected before anything else."""
         t = slot // self.managers
         target = self.effects[slot % self.managers]
         target.push(self.rows.key[t], 0, slot)
-        return 0
 
     def offer_variable(self, slot: int) -> int:
         """Add the slot of a variable to the heap that its row names, unless it is there with its present key."""
@@ -277,49 +260,43 @@ class Agenda:
         """Heap key of a variable: domain size, or dom/wdeg."""
         return self.restarts.rank(v, self.filters.size(v))
 
-    def resize(self, v: int) -> int:
+    def resize(self, v: int) -> None:
         """Update the key of a variable whose domain was narrowed."""
         for slot in range(v * self.managers, v * self.managers + self.managers):
             if self.variable_key[slot] != NO_KEY:
                 heap = self.table.heap_of[self.variable_row[slot]]
                 if heap >= 0 and self.sorted_by_size[heap]:
                     self.offer_variable(slot)
-        return 0
 
-    def _add_dynamic(self, slot: int, is_variable: int) -> int:
+    def _add_dynamic(self, slot: int, is_variable: int) -> None:
         """Add a dynamic slot, which is looked at in every step."""
         if self.dynamic_count == len(self.dynamic_slot):
-            self.dynamic_slot = grown(self.dynamic_slot, 2 * self.dynamic_count)
-            self.dynamic_is_variable = grown(self.dynamic_is_variable, 2 * self.dynamic_count)
+            lengthen(self, "dynamic_slot dynamic_is_variable")
         self.dynamic_slot[self.dynamic_count] = slot
         self.dynamic_is_variable[self.dynamic_count] = is_variable
         self.dynamic_count += 1
-        return 0
 
     # ---- removing candidates, and undoing that ----
 
-    def drop(self, slot: int, kind: int) -> int:
+    def drop(self, slot: int, kind: int) -> None:
         """Log that a slot left its heap, so that backtracking adds it again."""
         if kind == DROPPED_VARIABLE:
             self.variable_key[slot] = NO_KEY
         elif kind == DROPPED_TOKEN:
             self.token_key[slot] = NO_KEY
         if self.dropped_count == len(self.dropped_slot):
-            self.dropped_slot = grown(self.dropped_slot, 2 * self.dropped_count)
-            self.dropped_kind = grown(self.dropped_kind, 2 * self.dropped_count)
+            lengthen(self, "dropped_slot dropped_kind")
         self.dropped_slot[self.dropped_count] = slot
         self.dropped_kind[self.dropped_count] = kind
         self.dropped_count += 1
-        return 0
 
-    def defer_token(self, slot: int) -> int:
+    def defer_token(self, slot: int) -> None:
         """Defer a token until its times change."""
         self.drop(slot, DROPPED_TOKEN)
         self.token_deferred[slot // self.managers] = 1
         self._watch_times(slot // self.managers)
-        return 0
 
-    def defer_variable(self, slot: int, t: int) -> int:
+    def defer_variable(self, slot: int, t: int) -> None:
         """Defer a variable until its domain changes, or the times of token `t` (NONE: no token)."""
         self.drop(slot, DROPPED_VARIABLE)
         v = slot // self.managers
@@ -334,15 +311,13 @@ class Agenda:
             if first >= 0:
                 self.waiting_before[first] = v
             self.token_waiting[t] = v
-        return 0
 
-    def _watch_times(self, t: int) -> int:
+    def _watch_times(self, t: int) -> None:
         """Watch the times of a token."""
         self.watched[self.rows.var0[t] + START] = 1
         self.watched[self.rows.var0[t] + END] = 1
-        return 0
 
-    def forget_waiting(self, v: int) -> int:
+    def forget_waiting(self, v: int) -> None:
         """Take a variable off the watch list of the token that it waits for."""
         t = self.waits_for[v]
         if t >= 0:
@@ -355,25 +330,22 @@ class Agenda:
             if after >= 0:
                 self.waiting_before[after] = before
             self.waits_for[v] = NONE
-        return 0
 
-    def resume_token(self, t: int) -> int:
+    def resume_token(self, t: int) -> None:
         """End the deferral of a token."""
         self.token_deferred[t] = 0
         for slot in range(t * self.managers, t * self.managers + self.managers):
             if self.token_row[slot] >= 0:
                 self.offer_token(slot)
-        return 0
 
-    def resume_variable(self, v: int) -> int:
+    def resume_variable(self, v: int) -> None:
         """End the deferral of a variable."""
         self.variable_deferred[v] = 0
         for slot in range(v * self.managers, v * self.managers + self.managers):
             if self.variable_row[slot] >= 0:
                 self.offer_variable(slot)
-        return 0
 
-    def backtrack(self, dropped: int, dynamic: int, rows_seen: int, engine_seen: int) -> int:
+    def backtrack(self, dropped: int, dynamic: int, rows_seen: int, engine_seen: int) -> None:
         """Undo what changed since then; the plan and the engine are undone already."""
         for at in range(dynamic, self.dynamic_count):
             if self.dynamic_is_variable[at]:
@@ -397,4 +369,3 @@ class Agenda:
         self.dropped_count = dropped
         self.rows_seen = rows_seen
         self.engine_seen = engine_seen
-        return 0

@@ -29,14 +29,14 @@ from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.tags import NO_KEY, NONE, OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 
 
-def rebuild(agenda: Agenda) -> int:
+def rebuild(agenda: Agenda) -> None:
     """Rebuild the agenda from every token and variable; levels count from here."""
     agenda.clear()
     agenda.plan.reserve_variables(agenda.engine.variables)
     agenda.level = 0
     for t in range(agenda.rows.token_count):
         if agenda.rows.status[t] == INACTIVE:
-            _add_open(agenda, t)
+            _add_token(agenda, t, OPEN_CONDITION)
         elif agenda.rows.status[t] == ACTIVE:
             _add_threat(agenda, t)
     for v in range(agenda.engine.variables):
@@ -45,12 +45,22 @@ def rebuild(agenda: Agenda) -> int:
     for s in range(agenda.rows.scope_count):
         if agenda.rows.scope_watch[s] >= 0 and agenda.rows.scope_branch[s] == BRANCH_WAITING:
             agenda.waiting_guards[0] += 1
+    return _begin(agenda)
+
+
+def reopen(agenda: Agenda) -> int:
+    """Offer again what the first selection after `rebuild` has dropped or deferred; nothing has changed since."""
+    agenda.backtrack(0, agenda.dynamic_count, 0, 0)
+    return _begin(agenda)
+
+
+def _begin(agenda: Agenda) -> int:
+    """Read the trails from here on."""
     agenda.rows_seen = agenda.rows.trail_length if agenda.rows.level else 0  # the first mark empties that trail
     agenda.engine_seen = agenda.engine.trail_size
-    return 0
 
 
-def update(agenda: Agenda, level: int) -> int:
+def update(agenda: Agenda, level: int) -> None:
     """Read the trails since the last time; all of it belongs to decision level `level`."""
     agenda.level = level
     agenda.reserve()
@@ -66,12 +76,8 @@ def update(agenda: Agenda, level: int) -> int:
             agenda.watched[name] = 0
             agenda.variable_level[name] = level
             _forget_slots(agenda, name)
-        elif code == TRAIL_EDGE:
-            agenda.edge_level[name] = level
-        elif code == TRAIL_CONSTRAINT:
-            agenda.constraint_level[name] = level
-        elif code == TRAIL_RESTRICTION:
-            agenda.restriction_level[name] = level
+        else:
+            _note_level(agenda, code, name, level)
         at += 1
     agenda.note_fired(level)
     at = agenda.rows_seen
@@ -86,7 +92,7 @@ def update(agenda: Agenda, level: int) -> int:
                 agenda.token_row[slot] = NONE  # a token that was undone may have had its number
                 agenda.token_key[slot] = NO_KEY
             if rows.status[t] == INACTIVE:
-                _add_open(agenda, t)
+                _add_token(agenda, t, OPEN_CONDITION)
         elif rows.trail_code[at] == UNDO_LINK and rows.trail_index[at] % LISTS == LIST_ORDER:
             agenda.order_level[rows.trail_index[at] // LISTS] = level
         at += 1
@@ -102,37 +108,37 @@ def update(agenda: Agenda, level: int) -> int:
             _add_variable(agenda, name)
         at += 1
     agenda.engine_seen = at
-    return 0
 
 
-def note_levels(agenda: Agenda, level: int) -> int:
+def note_levels(agenda: Agenda, level: int) -> None:
     """Read of a failed resolver only the guards that fired, and the edges, constraints and restrictions it posted."""
     agenda.reserve()
     agenda.note_fired(level)
     engine = agenda.engine
     at = agenda.engine_seen
     while at < engine.trail_size:
-        code = engine.trail_key[at] & 15
-        name = engine.trail_key[at] >> 4
-        if code == TRAIL_EDGE:
-            agenda.edge_level[name] = level
-        elif code == TRAIL_CONSTRAINT:
-            agenda.constraint_level[name] = level
-        elif code == TRAIL_RESTRICTION:
-            agenda.restriction_level[name] = level
+        _note_level(agenda, engine.trail_key[at] & 15, engine.trail_key[at] >> 4, level)
         at += 1
-    return 0
 
 
-def _forget_slots(agenda: Agenda, v: int) -> int:
+def _note_level(agenda: Agenda, code: int, name: int, level: int) -> None:
+    """Note the level of an edge, a constraint or a restriction that a trail entry tells of."""
+    if code == TRAIL_EDGE:
+        agenda.edge_level[name] = level
+    elif code == TRAIL_CONSTRAINT:
+        agenda.constraint_level[name] = level
+    elif code == TRAIL_RESTRICTION:
+        agenda.restriction_level[name] = level
+
+
+def _forget_slots(agenda: Agenda, v: int) -> None:
     """Reset the slots of a new variable, whose id may have been in use."""
     for slot in range(v * agenda.managers, v * agenda.managers + agenda.managers):
         agenda.variable_row[slot] = NONE
         agenda.variable_key[slot] = NO_KEY
-    return 0
 
 
-def _update_status(agenda: Agenda, t: int) -> int:
+def _update_status(agenda: Agenda, t: int) -> None:
     """Update for a token with a new state."""
     if agenda.rows.status[t] == ACTIVE:
         agenda.active_level[t] = agenda.level
@@ -141,8 +147,7 @@ def _update_status(agenda: Agenda, t: int) -> int:
         for v in range(first, first + agenda.rows.width[t]):
             _add_variable(agenda, v)
     elif agenda.rows.status[t] == INACTIVE:
-        _add_open(agenda, t)
-    return 0
+        _add_token(agenda, t, OPEN_CONDITION)
 
 
 def _update_domain(agenda: Agenda, v: int) -> int:
@@ -177,35 +182,25 @@ def _kind_of(agenda: Agenda, t: int) -> int:
     return agenda.table.token_kind(rows.predicate[t], asker, rows.relation[t], rows.label[t])
 
 
-def _add_open(agenda: Agenda, t: int) -> int:
-    """Add an inactive token as an open condition."""
-    kind = _kind_of(agenda, t)
-    for manager in range(agenda.table.managers):
-        if agenda.table.manager_kind[manager] == OPEN_CONDITION:
-            slot = t * agenda.managers + manager
-            agenda.token_row[slot] = agenda.table.token_row(manager, kind)
-            agenda.token_key[slot] = NO_KEY
-            if agenda.token_row[slot] >= 0:
-                if agenda.rows.flags[t] & FLAG_EFFECT:
-                    agenda.offer_effect(slot)
-                agenda.offer_token(slot)
-    return 0
-
-
-def _add_threat(agenda: Agenda, t: int) -> int:
+def _add_threat(agenda: Agenda, t: int) -> None:
     """Add an active token of a timeline as a threat."""
     is_ordered = agenda.rows.link_head[LISTS * t + LIST_ORDER] >= 0
-    if is_ordered or not agenda.plan.predicate_timeline[agenda.rows.predicate[t]]:
-        return 0
+    if not is_ordered and agenda.plan.predicate_timeline[agenda.rows.predicate[t]]:
+        _add_token(agenda, t, THREAT)
+
+
+def _add_token(agenda: Agenda, t: int, flaw: int) -> None:
+    """Add a token as a flaw of some kind, an inactive one as an open condition."""
     kind = _kind_of(agenda, t)
     for manager in range(agenda.table.managers):
-        if agenda.table.manager_kind[manager] == THREAT:
+        if agenda.table.manager_kind[manager] == flaw:
             slot = t * agenda.managers + manager
             agenda.token_row[slot] = agenda.table.token_row(manager, kind)
             agenda.token_key[slot] = NO_KEY
             if agenda.token_row[slot] >= 0:
+                if flaw == OPEN_CONDITION and agenda.rows.flags[t] & FLAG_EFFECT:
+                    agenda.offer_effect(slot)
                 agenda.offer_token(slot)
-    return 0
 
 
 def _add_variable(agenda: Agenda, v: int) -> int:

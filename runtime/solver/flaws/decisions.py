@@ -3,7 +3,7 @@
 from array import array
 from collections.abc import Sequence
 
-from runtime.constraints.domains.arrays import grow_rows, grown, next_room
+from runtime.constraints.domains.arrays import lengthen
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.tags import EVERYTHING, NONE
 
@@ -13,7 +13,6 @@ class Decisions:
 
     def __init__(self) -> None:
         room = 64
-        self.room = room
         self.depth = 0
         # The flaw. Of a resource: when it might be exceeded, and whether the level is too low then.
         self.kind = array("q", [0]) * room
@@ -51,8 +50,13 @@ class Decisions:
     def open(self, agenda: Agenda, mark: int) -> int:
         """Make row `depth` an untried decision about the flaw that the agenda has found; its number."""
         d = self.depth
-        if d == self.room:
-            self._grow()
+        if d == len(self.kind):
+            lengthen(
+                self,
+                "kind manager item handler instant is_low tries phase cursor mark rows_seen engine_seen dropped "
+                "dynamic pool_first pool_count is_local",
+                "reasons",
+            )
         self.kind[d] = agenda.found_kind
         self.manager[d] = agenda.found_manager
         self.item[d] = agenda.found_item
@@ -73,13 +77,12 @@ class Decisions:
         self.is_local[d] = 0
         return d
 
-    def close(self, d: int) -> int:
+    def close(self, d: int) -> None:
         """Give back what row `d`, the last one, holds in the pools."""
         self.pool_used = self.pool_first[d]
         self.drop_reasons(d)
         if len(self.lists):
             self.lists.pop(d, None)
-        return 0
 
     def clear(self) -> None:
         """Forget all decisions."""
@@ -88,47 +91,30 @@ class Decisions:
         self.reason_used = 0
         self.reason_free = NONE
 
-    def _grow(self) -> int:
-        """Lengthen the rows."""
-        room = next_room(self.room)
-        grow_rows(
-            self,
-            "kind manager item handler instant is_low tries phase cursor mark rows_seen engine_seen dropped dynamic "
-            "pool_first pool_count is_local",
-            room,
-        )
-        grow_rows(self, "reasons", room, NONE)
-        self.room = room
-        return 0
-
     # ---- resolvers ----
 
-    def choose(self, d: int, cursor: int) -> int:
+    def choose(self, d: int, cursor: int) -> None:
         """Note that the resolver at `cursor` is tried."""
         self.cursor[d] = cursor
         self.tries[d] += 1
-        return 0
 
-    def next_phase(self, d: int) -> int:
+    def next_phase(self, d: int) -> None:
         """Go on to the next phase of an open condition."""
         self.phase[d] += 1
         self.cursor[d] = NONE
-        return 0
 
-    def begin_pool(self, d: int) -> int:
+    def begin_pool(self, d: int) -> None:
         """Begin an empty stretch of the pool for row `d`, the last one."""
         self.pool_used = self.pool_first[d]
         self.pool_count[d] = 0
-        return 0
 
-    def drop_pool(self, d: int) -> int:
+    def drop_pool(self, d: int) -> None:
         """Give the stretch of row `d` back."""
         self.pool_used = self.pool_first[d]
         self.pool_count[d] = NONE
-        return 0
 
-    def reverse_pool(self, first: int, end: int) -> int:
-        """Reverse the order of the places `first` to `end` - 1 of the pool."""
+    def reverse_pool(self, first: int, end: int) -> None:
+        """Reverse the order of the pool from index `first` to before `end`."""
         last = end - 1
         while first < last:
             self.pool_object[first], self.pool_object[last] = self.pool_object[last], self.pool_object[first]
@@ -136,41 +122,35 @@ class Decisions:
             self.pool_after[first], self.pool_after[last] = self.pool_after[last], self.pool_after[first]
             first += 1
             last -= 1
-        return 0
 
-    def add_to_pool(self, d: int, o: int, before: int, after: int) -> int:
+    def add_to_pool(self, d: int, o: int, before: int, after: int) -> None:
         """Add an insertion on object `o` between two tokens, or a precedence between two timepoints."""
         at = self.pool_used
         if at == len(self.pool_object):
-            self.pool_object = grown(self.pool_object, 2 * at)
-            self.pool_before = grown(self.pool_before, 2 * at)
-            self.pool_after = grown(self.pool_after, 2 * at)
+            lengthen(self, "pool_object pool_before pool_after")
         self.pool_object[at] = o
         self.pool_before[at] = before
         self.pool_after[at] = after
         self.pool_used = at + 1
         self.pool_count[d] += 1
-        return 0
 
     # ---- conflict sets ----
 
-    def add_reason(self, d: int, level: int) -> int:
+    def add_reason(self, d: int, level: int) -> None:
         """Add a level to the conflict set of row `d`."""
         reason = self.reason_free
         if reason >= 0:
             self.reason_free = self.reason_next[reason]
         else:
             if self.reason_used == len(self.reason_level):
-                self.reason_level = grown(self.reason_level, 2 * self.reason_used)
-                self.reason_next = grown(self.reason_next, 2 * self.reason_used, NONE)
+                lengthen(self, "reason_level", "reason_next")
             reason = self.reason_used
             self.reason_used += 1
         self.reason_level[reason] = level
         self.reason_next[reason] = self.reasons[d]
         self.reasons[d] = reason
-        return 0
 
-    def drop_reasons(self, d: int) -> int:
+    def drop_reasons(self, d: int) -> None:
         """Empty the conflict set of row `d`."""
         reason = self.reasons[d]
         while reason >= 0:
@@ -179,9 +159,7 @@ class Decisions:
             self.reason_free = reason
             reason = after
         self.reasons[d] = NONE
-        return 0
 
-    def rest_on_everything(self, d: int) -> int:
+    def rest_on_everything(self, d: int) -> None:
         """Make all earlier decisions the conflict set of row `d`: the conflict has no simpler reason."""
         self.reasons[d] = EVERYTHING
-        return 0

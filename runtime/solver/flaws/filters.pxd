@@ -1,7 +1,7 @@
 # The C types of `filters.py`.
 
-cimport cython
-from runtime.constraints.domains.base_domain cimport is_growing
+from runtime.constraints.domains.narrow cimport is_single
+from runtime.constraints.domains.queries cimport has_finitely_many
 from runtime.constraints.domains.bitset cimport count_values
 from runtime.constraints.engine cimport Engine
 from runtime.plan.store.plan cimport Plan
@@ -9,9 +9,8 @@ from runtime.plan.store.rows cimport Rows
 from runtime.solver.configuration.handler_table cimport HandlerTable
 
 cdef long long ACTIVE, END, FILTER_GUARD, FILTER_HORIZON, FILTER_HORIZON_VARIABLE, FILTER_PARENT_NOT_ASSIGNED
-cdef long long FILTER_NOT_GUARD, FILTER_NOT_SINGLETON, FILTER_NOT_ASSIGNED, HALF_INF, INF, KIND_FLOAT, KIND_INT
+cdef long long FILTER_NOT_GUARD, FILTER_NOT_SINGLETON, FILTER_NOT_ASSIGNED, INF, KIND_FLOAT
 cdef long long LISTS, LIST_ORDER, NONE, OBJECT, POLICY_PARTIAL, POLICY_POSSIBLE, ROLE_LOCAL, ROLE_TOKEN, START
-cdef double FLOAT_TOLERANCE
 
 
 cdef class PlanningScope:
@@ -30,26 +29,16 @@ cdef class Filters:
     cdef public bint has_scope
     cdef public PlanningScope scope
 
-    @cython.locals(code="long long", f="long long", first="long long", parent="long long")
     cpdef bint keeps_token(self, long long row, long long t) except -1
 
-    @cython.locals(code="long long", f="long long", first="long long", t="long long")
     cpdef bint keeps_variable(self, long long row, long long v) except -1
 
-    @cython.locals(code="long long", f="long long", first="long long")
     cpdef bint waits_for_times(self, long long row) except -1
 
-    @cython.locals(end="long long", engine=Engine, start="long long")
     cpdef bint _is_outside(self, long long t, long long policy) except -1
 
     cpdef bint _is_assigned(self, long long t) except -1
 
-    @cython.locals(role="long long")
     cpdef long long token_of(self, long long v) except? -1
-
-    cpdef bint is_single(self, long long v) except -1
-
-    @cython.locals(engine=Engine, kind="long long")
-    cpdef bint is_finite(self, long long v) except -1
 
     cpdef long long size(self, long long v) except? -1

@@ -1,8 +1,9 @@
 """Flaw filters tested at every step: horizon, scope, infinite domains, guards, unassigned tokens and parents."""
 
-from runtime.constraints.domains.base_domain import is_growing
 from runtime.constraints.domains.bitset import count_values
-from runtime.constraints.domains.tags import FLOAT_TOLERANCE, HALF_INF, INF, KIND_FLOAT, KIND_INT
+from runtime.constraints.domains.narrow import is_single
+from runtime.constraints.domains.queries import has_finitely_many
+from runtime.constraints.domains.tags import INF, KIND_FLOAT
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import ACTIVE, END, LIST_ORDER, LISTS, NONE, OBJECT, ROLE_LOCAL, ROLE_TOKEN, START
 from runtime.solver.configuration.handler_table import HandlerTable
@@ -62,7 +63,7 @@ class Filters:
 
     def keeps_variable(self, row: int, v: int) -> bool:
         """Whether variable `v` has no values to choose from, or a filter of `row` keeps it back."""
-        if not self.is_finite(v):
+        if not has_finitely_many(self.engine, v):
             return True
         if self.has_scope and not self.scope.admits_variable(v):
             return True
@@ -74,7 +75,7 @@ class Filters:
                 if t >= 0 and self._is_outside(t, self.table.filter_policy[f]):
                     return True
             elif code == FILTER_NOT_SINGLETON:
-                if not self.is_single(v):
+                if not is_single(self.engine, v):
                     return True
             elif code == FILTER_GUARD:
                 if self.plan.variable_guards[v] > 0:
@@ -120,7 +121,7 @@ class Filters:
 
     def _is_assigned(self, t: int) -> bool:
         """Whether `t` is active, its object is known, and it is ordered there if that is a timeline."""
-        if self.rows.status[t] != ACTIVE or not self.is_single(self.rows.var0[t] + OBJECT):
+        if self.rows.status[t] != ACTIVE or not is_single(self.engine, self.rows.var0[t] + OBJECT):
             return False
         if not self.plan.predicate_timeline[self.rows.predicate[t]]:
             return True
@@ -131,28 +132,10 @@ class Filters:
         role = self.plan.variable_role[v]
         return self.plan.variable_owner[v] if role == ROLE_TOKEN or role == ROLE_LOCAL else NONE
 
-    def is_single(self, v: int) -> bool:
-        """Whether only one value is left."""
-        if self.engine.kind[v] == KIND_FLOAT:
-            return self.engine.fhi[v] - self.engine.flo[v] <= FLOAT_TOLERANCE
-        return self.engine.lb[v] == self.engine.ub[v]
-
-    def is_finite(self, v: int) -> bool:
-        """Whether the values can be counted."""
-        engine = self.engine
-        if is_growing(engine, v):
-            return False
-        kind = engine.kind[v]
-        if kind == KIND_FLOAT:
-            return engine.word[v] >= 0 or self.is_single(v)
-        if kind == KIND_INT:
-            return engine.word[v] >= 0 or (engine.lb[v] > -HALF_INF and engine.ub[v] < HALF_INF)
-        return True
-
     def size(self, v: int) -> int:
         """Number of values of a variable; INF if it is not finite."""
-        if not self.is_finite(v):
+        if not has_finitely_many(self.engine, v):
             return INF
         if self.engine.kind[v] == KIND_FLOAT:
-            return 1 if self.is_single(v) else self.engine.table_length[v]
+            return 1 if is_single(self.engine, v) else self.engine.table_length[v]
         return count_values(self.engine, v)

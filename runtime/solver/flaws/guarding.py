@@ -24,7 +24,7 @@ def _has_value(filters: Filters, t: int, name: str, wanted: str) -> bool:
     if number < 0:
         return False
     v = filters.rows.var0[t] + number
-    if not filters.is_single(v):
+    if not filters.engine.is_singleton(v):
         return False
     kind = filters.engine.kind[v]
     if kind == KIND_FLOAT:

@@ -16,7 +16,7 @@ from runtime.solver.tags import (
 
 def is_resource_managed(agenda: Agenda, o: int) -> bool:
     """Whether object `o` is a resource, and some manager mends its flaws."""
-    if o >= agenda.plan.resources.object_room or not agenda.plan.resources.is_resource[o]:
+    if o >= len(agenda.plan.resources.is_resource) or not agenda.plan.resources.is_resource[o]:
         return False
     for manager in range(agenda.table.managers):
         if agenda.table.manager_kind[manager] == RESOURCE_THREAT:
@@ -25,7 +25,7 @@ def is_resource_managed(agenda: Agenda, o: int) -> bool:
     return False
 
 
-def select_resource(agenda: Agenda, manager: int, is_last: bool) -> int:
+def select_resource(agenda: Agenda, manager: int, is_last: bool) -> None:
     """Compare the flaws of all resources with the best flaw so far; `is_last`: those too that may be relieved.
 
     With `agenda.exact` the worst one by the manager's order, as EUROPA does. Otherwise the first one of the first
@@ -37,7 +37,7 @@ def select_resource(agenda: Agenda, manager: int, is_last: bool) -> int:
     low = 0
     amount = 0.0
     for o in range(agenda.plan.object_count):
-        if o >= agenda.plan.resources.object_room or not agenda.plan.resources.is_resource[o]:
+        if o >= len(agenda.plan.resources.is_resource) or not agenda.plan.resources.is_resource[o]:
             continue
         row = agenda.table.resource_row(manager, agenda.plan.object_class[o])
         if row < 0 or (agenda.table.filter_count[row] and not _is_in_scope(agenda, row, o)):
@@ -64,7 +64,6 @@ def select_resource(agenda: Agenda, manager: int, is_last: bool) -> int:
     if is_mine:
         agenda.found_at = at
         agenda.found_low = low
-    return 0
 
 
 def _is_in_scope(agenda: Agenda, row: int, o: int) -> bool:

@@ -15,14 +15,13 @@ cdef class Restarts:
 
     cpdef int _reset(self) except -1
 
-    @cython.locals(weight="long long")
     cpdef long long rank(self, long long v, long long size) except? -1
 
-    cpdef long long _add(self, long long v) except? -1
+    cpdef int _add(self, long long v) except -1
 
-    @cython.locals(engine=Store, k="long long", kind="long long", support="long long")
-    cpdef long long note_failure(self) except? -1
+    @cython.locals(k="long long")
+    cpdef int note_failure(self) except -1
 
     cpdef bint is_due(self) except -1
 
-    cpdef long long restart(self) except? -1
+    cpdef int restart(self) except -1

@@ -38,12 +38,11 @@ class Restarts:
         weight = self.weight[v] if v < len(self.weight) else 1
         return min(size, LARGEST_SIZE) * WEIGHT_SCALE // weight
 
-    def _add(self, v: int) -> int:
+    def _add(self, v: int) -> None:
         """Increase the weight of a variable."""
         if v >= len(self.weight):
             self.weight = grown(self.weight, 2 * v, 1)
         self.weight[v] += 1
-        return 0
 
     def note_failure(self) -> int:
         """Increase the weights of the variables of the constraint in conflict."""
@@ -67,9 +66,8 @@ class Restarts:
         """Whether there were enough failures for a restart."""
         return self.failures >= self.limit
 
-    def restart(self) -> int:
+    def restart(self) -> None:
         """Begin the next run, half as long again."""
         self.failures = 0
         self.limit += self.limit // 2
         self.count += 1
-        return 0

@@ -10,7 +10,6 @@ cdef long long OPEN_CONDITION, RESOURCE_THREAT, THREAT, UNBOUND_VARIABLE
 cdef double BEST_PRIORITY, NO_PRIORITY
 
 
-@cython.locals(manager="long long")
 cpdef bint select(Agenda agenda) except -1
 
 
@@ -18,10 +17,7 @@ cpdef bint select(Agenda agenda) except -1
 cpdef bint _select_effect(Agenda agenda, long long manager) except -1
 
 
-@cython.locals(
-    first="long long", handler="long long", heap="long long", priority="double", row="long long", slot="long long"
-)
-cpdef long long _select_from_heaps(Agenda agenda, long long manager) except? -1
+cpdef int _select_from_heaps(Agenda agenda, long long manager) except -1
 
 
 @cython.locals(heap=Heap, slot="long long", t="long long")
@@ -35,15 +31,11 @@ cpdef long long _first_variable(Agenda agenda, long long number) except? -1
 cpdef bint _is_token_flaw(Agenda agenda, long long t, long long kind) except -1
 
 
-@cython.locals(t="long long")
 cpdef bint _is_variable_flaw(Agenda agenda, long long v) except -1
 
 
-@cython.locals(
-    at="long long", best_tie="long long", handler="long long", is_mine=bint, item="long long", kind="long long",
-    own="long long", priority="double", row="long long", slot="long long"
-)
-cpdef long long _select_dynamic(Agenda agenda, long long manager) except? -1
+@cython.locals(is_mine=bint)
+cpdef int _select_dynamic(Agenda agenda, long long manager) except -1
 
 
 cpdef long long _tie(Agenda agenda, long long item, long long kind, double priority) except? -1

@@ -56,7 +56,7 @@ def _select_effect(agenda: Agenda, manager: int) -> bool:
     return False
 
 
-def _select_from_heaps(agenda: Agenda, manager: int) -> int:
+def _select_from_heaps(agenda: Agenda, manager: int) -> None:
     """Compare the best of a manager's heaps with the best so far."""
     first = agenda.table.manager_heap[manager]
     for heap in range(first, first + agenda.table.manager_heaps[manager]):
@@ -73,7 +73,6 @@ def _select_from_heaps(agenda: Agenda, manager: int) -> int:
             handler = agenda.table.handler_of[agenda.table.first_handler[row]]
             agenda.note_flaw(manager, slot // agenda.managers, handler, priority)
             break
-    return 0
 
 
 def _first_token(agenda: Agenda, number: int, kind: int) -> int:
@@ -136,7 +135,7 @@ def _is_variable_flaw(agenda: Agenda, v: int) -> bool:
     return t < 0 or agenda.rows.status[t] == ACTIVE
 
 
-def _select_dynamic(agenda: Agenda, manager: int) -> int:
+def _select_dynamic(agenda: Agenda, manager: int) -> None:
     """Compare all dynamic flaws of a manager with the best so far: their handlers and filters may have changed."""
     kind = agenda.table.manager_kind[manager]
     best_tie = 0
@@ -164,7 +163,6 @@ def _select_dynamic(agenda: Agenda, manager: int) -> int:
             agenda.note_flaw(manager, item, handler, priority)
             is_mine = True
             best_tie = own
-    return 0
 
 
 def _tie(agenda: Agenda, item: int, kind: int, priority: float) -> int:

@@ -15,11 +15,9 @@ cdef class TimelineSequence:
     cdef public long long[::1] tokens, index_of
     cdef public long long range_object, range_first, range_end
 
-    @cython.locals(count="long long", t="long long")
+    @cython.locals(count="long long")
     cpdef long long take(self, long long o) except? -1
 
-    @cython.locals(v="long long")
     cpdef int look_around(self, long long t) except -1
 
-    @cython.locals(index="long long")
     cpdef int note_range(self, long long o, long long count, long long first, long long end) except -1

@@ -2,7 +2,7 @@
 
 from array import array
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import grow_rows, lengthen
 from runtime.constraints.stn.reach import Reach
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import END, LIST_ORDER, LISTS, START
@@ -30,13 +30,13 @@ class TimelineSequence:
         t = self.rows.head_first[self.plan.object_head[o]]
         while t >= 0:
             if count == len(self.tokens):
-                self.tokens = grown(self.tokens, 2 * count)
+                lengthen(self, "tokens")
             self.tokens[count] = t
             count += 1
             t = self.rows.link_after[LISTS * t + LIST_ORDER]
         return count
 
-    def look_around(self, t: int) -> int:
+    def look_around(self, t: int) -> None:
         """Have the reaches answer for the times of token `t`."""
         v = self.rows.var0[t]
         self.from_start.begin(v + START, True)
@@ -44,15 +44,13 @@ class TimelineSequence:
         self.from_end.begin(v + END, True)
         self.to_end.begin(v + END, False)
         self.range_object = NONE
-        return 0
 
-    def note_range(self, o: int, count: int, first: int, end: int) -> int:
+    def note_range(self, o: int, count: int, first: int, end: int) -> None:
         """Of the `count` tokens of timeline `o` only those from `first` to before `end` may coincide."""
-        if len(self.index_of) < self.rows.token_capacity:
-            self.index_of = grown(self.index_of, self.rows.token_capacity)
+        if len(self.index_of) < len(self.rows.status):
+            grow_rows(self, "index_of", len(self.rows.status))
         self.range_object = o
         self.range_first = first
         self.range_end = end
         for index in range(count):
             self.index_of[self.tokens[index]] = index
-        return 0

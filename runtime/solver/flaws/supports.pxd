@@ -1,6 +1,5 @@
 # The C types of `supports.py`.
 
-cimport cython
 
 
 cdef class Supports:

@@ -25,13 +25,10 @@ cdef class Uses:
     cdef public double found_amount
     cdef public double[::1] amount_least, amount_most
 
-    @cython.locals(u="long long", uses=Resources)
     cpdef long long gather(self, long long o) except? -1
 
-    @cython.locals(at="long long")
-    cpdef long long add(self, long long point, long long takes, double least, double most) except? -1
+    cpdef int add(self, long long point, long long takes, double least, double most) except -1
 
-    @cython.locals(v="long long")
     cpdef double limit(self, long long o, long long which, long long side) except? -1
 
     cpdef bint first_flaw(self, long long o) except -1
@@ -39,16 +36,13 @@ cdef class Uses:
     cpdef bint worst_flaw(self, long long o) except -1
 
     @cython.locals(
-        events=Heap, capacity_high="double", capacity_low="double", engine=Engine, amount="double", high="double",
-        k="long long", low="double", lower="double", maximum="double", minimum="double", time="long long",
-        upper="double"
+        capacity_high="double", capacity_low="double", amount="double", high="double", k="long long", low="double",
+        lower="double", upper="double"
     )
     cpdef bint _sweep(self, long long o, long long whole) except -1
 
-    @cython.locals(engine=Engine)
     cpdef bint may_order(self, long long o, long long first, long long second) except -1
 
-    @cython.locals(v="long long")
     cpdef bint _is_seen(self, long long first, long long second) except -1
 
     cpdef bint order(self, long long first, long long second, long long together) except -1

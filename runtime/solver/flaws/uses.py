@@ -7,7 +7,7 @@ a giver (or the other way round, where the level is too high): precedences are p
 from array import array
 from math import inf
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import lengthen
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
@@ -50,20 +50,16 @@ class Uses:
                     self.add(uses.end[u], 0, uses.least[u], uses.most[u])
         return self.count
 
-    def add(self, point: int, takes: int, least: float, most: float) -> int:
+    def add(self, point: int, takes: int, least: float, most: float) -> None:
         """Collect one timepoint."""
         at = self.count
         if at == len(self.point):
-            self.point = grown(self.point, 2 * at)
-            self.takes = grown(self.takes, 2 * at)
-            self.amount_least = _longer_reals(self.amount_least)
-            self.amount_most = _longer_reals(self.amount_most)
+            lengthen(self, "point takes amount_least amount_most")
         self.point[at] = point
         self.takes[at] = takes
         self.amount_least[at] = least
         self.amount_most[at] = most
         self.count = at + 1
-        return 0
 
     def limit(self, o: int, which: int, side: int) -> float:
         """A bound of one of the limits of resource `o`."""
@@ -161,8 +157,3 @@ class Uses:
         if together and not self.engine.add_edge(first, second, 0, NONE, NONE):
             return False
         return fire(self.plan)
-
-
-def _longer_reals(old: "array[float]") -> "array[float]":
-    """A copy twice as long."""
-    return array("d", bytes(old) + bytes(8 * len(old)))

@@ -1,10 +1,7 @@
 # The C types of `conflict_analysis.py`.
 
 cimport cython
-from runtime.constraints.domains.store cimport Store
 from runtime.constraints.explanation.support_walk cimport SupportWalk
-from runtime.constraints.stn.distances cimport Distances
-from runtime.plan.resources.resources cimport Resources
 from runtime.plan.rules.guards cimport deciders
 from runtime.solver.flaws.decisions cimport Decisions
 from runtime.solver.flaws.agenda cimport Agenda
@@ -33,62 +30,48 @@ cdef class ConflictAnalysis(SupportWalk):
 
     cpdef bint ask_more(self) except -1
 
-    @cython.locals(kind="long long")
     cdef long long _level_of(self, long long support) except? -1
 
-    @cython.locals(at="long long", before="long long", engine=Store, old="long long", when="long long")
     cpdef int ask_enough(self, long long v, long long side, long long enough) except -1
 
-    @cython.locals(bound="long long", engine=Store, when="long long")
     cpdef long long base_bound(self, long long v, long long side) except? -1
 
     cpdef int ask_domain(self, long long v) except -1
 
-    @cython.locals(agenda=Agenda, k="long long", s="long long", t="long long")
     cdef int _ask_guards(self, long long level) except -1
 
-    @cython.locals(engine=Store, r="long long", v="long long")
+    @cython.locals(r="long long", v="long long")
     cdef int _ask_arguments(self, long long c) except -1
 
-    @cython.locals(distances=Distances, e="long long", v="long long")
     cpdef bint explain_edge(self, long long source, long long target, long long weight) except -1
 
     @cython.locals(c="long long")
     cdef int _ask_path_edge(self, long long e) except -1
 
-    @cython.locals(
-        engine=Store, first="long long", is_all=bint, k="long long", side="long long", support="long long", v="long long"
-    )
+    @cython.locals(first="long long", k="long long")
     cpdef bint learn(self, long long d) except -1
 
-    @cython.locals(k="long long", level="long long", reason="long long", stack=Decisions)
-    cpdef long long keep(self, long long d) except? -1
+    cpdef int keep(self, long long d) except -1
 
-    @cython.locals(heir="long long", latest="long long", reason="long long", stack=Decisions)
     cpdef long long target(self, long long d) except? -1
 
-    @cython.locals(is_new=bint, item="long long", kind="long long", mine="long long", agenda=Agenda)
+    @cython.locals(is_new=bint)
     cdef bint _may_bring(self, long long d, long long predicate) except -1
 
-    @cython.locals(other="long long", agenda=Agenda, t="long long")
-    cpdef long long explain_absence(self, long long d, long long predicate) except? -1
+    cpdef int explain_absence(self, long long d, long long predicate) except -1
 
-    @cython.locals(agenda=Agenda, t="long long")
-    cpdef long long explain_use(self, long long u, long long d) except? -1
+    cpdef int explain_use(self, long long u, long long d) except -1
 
-    @cython.locals(kind="long long", predicate="long long", agenda=Agenda, u="long long", uses=Resources)
+    @cython.locals(predicate="long long")
     cpdef bint explain_helpers(self, long long o, long long sign, long long d) except -1
 
-    @cython.locals(
-        end="long long", needed="long long", start="long long", t="long long", var0="long long[::1]"
-    )
-    cdef long long _explain_window(self, violation) except? -1
+    @cython.locals(end="long long", needed="long long", start="long long", t="long long")
+    cdef int _explain_window(self, violation) except -1
 
-    @cython.locals(first="long long", agenda=Agenda)
-    cdef long long _explain_ordering(self, long long t) except? -1
+    cdef int _explain_ordering(self, long long t) except -1
 
     @cython.locals(
-        e="long long", end="long long", key="long long", least=double, length="long long", loss=double,
-        slack=double, start="long long", u="long long"
+        e="long long", end="long long", key="long long", least=double, length="long long", loss=double, slack=double,
+        start="long long", u="long long"
     )
     cdef bint _explain_violation(self, long long c, long long d) except -1

@@ -54,23 +54,21 @@ class ConflictAnalysis(SupportWalk):
         self.opened = 0
         self.is_local = False  # what was met counts only as long as nothing else is decided before
 
-    def begin(self) -> int:
+    def begin(self) -> None:
         """Forget what was met; all that is older than the first decision needs no reason."""
         self.start()
         self.met_count = self.opened = 0
         self.is_local = False
-        if len(self.marked) < self.stack.room + 1:
-            grow_rows(self, "marked met", self.stack.room + 1)
+        if len(self.marked) <= len(self.stack.kind):
+            grow_rows(self, "marked met", len(self.stack.kind) + 1)
         self.origin = self.engine.trail_base + self.stack.engine_seen[0]
-        return 0
 
-    def meet(self, level: int) -> int:
+    def meet(self, level: int) -> None:
         """Note a level."""
         if level > 0 and self.marked[level] != self.stamp:
             self.marked[level] = self.stamp
             self.met[self.met_count] = level
             self.met_count += 1
-        return 0
 
     def visit(self, support: int, v: int, side: int, when: int) -> bool:
         """Note the level of a change; changes older than the search go unnoted, declarations are read no further."""
@@ -79,9 +77,9 @@ class ConflictAnalysis(SupportWalk):
         self.meet(self._level_of(support))
         return when >= 0
 
-    def visit_support(self, support: int) -> int:
+    def visit_support(self, support: int) -> None:
         """Note the level of an edge, a constraint or a restriction."""
-        return self.meet(self._level_of(support))
+        self.meet(self._level_of(support))
 
     def ask_more(self) -> bool:
         """Ask why the guards held that fired at the levels met: what followed rests on all that decided them."""
@@ -104,7 +102,8 @@ class ConflictAnalysis(SupportWalk):
         """Ask why a bound of `v`, no real, is as tight as `enough`: when that was reached first."""
         engine = self.engine
         if enough == AS_IT_IS:
-            return self.ask(v, side, NOW)
+            self.ask(v, side, NOW)
+            return 0
         before = NOW
         when = engine.lower_when[v] if side == SIDE_LOWER else engine.upper_when[v]
         while when >= self.origin:
@@ -114,7 +113,8 @@ class ConflictAnalysis(SupportWalk):
                 break
             before = when
             when = engine.trail_when[at]
-        return self.ask(v, side, before)
+        self.ask(v, side, before)
+        return 0
 
     def base_bound(self, v: int, side: int) -> int:
         """A bound of `v`, no real, as it was before the search."""
@@ -126,15 +126,14 @@ class ConflictAnalysis(SupportWalk):
             when = engine.trail_when[when - engine.trail_base]
         return bound
 
-    def ask_domain(self, v: int) -> int:
+    def ask_domain(self, v: int) -> None:
         """Ask for all sides of a domain as it is now."""
         self.ask(v, SIDE_LOWER, NOW)
         self.ask(v, SIDE_UPPER, NOW)
         if self.engine.word[v] >= 0:
             self.ask(v, SIDE_HOLES, NOW)
-        return 0
 
-    def _ask_guards(self, level: int) -> int:
+    def _ask_guards(self, level: int) -> None:
         """Ask why the guards held that fired at a level: what followed rests on all that decided them."""
         agenda = self.agenda
         for k in range(agenda.fired_end[level - 1], agenda.fired_end[level]):
@@ -146,9 +145,8 @@ class ConflictAnalysis(SupportWalk):
                 if agenda.rows.scope_watch[s] >= 0:
                     self._ask_arguments(agenda.rows.scope_watch[s])
                 s = agenda.rows.scope_parent[s]
-        return 0
 
-    def _ask_arguments(self, c: int) -> int:
+    def _ask_arguments(self, c: int) -> None:
         """Ask for the domains of all that decides a guard which waits with a constraint, and who decided it."""
         engine = self.engine
         for v in deciders(self.agenda.plan, c):
@@ -157,7 +155,6 @@ class ConflictAnalysis(SupportWalk):
             while r >= 0:
                 self.meet(self.agenda.restriction_level[r])
                 r = engine.restriction_next[r]
-        return 0
 
     def explain_edge(self, source: int, target: int, weight: int) -> bool:
         """Why `target - source <= weight` is impossible, if it is: two bounds, or a path of edges."""
@@ -175,11 +172,12 @@ class ConflictAnalysis(SupportWalk):
             v = self.engine.edge_source[e]
         return True
 
-    def _ask_path_edge(self, e: int) -> int:
+    def _ask_path_edge(self, e: int) -> None:
         """Note an edge of a path with the constraint that it carries out, and ask for its weight."""
         self.ask_edge(e, NOW)
         c = self.engine.edge_link[e]
-        return self.meet(self.agenda.constraint_level[c]) if c >= 0 else 0
+        if c >= 0:
+            self.meet(self.agenda.constraint_level[c])
 
     # ---- failed choices ----
 
@@ -219,7 +217,7 @@ class ConflictAnalysis(SupportWalk):
             self.keep(d)
         return is_all
 
-    def keep(self, d: int) -> int:
+    def keep(self, d: int) -> None:
         """Add the levels met to the reasons of decision `d`: those before its own."""
         stack = self.stack
         if self.is_local:
@@ -232,7 +230,6 @@ class ConflictAnalysis(SupportWalk):
             level = self.met[k]
             if level <= d and self.marked[level] == self.stamp:
                 stack.add_reason(d, level)
-        return 0
 
     # ---- decisions without choices ----
 
@@ -279,7 +276,7 @@ class ConflictAnalysis(SupportWalk):
             return agenda.plan.variable_guards[item] > 0 and agenda.supports.is_guarded(predicate)
         return False
 
-    def explain_absence(self, d: int, predicate: int) -> int:
+    def explain_absence(self, d: int, predicate: int) -> None:
         """Note the decisions before `d` that might have brought a token of a predicate, and whether any still may."""
         agenda = self.agenda
         for other in range(d + 1):
@@ -292,9 +289,8 @@ class ConflictAnalysis(SupportWalk):
             t = agenda.rows.link_after[LISTS * t + LIST_OPEN]
         if agenda.supports.is_guarded(predicate):
             self.is_local = True
-        return 0
 
-    def explain_use(self, u: int, d: int) -> int:
+    def explain_use(self, u: int, d: int) -> None:
         """Why use `u` of a resource exists, and is on that resource."""
         agenda = self.agenda
         self.ask_domain(agenda.plan.resources.holder[u])
@@ -304,7 +300,6 @@ class ConflictAnalysis(SupportWalk):
         while d >= 0 and agenda.plan.mark_uses[self.stack.mark[d]] > u:
             d -= 1
         self.meet(d + 1)
-        return 0
 
     def explain_helpers(self, o: int, sign: int, d: int) -> bool:
         """Why nothing else gives to (takes from) resource `o` what would help; False if that has no simple reason."""
@@ -322,7 +317,7 @@ class ConflictAnalysis(SupportWalk):
         self.is_local = True  # in another order it may come before what it would have helped
         return True
 
-    def _explain_window(self, violation: Violation) -> int:
+    def _explain_window(self, violation: Violation) -> None:
         """Why tokens lie in a window that is too narrow: the widest such, that of before the search if it will do."""
         var0 = self.agenda.rows.var0
         needed = int(violation.amount) + violation.until - violation.at
@@ -338,9 +333,8 @@ class ConflictAnalysis(SupportWalk):
             self._explain_ordering(t)
             self.ask_enough(var0[t] + START, SIDE_LOWER, start)
             self.ask_enough(var0[t] + END, SIDE_UPPER, end)
-        return 0
 
-    def _explain_ordering(self, t: int) -> int:
+    def _explain_ordering(self, t: int) -> None:
         """Why token `t` is to be ordered on its timeline (disjunctive.py)."""
         agenda = self.agenda
         first = agenda.rows.var0[t]
@@ -349,7 +343,6 @@ class ConflictAnalysis(SupportWalk):
         if agenda.rows.link_head[LISTS * t + LIST_ORDER] < 0 or agenda.order_level[t] > 0:
             self.ask_enough(first + END, SIDE_LOWER, agenda.filters.lower + 1)
             self.ask_enough(first + START, SIDE_UPPER, agenda.filters.upper - 1)
-        return 0
 
     def _explain_violation(self, c: int, d: int) -> bool:
         """Why constraint `c` says that a resource is exceeded; False if that has no simple reason."""

@@ -3,58 +3,40 @@
 cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.tokens.predicate_hierarchy cimport first_active, next_active
-from runtime.plan.resources.resources cimport Resources
-from runtime.plan.store.rows cimport Rows
 from runtime.solver.learning.conflict_analysis cimport ConflictAnalysis
-from runtime.solver.flaws.decisions cimport Decisions
-from runtime.solver.flaws.filters cimport Filters
-from runtime.solver.flaws.agenda cimport Agenda
-from runtime.solver.configuration.handler_table cimport HandlerTable
 
 cdef long long DURATION, END, EVERYTHING, FILTER_GUARD, FILTER_HORIZON, FILTER_HORIZON_VARIABLE, FILTER_PARENT_NOT_ASSIGNED
 cdef long long FILTER_NOT_GUARD, FILTER_NOT_ASSIGNED, HANDLER_HSTS, INITIAL, LIMITS, LISTS, LIST_ORDER, MAXIMUM, MINIMUM, _MOST_SEEDS
-cdef long long NONE, NOW, OBJECT, OPEN_CONDITION, POLICY_PARTIAL, PRECEDES_ONLY, RESOURCE_THREAT
+cdef long long NOW, OBJECT, OPEN_CONDITION, POLICY_PARTIAL, PRECEDES_ONLY, RESOURCE_THREAT
 cdef long long SIDE_LOWER, SIDE_UPPER, START, STATE, THREAT, UNBOUND_VARIABLE
 cdef double FLOAT_TOLERANCE
 
 
-@cython.locals(is_known=bint, item="long long", kind="long long", agenda=Agenda, stack=Decisions)
-cpdef long long explain_dead_end(ConflictAnalysis analysis, long long d) except? -1
+cpdef int explain_dead_end(ConflictAnalysis analysis, long long d) except -1
 
-@cython.locals(agenda=Agenda, t="long long")
 cpdef bint _explain_variable(ConflictAnalysis analysis, long long d, long long v) except -1
 
-@cython.locals(code="long long", f="long long", first="long long", agenda=Agenda, table=HandlerTable)
 cpdef bint _explain_scope(ConflictAnalysis analysis, long long row, long long t) except -1
 
-@cython.locals(end="long long", filters=Filters, lb="long long[::1]", start="long long", ub="long long[::1]")
 cpdef bint _may_leave(ConflictAnalysis analysis, long long t) except -1
 
-cpdef long long _explain_times(ConflictAnalysis analysis, long long t) except? -1
+cpdef int _explain_times(ConflictAnalysis analysis, long long t) except -1
 
-cpdef long long _explain_assigned(ConflictAnalysis analysis, long long t) except? -1
+cpdef int _explain_assigned(ConflictAnalysis analysis, long long t) except -1
 
-@cython.locals(candidate="long long", handler="long long", predicate="long long", agenda=Agenda, rows=Rows)
-cpdef long long _explain_merging(ConflictAnalysis analysis, long long d, long long t) except? -1
+cpdef int _explain_merging(ConflictAnalysis analysis, long long d, long long t) except -1
 
-@cython.locals(k="long long")
-cpdef long long _explain_difference(ConflictAnalysis analysis, long long mine, long long theirs, long long width) except? -1
+cpdef int _explain_difference(ConflictAnalysis analysis, long long mine, long long theirs, long long width) except -1
 
-@cython.locals(after="long long", o="long long", other="long long", agenda=Agenda, v="long long")
-cpdef long long _explain_insertions(ConflictAnalysis analysis, long long t) except? -1
+cpdef int _explain_insertions(ConflictAnalysis analysis, long long t) except -1
 
-@cython.locals(lb="long long[::1]", ub="long long[::1]", var0="long long[::1]")
-cpdef long long _explain_insertion(ConflictAnalysis analysis, long long t, long long other, long long after) except? -1
+cpdef int _explain_insertion(ConflictAnalysis analysis, long long t, long long other, long long after) except -1
 
-@cython.locals(
-    at="long long", charged=list, engine=Engine, givers=list, handler="long long", k="long long",
-    lasts=bint, latest="long long[::1]", level=double, limit=double, owners=list, which="long long", agenda=Agenda,
-    side="long long", sign="long long", stack=Decisions, takers=list, u="long long", uses=Resources, v="long long"
-)
+@cython.locals(engine=Engine, level=double, sign="long long", u="long long")
 cpdef bint _explain_resource(ConflictAnalysis analysis, long long d, long long o) except -1
 
 @cython.locals(engine=Engine, k="long long", v="long long")
 cpdef bint _is_behind(ConflictAnalysis analysis, long long point, long long u, list givers, list owners) except -1
 
-@cython.locals(ends=list, found=list, is_free=bint, u="long long", uses=Resources, w="long long")
+@cython.locals(u="long long", w="long long")
 cpdef list _unordered(ConflictAnalysis analysis, list takers, long long first)

@@ -120,22 +120,20 @@ def _may_leave(analysis: ConflictAnalysis, t: int) -> bool:
     return lb[start] < filters.lower or ub[start] > filters.upper or lb[end] < filters.lower or ub[end] > filters.upper
 
 
-def _explain_times(analysis: ConflictAnalysis, t: int) -> int:
+def _explain_times(analysis: ConflictAnalysis, t: int) -> None:
     """Ask for both bounds of the times of a token."""
     analysis.ask_domain(analysis.agenda.rows.var0[t] + START)
     analysis.ask_domain(analysis.agenda.rows.var0[t] + END)
-    return 0
 
 
-def _explain_assigned(analysis: ConflictAnalysis, t: int) -> int:
+def _explain_assigned(analysis: ConflictAnalysis, t: int) -> None:
     """Why a token is active, on a known object, and ordered there."""
     analysis.meet(analysis.agenda.active_level[t])
     analysis.meet(analysis.agenda.order_level[t])
     analysis.ask_domain(analysis.agenda.rows.var0[t] + OBJECT)
-    return 0
 
 
-def _explain_merging(analysis: ConflictAnalysis, d: int, t: int) -> int:
+def _explain_merging(analysis: ConflictAnalysis, d: int, t: int) -> None:
     """Why a token has no other merge candidates: its domains and theirs, and tokens that might have been."""
     agenda = analysis.agenda
     rows = agenda.rows
@@ -151,7 +149,6 @@ def _explain_merging(analysis: ConflictAnalysis, d: int, t: int) -> int:
     handler = agenda.table.handler_code[analysis.stack.handler[d]]
     if handler == HANDLER_HSTS and agenda.plan.predicate_timeline[predicate]:
         _explain_insertions(analysis, t)
-    return 0
 
 
 def _explain_difference(analysis: ConflictAnalysis, mine: int, theirs: int, width: int) -> int:
@@ -167,7 +164,7 @@ def _explain_difference(analysis: ConflictAnalysis, mine: int, theirs: int, widt
     return 0
 
 
-def _explain_insertions(analysis: ConflictAnalysis, t: int) -> int:
+def _explain_insertions(analysis: ConflictAnalysis, t: int) -> None:
     """Why a token has no other insertions: its objects, the tokens ordered there, and the gaps that are too short."""
     agenda = analysis.agenda
     v = agenda.rows.var0[t] + OBJECT
@@ -181,10 +178,9 @@ def _explain_insertions(analysis: ConflictAnalysis, t: int) -> int:
                 after = agenda.rows.link_after[LISTS * other + LIST_ORDER]
                 _explain_insertion(analysis, t, other, after)
                 other = after
-    return 0
 
 
-def _explain_insertion(analysis: ConflictAnalysis, t: int, other: int, after: int) -> int:
+def _explain_insertion(analysis: ConflictAnalysis, t: int, other: int, after: int) -> None:
     """Why a token fits neither before another one, nor behind it, nor between it and the next (NONE: none)."""
     var0 = analysis.agenda.rows.var0
     lb = analysis.engine.lb
@@ -195,7 +191,6 @@ def _explain_insertion(analysis: ConflictAnalysis, t: int, other: int, after: in
         analysis.ask(var0[other] + END, SIDE_LOWER, NOW)
         analysis.ask(var0[after] + START, SIDE_UPPER, NOW)
         analysis.ask(var0[t] + DURATION, SIDE_LOWER, NOW)
-    return 0
 
 
 def _explain_resource(analysis: ConflictAnalysis, d: int, o: int) -> bool:

@@ -6,7 +6,7 @@ filter, now or later. Windows run from an earliest start to a latest end.
 
 from array import array
 
-from runtime.constraints.domains.arrays import grown
+from runtime.constraints.domains.arrays import lengthen
 from runtime.constraints.domains.tags import HALF_INF, KIND_FLOAT, SIDE_LOWER
 from runtime.plan.resources.violation import Violation
 from runtime.plan.tags import (
@@ -38,7 +38,6 @@ class Disjunctive:
         self.engine = agenda.engine
         self.one = NONE
         self.zero = NONE
-        self.room = 64
         self.count = 0
         self.token = array("q", [0]) * 64
         self.start = array("q", [0]) * 64
@@ -56,8 +55,7 @@ class Disjunctive:
         if agenda.filters.has_scope:
             return True  # tokens may enter and leave a scope
         if len(self.known) < agenda.plan.object_count:
-            self.known = grown(self.known, 2 * agenda.plan.object_count)
-            self.stamped = grown(self.stamped, 2 * agenda.plan.object_count)
+            lengthen(self, "known stamped", need=agenda.plan.object_count)
         self.stamp += 1
         t = self.rows.head_first[HEAD_THREAT]
         while t >= 0:
@@ -115,14 +113,10 @@ class Disjunctive:
         self.known[o] = times
         return True
 
-    def _add(self, t: int) -> int:
+    def _add(self, t: int) -> None:
         """Insert a token by latest end."""
-        if self.count == self.room:
-            self.room *= 2
-            self.token = grown(self.token, self.room)
-            self.start = grown(self.start, self.room)
-            self.end = grown(self.end, self.room)
-            self.length = grown(self.length, self.room)
+        if self.count == len(self.token):
+            lengthen(self, "token start end length")
         engine = self.engine
         first = self.rows.var0[t]
         start = engine.lb[first + START]
@@ -139,7 +133,6 @@ class Disjunctive:
         self.start[at] = start
         self.end[at] = end
         self.length[at] = max(0, engine.lb[first + DURATION])
-        return 0
 
     def _hash(self) -> int:
         """Hash of the times of the tokens, in order."""

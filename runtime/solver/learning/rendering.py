@@ -30,7 +30,7 @@ def flaw_words(flaw: Flaw) -> str:
     if flaw.kind == OPEN_CONDITION:
         return f"`{flaw.name}` ({flaw.predicate}) is not in the plan yet"
     if flaw.kind == THREAT:
-        return f"`{flaw.name}` has no place on its timeline yet"
+        return f"`{flaw.name}` is not ordered on its timeline yet"
     if flaw.kind == UNBOUND_VARIABLE:
         return f"`{flaw.name}` has no value yet"
     if flaw.kind == RESOURCE_THREAT:

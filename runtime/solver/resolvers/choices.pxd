@@ -1,6 +1,5 @@
 # The C types of `choices.py`.
 
-cimport cython
 from runtime.constraints.domains.bitset cimport next_value, previous_value
 from runtime.plan.lifecycle cimport fire
 from runtime.plan.tokens.timelines cimport order
@@ -15,11 +14,9 @@ cdef long long APPLIED, FAILED_CHOICE, HANDLER_HSTS_THREAT, HANDLER_LISTED, HAND
 cdef long long KIND_FLOAT, NEVER, NONE, NO_CHOICE, OPEN_CONDITION, THREAT, UNBOUND_VARIABLE
 
 
-@cython.locals(kind="long long")
 cpdef long long mend(Agenda agenda, Decisions stack, long long d) except? -1
 
 
-@cython.locals(handler="long long", v="long long", x="long long")
 cpdef long long _mend_variable(Agenda agenda, Decisions stack, long long d) except? -1
 
 
@@ -29,17 +26,13 @@ cpdef long long _value_above(Agenda agenda, long long v, long long x) except? -1
 cpdef long long _value_below(Agenda agenda, long long v, long long x) except? -1
 
 
-@cython.locals(count="long long", index="long long", step="long long", v="long long", x="long long")
 cpdef long long _random_value(Agenda agenda, Decisions stack, long long d) except? -1
 
 
-@cython.locals(rest="long long")
 cpdef bint _are_coprime(long long a, long long b) except -1
 
 
-@cython.locals(v="long long")
 cpdef long long _mend_by_list(Agenda agenda, Decisions stack, long long d) except? -1
 
 
-@cython.locals(after="long long", at="long long", before="long long", step="long long", t="long long")
 cpdef long long _mend_threat(Agenda agenda, Decisions stack, long long d) except? -1

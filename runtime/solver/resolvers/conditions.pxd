@@ -2,53 +2,41 @@
 
 cimport cython
 from runtime.constraints.domains.bitset cimport has_value
-from runtime.constraints.engine cimport Engine
 from runtime.constraints.propagators.logic cimport may_be_equal
 from runtime.plan.tokens.predicate_hierarchy cimport first_active, next_active
 from runtime.plan.lifecycle cimport activate, merge, reject
-from runtime.plan.store.plan cimport Plan
-from runtime.plan.store.rows cimport Rows
 from runtime.plan.tokens.tokens cimport make_token
 from runtime.solver.flaws.decisions cimport Decisions
 from runtime.solver.resolvers.insertions cimport list_insertions, is_open_insertion, is_out_of_range, may_coincide
 from runtime.solver.flaws.agenda cimport Agenda
-from runtime.constraints.stn.reach cimport Reach
 
 cdef long long ACTIVATE_FIRST, ACTIVATE_ONLY, APPLIED, FAILED_CHOICE, FLAG_ACTION, FLAG_EFFECT, FLAG_FACT
 cdef long long HANDLER_HSTS, HANDLER_SUPPORT, MERGE_ONLY, NONE, NO_CHOICE, OBJECT, ORDER_KEY, PHASE_ACTIVATE
 cdef long long PHASE_DONE, PHASE_MERGE, PHASE_REJECT, START, STATE, SYMBOL_ACTIVE, SYMBOL_MERGED, SYMBOL_REJECTED
 
 
-@cython.locals(
-    choice="long long", handler="long long", is_hsts=bint, outcome="long long", phase="long long", t="long long"
-)
+@cython.locals(is_hsts=bint)
 cpdef long long mend_open_condition(Agenda agenda, Decisions stack, long long d) except? -1
 
 
 cpdef bint _may_become(Agenda agenda, long long t, long long symbol) except -1
 
 
-@cython.locals(candidate="long long", rows=Rows)
 cpdef long long _mend_by_merging(Agenda agenda, Decisions stack, long long d, long long t) except? -1
 
 
-@cython.locals(at="long long", candidate="long long", found=list)
 cpdef long long _mend_by_sorted_merging(Agenda agenda, Decisions stack, long long d, long long t) except? -1
 
 
-@cython.locals(engine=Engine, k="long long", mine="long long", theirs="long long")
 cpdef bint _is_compatible(Agenda agenda, long long t, long long candidate) except -1
 
 
-@cython.locals(code="long long", count="long long", first="long long", way="long long")
 cpdef long long _mend_by_activating(Agenda agenda, Decisions stack, long long d, long long t) except? -1
 
 
-@cython.locals(at="long long", found=bint)
 cpdef bint _has_insertion(Agenda agenda, Decisions stack, long long d, long long t) except -1
 
 
-@cython.locals(agent="long long", child="long long", chosen="long long", plan=Plan, skipped="long long")
 cpdef long long _support(Agenda agenda, long long t, long long action, long long effect) except? -1
 
 

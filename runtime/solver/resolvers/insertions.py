@@ -8,7 +8,7 @@ from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
 
 
-def list_insertions(agenda: Agenda, stack: Decisions, d: int, t: int) -> int:
+def list_insertions(agenda: Agenda, stack: Decisions, d: int, t: int) -> None:
     """List all insertions of token `t` in the pool of decision `d`, by object, then from left to right."""
     engine = agenda.engine
     stack.begin_pool(d)
@@ -23,7 +23,6 @@ def list_insertions(agenda: Agenda, stack: Decisions, d: int, t: int) -> int:
         if agenda.plan.object_timeline[o]:
             _list_insertions_on(agenda, stack, d, t, o)
         o += 1
-    return 0
 
 
 def _list_insertions_on(agenda: Agenda, stack: Decisions, d: int, t: int, o: int) -> int:
@@ -60,8 +59,8 @@ def _is_for_goal(agenda: Agenda, t: int) -> bool:
     return (agenda.rows.flags[t] & FLAG_GOAL) != 0
 
 
-def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> int:
-    """Let insertions, from place `start` of the pool on, begin behind what goals ask for and what may start before `t`.
+def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> None:
+    """Let insertions, from index `start` of the pool on, begin behind what goals ask for and what may start before `t`.
 
     Then come the later ones, and the earlier ones from right to left. Who plans for an executive keeps goals from
     waiting by this; otherwise the order is EUROPA's, from left to right.
@@ -77,7 +76,6 @@ def _list_behind_goals(agenda: Agenda, stack: Decisions, start: int, t: int) -> 
     if first > start:
         stack.reverse_pool(first, end)
         stack.reverse_pool(start, end)
-    return 0
 
 
 def _first_apart(agenda: Agenda, reach: Reach, time: int, count: int, is_reversed: bool) -> int:

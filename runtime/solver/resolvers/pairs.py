@@ -7,7 +7,7 @@ from runtime.solver.tags import NONE
 _Pair = tuple[int, int]  # indices of timepoints, in the order to post
 
 
-def sorted_pairs(agenda: Agenda, stack: Decisions, d: int) -> int:
+def sorted_pairs(agenda: Agenda, stack: Decisions, d: int) -> None:
     """List all pairs in the pool of decision `d`; whether they can be ordered is asked when their turn comes."""
     uses = agenda.uses
     engine = agenda.engine
@@ -28,7 +28,6 @@ def sorted_pairs(agenda: Agenda, stack: Decisions, d: int) -> int:
     found.sort(key=lambda pair: _rank(agenda, pair, handler.order))
     for i, j in found:
         stack.add_to_pool(d, NONE, uses.point[i], uses.point[j])
-    return 0
 
 
 def _may_meet(agenda: Agenda, i: int, j: int) -> bool:

@@ -10,7 +10,7 @@ from runtime.solver.tags import HANDLER_LISTED, NONE, ORDER_EARLY, ORDER_FAR, OR
 
 def listed_values(agenda: Agenda, v: int, handler: int) -> list[float]:
     """The values to try: those that the handler lists and the domain has; all of them for a single one."""
-    if agenda.table.handler_code[handler] != HANDLER_LISTED or agenda.filters.is_single(v):
+    if agenda.table.handler_code[handler] != HANDLER_LISTED or agenda.engine.is_singleton(v):
         return list(agenda.engine.values_of(v))
     found = []
     for text in agenda.table.matching.handlers[handler].values:
@@ -57,7 +57,7 @@ def _middle(agenda: Agenda, t: int) -> int:
     return first + (agenda.engine.ub[agenda.rows.var0[t] + END] - first) // 2
 
 
-def sort_insertions(agenda: Agenda, stack: Decisions, d: int) -> int:
+def sort_insertions(agenda: Agenda, stack: Decisions, d: int) -> None:
     """Sort the insertions in the pool of decision `d` as its handler says."""
     first = stack.pool_first[d]
     insertions = [
@@ -69,7 +69,6 @@ def sort_insertions(agenda: Agenda, stack: Decisions, d: int) -> int:
     stack.begin_pool(d)
     for insertion in sorted(insertions, key=lambda one: _insertion_rank(agenda, t, one, order)):
         stack.add_to_pool(d, *insertion)
-    return 0
 
 
 def _insertion_rank(agenda: Agenda, t: int, insertion: tuple[int, int, int], order: int) -> tuple[int, int]:

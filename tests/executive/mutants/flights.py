@@ -22,11 +22,13 @@ from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.mutation.edits import EditKind, SmallEdit, edited, sites_of
+from checker.mutation.variant import load_graph
+from nddl_lang.text.read import real_path
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, record_mission, run_mission
 from runtime.executive.rendering import trace_json
 from tests.executive.determined_models import told
-from tests.executive.mutants.mutations import mutated
 
 ROOT = Path(__file__).parents[3]
 FILES = sorted(
@@ -59,6 +61,16 @@ def at_most(seconds: int) -> Iterator[None]:
         signal.signal(signal.SIGALRM, before)
 
 
+def edit_of(model: Path, chance: random.Random) -> SmallEdit | None:
+    """One small fault of a text, of a kind and at a place that chance draws; None where there is nothing to change."""
+    file = str(real_path(model))
+    kinds: dict[EditKind, list[SmallEdit]] = {}
+    for site in sites_of(load_graph(model, ())):
+        for edit in site.edits if site.file == file else ():
+            kinds.setdefault(edit.kind, []).append(edit)
+    return chance.choice(kinds[chance.choice(list(kinds))]) if kinds else None
+
+
 def lines_of(number: int, missions: int, seconds: int) -> Iterator[str]:
     """What mutant `number` does in a number of missions."""
     chance = random.Random(number)
@@ -69,11 +81,15 @@ def lines_of(number: int, missions: int, seconds: int) -> Iterator[str]:
         mission, _ = read_mission(place / file.name)
         assert mission is not None
         models = sorted(place.glob("*.nddl"))
+        kind = ""
         for _ in range(TRIALS):
             model = models[chance.randrange(len(models))]
             whole = model.read_text()
-            text, kind = mutated(whole, chance)
-            model.write_text(text)
+            edit = edit_of(model, chance)
+            if edit is None:
+                continue
+            kind = edit.kind.value
+            model.write_text(edited(whole, edit))
             read = load_models(mission)
             if not read.has_errors:
                 break

@@ -1,0 +1,271 @@
+"""Programs and sites in, a dependence graph out: which lines bear on which, within a rule and across reactors.
+
+Two lines hang together by a variable: a local one, a global one, or the parameters and times of a predicate. The last
+are the same in the reactor that publishes a token, in those that see it, and in those that ask for it: so an observed
+argument leads to the line that sets it, and a request to its sender.
+"""
+
+import heapq
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from checker.mutation.edits import Site
+from compiler.program import (
+    DURATION,
+    END,
+    FIRST_PARAMETER,
+    START,
+    Assign,
+    Call,
+    Child,
+    Field,
+    GlobalVariable,
+    Guard,
+    Instruction,
+    LocalVariable,
+    NewGlobal,
+    NewObject,
+    NewToken,
+    NewVariable,
+    ObjectLoop,
+    Operand,
+    Post,
+    Program,
+    Relate,
+    RuleCode,
+    Sample,
+    TokenVariable,
+    UnionOf,
+)
+from nddl_lang.text.read import real_path
+from nddl_lang.text.source import Span
+
+Key = tuple[object, ...]  # of a variable
+_TIMES = "times"
+_FREE = ("any", "contains", "starts", "met_by", "after")  # relations that leave the end of the origin free
+_CROWD = 0.05  # what each further line that bears on a variable adds to the way through it
+
+
+@dataclass(frozen=True, slots=True)
+class LooseEnd:
+    """A variable of a rule that at most one line speaks of, or the times of its token: one more line may be missing.
+
+    `site` is the number of the line that declares it, of the child whose parameter it is, or of the head of the rule.
+    """
+
+    site: int
+    variable: str
+    is_set_elsewhere: bool = False  # by other rules of the same model
+
+
+class Dependence:
+    """The sites of some programs by number, and the variables that join them."""
+
+    def __init__(self, programs: Sequence[Program], sites: Sequence[Site]) -> None:
+        self.sites = sites
+        self._at: dict[tuple[str, int], list[int]] = defaultdict(list)
+        for number, site in enumerate(sites):
+            for line in range(site.first, site.last + 1):
+                self._at[site.file, line].append(number)
+        self._keys: dict[int, set[Key]] = defaultdict(set)
+        self._users: dict[Key, set[int]] = defaultdict(set)
+        self._paths: dict[str, str] = {}
+        self._programs = programs
+        for number, program in enumerate(programs):
+            for span, keys in _Links(number, program).all():
+                for one in self._at.get(self._line(span), ()):
+                    self._keys[one].update(keys)
+                    for key in keys:
+                        self._users[key].add(one)
+
+    def at(self, file: str, line: int) -> Sequence[int]:
+        """The sites at a line."""
+        return self._at.get((file, line), ())
+
+    def of_predicate(self, predicate: str) -> Iterable[int]:
+        """The sites that bear on a token of a predicate, whatever its class."""
+        for key in self._users:
+            if key[0] == "token" and str(key[1]).rpartition(".")[2] == predicate:
+                yield from self._users[key]
+
+    def distances(self, roots: Mapping[int, float]) -> dict[int, float]:
+        """How far each site is from the nearest root, whose own distance is given: shortest ways through variables."""
+        found: dict[int, float] = {}
+        passed: set[Key] = set()
+        queue = [(far, site) for site, far in roots.items()]
+        heapq.heapify(queue)
+        while queue:
+            far, site = heapq.heappop(queue)
+            if site in found:
+                continue
+            found[site] = far
+            for key in self._keys[site] - passed:
+                passed.add(key)
+                step = 1.0 + _CROWD * len(self._users[key])
+                for other in self._users[key]:
+                    if other not in found:
+                        heapq.heappush(queue, (far + step, other))
+        return found
+
+    def loose_ends(self) -> list[LooseEnd]:
+        """The loose ends of all rules: locals, parameters of the own token and of children, and times."""
+        found: dict[LooseEnd, None] = {}
+        for number, program in enumerate(self._programs):
+            for index, rule in enumerate(program.rules):
+                file, line = self._line(rule.span)
+                heads = [one for one in self.at(file, line) if self.sites[one].is_rule]
+                if not heads:
+                    continue
+                links = _Links(number, program)
+                for span, variable, key in links.loose(rule, ("rule", number, index)):
+                    declared = [one for one in self.at(*self._line(span)) if not self.sites[one].is_rule]
+                    site = declared[0] if span is not rule.span and declared else heads[0]
+                    found[LooseEnd(site, variable, bool(self._users.get(key)))] = None
+        return list(found)
+
+    def _line(self, span: Span) -> tuple[str, int]:
+        name = span.source.name
+        if name not in self._paths:
+            self._paths[name] = str(real_path(Path(name)))
+        return self._paths[name], span.line
+
+
+class _Links:
+    """The lines of one program, each with the variables that it speaks of."""
+
+    def __init__(self, number: int, program: Program) -> None:
+        self._number = number
+        self._program = program
+        self._parameters = {each.name: [one.name for one in each.parameters] for each in program.predicates}
+
+    def all(self) -> Iterator[tuple[Span, list[Key]]]:
+        """Every instruction with a line."""
+        for index, rule in enumerate(self._program.rules):
+            tokens = {0: rule.predicate}
+            yield rule.span, [("token", rule.predicate, _TIMES)]
+            yield from self._body(rule.body, ("rule", self._number, index), tokens, ())
+        for index, predicate in enumerate(self._program.predicates):
+            yield from self._body(predicate.body, ("predicate", self._number, index), {0: predicate.name}, ())
+        yield from self._body(self._program.script, ("script", self._number), {}, ())
+
+    def loose(self, rule: RuleCode, scope: Key) -> Iterator[tuple[Span, str, Key]]:
+        """What a rule leaves loose: where that is declared, its name, and under which key other rules speak of it."""
+        lines: dict[Key, set[int]] = defaultdict(set)
+        declared: dict[Key, tuple[Span, str]] = {}
+        steps = list(_flat(rule.body))
+        children = {0: rule.predicate} | {step.slot: step.predicate for step in steps if isinstance(step, Child)}
+        marked = {slot: f"{predicate}#{slot}" for slot, predicate in children.items()}
+        self._parameters |= {marked[slot]: self._parameters.get(name, []) for slot, name in children.items()}
+        for step in steps:
+            if isinstance(step, NewVariable) and step.name is not None:
+                declared[*scope, "local", step.slot] = (step.span, step.name)
+            elif isinstance(step, Child):
+                for name in self._parameters[marked[step.slot]]:
+                    declared["token", marked[step.slot], name] = (step.span, f"{step.label or step.predicate}.{name}")
+            speaks = step.copy_of is not None if isinstance(step, NewVariable) else not isinstance(step, Child)
+            if speaks:
+                for key in self._keys(step, scope, marked):
+                    lines[key].add(step.span.line)
+        for name in self._parameters[marked[0]]:
+            declared["token", marked[0], name] = (rule.span, name)
+        for key, (span, name) in declared.items():
+            if len(lines[key]) < (2 if key[:1] != ("token",) else 1):
+                yield span, name, ("token", str(key[1]).partition("#")[0], name) if key[0] == "token" else ()
+        if not lines["token", marked[0], _TIMES] and all(
+            step.relation in _FREE for step in steps if isinstance(step, Child) and step.origin == 0
+        ):
+            yield rule.span, "duration", ()
+
+    def _body(
+        self, body: tuple[Instruction, ...], scope: Key, tokens: dict[int, str], inside: tuple[Key, ...]
+    ) -> Iterator[tuple[Span, list[Key]]]:
+        for step in body:
+            match step:
+                case Child(slot=slot, predicate=predicate):
+                    tokens[slot] = predicate
+                case NewToken(slot=slot, predicate=predicate):
+                    tokens[slot] = predicate
+                case _:
+                    pass
+        for step in body:
+            yield step.span, [*self._keys(step, scope, tokens), *inside]
+            match step:
+                case Guard(then=then, otherwise=otherwise, span=span):
+                    key: Key = (*scope, "guard", span.begin)
+                    yield span, [key]
+                    yield from self._body(then, scope, dict(tokens), (*inside, key))
+                    yield from self._body(otherwise, scope, dict(tokens), (*inside, key))
+                case ObjectLoop(body=inner):
+                    yield from self._body(inner, scope, dict(tokens), inside)
+                case _:
+                    pass
+
+    def _keys(self, step: Instruction, scope: Key, tokens: dict[int, str]) -> Iterator[Key]:
+        match step:
+            case Post(operands=operands):
+                for operand in operands:
+                    yield from self._operand(operand, scope, tokens)
+            case Sample(target=target):
+                yield from self._operand(target, scope, tokens)
+            case NewVariable(slot=slot, copy_of=copy_of):
+                yield (*scope, "local", slot)
+                if copy_of is not None:
+                    yield from self._operand(copy_of, scope, tokens)
+            case Child(slot=slot, origin=origin) | Relate(target=slot, origin=origin):
+                yield from (("token", tokens[one], _TIMES) for one in (slot, origin) if one in tokens)
+            case NewToken(predicate=predicate):
+                yield ("token", predicate, _TIMES)
+            case Guard(condition=condition, decided_by=deciders):
+                for operand in (condition, *deciders):
+                    yield from self._operand(operand, scope, tokens)
+            case NewGlobal(index=index, copy_of=copy_of):
+                yield from self._operand(GlobalVariable(index), scope, tokens)
+                if copy_of is not None:
+                    yield from self._operand(copy_of, scope, tokens)
+            case Assign(target=target, value=value):
+                yield from self._operand(target, scope, tokens)
+                if value is not None and not isinstance(value, NewObject):
+                    yield from self._operand(value, scope, tokens)
+            case Call(arguments=arguments, variable=variable):
+                for operand in (*arguments, *((variable,) if variable is not None else ())):
+                    yield from self._operand(operand, scope, tokens)
+            case _:
+                pass
+
+    def _operand(self, operand: Operand, scope: Key, tokens: dict[int, str]) -> Iterator[Key]:
+        match operand:
+            case GlobalVariable(index=index):
+                yield ("global", self._number, self._program.globals[index][0])
+            case LocalVariable(slot=slot):
+                yield (*scope, "local", slot)
+            case TokenVariable(token=token, variable=variable) if token in tokens:
+                predicate = tokens[token]
+                names = self._parameters.get(predicate, [])
+                if variable in (DURATION, START, END):
+                    yield ("token", predicate, _TIMES)
+                elif FIRST_PARAMETER <= variable < FIRST_PARAMETER + len(names):
+                    yield ("token", predicate, names[variable - FIRST_PARAMETER])
+            case Field(base=base, members=members):
+                yield ("member", *members)
+                if base is not None:
+                    yield from self._operand(base, scope, tokens)
+            case UnionOf(operands=operands):
+                for one in operands:
+                    yield from self._operand(one, scope, tokens)
+            case _:
+                pass
+
+
+def _flat(body: tuple[Instruction, ...]) -> Iterator[Instruction]:
+    """All instructions of a body, those of its branches included."""
+    for step in body:
+        yield step
+        match step:
+            case Guard(then=then, otherwise=otherwise):
+                yield from _flat((*then, *otherwise))
+            case ObjectLoop(body=inner):
+                yield from _flat(inner)
+            case _:
+                pass

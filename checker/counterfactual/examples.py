@@ -1,0 +1,34 @@
+"""Missions of one fault and missions that passed in; those out on which a change is tried."""
+
+from collections.abc import Sequence
+
+from checker.batch.result import MissionResult
+from checker.counterfactual.trials import Missions
+
+_MOST_FAILED = 3
+_MOST_PASSED = 2
+
+
+def examples_of(failed: Sequence[MissionResult], passed: Sequence[MissionResult]) -> Missions:
+    """The first failed missions, and of those that passed the ones whose draws are farthest from the first of them.
+
+    A change that only suits the draws of the failed missions shows where draws are opposite.
+    """
+    own = _drawn(failed[0])
+    spread = {
+        name: max(values) - min(values)
+        for name, value in own.items()
+        if (values := [value, *(drawn[name] for one in passed if name in (drawn := _drawn(one)))])
+    }
+
+    def nearness(result: MissionResult) -> float:
+        drawn = _drawn(result)
+        shares = (abs(drawn[name] - own[name]) / spread[name] for name in own if name in drawn and spread[name] > 0.0)
+        return -sum(shares)
+
+    return Missions(failed[:_MOST_FAILED], sorted(passed, key=lambda one: (nearness(one), one.number))[:_MOST_PASSED])
+
+
+def _drawn(result: MissionResult) -> dict[str, float]:
+    """The value of each parameter when the mission ended."""
+    return {draw.parameter: draw.value for draw in result.outcome.draws} if result.outcome is not None else {}

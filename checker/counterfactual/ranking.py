@@ -1,0 +1,113 @@
+"""Trials in, causes out as plain data, ranked: what a story, a report and the yardstick of mutants show.
+
+First come small changes that mend every failed mission that they were tried on, without a goal lost. Where there are
+none, a line may be missing: variables that too few lines speak of come before what only takes a demand away.
+"""
+
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+
+from checker.counterfactual.candidates import Candidate
+from checker.counterfactual.trials import HEAVY, Loose, Trial, Trials, TrialsEnd
+from checker.mutation.edits import EditKind
+from checker.names import relative_name
+from runtime.executive.outcome import SourcePlace
+
+_LARGE = 2.5  # cost from which on an edit only takes a demand away
+_MOST_LOOSE = 2
+
+
+class Claim(StrEnum):
+    """What is known of a line; all but a loose end have been flown."""
+
+    MENDS = "mends"  # a small change makes the missions pass
+    LOOSENS = "loosens"  # without what it demands, or with much less of it, they pass
+    PARTLY = "partly"  # some of them pass, or others that passed fail
+    EVADES = "evades"  # they pass, but goals are lost
+    LOOSE_END = "loose end"  # a line may be missing: nothing was flown
+
+
+@dataclass(frozen=True, slots=True)
+class TriedChange:
+    """What a trial put in the place of what."""
+
+    kind: EditKind
+    old: str
+    new: str
+
+
+@dataclass(frozen=True, slots=True)
+class RankedLine:
+    """One line with its claim: the smallest `change` that helped, on how many of how many failed missions.
+
+    `spoilt` missions that passed fail with it. Of a loose end, `variable` is what too few lines speak of. `rule` is
+    what the line is a part of.
+    """
+
+    place: SourcePlace
+    rule: str
+    claim: Claim
+    change: TriedChange | None = None
+    helped: int = 0
+    missions: int = 0
+    spoilt: int = 0
+    variable: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Causes:
+    """Why missions of one fault fail, the likeliest cause first; `tried` lines were tried in so many flights."""
+
+    ranked: tuple[RankedLine, ...] = ()
+    tried: int = 0
+    flights: int = 0
+    ended: TrialsEnd = TrialsEnd.COMPLETE
+
+    @property
+    def first(self) -> RankedLine | None:
+        """The line to look at, if a trial or a loose end speaks for it."""
+        return self.ranked[0] if self.ranked else None
+
+
+NO_CAUSES = Causes()
+
+
+def rank(trials: Trials, root: Path) -> Causes:
+    """All causes of a fault in order, each line once."""
+    small = [one for one in trials.causes if _claim(one) is Claim.MENDS]
+    large = [one for one in trials.causes if _claim(one) is not Claim.MENDS]
+    loose = list({one.candidate.site: one for one in trials.loose}.values())[:_MOST_LOOSE]
+    last = [_tried(one, root) for one in large]
+    missing = [_loose(one, root) for one in loose]
+    causes = [*(_tried(one, root) for one in small), *((*last, *missing) if small else (*missing, *last))]
+    lines: dict[tuple[str, int], RankedLine] = {}
+    for cause in causes:
+        lines.setdefault((cause.place.file, cause.place.line), cause)
+    return Causes(tuple(lines.values()), trials.lines, trials.flights, trials.ended)
+
+
+def _claim(trial: Trial) -> Claim:
+    if trial.damage >= HEAVY:
+        return Claim.EVADES
+    if trial.helped < trial.missions or trial.spoilt:
+        return Claim.PARTLY
+    return Claim.MENDS if trial.cost < _LARGE else Claim.LOOSENS
+
+
+def _tried(trial: Trial, root: Path) -> RankedLine:
+    site, edit = trial.candidate.site, trial.edit
+    change = TriedChange(edit.kind, edit.old, edit.new.strip())
+    place = _place(trial.candidate, edit.line, root)
+    return RankedLine(place, site.rule, _claim(trial), change, trial.helped, trial.missions, trial.spoilt)
+
+
+def _loose(loose: Loose, root: Path) -> RankedLine:
+    site = loose.candidate.site
+    return RankedLine(_place(loose.candidate, site.first, root), site.rule, Claim.LOOSE_END, variable=loose.variable)
+
+
+def _place(candidate: Candidate, line: int, root: Path) -> SourcePlace:
+    site = candidate.site
+    column = site.column if line == site.first else 1
+    return SourcePlace(relative_name(site.file, root), line, column, " ".join(site.text.split()))

@@ -1,0 +1,92 @@
+"""Causes in, words out: one line for each cause, and plain data for programs."""
+
+from typing import Any, assert_never
+
+from checker.counterfactual.ranking import Causes, Claim, RankedLine, TriedChange
+from checker.counterfactual.trials import TrialsEnd
+
+_MOST_TEXT = 60
+
+
+def claim_text(cause: RankedLine) -> str:
+    """What was found out about a line."""
+    change = _change_text(cause.change) if cause.change is not None else ""
+    tried = f"{cause.helped} of {cause.missions} failed missions tried"
+    match cause.claim:
+        case Claim.MENDS:
+            return f"{change}: {_passes(cause)}"
+        case Claim.LOOSENS:
+            return f"{change}, which takes a demand away: {_passes(cause)}"
+        case Claim.PARTLY:
+            if cause.spoilt:
+                return f"{change}: {_passes(cause)}, but missions that passed fail"
+            return f"{change}: {tried} pass then, the others do not"
+        case Claim.EVADES:
+            return f"{change}: {_passes(cause)}, but goals are lost"
+        case Claim.LOOSE_END:
+            return f"hardly a line of this rule speaks of `{cause.variable}`: one may be missing (nothing was flown)"
+        case _:
+            assert_never(cause.claim)
+
+
+def _change_text(change: TriedChange) -> str:
+    """A change as what to do."""
+    if not change.new:
+        return "without it"
+    return f"with `{_short(change.new)}` for `{_short(change.old)}`"
+
+
+def effort_text(causes: Causes) -> str:
+    """How much was tried, and whether that is all."""
+    lines = f"{causes.tried} line{'' if causes.tried == 1 else 's'}"
+    text = f"{lines} tried in {causes.flights} flight{'' if causes.flights == 1 else 's'} of the same mission"
+    match causes.ended:
+        case TrialsEnd.COMPLETE:
+            return text
+        case TrialsEnd.FLIGHTS:
+            return f"{text}, no more are made"
+        case TrialsEnd.SECONDS:
+            return f"{text}, then time was over"
+        case TrialsEnd.CANCELLED:
+            return f"{text}, then it was ended"
+        case _:
+            assert_never(causes.ended)
+
+
+def cause_data(cause: RankedLine) -> dict[str, Any]:
+    """A cause as JSON has it."""
+    change = cause.change
+    return {
+        "file": cause.place.file,
+        "line": cause.place.line,
+        "column": cause.place.column,
+        "text": cause.place.text,
+        "rule": cause.rule,
+        "claim": cause.claim.value,
+        "change": None if change is None else {"kind": change.kind.value, "old": change.old, "new": change.new},
+        "variable": cause.variable,
+        "helped": cause.helped,
+        "missions": cause.missions,
+        "spoilt": cause.spoilt,
+    }
+
+
+def causes_data(causes: Causes) -> dict[str, Any]:
+    """All causes with what they cost, as JSON has them."""
+    return {
+        "ranked": [cause_data(cause) for cause in causes.ranked],
+        "tried": causes.tried,
+        "flights": causes.flights,
+        "ended": causes.ended.value,
+    }
+
+
+def _passes(cause: RankedLine) -> str:
+    if cause.missions == 1:
+        return "the mission passes"
+    return f"all {cause.missions} failed missions tried pass"
+
+
+def _short(text: str) -> str:
+    first = text.strip().partition("\n")[0]
+    return first if len(first) <= _MOST_TEXT else f"{first[:_MOST_TEXT]}..."

@@ -1,0 +1,71 @@
+"""A failed mission and its models in, ranked causes out: candidates, trials in memory, and where they stand."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+
+from checker.batch.pool import Flyer
+from checker.batch.result import MissionResult
+from checker.counterfactual.candidates import Candidate, candidates_of
+from checker.counterfactual.dependence import Dependence
+from checker.counterfactual.smallness import usage_of
+from checker.counterfactual.trials import Bounds, Loose, Missions, Trials, try_out
+from checker.losses import Limit
+from checker.mutation.edits import Site, SmallEdit, sites_of
+from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
+from checker.oracle import judge_losses
+from compiler.program import Program
+from runtime.executive.configuration import AgentConfiguration
+
+_SET_ELSEWHERE = 3.0  # how much farther off a variable is that other rules set
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Suspended:
+    """What trials need beside the failed missions: the models as they were flown, and a process that flies."""
+
+    agent: AgentConfiguration
+    programs: Sequence[Program]
+    limits: tuple[tuple[Limit, int], ...]
+    flyer: Flyer
+    overlay: Overlay = ()
+
+
+def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[Site]:
+    """The sites of all models of an agent, those of a text that several include once."""
+    root = Path(agent.root)
+    found: dict[tuple[str, int, str], Site] = {}
+    for model in dict.fromkeys(each.model for each in agent.reactors):
+        for site in sites_of(load_graph(root / model, overlay)):
+            found.setdefault((site.file, site.first, site.text), site)
+    return list(found.values())
+
+
+def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
+    """Try small changes on the first of the failed missions, see `try_out`."""
+    outcome = missions.failed[0].outcome
+    assert outcome is not None
+    sampled = {parameter.name for parameter in world.agent.parameters}
+    sites = [site for site in sites_in(world.agent, world.overlay) if site.named not in sampled]
+    graph = Dependence(world.programs, sites)
+    candidates = candidates_of(outcome, graph, Path(world.agent.root))
+    trials = try_out(candidates, missions, usage_of(sites), partial(_fly, world), bounds)
+    return replace(trials, loose=_loose(graph, candidates))
+
+
+def _loose(graph: Dependence, candidates: Sequence[Candidate]) -> tuple[Loose, ...]:
+    """The loose ends near what ended the mission, the nearest first."""
+    near = {candidate.site: candidate for candidate in candidates}
+    found = [
+        (near[site].far + _SET_ELSEWHERE * one.is_set_elsewhere, number, Loose(near[site], one.variable))
+        for number, one in enumerate(graph.loose_ends())
+        if (site := graph.sites[one.site]) in near
+    ]
+    return tuple(loose for _, _, loose in sorted(found, key=lambda one: one[:2]))
+
+
+def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult) -> MissionResult:
+    load = partial(load_over, with_edit(world.overlay, edit))
+    result = world.flyer.fly(world.agent, mission.number, mission.seed, load)
+    return replace(result, judgement=judge_losses(result.judgement, result.losses, world.limits))

@@ -1,0 +1,209 @@
+"""Candidates in, causes out: each line is changed a little, in memory, and the same mission is flown again.
+
+A change counts where the mission then passes, with the same draws, and the judge agrees. Trials go from the likeliest
+to the least likely and end after so many flights or seconds: what could not be tried is told, not guessed.
+"""
+
+import heapq
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from itertools import count
+
+from checker.batch.result import MissionResult
+from checker.counterfactual.candidates import Candidate
+from checker.counterfactual.smallness import Usage, alternatives, cost_of, delay_of, follow_ups
+from checker.losses import GoalFate
+from checker.mutation.edits import Site, SmallEdit
+from checker.oracle import Verdict
+
+MOST_FLIGHTS = 40
+MOST_SECONDS = 60.0
+_NEARNESS = 0.4  # of the distance, beside how late an edit is tried at its line
+_TURN = 0.3  # how much later each further edit of one line is tried
+_CONFIRMED = 3  # causes that are tried on other missions too
+HEAVY = 10.0  # damage of a mission that passes without a goal
+_FOLLOWED = 0.35  # how much likelier a change of a line is once another change of that line has helped
+
+Try = Callable[[SmallEdit, MissionResult], MissionResult]  # a change and a mission in, how it ends with that change out
+
+
+class TrialsEnd(StrEnum):
+    """Why no more was tried."""
+
+    COMPLETE = "complete"
+    FLIGHTS = "flights"
+    SECONDS = "seconds"
+    CANCELLED = "cancelled"
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """How much may be tried; `is_cancelled` is asked before each flight."""
+
+    flights: int = MOST_FLIGHTS
+    seconds: float = MOST_SECONDS
+    is_cancelled: Callable[[], bool] = field(default=lambda: False)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Trial:
+    """A change that makes the mission pass: what is still lost then, and on how many failed missions it helps.
+
+    `spoilt` missions passed before and do not with the change.
+    """
+
+    candidate: Candidate
+    edit: SmallEdit
+    damage: float
+    cost: float
+    helped: int = 1
+    missions: int = 1
+    spoilt: int = 0
+
+    @property
+    def weight(self) -> tuple[float, float, float]:
+        """What causes are ranked by: missions that fail with it, what is lost and how much changes, then how far."""
+        return self.spoilt + 1.0 - self.helped / self.missions, self.damage + self.cost, self.candidate.far
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Loose:
+    """A variable that too few lines speak of: a line may be missing there."""
+
+    candidate: Candidate
+    variable: str
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Trials:
+    """All that was tried for one fault: `causes` are ranked, one for each line."""
+
+    causes: tuple[Trial, ...]
+    suspects: tuple[Candidate, ...]  # lines in the order of suspicion, tried or not
+    lines: int  # that were tried
+    flights: int
+    ended: TrialsEnd
+    loose: tuple[Loose, ...] = ()
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Missions:
+    """Missions of one fault, of which the first is what trials are made on; and some that passed."""
+
+    failed: Sequence[MissionResult]
+    passed: Sequence[MissionResult] = ()
+
+
+def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, fly: Try, bounds: Bounds) -> Trials:
+    """Try changes of the candidates on the first of the failed missions, and the best ones on the other missions."""
+    failed = missions.failed
+    trials = _Trials(missions, fly, bounds)
+    queue: list[tuple[float, int, Candidate, SmallEdit]] = []
+    order = count()
+    for candidate in candidates:
+        for turn, (delay, edit) in enumerate(_first_edits(candidate.site, usage)):
+            at = _NEARNESS * candidate.far + delay + _TURN * turn
+            heapq.heappush(queue, (at, next(order), candidate, edit))
+    reserve = min(_CONFIRMED * (len(failed) - 1 + len(missions.passed)), bounds.flights // 4)
+    best: dict[Site, Trial] = {}
+    tried: set[tuple[Site, SmallEdit]] = set()
+    while queue and trials.may_go_on(reserve):
+        at, _, candidate, edit = heapq.heappop(queue)
+        site = candidate.site
+        cost = cost_of(edit, site, usage)
+        known = best.get(site)
+        if (site, edit) in tried or (known is not None and known.damage + known.cost <= cost):
+            continue
+        tried.add((site, edit))
+        result = trials.fly(edit, failed[0])
+        if result.verdict is not Verdict.PASS:
+            continue
+        trial = Trial(candidate, edit, damage_of(result), cost)
+        if known is None or trial.damage + trial.cost < known.damage + known.cost:
+            best[site] = trial
+        for other in follow_ups(edit, site, usage) if trial.damage < HEAVY else ():
+            heapq.heappush(queue, (at * _FOLLOWED, next(order), candidate, other))
+    if trials.ended is TrialsEnd.FLIGHTS:
+        trials.ended = None
+    ranked = sorted(best.values(), key=lambda one: one.weight)
+    confirmed: list[Trial] = []
+    while ranked and sum(not one.spoilt for one in confirmed) < _CONFIRMED:
+        confirmed.append(trials.confirmed(ranked.pop(0), usage))
+    ranked = sorted([*confirmed, *ranked], key=lambda one: one.weight)
+    is_all = not queue
+    ended = trials.ended or (TrialsEnd.COMPLETE if is_all else TrialsEnd.FLIGHTS)
+    lines = len({site for site, _ in tried})
+    return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
+
+
+def _first_edits(site: Site, usage: Usage) -> list[tuple[float, SmallEdit]]:
+    """The edits of a line that are tried whether or not others help, the soonest first."""
+    delays = [(delay_of(edit, site, usage), number, edit) for number, edit in enumerate(site.edits)]
+    wanted = sorted((delay, number, edit) for delay, number, edit in delays if delay is not None)
+    return [(delay, edit) for delay, _, edit in wanted]
+
+
+def damage_of(result: MissionResult) -> float:
+    """What a mission that passed has lost all the same: goals weigh most, then requests, then repairs."""
+    losses = result.losses
+    goals = len(losses.goals) - losses.count(GoalFate.ACHIEVED)
+    return 10.0 * goals + 1.0 * (losses.lost + losses.dropped) + 0.5 * losses.repaired
+
+
+class _Trials:
+    """Flies trials as long as the bounds allow it."""
+
+    def __init__(self, missions: Missions, fly: Try, bounds: Bounds) -> None:
+        self.missions, self._fly, self.bounds = missions, fly, bounds
+        self.flights = 0
+        self.ended: TrialsEnd | None = None
+        self._begun = time.monotonic()
+
+    def may_go_on(self, reserve: int = 0) -> bool:
+        """Whether one more flight is allowed, with `reserve` flights left for others."""
+        if self.ended is None:
+            if self.bounds.is_cancelled():
+                self.ended = TrialsEnd.CANCELLED
+            elif self.flights + reserve >= self.bounds.flights:
+                self.ended = TrialsEnd.FLIGHTS
+            elif time.monotonic() - self._begun >= self.bounds.seconds:
+                self.ended = TrialsEnd.SECONDS
+        return self.ended is None
+
+    def fly(self, edit: SmallEdit, mission: MissionResult) -> MissionResult:
+        """One trial."""
+        self.flights += 1
+        return self._fly(edit, mission)
+
+    def confirmed(self, trial: Trial, usage: Usage) -> Trial:
+        """The trial with what it does to the other failed missions; of its line, the edit that helps more of them."""
+        helped, missions, damage, spoilt = 1, 1, trial.damage, 0
+        unhelped: list[MissionResult] = []
+        first, *others = self.missions.failed
+        for mission in self.missions.passed:
+            if not self.may_go_on():
+                break
+            if self.fly(trial.edit, mission).verdict is not Verdict.PASS:
+                spoilt = 1
+                break
+        for mission in others:
+            if spoilt or not self.may_go_on():
+                break
+            result = self.fly(trial.edit, mission)
+            missions += 1
+            if result.verdict is Verdict.PASS:
+                helped += 1
+                damage = max(damage, damage_of(result))
+            else:
+                unhelped.append(mission)
+        site = trial.candidate.site
+        for other in alternatives(trial.edit, site, usage) if unhelped else ():
+            if not self.may_go_on() or self.fly(other, unhelped[0]).verdict is not Verdict.PASS:
+                continue
+            again = self.fly(other, first)
+            if again.verdict is Verdict.PASS:
+                cost = cost_of(other, site, usage)
+                return Trial(trial.candidate, other, damage_of(again), cost, missions, missions)
+        return Trial(trial.candidate, trial.edit, damage, trial.cost, helped, missions, spoilt)

@@ -1,0 +1,207 @@
+"""Which rules and branches missions exercise: programs and records in, numbers of features out; unexercised sites out.
+
+A feature below `_EVENTS` is a site of a program: a rule that fired, or a branch of a guard that was taken. Those above
+are kinds of events: what held, was asked for, refused or repaired on which timeline.
+"""
+
+import zlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from checker.batch.result import MissionResult
+from checker.models import ModelSet
+from checker.names import relative_name
+from compiler.program import Guard, Instruction, ObjectLoop, Program, RuleCode
+from nddl_lang.text.source import Span
+from runtime.executive.columns import GuardColumns, RunColumns, TokenColumns
+from runtime.executive.events import single_events
+from runtime.executive.outcome import Event, EventKind, SourcePlace
+from runtime.executive.record import BodyRun, GuardRun, MissionRecord, ReactorRecord
+
+_EVENTS = 1 << 32
+_TOLD = (EventKind.REQUEST, EventKind.REFUSE, EventKind.REJECT, EventKind.RELAX, EventKind.KILL)
+
+
+@dataclass(frozen=True, slots=True)
+class _Branch:
+    """A branch of a guard: its site, and the guards inside it."""
+
+    site: int
+    guards: "tuple[_Fork, ...]"
+
+
+@dataclass(frozen=True, slots=True)
+class _Fork:
+    """A guard; `is_looped` if it stands in a loop over objects."""
+
+    then: _Branch
+    otherwise: _Branch
+    is_looped: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """A rule (`branch` empty), or a branch of a guard: `then` or `else`."""
+
+    rule: str
+    branch: str
+    span: Span
+
+
+class _Sites:
+    """The sites of one program, numbered in the order of its text."""
+
+    def __init__(self, program: Program, first: int) -> None:
+        self.first = first
+        self.sites: list[Site] = []
+        self.rules = [self._rule(rule) for rule in program.rules]
+
+    def _rule(self, rule: RuleCode) -> _Branch:
+        site = self._add(Site(rule.predicate, "", rule.span))
+        return _Branch(site, tuple(self._forks(rule.predicate, rule.body)))
+
+    def _forks(self, rule: str, body: Sequence[Instruction], *, is_looped: bool = False) -> Iterator[_Fork]:
+        for each in body:
+            if isinstance(each, ObjectLoop):
+                yield from self._forks(rule, each.body, is_looped=True)
+            elif isinstance(each, Guard):
+                then = self._branch(rule, "then", each.then, each.span)
+                yield _Fork(then, self._branch(rule, "else", each.otherwise, each.span), is_looped)
+
+    def _branch(self, rule: str, name: str, body: Sequence[Instruction], span: Span) -> _Branch:
+        site = self._add(Site(rule, name, span))
+        return _Branch(site, tuple(self._forks(rule, body)))
+
+    def _add(self, site: Site) -> int:
+        self.sites.append(site)
+        return self.first + len(self.sites) - 1
+
+    def note(self, run: BodyRun | RunColumns, at: _Branch, found: set[int]) -> None:
+        """Add the sites that a run of a body reached."""
+        found.add(at.site)
+        forks = list(at.guards)
+        loops = sum(fork.is_looped for fork in forks)
+        if loops:  # the guards of the loop stand once per object
+            before = next(number for number, fork in enumerate(forks) if fork.is_looped)
+            rounds = (len(run.guards) - (len(forks) - loops)) // loops
+            forks = [*forks[:before], *forks[before : before + loops] * max(rounds, 0), *forks[before + loops :]]
+        guards: Sequence[GuardRun | GuardColumns] = run.guards
+        for fork, guard in zip(forks, guards, strict=False):
+            branch = {"then": fork.then, "else": fork.otherwise}.get(guard.branch)
+            if branch is not None:
+                found.add(branch.site)
+                if guard.run is not None:
+                    self.note(guard.run, branch, found)
+
+
+class Universe:
+    """The sites of all programs of an agent, in the order of its reactors; one program counts once."""
+
+    def __init__(self, programs: Sequence[Program]) -> None:
+        self.programs = tuple(programs)
+        self._of: dict[int, _Sites] = {}
+        for program in programs:
+            if id(program) not in self._of:
+                first = sum(len(each.sites) for each in self._of.values())
+                self._of[id(program)] = _Sites(program, first)
+
+    @property
+    def sites(self) -> list[Site]:
+        """All sites by number."""
+        return [site for each in self._of.values() for site in each.sites]
+
+    def features(self, record: MissionRecord, events: Sequence[Event]) -> tuple[int, ...]:
+        """What a mission exercised, in order."""
+        found: set[int] = set()
+        for program, reactor in zip(self.programs, record.reactors, strict=False):
+            sites = self._of[id(program)]
+            for run in _runs(reactor):
+                sites.note(run, sites.rules[run.rule], found)
+        shapes: set[tuple[str, ...]] = {
+            (event.kind.value, event.reactor, event.timeline, event.predicate, str(event.stage or ""))
+            for event in single_events(events)
+            if event.kind in _TOLD
+        }
+        for reactor in record.reactors:
+            shapes |= {("token", reactor.reactor, *pair) for pair in _held(reactor)}
+        return (*sorted(found), *sorted(_EVENTS + zlib.crc32("\0".join(shape).encode()) for shape in shapes))
+
+
+def _runs(reactor: ReactorRecord) -> Iterator[BodyRun | RunColumns]:
+    """The runs of rules of a reactor; of tokens that are alike, one for all."""
+    tokens = reactor.tokens
+    bearers = tokens.groups if isinstance(tokens, TokenColumns) else tokens
+    for bearer in bearers:
+        yield from bearer.runs
+
+
+def _held(reactor: ReactorRecord) -> set[tuple[str, str]]:
+    """Which predicates were on which timelines."""
+    tokens = reactor.tokens
+    if not isinstance(tokens, TokenColumns):
+        return {(str(token.object), token.predicate) for token in tokens}
+    pairs = np.unique(np.stack([tokens.times.objects, tokens.times.predicates]), axis=1)
+    return {(tokens.names[timeline], tokens.names[predicate]) for timeline, predicate in pairs.T.tolist()}
+
+
+_KNOWN: list[Universe] = []  # the last one: a worker flies one set of programs
+
+
+def universe_of(programs: Sequence[Program]) -> Universe:
+    """The universe of these programs; kept for the next mission."""
+    for one in _KNOWN:
+        if len(one.programs) == len(programs) and all(a is b for a, b in zip(one.programs, programs, strict=True)):
+            return one
+    _KNOWN[:] = [Universe(programs)]
+    return _KNOWN[0]
+
+
+@dataclass(frozen=True, slots=True)
+class SiteCoverage:
+    """A site and in how many missions it was exercised; `is_reached`: its rule fired."""
+
+    rule: str
+    branch: str
+    place: SourcePlace
+    missions: int
+    is_reached: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Coverage:
+    """The sites of the models in the order of their text."""
+
+    missions: int
+    sites: tuple[SiteCoverage, ...]
+
+    @property
+    def missed(self) -> tuple[SiteCoverage, ...]:
+        """Sites that no mission exercised; of a rule that never fired, the rule alone."""
+        return tuple(one for one in self.sites if not one.missions and (not one.branch or one.is_reached))
+
+
+def coverage_of(models: ModelSet, results: Sequence[MissionResult]) -> Coverage:
+    """How often each site was exercised in all missions that were flown to their end."""
+    programs = [models.programs[reactor.model] for reactor in models.agent.reactors]
+    counts: dict[int, int] = {}
+    flown = [result.outcome for result in results if result.outcome is not None]
+    for outcome in flown:
+        for feature in outcome.behaviour:
+            counts[feature] = counts.get(feature, 0) + 1
+    found: dict[tuple[str, int, str], SiteCoverage] = {}
+    fired = 0
+    for number, site in enumerate(Universe(programs).sites):
+        count = counts.get(number, 0)
+        fired = fired if site.branch else count
+        source = site.span.source
+        line, column = source.locate(site.span.begin)
+        text = source.text[site.span.begin : site.span.end].split("\n")[0]
+        place = SourcePlace(relative_name(source.name, Path(models.agent.root)), line, column, text)
+        key = (place.file, site.span.begin, site.branch)  # a file that several models include counts once
+        known = found.get(key)
+        if known is None or known.missions < count:
+            found[key] = SiteCoverage(site.rule, site.branch, place, count, fired > 0)
+    return Coverage(len(flown), tuple(found.values()))

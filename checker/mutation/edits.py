@@ -1,0 +1,287 @@
+"""A model in, its sites out: each line that may be mistaken, with every small edit of it, by the syntax tree.
+
+An edit is a fault where the model was right, and a repair where it was wrong: `nddlc mutate` makes the one of it, a
+counterfactual trial the other.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+from nddl_lang.semantics.constraints import CONSTRAINTS
+from nddl_lang.syntax.includes import LIBRARY, LoadedModules
+from nddl_lang.syntax.nodes import (
+    Assignment,
+    BinaryExpr,
+    CallConstraint,
+    CallExpr,
+    ClassDecl,
+    Expr,
+    ExprConstraint,
+    FloatLiteral,
+    Foreach,
+    GoalStatement,
+    IfStatement,
+    IntLiteral,
+    PathExpr,
+    PredicateDecl,
+    Relation,
+    RuleDecl,
+    UnaryExpr,
+    VariableDecl,
+)
+from nddl_lang.syntax.walk import descendants
+from nddl_lang.text.read import real_path
+from nddl_lang.text.source import Span
+
+_INFINITE = 2**52 - 1
+_NUMBERS = ("int", "float")
+_SAMPLING = "sampledParameter"
+_FACTORS = (2.0, 0.5, 10.0, 0.1)
+_RELATIONS = ("any", "contains", "contained_by", "before", "after", "meets", "met_by", "starts", "ends", "equals")
+_OTHER_SIGNS = {
+    "<=": (">=", "==", "<"),
+    ">=": ("<=", "==", ">"),
+    "<": (">", "<=", "=="),
+    ">": ("<", ">=", "=="),
+    "==": ("<=", ">=", "!="),
+    "!=": ("==",),
+}
+_OTHER_NAMES = {"leq": ("eq", "lt"), "lt": ("leq", "eq"), "eq": ("leq", "neq"), "neq": ("eq",)}
+
+
+class EditKind(StrEnum):
+    """What an edit changes."""
+
+    CONSTANT = "constant"
+    OFF_BY_ONE = "off by one"
+    LIMIT = "limit"  # a constant's name, for another
+    RELATION = "relation"
+    COMPARISON = "comparison"
+    SIGN = "sign"
+    ARGUMENTS = "swapped arguments"
+    DROPPED_CONSTRAINT = "dropped constraint"
+    DROPPED_BRANCH = "dropped branch"
+
+
+DROPPED = (EditKind.DROPPED_CONSTRAINT, EditKind.DROPPED_BRANCH)
+
+
+@dataclass(frozen=True, slots=True)
+class SmallEdit:
+    """Characters `begin` to `end` of a file give way to `new`; `file` is its real path, `line` where that begins."""
+
+    kind: EditKind
+    file: str
+    begin: int
+    end: int
+    old: str
+    new: str
+    line: int
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Site:
+    """A statement that may be mistaken, from its first line to its last: `rule` is what it is a part of.
+
+    A branch has the lines of its condition. `scope` are the lines of the whole rule. `named` is the global variable
+    that is set here; `is_rule`: it is the head of a rule, for which something may be missing.
+    """
+
+    file: str
+    first: int
+    column: int
+    last: int
+    rule: str
+    scope: tuple[int, int]
+    text: str
+    edits: tuple[SmallEdit, ...]
+    named: str = ""
+    is_rule: bool = False
+
+    def holds(self, file: str, line: int) -> bool:
+        """Whether a place is one of its lines."""
+        return file == self.file and self.first <= line <= self.last
+
+
+def edited(text: str, edit: SmallEdit) -> str:
+    """The text after an edit."""
+    return text[: edit.begin] + edit.new + text[edit.end :]
+
+
+def sites_of(loaded: LoadedModules) -> list[Site]:
+    """Every site of a model, files that come with the package left out, in the order of execution."""
+    library = real_path(LIBRARY)
+    own = [one for one in loaded.module.statements if not _path(one.span, loaded).is_relative_to(library)]
+    names = {
+        declarator.name.name: one.type_name.name
+        for one in own
+        if isinstance(one, VariableDecl)
+        for declarator in one.declarators
+    }
+    reader = _Reader(loaded, names)
+    return [site for statement in own for site in reader.sites(statement)]
+
+
+def _path(span: Span, loaded: LoadedModules) -> Path:
+    return real_path(loaded.paths[span.source])
+
+
+class _Reader:
+    """Reads the sites of a model whose numeric global variables are `names`."""
+
+    def __init__(self, loaded: LoadedModules, names: dict[str, str]) -> None:
+        self._loaded = loaded
+        self._limits = sorted(name for name, kind in names.items() if kind in _NUMBERS)
+
+    def sites(self, statement: Any) -> Iterator[Site]:
+        """The sites of a top-level statement."""
+        match statement:
+            case RuleDecl(class_name=owner, predicate=predicate, body=body):
+                rule = f"{owner.name}.{predicate.name}"
+                head, scope = owner.span, _lines(statement.span)
+                file = str(_path(head, self._loaded))
+                yield Site(
+                    file,
+                    head.line,
+                    head.column,
+                    head.line,
+                    rule,
+                    scope,
+                    f"{owner.name}::{predicate.name}",
+                    (),
+                    is_rule=True,
+                )
+                yield from self._body(body, rule, statement.span)
+            case ClassDecl(name=owner, members=members):
+                for member in members or ():
+                    if isinstance(member, PredicateDecl):
+                        yield from self._body(member.body, f"{owner.name}.{member.name.name}", member.span)
+            case VariableDecl(declarators=declarators):
+                yield self._site(statement, "", statement.span, (statement,), declarators[-1].name.name)
+            case Assignment(target=target, value=value):
+                yield self._site(statement, "", statement.span, (value,), target.parts[-1].name)
+            case CallConstraint() | ExprConstraint() | Relation() | GoalStatement():
+                yield self._site(statement, "", statement.span, (statement,))
+            case _:
+                pass
+
+    def _body(self, body: Iterable[Any], rule: str, whole: Span) -> Iterator[Site]:
+        for statement in body:
+            match statement:
+                case IfStatement(condition=condition, then=then, otherwise=otherwise):
+                    branches = [self._dropped(one[0].span.to(one[-1].span)) for one in (then, otherwise) if one]
+                    yield self._site(condition, rule, whole, (condition,), branches=branches)
+                    yield from self._body((*then, *(otherwise or ())), rule, whole)
+                case Foreach(body=inner):
+                    yield from self._body(inner, rule, whole)
+                case CallConstraint() | ExprConstraint() | Relation() | VariableDecl() | Assignment():
+                    yield self._site(statement, rule, whole, (statement,))
+                case _:
+                    pass
+
+    def _site(
+        self,
+        node: Any,
+        rule: str,
+        whole: Span,
+        roots: tuple[Any, ...],
+        named: str = "",
+        branches: Iterable[SmallEdit] = (),
+    ) -> Site:
+        edits = [edit for root in roots for edit in self._edits(root)]
+        if isinstance(node, (CallConstraint, ExprConstraint)):
+            edits.append(self._edit(EditKind.DROPPED_CONSTRAINT, node.span, _blank(node.span.text)))
+        last = _lines(node.span)[1]
+        file = str(_path(node.span, self._loaded))
+        return Site(
+            file,
+            node.span.line,
+            node.span.column,
+            last,
+            rule,
+            _lines(whole),
+            node.span.text,
+            (*edits, *branches),
+            named,
+        )
+
+    def _dropped(self, span: Span) -> SmallEdit:
+        return self._edit(EditKind.DROPPED_BRANCH, span, _blank(span.text))
+
+    def _edit(self, kind: EditKind, span: Span, new: str) -> SmallEdit:
+        return SmallEdit(kind, str(_path(span, self._loaded)), span.begin, span.finish, span.text, new, span.line)
+
+    def _edits(self, root: Any) -> Iterator[SmallEdit]:
+        sampled = {
+            argument
+            for node in descendants(root)
+            if isinstance(node, CallExpr) and node.function.name == _SAMPLING
+            for argument in node.arguments
+        }
+        for node in descendants(root):
+            if node not in sampled:
+                seen = {(node.span, node.span.text)}  # 9 halved is 9 less 5
+                for kind, span, new in self._changes(node):
+                    if new != span.text and (span, new) not in seen:
+                        seen.add((span, new))
+                        yield self._edit(kind, span, new)
+
+    def _changes(self, node: Any) -> Iterator[tuple[EditKind, Span, str]]:
+        match node:
+            case IntLiteral(value=value, span=span) if abs(value) < _INFINITE:
+                for factor in _FACTORS:
+                    yield EditKind.CONSTANT, span, str(round(value * factor))
+                for step in (5, -5):
+                    yield EditKind.CONSTANT, span, str(value + step)
+                for step in (1, -1):
+                    yield EditKind.OFF_BY_ONE, span, str(value + step)
+                if value < 0:
+                    yield EditKind.SIGN, span, str(-value)
+            case FloatLiteral(value=value, span=span) if abs(value) < _INFINITE:
+                for factor in _FACTORS:
+                    yield EditKind.CONSTANT, span, repr(round(value * factor, 12))
+                if value < 0.0:
+                    yield EditKind.SIGN, span, repr(-value)
+            case PathExpr(parts=(name,), span=span) if name.name in self._limits:
+                for limit in self._limits:
+                    yield EditKind.LIMIT, span, limit
+            case BinaryExpr(op=op, op_span=span):
+                for other_op in _OTHER_SIGNS.get(op, ()):
+                    yield EditKind.COMPARISON, span, other_op
+                if op in ("+", "-"):
+                    yield EditKind.SIGN, span, "-" if op == "+" else "+"
+            case UnaryExpr(op="-", operand=operand, span=span):
+                yield EditKind.SIGN, span, operand.span.text
+            case Relation(relation=relation, bounds=()):
+                for other in _RELATIONS:
+                    yield EditKind.RELATION, relation.span, other
+            case CallConstraint(name=name, arguments=arguments):
+                known = CONSTRAINTS.get(name.name)
+                for other_name in _OTHER_NAMES.get(known.name if known is not None else name.name, ()):
+                    yield EditKind.COMPARISON, name.span, other_name
+                yield from _swapped(arguments)
+            case CallExpr(arguments=arguments):
+                yield from _swapped(arguments)
+            case _:
+                pass
+
+
+def _swapped(arguments: tuple[Expr, ...]) -> Iterator[tuple[EditKind, Span, str]]:
+    """The first two arguments in the other order."""
+    if len(arguments) > 1:
+        first, second = arguments[0].span, arguments[1].span
+        between = first.source.text[first.finish : second.begin]
+        yield EditKind.ARGUMENTS, first.to(second), second.text + between + first.text
+
+
+def _lines(span: Span) -> tuple[int, int]:
+    """The first and the last line of a span."""
+    return span.line, span.source.locate(max(span.begin, span.finish - 1))[0]
+
+
+def _blank(text: str) -> str:
+    """As many lines of nothing."""
+    return "\n" * text.count("\n")

@@ -1,0 +1,167 @@
+"""Read how parameters are drawn: the tables [parameters.NAME] and [joint.NAME] of a mission file in, parameters out."""
+
+import math
+from dataclasses import replace
+from typing import cast
+
+from checker.codes import ILL_DISTRIBUTION, TWICE
+from checker.mission_table import Table
+from nddl_lang.text.diagnostic import Note
+from runtime.executive.configuration import Mode, ParameterConfiguration
+from runtime.executive.distributions import DISTRIBUTIONS
+from runtime.executive.expression import ExpressionError, parse_expression
+
+_OWN_KEYS = ("values", "weights", "value", "mean", "sigma", "expression")  # of some distributions only
+
+
+def read_parameters(tables: Table, joint: Table) -> tuple[tuple[ParameterConfiguration, ...], tuple[str, ...]]:
+    """The parameters of both kinds of tables, and the names of those whose range the model has to give."""
+    parameters: list[ParameterConfiguration] = []
+    unranged: list[str] = []
+    for name in tables.values:
+        table = tables.table(name, f"[parameters.{name}]")
+        parameter, has_range = _read_parameter(name, table)
+        if not has_range:
+            unranged.append(name)
+        parameters.append(parameter)
+    tables.close()
+    for name in joint.values:
+        parameters += _read_joint(name, joint.table(name, f"[joint.{name}]"), parameters)
+    joint.close()
+    return _with_rhythm(parameters, tables), tuple(unranged)
+
+
+def _read_parameter(name: str, table: Table) -> tuple[ParameterConfiguration, bool]:
+    """A parameter, and whether the file gives its range."""
+    words = {"values": "discrete", "value": "fixed", "expression": "dependent", "mean": "normal", "sigma": "normal"}
+    guess = next((word for key, word in words.items() if table.has(key)), "uniform")
+    shape = table.choice("distribution", tuple(DISTRIBUTIONS), guess)
+    distribution = DISTRIBUTIONS[shape]
+    bounds = table.bounds("range", is_finite=True)
+    values = table.numbers("values")
+    weights = table.numbers("weights")
+    value = table.number("value", 0.0, float("-inf"))
+    mean = table.number("mean", 0.0, float("-inf")) if table.has("mean") else None
+    deviation = table.number("sigma", 1.0, 1e-300) if table.has("sigma") else None
+    expression = table.string("expression", "")
+    is_whole = table.choice("kind", ("float", "int"), "float") == "int"
+    mode = cast("Mode", table.choice("mode", ("inter", "intra"), "inter"))
+    update = table.whole("update", 10, 1)
+    clip = table.bounds("clip")
+    table.asked += ["mean", "sigma"]
+    table.close()
+    for reason in _ill_distribution(table, shape, values, weights, expression):
+        table.text.diagnostics.append(ILL_DISTRIBUTION.at(table.text.key_span(table.path), reason=reason))
+    if "value" in distribution.keys:
+        values = (value,)
+    if bounds is None and values and not distribution.has_range:
+        bounds = (min(values), max(values))
+    if bounds is None and shape == "normal" and mean is not None and deviation is not None:
+        half = deviation * math.sqrt(3.0)  # the range that it would be matched to
+        bounds = (mean - half, mean + half)
+    has_range = bounds is not None or shape == "dependent"
+    lower, upper = bounds or (0.0, 0.0)
+    found = ParameterConfiguration(
+        name, float(lower), float(upper), shape, mode, update, clip, is_whole, values, weights, mean, deviation,
+        expression if shape == "dependent" else "",
+    )  # fmt: skip
+    return found, has_range
+
+
+def _ill_distribution(
+    table: Table, name: str, values: tuple[float, ...], weights: tuple[float, ...], expression: str
+) -> list[str]:
+    """What the keys of a distribution lack, or have in vain."""
+    reasons: list[str] = []
+    distribution = DISTRIBUTIONS[name]
+    if "values" in distribution.needs and not values:
+        reasons.append(f"a {name} distribution needs `values`, a list of numbers")
+    for key in ("value", "expression"):
+        if key in distribution.needs and not table.has(key):
+            reasons.append(f"a {name} distribution needs `{key}`")
+    reasons += _ill_weights(weights, len(values))
+    if table.has("mean") != table.has("sigma") and name == "normal" and not table.has("range"):
+        reasons.append("a normal distribution without a `range` needs both `mean` and `sigma`")
+    for key in _OWN_KEYS:
+        if table.has(key) and key not in distribution.keys:
+            owners = " or ".join(other for other, row in DISTRIBUTIONS.items() if key in row.keys)
+            reasons.append(f"`{key}` belongs to a {owners} distribution, not to a {name} one")
+    if name == "dependent":
+        reasons += [f"`{key}` has no effect on a dependent parameter" for key in ("range", "mode") if table.has(key)]
+        try:
+            if not parse_expression(expression).names and expression:
+                reasons.append("the expression reads no other parameter: write `value`")
+        except ExpressionError as problem:
+            reasons.append(f"`expression`: {problem}")
+    return reasons
+
+
+def _ill_weights(weights: tuple[float, ...], count: int) -> list[str]:
+    reasons = []
+    if weights and len(weights) != count:
+        reasons.append(f"there are {len(weights)} weights for {count} values")
+    if weights and (min(weights) < 0.0 or sum(weights) <= 0.0):
+        reasons.append("weights must not be negative, and one must be above 0")
+    return reasons
+
+
+def _read_joint(name: str, table: Table, known: list[ParameterConfiguration]) -> list[ParameterConfiguration]:
+    """The columns of a joint table: discrete parameters of one stream, so that a row is drawn as a whole."""
+    names = table.strings("parameters")
+    rows = table.rows("rows", len(names))
+    weights = table.numbers("weights")
+    mode = cast("Mode", table.choice("mode", ("inter", "intra"), "inter"))
+    update = table.whole("update", 10, 1)
+    table.close()
+    reasons = _ill_weights(weights, len(rows))
+    if table.values.get("parameters", []) == [] or table.values.get("rows", []) == []:
+        reasons.append("a joint table needs `parameters`, a list of names, and `rows` with a value for each")
+    for reason in reasons:
+        table.text.diagnostics.append(ILL_DISTRIBUTION.at(table.text.key_span(table.path), reason=reason))
+    taken = {one.name for one in known}
+    for index, one in enumerate(names):
+        if one in taken:
+            span = table.text.value_span((*table.path, "parameters", index))
+            notes = (Note("first here", table.text.key_span(("parameters", one))),)
+            table.text.diagnostics.append(TWICE.at(span, what="the parameter", name=one, notes=notes))
+        taken.add(one)
+    if reasons or not rows:
+        return []
+    columns = zip(names, zip(*rows, strict=True), strict=True)
+    return [
+        ParameterConfiguration(
+            one, min(column), max(column), "discrete", mode, update, values=column, weights=weights,
+            stream=f"joint {name}",
+        )
+        for one, column in columns
+    ]  # fmt: skip
+
+
+def _with_rhythm(parameters: list[ParameterConfiguration], tables: Table) -> tuple[ParameterConfiguration, ...]:
+    """Dependent parameters change when those do that they read; they must not read each other in a cycle."""
+    found = {one.name: one for one in parameters}
+
+    def reads(name: str, trail: tuple[str, ...]) -> set[str]:
+        """The parameters with a distribution that `name` reads, through others too."""
+        one = found.get(name)
+        if one is None or not one.expression:
+            return {name}
+        if name in trail:
+            reason = f"parameters read each other in a cycle: {' → '.join((*trail[trail.index(name) :], name))}"
+            tables.text.diagnostics.append(
+                ILL_DISTRIBUTION.at(tables.text.key_span((*tables.path, name)), reason=reason)
+            )
+            return set()
+        try:
+            names = parse_expression(one.expression).names
+        except ExpressionError:
+            return set()  # told already
+        return {leaf for other in names for leaf in reads(other, (*trail, name))}
+
+    for name, one in list(found.items()):
+        if one.expression:
+            sources = [found[leaf] for leaf in reads(name, ()) if leaf in found]
+            changing = [source.update for source in sources if source.mode == "intra"]
+            if changing:
+                found[name] = replace(one, mode="intra", update=math.gcd(*changing))
+    return tuple(found[one.name] for one in parameters)

@@ -1,0 +1,133 @@
+"""Adaptive importance sampling: missions near failures and near distress, with weights that keep the rate right.
+
+Each generation is drawn from a mixture of known density: a third as the mission file says, a part near the edges of
+the box (where rare faults are, of one parameter or of several), and a part around what failed or came near to it
+(a kernel density, as in Zhang 1996 and in the cross-entropy method). A mission counts with 1 / density; no weight is
+above `most_weight`, and given all before it each has the failure rate as its mean.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from checker.sampling.sampler import RANDOM_POINT, MissionRole, SamplePoint, Setting, Trial
+
+_UNIFORM = 0.35  # kept elsewhere
+_EDGES = 0.30  # while nothing has failed; 0.10 afterwards
+_GENERATION = 20
+_FINEST = 1e-4  # distance from an edge at which the density stops rising
+_BROAD = 0.5  # of the edge component, each axis alone: drawn from the whole of it
+_ELITE = 0.1  # of the missions that did not fail, those in most distress
+_MOST_KERNELS = 60
+
+
+@dataclass(frozen=True, slots=True)
+class _Kernels:
+    """Boxes of a width per axis around centres, each folded at the edges of the box, so that no mass is lost."""
+
+    centres: np.ndarray
+    widths: np.ndarray
+
+    def draw(self, generator: np.random.Generator) -> np.ndarray:
+        centre = self.centres[generator.integers(len(self.centres))]
+        shares = centre + (2.0 * generator.random(len(centre)) - 1.0) * self.widths
+        shares = np.abs(shares)
+        return np.asarray(np.where(shares > 1.0, 2.0 - shares, shares))
+
+    def density(self, shares: np.ndarray) -> float:
+        """Of the folded boxes: a share is reached directly, and by reflection at 0 and at 1."""
+        total = np.zeros(self.centres.shape)
+        for image in (shares, -shares, 2.0 - shares):
+            total += np.abs(image[None, :] - self.centres) <= self.widths
+        return float((total / (2.0 * self.widths)).prod(axis=1).mean())
+
+
+class Adaptive:
+    """Samples where missions fail, or nearly do; see the head of this file."""
+
+    has_weights = True
+    most_weight = 1.0 / _UNIFORM
+
+    def __init__(self, setting: Setting) -> None:
+        self._setting = setting
+
+    def choose(self, trials: Sequence[Trial], count: int) -> list[SamplePoint]:
+        """One generation: the first, and missions without axes, are plain random ones of weight 1."""
+        setting = self._setting
+        count = min(count, _GENERATION)
+        if not setting.axes:
+            return [RANDOM_POINT] * count
+        generator = setting.generator("adaptive", len(trials))
+        kernels = _kernels_of(trials, len(setting.axes))
+        has_failed = any(trial.failed for trial in trials)
+        edges = 0.0 if not trials else 0.10 if has_failed else _EDGES
+        local = 0.0 if kernels is None else 1.0 - _UNIFORM - edges
+        if kernels is None and edges:
+            edges = 1.0 - _UNIFORM
+        points = []
+        for _ in range(count):
+            component = generator.random()
+            if kernels is not None and component < local:
+                shares = kernels.draw(generator)
+            elif component < local + edges:
+                shares = _draw_edges(generator, len(setting.axes))
+            else:
+                shares = generator.random(len(setting.axes))
+            density = 1.0 - local - edges
+            if edges:
+                density += edges * _edge_density(shares)
+            if kernels is not None:
+                density += local * kernels.density(shares)
+            points.append(setting.point(shares, MissionRole.WEIGHTED, 1.0 / density))
+        return points
+
+
+def _draw_edges(generator: np.random.Generator, axes: int) -> np.ndarray:
+    """Each axis at one of its ends, log-uniform in the distance, or anywhere."""
+    distance = _FINEST * (0.5 / _FINEST) ** generator.random(axes)
+    near = np.where(generator.random(axes) < 0.5, distance, 1.0 - distance)
+    return np.asarray(np.where(generator.random(axes) < _BROAD, generator.random(axes), near))
+
+
+def _edge_density(shares: np.ndarray) -> float:
+    distance = np.minimum(shares, 1.0 - shares)
+    near = np.where(distance >= _FINEST, 0.5 / (np.maximum(distance, _FINEST) * np.log(0.5 / _FINEST)), 0.0)
+    return float((_BROAD + (1.0 - _BROAD) * near).prod())
+
+
+def _kernels_of(trials: Sequence[Trial], axes: int) -> _Kernels | None:
+    """Boxes around what failed; while nothing has, around the missions in most distress. None: nothing stands out."""
+    placed = [trial for trial in trials if len(trial.point.shares) == axes and trial.failed is not None]
+    failing = [trial for trial in placed if trial.failed]
+    chosen = failing
+    if not chosen:
+        worst = sorted((trial.distress for trial in placed), reverse=True)
+        level = worst[int(len(worst) * _ELITE)] if worst else 0.0
+        calm = worst[len(worst) // 2] if worst else 0.0
+        chosen = [trial for trial in placed if trial.distress >= level > calm]
+    if not chosen:
+        return None
+    chosen = chosen[-_MOST_KERNELS:]
+    centres = np.array([[share for _, share in trial.point.shares] for trial in chosen])
+    others = np.array([[share for _, share in trial.point.shares] for trial in placed if not trial.failed])
+    return _Kernels(centres, _widths(centres, others.reshape(-1, axes)))
+
+
+def _widths(centres: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Per axis a few times the gap between neighbouring centres: narrow where these lie close together.
+
+    An axis along which the centres lie as evenly as all missions do has nothing to do with failing: it is drawn whole.
+    """
+    count = len(centres)
+    if count < 3:
+        return np.full(centres.shape[1], 0.15)
+    widths = np.empty(centres.shape[1])
+    for axis in range(centres.shape[1]):
+        values = np.sort(centres[:, axis])
+        steps = np.arange(1, count + 1) / count
+        gap = max(np.abs(values - steps).max(), np.abs(values - steps + 1.0 / count).max())
+        is_even = gap * np.sqrt(count) < 1.36  # Kolmogorov's bound at 5 %
+        spacing = np.median(np.diff(values)) if count > 1 else 0.5
+        widths[axis] = 1.0 if is_even and count >= 8 else min(0.5, max(0.01, 4.0 * float(spacing), 0.5 * count**-0.8))
+    return widths

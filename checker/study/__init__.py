@@ -1,0 +1,1 @@
+"""A study file in, failure rates of model variants under several samplings out."""

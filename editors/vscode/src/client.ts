@@ -1,0 +1,37 @@
+// The client of the language server, as the settings want it.
+import { workspace } from "vscode";
+import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "vscode-languageclient/node";
+
+// What runs now; undefined while nothing does.
+export interface Server {
+  client: LanguageClient | undefined;
+}
+
+function withFolder(text: string): string {
+  const folder = workspace.workspaceFolders?.[0]?.uri.fsPath ?? "";
+  return text.replaceAll("${workspaceFolder}", folder);
+}
+
+export function makeClient(): LanguageClient {
+  const settings = workspace.getConfiguration("nddlc");
+  const dialect = settings.get<string>("dialect", "");
+  const options: ServerOptions = {
+    command: withFolder(settings.get<string>("command", "nddlc")),
+    args: ["lsp", ...(dialect ? ["--dialect", dialect] : [])],
+    options: { cwd: workspace.workspaceFolders?.[0]?.uri.fsPath },
+  };
+  const clientOptions: LanguageClientOptions = {
+    documentSelector: [
+      { language: "nddl" },
+      { scheme: "file", pattern: "**/mission*.toml" },
+      { scheme: "file", pattern: "**/nddlc.toml" },
+    ],
+    initializationOptions: {
+      includeDirectories: settings.get<string[]>("includeDirectories", []).map(withFolder),
+      isTrusted: workspace.isTrusted,
+      inlayHints: settings.get("inlayHints", {}),
+    },
+    synchronize: { configurationSection: "nddlc" },
+  };
+  return new LanguageClient("nddlc", "NDDL", options, clientOptions);
+}

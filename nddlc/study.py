@@ -1,0 +1,136 @@
+"""`nddlc study`: fly variants of a mission's models under several samplings, with common seeds; draw Figure 12."""
+
+import time
+from contextlib import ExitStack
+from pathlib import Path
+
+import click
+
+from checker.batch.store import RunStore, StoreError, open_store
+from checker.campaign import Campaign, Enough, Flown
+from checker.flight import load
+from checker.mission import read_mission
+from checker.report.study import study_data, study_page, study_svg, study_text
+from checker.study.cells import StudyCell, campaign_of, cell_of, lay_out, with_beyond
+from checker.study.reading import StudyFile, Variant, read_study
+from nddl_lang.text.render import render
+from nddl_lang.text.write import write_whole
+from nddlc.check import STORE, cores
+from nddlc.inputs import Unusable, colours, readable
+from nddlc.mission_trust import models_of
+from nddlc.progress import Display
+from nddlc.trust import trust_option
+
+_DONE, _FINDINGS, _SIGNALLED = 0, 1, 128
+_OUTPUT = Path("nddlc-study")
+_FOLDER = Path(".nddlc/study")
+
+
+@click.command()
+@click.argument("path", metavar="STUDY")
+@click.option("--missions", type=click.IntRange(1), help="Fly at most so many of each cell; more may follow later.")
+@click.option("--variant", "names", multiple=True, metavar="NAME", help="Only these variants; repeatable.")
+@click.option("--sampling", "samplings", multiple=True, metavar="NAME", help='Only these samplings ("uniform inter").')
+@click.option("--workers", type=click.IntRange(1), help="Processes to fly with; by default one per core.")
+@click.option("--seconds", type=click.FloatRange(0.0, min_open=True), help="End when so much time is over.")
+@click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where missions are kept.")
+@click.option("--output", type=click.Path(path_type=Path), default=_OUTPUT, help="Where figure and table go.")
+@click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="What to print.")
+@trust_option
+def command(
+    path: str,
+    missions: int | None,
+    names: tuple[str, ...],
+    samplings: tuple[str, ...],
+    workers: int | None,
+    seconds: float | None,
+    store_path: Path,
+    output: Path,
+    style: str,
+    is_trusted: bool,
+) -> int:
+    """Fly every variant of a study under every sampling, and say which sampling finds which mistake.
+
+    What is flown is kept: the same command goes on where it ended, and with more --missions it flies only those that
+    are missing. Ends with 1 where a rate lies outside of what the study expects, or a mission ended in an ERROR.
+    """
+    (file,) = readable((path,), ())
+    study, found = read_study(file)
+    for one in found:
+        click.echo(render(one, colour=colours()), err=True)
+    if study is None:
+        raise Unusable("the study file is in error: nothing was flown")
+    _refuse_unknown(names, [one.name for one in study.variants], "variant")
+    _refuse_unknown(samplings, list(study.samplings), "sampling")
+    chosen = [one for one in study.variants if not names or one.name in names]
+    wanted = [one for one in study.samplings if not samplings or one in samplings]
+    flight = _Study(study, is_trusted, workers or cores(), None if seconds is None else time.monotonic() + seconds)
+    cells: list[StudyCell] = []
+    ended_by = 0
+    try:
+        with open_store(store_path) as store:
+            for variant in chosen:
+                base = flight.base(variant)
+                for sampling in wanted:
+                    cell, ended_by = flight.fly(base, variant, sampling, missions, store, stops=bool(ended_by))
+                    cells.append(cell)
+    except StoreError as problem:
+        raise Unusable(str(problem), problem.advice) from None
+    cells = list(with_beyond(cells))
+    reports = {"study.json": study_data(study, cells), "figure12.svg": study_svg(study, cells)}
+    for name, text in {**reports, "study.html": study_page(study, cells)}.items():
+        write_whole(output / name, text)
+    click.echo(study_text(study, cells) if style == "text" else reports["study.json"], nl=False)
+    if style == "text":
+        click.echo(f"\nfigure: {output / 'study.html'} (beside it figure12.svg, study.json)")
+    if ended_by > 0:
+        return _SIGNALLED + ended_by
+    is_off = any(one.errors or one.is_expected(study.corridor) is False for one in cells)
+    return _FINDINGS if is_off else _DONE
+
+
+def _refuse_unknown(given: tuple[str, ...], known: list[str], what: str) -> None:
+    for one in given:
+        if one not in known:
+            raise Unusable(f"the study has no {what} `{one}`", f"there are: {', '.join(known)}")
+
+
+class _Study:
+    """Flies the cells of a study until its time is over."""
+
+    def __init__(self, study: StudyFile, is_trusted: bool, workers: int, until: float | None) -> None:
+        self.study, self.is_trusted, self.workers, self.until = study, is_trusted, workers, until
+
+    def base(self, variant: Variant) -> Campaign:
+        """A variant's mission as its file says, with the models checked."""
+        file = lay_out(self.study, variant, _FOLDER)
+        mission, found = read_mission(file)
+        for one in found:
+            click.echo(render(one, colour=colours()), err=True)
+        if mission is None:
+            raise Unusable(f"the mission of variant `{variant.name}` is in error")
+        models = models_of(mission, is_trusted=self.is_trusted)
+        if models.has_errors:
+            for one in models.diagnostics:
+                click.echo(render(one, colour=colours()), err=True)
+            raise Unusable(f"the models of variant `{variant.name}` are in error")
+        return Campaign(mission, models, load)
+
+    def fly(
+        self, base: Campaign, variant: Variant, sampling: str, missions: int | None, store: RunStore, *, stops: bool
+    ) -> tuple[StudyCell, int]:
+        """Fly what a cell lacks, unless the study `stops`; the cell, and the signal that ended it.
+
+        That is -1 where no time was left.
+        """
+        campaign = campaign_of(self.study, variant, sampling, base)
+        left = None if self.until is None else self.until - time.monotonic()
+        if stops or (left is not None and left <= 0.0):
+            return cell_of(variant, sampling, variant.missions, store.results(campaign.run.id)), -1
+        enough = Enough(seconds=left, missions=missions)
+        with ExitStack() as stack:
+            click.echo(f"{variant.name}, {sampling}", err=True)
+            show = stack.enter_context(Display(self.study.confidence))
+            flown: Flown = campaign.fly(self.workers, store, enough=enough, progress=show, keeps_failures=False)
+        planned = min(variant.missions, missions or variant.missions)
+        return cell_of(variant, sampling, planned, flown.results), int(flown.ended_by or 0)

@@ -1,0 +1,144 @@
+"""A study flies each variant under each sampling with common seeds; its figures are those of the draws themselves."""
+
+import json
+import shutil
+from pathlib import Path
+from statistics import NormalDist
+from xml.etree import ElementTree
+
+import pytest
+
+from checker.sampling.seeds import mission_seed
+from checker.study.cells import StudyCell, findings_of, with_beyond
+from checker.study.reading import Variant, read_study
+from nddlc.main import run
+from runtime.executive.chance import draw
+
+GPS = Path("models/gps").resolve()
+STUDY = """\
+[study]
+name = "fixes"
+mission = "mission.toml"
+seed = 11
+missions = 30
+modes = ["inter"]
+[[variant]]
+name = "base"
+[[variant]]
+name = "short"
+file = "short.toml"
+missions = 12
+beyond = "base"
+[variant.expected]
+"uniform inter" = 1.0
+"""
+SHORT = """\
+title = "a surfacing of half a minute"
+[[edit]]
+file = "navigator.nddl"
+old = "SURFACE_MAX = 64;"
+new = "SURFACE_MAX = 30;"
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    shutil.copytree(GPS, tmp_path / "gps", ignore=shutil.ignore_patterns(".*", "nddlc-*"))
+    (tmp_path / "gps" / "study.toml").write_text(STUDY)
+    (tmp_path / "gps" / "short.toml").write_text(SHORT)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path / "gps"
+
+
+def rates_above(limit: float, count: int, *, is_normal: bool) -> int:
+    """In how many of the first missions GPS_HIT_RATE is above a limit, or below 0 as no rate is, drawn by hand."""
+    shares = [draw(mission_seed(11, number), "GPS_HIT_RATE", 0) for number in range(1, count + 1)]
+    if is_normal:
+        return sum(not 0.0 < NormalDist(2.05, 3.9 / 12**0.5).inv_cdf(share) <= limit for share in shares)
+    return sum(0.1 + 3.9 * share > limit for share in shares)
+
+
+def test_a_study_counts_what_the_draws_decide(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code = run(["study", "gps/study.toml", "--workers", "2", "--format", "json"])
+    data = json.loads(capsys.readouterr().out)
+    cells = {(one["variant"], one["sampling"]): one for one in data["cells"]}
+    assert {key: one["missions"] for key, one in cells.items()} == {
+        ("base", "uniform inter"): 30, ("base", "normal inter"): 30,
+        ("short", "uniform inter"): 12, ("short", "normal inter"): 12,
+    }  # fmt: skip
+    for shape in ("uniform", "normal"):
+        base, short = cells["base", f"{shape} inter"], cells["short", f"{shape} inter"]
+        assert base["failures"] == rates_above(3.8, 30, is_normal=shape == "normal")
+        assert base["errors"] == short["errors"] == 0
+        assert short["failures"] >= rates_above(3.8, 12, is_normal=shape == "normal")
+        assert short["beyond"] == short["failures"] - rates_above(3.8, 12, is_normal=shape == "normal")
+    assert code == (0 if cells["short", "uniform inter"]["rate"] >= 0.92 else 1)
+    figure = ElementTree.fromstring(Path("nddlc-study/figure12.svg").read_text())
+    assert len(figure.findall("rect")) == 4 + 2
+    page = Path("nddlc-study/study.html").read_text()
+    assert "http" not in page
+    assert "found by" in page
+
+
+def test_more_missions_are_added_to_what_was_flown(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["study", "gps/study.toml", "--variant", "base", "--workers", "1"]
+    run([*arguments, "--missions", "3"])
+    first = json.loads(Path("nddlc-study/study.json").read_text())
+    assert [one["missions"] for one in first["cells"]] == [3, 3]
+    run([*arguments, "--missions", "5"])
+    more = json.loads(Path("nddlc-study/study.json").read_text())
+    assert [one["missions"] for one in more["cells"]] == [5, 5]
+    assert "not flown yet" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('file = "short.toml"', 'file = "shrt.toml"', "there is no file `shrt.toml`"),
+        ('beyond = "base"', 'beyond = "none"', "`beyond` must be a variant named before"),
+        ('"uniform inter" = 1.0', '"uniform intra" = 1.0', "no key `uniform intra`"),
+        ('modes = ["inter"]', 'modes = ["outer"]', "`modes` must be among inter, intra"),
+        ('mission = "mission.toml"', 'mission = "x.toml"', "there is no file `x.toml`"),
+        ('name = "short"', 'name = "base"', "the variant `base` is there twice"),
+        ("seed = 11", "seed = ", "this is not TOML"),
+    ],
+)
+def test_a_mistake_in_a_study_is_named(folder: Path, old: str, new: str, message: str) -> None:
+    (folder / "study.toml").write_text(STUDY.replace(old, new))
+    study, found = read_study(folder / "study.toml")
+    assert study is None
+    assert any(message in one.message for one in found), [one.message for one in found]
+
+
+def test_an_edit_without_its_place_is_named(folder: Path) -> None:
+    (folder / "short.toml").write_text(SHORT.replace("64", "65"))
+    study, found = read_study(folder / "study.toml")
+    assert study is None
+    assert "exactly one place" in (found[0].help or "")
+
+
+def cell(name: str, sampling: str, failing: range, beyond: str = "") -> StudyCell:
+    variant = Variant(name, "", (), {}, 40, beyond)
+    return StudyCell(variant, sampling, 40, tuple((seed, seed in failing) for seed in range(40)), 0, ())
+
+
+def test_the_best_sampling_is_told_from_worse_ones_by_common_seeds() -> None:
+    cells = [cell("B", "a", range(20)), cell("B", "b", range(16)), cell("B", "c", range(5)), cell("B", "d", range(0))]
+    (finding,) = findings_of(cells)
+    assert [one.sampling for one in finding.finds] == ["a", "b", "c"]
+    assert [one.sampling for one in finding.worse] == ["c", "d"]
+    assert [one.sampling for one in finding.missed] == ["d"]
+
+
+def test_failures_of_a_contained_mistake_are_counted_apart() -> None:
+    cells = with_beyond(
+        [cell("R3", "a", range(10)), cell("R1", "a", range(4, 18), "R3"), cell("R1", "b", range(3), "R3")]
+    )
+    assert [one.beyond for one in cells] == [None, 8, None]
+
+
+def test_the_study_of_the_auv_fits_its_models() -> None:
+    study, found = read_study(Path("models/auv/study.toml"))
+    assert study is not None, [one.message for one in found]
+    assert [one.name for one in study.variants] == ["base", "B1", "B2", "B3", "B4", "B5", "R3", "R1", "R2"]
+    assert study.variants[0].missions == 400
