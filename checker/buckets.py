@@ -48,6 +48,8 @@ def bucket_key(result: MissionResult) -> Key:
     if place is not None:
         return ("", place.file, place.line, ())
     about = [abort.reactor if abort else ""]
+    if result.judgement.broken is not None:
+        about.append(result.judgement.broken.name)
     if result.judgement.exceeded is not None:
         about += _lost(result, result.judgement.exceeded.limit)
     lost = next((goal.reason for goal in result.open_goals if goal.reason is not None), None)

@@ -13,8 +13,10 @@ from checker.batch.pool import Flyer, FlyTasks, fly_all, nothing_more
 from checker.batch.progress import Progress
 from checker.batch.result import KeptFailure, MissionResult
 from checker.batch.store import Run, RunStore
-from checker.batch.worker import Load, Task
+from checker.batch.worker import Load, Task, fly_one
 from checker.buckets import Key, bucket_key
+from checker.conditions.record import Conditions
+from checker.contrast import Contrast, find_contrast
 from checker.counterfactual.ranking import Causes, rank
 from checker.counterfactual.search import Suspended, find_causes
 from checker.counterfactual.trials import Bounds, Missions
@@ -22,14 +24,18 @@ from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Verdict, judge_losses
+from checker.regression import RegressionCase, agent_of
+from checker.report.timelines import Pair
 from checker.sampling.sampler import RANDOM_POINT, RandomSampler, Sampler, Setting, axes_of, with_point
 from checker.sampling.seeds import mission_seed
 from checker.schedule import Schedule, counted, is_random, make_task
+from checker.shrink import Shrunk, shrink
 from checker.stopping import StopRule
 from checker.story import Story, tell
 from runtime.executive.configuration import AgentConfiguration
 
 _MOST_STORIES = 8
+_MOST_PAIRS = 4
 _MOST_ALIKE = 3  # failures of a bucket that are kept
 
 
@@ -136,11 +142,12 @@ class Campaign:
         focus: int | None = None,
         sampling: Sampling | None = None,
         bounds: Bounds | None = None,
+        conditions: Conditions | None = None,
     ) -> Findings:
         """Judge the results; with `may_fly` conditions are sought and tested by flights.
 
         With a `focus` that is done only for the fault that mission `focus` belongs to, and lines that may be its cause
-        are tried within `bounds`.
+        are tried within `bounds`. Of `conditions` are those that are known already.
         """
         run, agent = self.run, self.models.agent
         points = {result.number: result.point for result in results}
@@ -160,9 +167,29 @@ class Campaign:
                 refly if may_fly and ending is not Ending.SIGNAL else None,
                 ending=ending,
                 focus=focus,
+                conditions=conditions,
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
                 find=partial(self._causes, flyer, bounds) if may_fly and bounds is not None else None,
             )
+
+    def contrast(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Contrast | None:
+        """What sets a failed mission apart from the nearest one that passes; flown in this process."""
+
+        return find_contrast(failed, results, with_point(self.models.agent, failed.point), self._traced)
+
+    def shrink(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Shrunk | None:
+        """The simplest mission that fails as `failed` does; flown in this process."""
+        return shrink(failed, results, with_point(self.models.agent, failed.point), self._traced)
+
+    def regressions(self, cases: tuple[RegressionCase, ...]) -> tuple[tuple[RegressionCase, MissionResult], ...]:
+        """The missions that are to pass, flown."""
+        agents = [(case, agent_of(case, self.models.agent)) for case in cases]
+        with Flyer(self.load, self.models.agent, self.mission.check.time_limit) as flyer:
+            flown = [(case, flyer.fly(agent, number, case.seed)) for number, (case, agent) in enumerate(agents, 1)]
+        return tuple((case, self.judged(result)) for case, result in flown)
+
+    def _traced(self, agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
+        return self.judged(fly_one(self.load(agent), Task(number, seed), keep_trace=True))
 
     def _causes(self, flyer: Flyer, bounds: Bounds, missions: Missions) -> Causes:
         """The causes of one fault, tried on its missions."""
@@ -174,6 +201,22 @@ class Campaign:
     def story(self, result: MissionResult, fault: Fault | None) -> Story:
         """Why a mission failed."""
         return tell(result, self.models.agent, self.models.influence, fault)
+
+    def pairs(self, findings: Findings) -> list[Pair | None]:
+        """The example of each fault with a passing mission near to it, which is flown again for its events."""
+        by_number = {result.number: result for result in findings.results}
+        found: list[Pair | None] = []
+        with Flyer(self.load, self.models.agent, self.mission.check.time_limit) as flyer:
+            for fault in findings.faults[:_MOST_PAIRS]:
+                example = by_number[fault.bucket.example]
+                near = _nearest_passing(example, findings)
+                if near is None or example.outcome is None or findings.is_interrupted:
+                    found.append(None)
+                    continue
+                agent = with_point(self.models.agent, near.point)
+                again = flyer.fly(agent, near.number, near.seed, keeps_trace=True)
+                found.append(Pair(example, again) if again.outcome is not None else None)
+        return found
 
     def stories(self, findings: Findings) -> list[Story | None]:
         """The story of each fault's example; of very many faults, of the first ones."""
@@ -195,6 +238,23 @@ def _worth_keeping(results: tuple[MissionResult, ...]) -> list[MissionResult]:
             if result.number > 0 and found[key] <= _MOST_ALIKE:
                 chosen.append(result)
     return chosen
+
+
+def _nearest_passing(example: MissionResult, findings: Findings) -> MissionResult | None:
+    """The passing mission whose draws are nearest to those of a failing one, in units of the ranges."""
+    wide = {one.name: max(one.upper - one.lower, 1e-9) for one in findings.agent.parameters}
+
+    def values(result: MissionResult) -> dict[str, float]:
+        return {draw.parameter: draw.value for draw in (result.outcome.draws if result.outcome is not None else ())}
+
+    own = values(example)
+
+    def distance(result: MissionResult) -> float:
+        drawn = values(result)
+        return sum(((drawn[name] - own[name]) / wide.get(name, 1.0)) ** 2 for name in own.keys() & drawn.keys())
+
+    passing = [result for result in findings.results if result.verdict is Verdict.PASS]
+    return min(passing, key=distance, default=None)
 
 
 class _Watch:

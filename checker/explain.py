@@ -3,7 +3,7 @@
 from typing import Any
 
 from checker.batch.result import MissionResult
-from checker.conditions.rendering import condition_claim, condition_data
+from checker.conditions.rendering import condition_data, condition_lines
 from checker.counterfactual.ranking import Causes
 from checker.counterfactual.rendering import causes_data, claim_text, effort_text
 from checker.excerpts import Excerpts
@@ -74,7 +74,7 @@ def excerpt_lines(place: SourcePlace, excerpts: Excerpts, *, marked: bool = Fals
 
 def _fault_lines(fault: Fault, told: int) -> list[str]:
     lines = [f"z3 {confirmation_text(fault)}"] if fault.confirmation is not None else []
-    lines += [f"it fails {condition_claim(fault.condition)}"] if fault.condition is not None else []
+    lines += condition_lines(fault.condition) if fault.condition is not None else []
     others = [str(mission) for mission in fault.bucket.missions if mission != told]
     if others:
         shown = ", ".join(others[:12]) + (", ..." if len(others) > 12 else "")

@@ -9,6 +9,7 @@ from checker.buckets import Bucket, group_failures
 from checker.conditions.condition import Condition
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
+from checker.conditions.record import Conditions
 from checker.counterfactual.examples import examples_of
 from checker.counterfactual.ranking import NO_CAUSES, Causes
 from checker.counterfactual.trials import Missions
@@ -114,10 +115,12 @@ def assess(
     focus: int | None = None,
     sampling: Sampling = RANDOMLY,
     find: Find | None = None,
+    conditions: Conditions | None = None,
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
     With a `focus` it does so only for the fault that mission `focus` belongs to, whose causes `find` then finds.
+    Of `conditions` are those that are known already.
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
@@ -143,7 +146,7 @@ def assess(
             most_weight=sampling.most_weight,
             is_sequential=sampling.is_sequential,
         )
-        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None)
+        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None, conditions or {})
         is_sought = focus is not None and is_wanted
         causes = _causes(bucket, ordered, find, focus) if is_sought else NO_CAUSES
         faults.append(replace(fault, interval=interval, causes=causes))
@@ -154,11 +157,18 @@ def assess(
 
 
 def _fault(
-    bucket: Bucket, results: tuple[MissionResult, ...], agent: AgentConfiguration, seed: int, refly: Refly | None
+    bucket: Bucket,
+    results: tuple[MissionResult, ...],
+    agent: AgentConfiguration,
+    seed: int,
+    refly: Refly | None,
+    known: Conditions,
 ) -> Fault:
     example = next(result for result in results if result.number == bucket.example)
     abort = example.outcome.abort if example.outcome else None
     confirmation = confirm(abort.conflict) if abort and abort.conflict else None
+    if bucket.example in known:
+        return Fault(bucket, known[bucket.example], confirmation)
     return Fault(bucket, find_condition(bucket, results, agent, seed, refly), confirmation)
 
 

@@ -13,6 +13,7 @@ from checker.coverage import universe_of
 from checker.judge.judge import breaches, judge_mission
 from checker.judge.rendering import DisagreementError
 from checker.names import relative_name
+from checker.properties import property_fates
 from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.read import read_source
@@ -65,7 +66,19 @@ def fly_programs(
     if report.errors:
         raise DisagreementError(report)
     behaviour = universe_of(programs.programs).features(record, outcome.events)
-    return _relative(replace(outcome, breaches=breaches(report), behaviour=behaviour), root)
+    arguments = _arguments(programs) if agent.properties else {}
+    fates = property_fates(agent, arguments, record, outcome.last_tick)
+    outcome = replace(outcome, breaches=breaches(report), behaviour=behaviour, properties=fates)
+    return _relative(outcome, root)
+
+
+def _arguments(programs: MissionPrograms) -> dict[str, tuple[str, ...]]:
+    """The names of the arguments of each predicate."""
+    return {
+        predicate.name: tuple(parameter.name for parameter in predicate.parameters)
+        for program in programs.programs
+        for predicate in program.predicates
+    }
 
 
 def programs_of(agent: AgentConfiguration) -> MissionPrograms:

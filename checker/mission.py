@@ -16,6 +16,7 @@ from checker.goal_fit import goals_out_of_time
 from checker.losses import Limit
 from checker.mission_table import MissionText, Table, TomlTable
 from checker.parameter_tables import read_parameters
+from checker.property_tables import read_properties
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_source
@@ -83,6 +84,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
     top = Table(text, (), values, "a mission file")
     head = top.table("mission", "[mission]", needed=True)
     reactors, coded = _read_reactors(top.tables("reactor", needed=True), root)
+    owned = (*(line for one in reactors for line in one.internal), *(line for one in coded for line in one.internal))
     goals = _read_goals(top.tables("goal"), (*reactors, *coded), text)
     constraints, seconds = _read_constraints(top.table("constraints", "[constraints]"), root)
     parameters, unranged = read_parameters(top.table("parameters", "[parameters]"), top.table("joint", "[joint]"))
@@ -98,6 +100,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
         constraints=constraints,
         constraint_seconds=seconds,
         coded=coded,
+        properties=read_properties(top.tables("property"), owned),
     )
     check = _read_check(top.table("check", "[check]"))
     if file := head.string("batch", ""):

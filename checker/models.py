@@ -7,6 +7,7 @@ from checker.influence import Influence, lines_of_influence
 from checker.mission import Mission, read_mission
 from checker.model_fit import complete, find_misfits, sampling_misfits
 from checker.names import relative_name
+from checker.property_fit import property_misfits
 from checker.role_fit import find_role_misfits
 from compiler.lower import compile_model
 from compiler.program import ParameterSite, Program
@@ -71,6 +72,7 @@ def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
     sites = _sites(programs)
     misfits = [*find_misfits(mission, programs), *sampling_misfits(mission, sites)]
     misfits += find_role_misfits(mission, programs, library.constraints)
+    misfits += property_misfits(mission, programs)
     completed = complete(mission, sites)
     return ModelSet(completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits))
 

@@ -9,11 +9,12 @@ from enum import Enum
 
 from checker.losses import Exceeded, Limit, Losses, exceeded
 from runtime.executive.events import single_events
-from runtime.executive.outcome import EventKind, Outcome, Reason, ReasonKind
+from runtime.executive.outcome import EventKind, Outcome, PropertyFate, Reason, ReasonKind
 
 _GOALS_OPEN = "F10"
 _NO_RECORD = "F7"
 _BROKEN = "F11"
+_PROPERTY = "P1"
 _LIMIT_CODES = {Limit.REJECTED: "L1", Limit.LATE: "L2", Limit.REPAIRS: "L3", Limit.UNDELIVERED: "L4"}
 USER_CODE = "USER"  # of an ERROR: a constraint that the project wrote in Python failed
 
@@ -32,6 +33,7 @@ CODE_NAMES = {
     "L1": "more goals were given up than [check] allows",
     "L2": "more goals were late than [check] allows",
     "L3": "plans were repaired more often than [check] allows",
+    "P1": "a property of the mission was violated",
     "L4": "more requests were not delivered than [check] allows",
 }
 
@@ -48,7 +50,8 @@ class Verdict(Enum):
 class Judgement:
     """A verdict; `code` names the class of failure and `reason` says why it failed, both empty for a PASS.
 
-    `message` is what the code said that failed in an ERROR; `exceeded` the limit of [check] that was not kept.
+    `message` is what the code said that failed in an ERROR; `exceeded` the limit of [check] that was not kept,
+    `broken` the property.
     """
 
     verdict: Verdict
@@ -56,6 +59,7 @@ class Judgement:
     reason: Reason | None = None
     message: str = ""
     exceeded: Exceeded | None = None
+    broken: PropertyFate | None = None
 
 
 def judge(outcome: Outcome) -> Judgement:
@@ -70,6 +74,9 @@ def judge(outcome: Outcome) -> Judgement:
         return Judgement(Verdict.FAIL, lost.code, lost.reason)
     if outcome.open_goals:
         return Judgement(Verdict.FAIL, _GOALS_OPEN, Reason(ReasonKind.GOALS_OPEN))
+    broken = next((one for one in outcome.properties if not one.is_kept), None)
+    if broken is not None:
+        return Judgement(Verdict.FAIL, _PROPERTY, broken=broken)
     if outcome.breaches:
         return Judgement(Verdict.FAIL, _BROKEN, outcome.breaches[0])
     return Judgement(Verdict.PASS)

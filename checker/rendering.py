@@ -60,6 +60,8 @@ _KINDS = {
 
 def failure_text(judgement: Judgement, open_goals: Sequence[OpenGoal] = ()) -> str:
     """Why a mission failed, or could not be flown; empty for one that passed."""
+    if judgement.broken is not None:
+        return f"the property `{judgement.broken.name}` is violated at tick {judgement.broken.tick}"
     if judgement.exceeded is not None:
         return _exceeded_text(judgement.exceeded)
     if judgement.reason is None:

@@ -23,6 +23,7 @@ _BEGUN = re.compile(r"[ \t]*\[\[?(?=[^\]\n]*\Z)")  # a header that is not closed
 _KEY = re.compile(r"""^[ \t]*([A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')[ \t]*=""", re.MULTILINE)
 _MODEL = re.compile(r"""^[ \t]*model[ \t]*=[ \t]*["']([^"'\n]+)["']""", re.MULTILINE)
 _MISSION = re.compile(r"^[ \t]*\[(?:mission|\[reactor\])\]", re.MULTILINE)
+_WORDS = ("mission", "solver")
 _CONFIGURATIONS = (NAME, PROJECT)
 _STRING = re.compile(r"""(["'])((?:(?!\1)[^\n\\]|\\.)*)\1?""")
 
@@ -142,9 +143,12 @@ class MissionTexts:
         return list(self._open.values())
 
     def open(self, uri: str, version: int, text: str) -> OpenMission | None:
-        """A text is open now; None where that is neither a mission file nor a configuration, but another TOML."""
+        """A text is open now; None where it is a TOML that is none of nddlc's, as far as its name and its head tell."""
         path = path_of(uri)
-        if path is None or not (path.name in _CONFIGURATIONS or _MISSION.search(text) or "mission" in path.name):
+        if path is None:
+            return None
+        has_name = path.name in _CONFIGURATIONS or any(word in path.name.lower() for word in _WORDS)
+        if not has_name and _MISSION.search(text) is None:
             return None
         found = self._open[uri] = OpenMission(uri, path, version, Lines(text, self._encoding))
         return found

@@ -2,7 +2,7 @@
 
 import json
 import os
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,6 +10,7 @@ import click
 
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
+from checker.conditions.record import write_condition
 from checker.coverage import coverage_of
 from checker.excerpts import Excerpts
 from checker.findings import Findings
@@ -34,6 +35,7 @@ from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_
 from nddlc.known import known_callables
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
+from nddlc.regressions import regressions_hold
 from nddlc.samplers import find_sampler
 from nddlc.trust import trust_option
 
@@ -115,6 +117,7 @@ def command(
         if style == "text":
             click.echo(f"`{path}` and its models are in order; nothing was flown")
         return _HOLDS
+    regressed = not regressions_hold(campaign, file, is_told=style == "text")
     count, enough = workers or cores(), Enough(seconds, max_failures, rule)
     try:
         with ExitStack() as stack:
@@ -124,8 +127,21 @@ def command(
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
     findings = campaign.assess(flown.results, ending=flown.ending, sampling=flown.sampling)
+    if not no_store:
+        _keep(findings, store_path)
     code = _report(campaign, findings, style, output, coverage=coverage)
+    if regressed and code == _HOLDS:
+        code = _FINDINGS
+        if style == "text":
+            click.echo("a regression case fails again: see above")
     return code if flown.ended_by is None else _SIGNALLED + flown.ended_by
+
+
+def _keep(findings: Findings, store_path: Path) -> None:
+    """Have the store remember the conditions, so that `explain` need not fly for them; it can if that fails."""
+    known = {fault.bucket.example: write_condition(fault.condition) for fault in findings.faults}
+    with suppress(StoreError), open_store(store_path) as store:
+        store.keep_conditions(findings.run_id, known)
 
 
 def _prepare(
@@ -191,7 +207,7 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *,
     covered = coverage_of(campaign.models, findings.results) if coverage else None
     reports = {
         "json": ("report.json", json_report(findings, excerpts, covered)),
-        "html": ("report.html", html_report(findings, excerpts, campaign.stories(findings))),
+        "html": ("report.html", html_report(findings, excerpts, campaign.stories(findings), campaign.pairs(findings))),
         "junit": ("junit.xml", junit_report(findings, excerpts)),
         "sarif": ("report.sarif", sarif_report(findings, excerpts)),
         "markdown": ("report.md", markdown_report(findings, excerpts)),

@@ -10,6 +10,8 @@ from checker.batch.result import MissionResult
 from checker.batch.store import LATEST, Run, RunStore, StoreError, open_store
 from checker.batch.worker import fly_one
 from checker.campaign import Campaign
+from checker.conditions.record import read_condition
+from checker.contrast_rendering import contrast_data, contrast_lines
 from checker.counterfactual.trials import MOST_FLIGHTS, MOST_SECONDS, Bounds
 from checker.excerpts import Excerpts
 from checker.explain import MOST_CAUSES, result_data, result_text, story_data, story_text
@@ -84,6 +86,7 @@ class _Found:
     result: MissionResult
     fault: Fault | None
     is_same: bool
+    results: tuple[MissionResult, ...]
 
 
 def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_trusted: bool) -> _Found:
@@ -91,14 +94,17 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
     if run is None:
         known = ", ".join(store.run_ids()[:10])
         raise Unusable(f"no single run is named `{name}`", f"runs in the store: {known or 'none'}")
-    campaign, is_same = _campaign(run, is_trusted)
+    campaign, is_same = campaign_of(run, is_trusted)
     results = tuple(campaign.judged(one) for one in store.results(run.id))
     first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
-    findings = campaign.assess(results, may_fly=is_same, focus=first, bounds=bounds if bounds.flights else None)
+    conditions = {example: read_condition(text) for example, text in store.conditions(run.id).items()}
+    findings = campaign.assess(
+        results, may_fly=is_same, focus=first, bounds=bounds if bounds.flights else None, conditions=conditions
+    )
     findings = replace(findings, run_id=run.id)
     result = _result(run, first, campaign, findings, is_same)
     fault = next((one for one in findings.faults if result.number in one.bucket.missions), None)
-    return _Found(campaign, run.id, result, fault, is_same)
+    return _Found(campaign, run.id, result, fault, is_same, results)
 
 
 def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
@@ -121,6 +127,10 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
                 f"\nthe causal graph, each node with the numbers of its causes:\n{graph_text(graph)}" if verbose else ""
             )
             plain["graph"] = graph_data(graph, excerpts)
+        if found.is_same:
+            contrast = campaign.contrast(result, found.results)
+            text += "\n".join(["", *contrast_lines(contrast)]) + "\n" if contrast is not None else ""
+            plain["contrast"] = contrast_data(contrast)
     else:
         text, plain = result_text(result, found.run_id), result_data(result, found.run_id)
     if events and result.outcome is not None:
@@ -131,7 +141,7 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
     return 0
 
 
-def _campaign(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
+def campaign_of(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
     """The mission as its file is now, and whether that is still what was flown."""
     path = Path(run.mission_file)
     if path.is_relative_to(Path.cwd()):

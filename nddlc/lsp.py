@@ -45,12 +45,14 @@ def command(
 
 
 def _examine(source: Source, root: Path, is_trusted: bool) -> tuple[Diagnostic, ...]:
-    """All that is wrong with a mission file, a configuration, or what a mission asks of its models.
+    """All that is wrong with a mission file, a configuration, a solver's, or what a mission asks of its models.
 
     The checker is loaded for the first mission file. Python that a mission names is run only for who is trusted.
     """
     if Path(source.name).name in (NAME, PROJECT):
         return tuple(read_configuration(Path(source.name))[1])
+    if "solver" in Path(source.name).name.lower():
+        return tuple(named("runtime.solver.configuration.read:read_configuration")(source)[1])
     mission, found = named("checker.mission:parse_mission")(source, root)
     if mission is None or (mission.agent.constraints and not is_trusted):
         return tuple(found)

@@ -30,17 +30,27 @@ COMMANDS = {
     "replay": ("nddlc.replay", "Fly the mission of a trace again, and say where it departs."),
     "gold": ("nddlc.gold", "Compare a mission with how it was accepted to be."),
     "check": ("nddlc.check", "Fly the missions of a mission file, and say what fails and why."),
+    "compare": (
+        "nddlc.compare",
+        "Compare two runs on common seeds: which missions flipped.",
+    ),
+    "process": ("nddlc.process", "Take the five steps from a model to the sea, and show which are passed."),
     "study": ("nddlc.study", "Fly variants of models under several samplings, and draw what finds which mistake."),
     "convert": ("nddlc.convert", "Turn a batch file in XML into tables of a mission file."),
     "mutate": ("nddlc.mutate", "Make small faults in models, and say which of them are noticed and found."),
     "explain": ("nddlc.explain", "Explain why one mission of a run failed."),
+    "shrink": ("nddlc.shrink", "Shrink a failed mission of a run to the simplest one that fails alike."),
+    "promote": ("nddlc.promote", "Keep a failed mission of a run as a regression case."),
     "store": ("nddlc.store", "Look whether a store of runs is whole, and salvage a damaged one."),
     "validate": ("nddlc.validate", "Judge a mission, a record, a trace or a plan against the model."),
     "lsp": ("nddlc.lsp", "Serve an editor over standard input and output."),
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 # What is slow where the engine is not compiled.
-_PLANNING = ("load", "compile", "plan", "run", "replay", "gold", "check", "study", "mutate", "explain", "validate")
+_PLANNING = (
+    *("load", "compile", "plan", "run", "replay", "gold", "check", "process", "study", "mutate"),
+    *("explain", "shrink", "promote", "validate"),
+)
 _UNUSABLE, _BUG, _INTERRUPTED = 2, 3, 130
 _MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk
 _FORBIDDEN = (errno.EACCES, errno.EPERM, errno.ELOOP, errno.ENAMETOOLONG)

@@ -95,12 +95,20 @@ class Flyer:
         if self._worker is not None:
             self._worker.kill()
 
-    def fly(self, agent: AgentConfiguration, number: int, seed: int, load: Load | None = None) -> MissionResult:
+    def fly(
+        self,
+        agent: AgentConfiguration,
+        number: int,
+        seed: int,
+        load: Load | None = None,
+        *,
+        keeps_trace: bool = False,
+    ) -> MissionResult:
         """The result of one mission; an ERROR where the process died or took too long.
 
         `load` loads the models where they are others than those that the process was started with.
         """
-        task = Task(number, seed, agent, load)
+        task = Task(number, seed, agent, keeps_trace=keeps_trace, load=load)
         if self._worker is None:
             self._worker = _Worker(self._load, self._agent)
             if not self._worker.connection.poll(_START_LIMIT):

@@ -32,12 +32,12 @@ class MissionResult:
     detail: str = ""
     losses: Losses = NO_LOSSES
     point: SamplePoint = RANDOM_POINT
-    margins: tuple[tuple[str, float], ...] = ()  # of properties: how far each was from being violated
 
     @property
     def least_margin(self) -> float:
-        """The smallest margin; 0 without any."""
-        return min((margin for _, margin in self.margins), default=0.0)
+        """The smallest margin of a property by which it was kept; 0 without any."""
+        fates = self.outcome.properties if self.outcome is not None else ()
+        return min((one.margin for one in fates if abs(one.margin) < float("inf")), default=0.0)
 
     @property
     def verdict(self) -> Verdict:

@@ -8,7 +8,7 @@ import os
 import sqlite3
 import time
 import zlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -42,6 +42,12 @@ CREATE TABLE IF NOT EXISTS failures (
     run TEXT NOT NULL,
     UNIQUE (mission_file, seed, point)
 );
+CREATE TABLE IF NOT EXISTS conditions (
+    run TEXT NOT NULL,
+    example INTEGER NOT NULL,
+    text TEXT NOT NULL,
+    PRIMARY KEY (run, example)
+) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS missions (
     run TEXT NOT NULL,
     number INTEGER NOT NULL,
@@ -170,6 +176,16 @@ class RunStore:
                 " (SELECT turn FROM failures WHERE mission_file = ? ORDER BY turn DESC LIMIT ?)",
                 (run.mission_file, run.mission_file, _MOST_FAILURES),
             )
+
+    def keep_conditions(self, run_id: str, texts: Mapping[int, str]) -> None:
+        """Remember under what conditions missions fail, by the number of the example."""
+        rows = [(run_id, example, text) for example, text in texts.items()]
+        with self._guarded(), self._connection:
+            self._connection.executemany("INSERT OR REPLACE INTO conditions VALUES (?, ?, ?)", rows)
+
+    def conditions(self, run_id: str) -> dict[int, str]:
+        """What `keep_conditions` kept."""
+        return dict(self._rows("SELECT example, text FROM conditions WHERE run = ?", run_id))
 
     def failures(self, run: Run) -> tuple[KeptFailure, ...]:
         """The missions that failed in other runs of the same mission file, in the order in which they were kept."""

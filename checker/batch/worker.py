@@ -31,6 +31,7 @@ class Task:
     seed: int
     agent: AgentConfiguration | None = None
     point: SamplePoint = RANDOM_POINT
+    keeps_trace: bool = False  # though it passes
     load: Load | None = None
 
 
@@ -94,6 +95,7 @@ def fly_one(fly: Fly, task: Task, *, keep_trace: bool = False) -> MissionResult:
     except Exception as problem:
         return error_result(task, f"{type(problem).__name__}: {problem}", traceback.format_exc())
     judgement, losses = judge(outcome), losses_of(outcome)
+    keep_trace = keep_trace or task.keeps_trace
     if judgement.verdict is Verdict.PASS and not keep_trace:
         outcome = condense(outcome)
     else:

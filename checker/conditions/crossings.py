@@ -46,7 +46,7 @@ def find_crossings(
             goal = _goal(start, passes, flights, chance, nearest=turn % 2 == 0)
             crossing = _cross(flights, start, goal, chance.permutation(len(start)).tolist(), found)
             if crossing is not None:
-                weight = _CHANCE if flights.space.axes[crossing.axis].is_stepped() else 1.0
+                weight = _CHANCE if flights.space.parameters[crossing.axis].is_stepped() else 1.0
                 known = known + weight if any(_meet(crossing, one) for one in found) else 0.0
                 found += [crossing] if crossing not in found else []
                 if flights.label(crossing.failing) is Ended.FAILS and turn % 3 == 0:
@@ -134,7 +134,7 @@ def _meet(one: Crossing, other: Crossing) -> bool:
 def sharpen(flights: Flights, crossing: Crossing, resolution: float) -> Crossing:
     """Halve a crossing down to `resolution` of the range."""
     axis, failing, passing = crossing.axis, crossing.failing, crossing.passing
-    while (middle := flights.space.axes[axis].between(failing[axis], passing[axis], resolution)) is not None:
+    while (middle := flights.space.parameters[axis].between(failing[axis], passing[axis], resolution)) is not None:
         point = _with(failing, axis, middle)
         if flights.fails(point):
             failing = point
@@ -149,7 +149,7 @@ def _goal(
     """A passing point: one of the nearest, or any."""
     if not nearest:
         return passes[int(chance.integers(len(passes)))]
-    widths = [axis.width for axis in flights.space.axes]
+    widths = [axis.width for axis in flights.space.parameters]
 
     def distance(point: Point) -> float:
         return sum(abs(a - b) / width for a, b, width in zip(point, start, widths, strict=True))
@@ -161,7 +161,7 @@ def _mixed(flights: Flights, fails: Sequence[Point], passes: Sequence[Point], ch
     """A point that has some values of a failing one and the others of a passing one, or of nowhere."""
     one, other = fails[int(chance.integers(len(fails)))], passes[int(chance.integers(len(passes)))]
     values = []
-    for axis, a, b in zip(flights.space.axes, one, other, strict=True):
+    for axis, a, b in zip(flights.space.parameters, one, other, strict=True):
         values.append((a, a, b, axis.at(float(chance.random())))[int(chance.integers(4))])
     return tuple(values)
 

@@ -28,7 +28,7 @@ _SLACK = 2.0  # of a term, in terms of what is sharp for one parameter
 
 def find_edges(flights: Flights, crossings: Sequence[Crossing]) -> list[Literal]:
     """The limits that explain the crossings: of one parameter first, then of terms of several."""
-    axes = flights.space.axes
+    axes = flights.space.parameters
     found: list[Literal] = []
     left = list(crossings)
     for axis in range(len(axes)):
@@ -55,7 +55,7 @@ def find_edges(flights: Flights, crossings: Sequence[Crossing]) -> list[Literal]
 
 def _may_coincide(flights: Flights, crossings: Sequence[Crossing]) -> bool:
     """Whether flips may be at one value by chance: where there are only some values."""
-    return any(flights.space.axes[one.axis].is_stepped() for one in crossings)
+    return any(flights.space.parameters[one.axis].is_stepped() for one in crossings)
 
 
 def _other_axes(crossings: Sequence[Crossing], axis: int) -> bool:
@@ -77,7 +77,7 @@ def _agreeing(chosen: Crossing, crossings: Sequence[Crossing]) -> list[Crossing]
 
 def _axis_literal(flights: Flights, axis: int, group: Sequence[Crossing]) -> Literal:
     """The limit of one parameter, sharpened by flights."""
-    space = flights.space.axes[axis]
+    space = flights.space.parameters[axis]
     narrowest = min(group, key=lambda one: abs(one.failing[axis] - one.passing[axis]))
     with suppress(SpentError):
         narrowest = sharpen(flights, narrowest, FINE)
@@ -117,7 +117,7 @@ def _best_term(flights: Flights, crossings: Sequence[Crossing], size: int) -> tu
 
 def _terms(flights: Flights, crossings: Sequence[Crossing], size: int) -> Iterator[Feature]:
     """Terms fitted to as many crossings as they have parameters, with simple coefficients."""
-    axes = flights.space.axes
+    axes = flights.space.parameters
     usable = [number for number, axis in enumerate(axes) if not axis.is_redrawn]
     chance = np.random.default_rng(len(crossings))
     for chosen in combinations(usable, size):
@@ -203,7 +203,7 @@ def _explained(
     low, high = max(each[0] for each in best), min(each[1] for each in best)
     values = [value for point in flights.known if not math.isnan(value := feature.value(row(point)))]
     slack = _SLACK * FINE * (max(values) - min(values))
-    is_stepped = all(axis.is_stepped() for axis in flights.space.axes if axis.name in feature.parameters)
+    is_stepped = all(axis.is_stepped() for axis in flights.space.parameters if axis.name in feature.parameters)
     if is_stepped:
         return Literal(feature, best_side, high if best_side else low, holds_at_edge=True), [one for *_, one in best]
     return Literal(feature, best_side, shortest_decimal(low - slack, high + slack)), [one for *_, one in best]

@@ -9,7 +9,7 @@ from checker.conditions.condition import Condition, Conjunction, Extreme, Featur
 from checker.conditions.crossings import FINE, find_crossings, mend_crossings
 from checker.conditions.edges import find_edges
 from checker.conditions.flights import Ended, Flights, Refly, flight_budget, fresh_budget, label_of
-from checker.conditions.measure import Measured, measure, measured_on
+from checker.conditions.measure import Quality, measure, measured_on
 from checker.conditions.rules import induce, sample_cuts
 from checker.conditions.space import Space
 from checker.smt.edges import find_failing_range
@@ -32,7 +32,7 @@ def find_condition(
     """The condition under which missions fail as those of `bucket`; None where nothing can be claimed."""
     example = next(result for result in results if result.number == bucket.example)
     space = Space(agent, results)
-    if not space.axes:
+    if not space.parameters:
         return None
     rows = _rows(space, results, example)
     if refly is None:
@@ -45,7 +45,7 @@ def find_condition(
     fails = [space.point(own), *fails[:_MOST_POINTS]]
     passes = passes or _corners(space)
     crossings = find_crossings(flights, fails, passes[:_MOST_POINTS], _FIRST_SHARE)
-    conjunctions = _induced(space, [*rows, *flights.rows()], find_edges(flights, crossings))
+    conjunctions = _induced(space, rows, find_edges(flights, crossings), flights.rows())
     for _ in range(_ROUNDS):
         known = [*rows, *flights.rows()]
         claimed = [(space.point(row), label, holds(conjunctions, row)) for row, label in known]
@@ -57,7 +57,7 @@ def find_condition(
         if len(more) == len(crossings):
             break
         crossings = more
-        conjunctions = _induced(space, [*rows, *flights.rows()], find_edges(flights, crossings))
+        conjunctions = _induced(space, rows, find_edges(flights, crossings), flights.rows())
     if not conjunctions:
         return None
     measured = measure(conjunctions, space, example, batch_seed, refly, fresh_budget(example))
@@ -71,7 +71,7 @@ def _in_terms(condition: Condition, example: MissionResult, space: Space) -> tup
     row = space.row(example)
     if abort is None or abort.conflict is None or row is None:
         return ()
-    axes = {axis.name: axis for axis in space.axes if not axis.is_redrawn}
+    axes = {axis.name: axis for axis in space.parameters if not axis.is_redrawn}
     found = []
     for literal in condition.single:
         axis = axes.get(literal.feature.parameters[0])
@@ -96,24 +96,29 @@ def _rows(space: Space, results: Sequence[MissionResult], example: MissionResult
 
 def _corners(space: Space) -> list[tuple[float, ...]]:
     """Where to look for a passing mission if none is known: the middle, and the ends of each range."""
-    middle = tuple(axis.at(0.5) for axis in space.axes)
+    middle = tuple(axis.at(0.5) for axis in space.parameters)
     ends = [
         (*middle[:number], end, *middle[number + 1 :])
-        for number, axis in enumerate(space.axes)
+        for number, axis in enumerate(space.parameters)
         for end in (axis.lower, axis.upper)
     ]
     return [middle, *ends]
 
 
-def _induced(space: Space, rows: Sequence[tuple[Row, Ended]], edges: Sequence[Literal]) -> tuple[Conjunction, ...]:
+def _induced(
+    space: Space,
+    rows: Sequence[tuple[Row, Ended]],
+    edges: Sequence[Literal],
+    flown: Sequence[tuple[Row, Ended]] = (),
+) -> tuple[Conjunction, ...]:
     """Rules over the edges that flights found, with cuts of the samples where a parameter has none."""
     cuts = sample_cuts(rows, _features(space, {one.feature for one in edges}))
-    return induce(rows, [*edges, *cuts])
+    return induce(rows, [*edges, *cuts], flown)
 
 
 def _features(space: Space, known: set[Feature]) -> list[Feature]:
     found: list[Feature] = []
-    for axis in space.axes:
+    for axis in space.parameters:
         extremes = (Extreme.GREATEST, Extreme.LEAST) if axis.is_redrawn else (Extreme.ONLY,)
         found += [axis_feature(axis.name, one) for one in extremes if axis_feature(axis.name, one) not in known]
     return found
@@ -132,12 +137,12 @@ def _from_samples(space: Space, rows: Sequence[tuple[Row, Ended]]) -> Condition 
 
 
 def _condition(
-    conjunctions: tuple[Conjunction, ...], measured: Measured | None, flights: int, space: Space, *, has_flown: bool
+    conjunctions: tuple[Conjunction, ...], measured: Quality | None, flights: int, space: Space, *, has_flown: bool
 ) -> Condition | None:
     """What may be claimed: nothing that holds half the time, and of redrawn parameters only what holds."""
     if measured is None or measured.precision.value < _LEAST_PRECISION or measured.recall.value < _LEAST_RECALL:
         return None
     near = measured.near if has_flown else None
     found = Condition(conjunctions, measured.precision, measured.recall, measured.fresh, near, flights)
-    redrawn = {axis.name for axis in space.axes if axis.is_redrawn}
+    redrawn = {axis.name for axis in space.parameters if axis.is_redrawn}
     return None if found.is_partial and redrawn & set(found.parameters) else found

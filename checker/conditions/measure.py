@@ -25,7 +25,7 @@ _SIDES = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class Quality:
     """Precision and recall, over how many missions, and how many of them were near an edge."""
 
     precision: Share
@@ -55,7 +55,7 @@ def measure(
     batch_seed: int,
     refly: Refly,
     flights: int,
-) -> Measured | None:
+) -> Quality | None:
     """Fly fresh missions; None where the tool failed in one, or none is to be had on a side."""
     if space.has_redrawn:
         return _as_they_come(conjunctions, space, example, batch_seed, refly, flights)
@@ -81,16 +81,16 @@ def measure(
     precision = _weighted(inside, [one.failed for one in inside])
     hit, lost = _total(inside), _total(outside)
     recall = Share(_part(hit[0], lost[0]), (_part(hit[1], lost[2]), _part(hit[2], lost[1])))
-    return Measured(precision, recall, flown, near_flown)
+    return Quality(precision, recall, flown, near_flown)
 
 
-def measured_on(rows: Sequence[tuple[Row, Ended]], conjunctions: Sequence[Conjunction]) -> Measured:
+def measured_on(rows: Sequence[tuple[Row, Ended]], conjunctions: Sequence[Conjunction]) -> Quality:
     """Precision and recall on missions as they came."""
     inside = [label for row, label in rows if holds(conjunctions, row)]
     alike = sum(label is Ended.FAILS for _, label in rows)
     failed = sum(label is not Ended.PASSES for label in inside)
     hit = sum(label is Ended.FAILS for label in inside)
-    return Measured(_share(failed, len(inside)), _share(hit, alike), len(rows), 0)
+    return Quality(_share(failed, len(inside)), _share(hit, alike), len(rows), 0)
 
 
 def _as_they_come(
@@ -100,7 +100,7 @@ def _as_they_come(
     batch_seed: int,
     refly: Refly,
     flights: int,
-) -> Measured | None:
+) -> Quality | None:
     rows: list[tuple[Row, Ended]] = []
     for number in range(flights):
         result = refly(space.agent, _FIRST + number, mission_seed(batch_seed, _FIRST + number))

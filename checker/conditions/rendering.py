@@ -16,6 +16,13 @@ def condition_claim(condition: Condition) -> str:
     return f"{partly} {condition_text(condition)} ({'; '.join(condition_evidence(condition))})"
 
 
+def condition_lines(condition: Condition, indent: str = "") -> list[str]:
+    """A condition for people: the claim, and below it how well it holds and how it was found."""
+    partly = "in part when" if condition.is_partial else "when"
+    evidence = [f"{indent}  {line}" for line in condition_evidence(condition)]
+    return [f"{indent}fails {partly} {condition_text(condition)}", *evidence]
+
+
 def condition_evidence(condition: Condition) -> list[str]:
     """How good it is, on which missions, and how it was found, a line each."""
     if condition.near is None:

@@ -18,32 +18,41 @@ _MOST_LITERALS = 6
 _MOST_CONJUNCTIONS = 4
 _PRICE = 0.01  # of a literal, in shares of the missions covered
 _LEAST_GAIN = 0.04  # a further conjunction must cover so much of the failing missions
+_CHOSEN = 0.02  # weight of a flight at a chosen point
 _Mask = NDArray[np.bool_]
+_Weights = NDArray[np.float64]
 
 
-def induce(rows: Sequence[tuple[Row, Ended]], edges: Sequence[Literal]) -> tuple[Conjunction, ...]:
-    """The conjunctions that cover failing missions and few passing ones; none where no literal tells them apart."""
-    counted = [(row, label) for row, label in rows if label is not Ended.OTHER]
+def induce(
+    rows: Sequence[tuple[Row, Ended]], edges: Sequence[Literal], flown: Sequence[tuple[Row, Ended]] = ()
+) -> tuple[Conjunction, ...]:
+    """The conjunctions that cover failing missions and few passing ones; none where no literal tells them apart.
+
+    `rows` are missions as they come; those `flown` at chosen points count for less: most of them lie at an edge.
+    """
+    counted = [(row, label) for row, label in (*rows, *flown) if label is not Ended.OTHER]
+    ordinary = sum(label is not Ended.OTHER for _, label in rows)
+    weights = np.array([1.0 if number < ordinary else _CHOSEN for number in range(len(counted))])
     literals = list(dict.fromkeys(one for edge in edges for one in (edge, edge.negation)))
     if not literals or not counted:
         return ()
     truth = np.array([[literal.holds(row) for row, _ in counted] for literal in literals])
     fails = np.array([label is Ended.FAILS for _, label in counted])
-    left, total = fails.copy(), int(fails.sum())
+    left, total = weights * fails, float(weights[fails].sum())
     found: list[Conjunction] = []
-    while left.any() and len(found) < _MOST_CONJUNCTIONS:
-        chosen = _conjunction(truth, left, ~fails)
+    while left.sum() > 0.0 and len(found) < _MOST_CONJUNCTIONS:
+        chosen = _conjunction(truth, left, weights * ~fails)
         if not chosen:
             break
         covered = truth[list(chosen)].all(axis=0)
-        if (covered & left).sum() < _LEAST_GAIN * total:
+        if left[covered].sum() < _LEAST_GAIN * total:
             break
         found.append(tuple(literals[number] for number in sorted(chosen)))
-        left &= ~covered
+        left = np.where(covered, 0.0, left)
     return tuple(found)
 
 
-def _conjunction(truth: _Mask, positive: _Mask, negative: _Mask) -> tuple[int, ...]:
+def _conjunction(truth: _Mask, positive: _Weights, negative: _Weights) -> tuple[int, ...]:
     """The best conjunction of literals by number."""
     best: tuple[float, tuple[int, ...]] = (0.0, ())
     beam: list[tuple[int, ...]] = [()]
@@ -70,12 +79,12 @@ def _conjunction(truth: _Mask, positive: _Mask, negative: _Mask) -> tuple[int, .
     return best[1]
 
 
-def _worth(covered: _Mask, positive: _Mask, negative: _Mask, size: int) -> tuple[float, float]:
+def _worth(covered: _Mask, positive: _Weights, negative: _Weights, size: int) -> tuple[float, float]:
     """How promising a conjunction is while it grows, and how good it is as it stands (not above 0: no good)."""
-    hits, misses = int((covered & positive).sum()), int((covered & negative).sum())
-    if not hits:
+    hits, misses = float(positive[covered].sum()), float(negative[covered].sum())
+    if hits <= 0.0:
         return -1.0, -1.0
-    recall, fallout = hits / int(positive.sum()), misses / max(int(negative.sum()), 1)
+    recall, fallout = hits / float(positive.sum()), misses / max(float(negative.sum()), 1e-9)
     impurity = misses / (hits + misses)
     return recall - fallout - _PRICE * size, recall - 2.0 * impurity - _PRICE * size
 

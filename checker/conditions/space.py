@@ -1,5 +1,6 @@
 """Parameter space of a mission: its free parameters as axes, missions and chosen values as points."""
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -65,22 +66,24 @@ class _FreeParameter:
 
 
 class Space:
-    """The free parameters of an agent."""
+    """The free parameters of an agent; without `redrawn` those alone that are drawn once a mission."""
 
-    def __init__(self, agent: AgentConfiguration, results: Sequence[MissionResult]) -> None:
+    def __init__(self, agent: AgentConfiguration, results: Sequence[MissionResult], *, redrawn: bool = True) -> None:
         self.agent = agent
         free = [one for one in agent.parameters if not DISTRIBUTIONS[one.distribution].is_determined]
         drawn = {draw.parameter for result in results if result.outcome for draw in result.outcome.draws}
-        self.axes = tuple(_axis(one, results) for one in free if one.name in drawn)
-        self.names = tuple(axis.name for axis in self.axes)
-        self.has_redrawn = any(axis.is_redrawn for axis in self.axes)
+        self.parameters = tuple(
+            _axis(one, results) for one in free if one.name in drawn and (redrawn or one.mode == "inter")
+        )
+        self.names = tuple(axis.name for axis in self.parameters)
+        self.has_redrawn = any(axis.is_redrawn for axis in self.parameters)
 
     def row(self, result: MissionResult) -> Row | None:
         """What a mission drew; of a parameter that it did not need, what it would have drawn."""
         if result.outcome is None:
             return None
         spans: dict[str, tuple[float, float]] = {}
-        for axis in self.axes:
+        for axis in self.parameters:
             values = [draw.value for draw in result.outcome.draws if draw.parameter == axis.name]
             values = values or [sample(axis.parameter, result.seed, 0).value]
             spans[axis.name] = (min(values), max(values))
@@ -88,7 +91,7 @@ class Space:
 
     def drawn(self, seed: int) -> Row:
         """What a mission with `seed` draws first."""
-        values = [(axis.name, sample(axis.parameter, seed, 0).value) for axis in self.axes]
+        values = [(axis.name, sample(axis.parameter, seed, 0).value) for axis in self.parameters]
         return {name: (value, value) for name, value in values}
 
     def point(self, row: Row) -> Point:
@@ -101,13 +104,13 @@ class Space:
 
     def agent_at(self, point: Point) -> AgentConfiguration:
         """The agent with every free parameter fixed."""
-        return _fixed(self.agent, dict(zip(self.names, point, strict=True)))
+        return fixed(self.agent, dict(zip(self.names, point, strict=True)))
 
 
-def _fixed(agent: AgentConfiguration, values: Mapping[str, float]) -> AgentConfiguration:
+def fixed(agent: AgentConfiguration, values: Mapping[str, float]) -> AgentConfiguration:
     """The agent with some parameters fixed to values."""
     parameters = tuple(
-        replace(one, distribution="fixed", mode="inter", values=(values[one.name],), weights=(), clip=None)
+        replace(one, distribution="fixed", mode="inter", values=(values[one.name],), weights=(), clip=None, share=None)
         if one.name in values
         else one
         for one in agent.parameters
@@ -123,4 +126,5 @@ def _axis(parameter: ParameterConfiguration, results: Sequence[MissionResult]) -
         values += [draw.value for draw in draws if draw.parameter == parameter.name]
     if parameter.clip is not None:
         values = [min(max(value, parameter.clip[0]), parameter.clip[1]) for value in values]
+    values = [value for value in values if math.isfinite(value)] or [0.0]
     return _FreeParameter(parameter, min(values), max(values))

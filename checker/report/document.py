@@ -121,6 +121,10 @@ def _mission(result: MissionResult, tally: Tally) -> dict[str, Any]:
         "reason": failure_text(result.judgement, result.open_goals),
         "last_tick": None if outcome is None else outcome.last_tick,
         "losses": None if outcome is None else mission_losses(result, tally),
+        "properties": {
+            one.name: {"kept": one.is_kept, "tick": one.tick, "margin": _finite(one.margin)}
+            for one in (outcome.properties if outcome is not None else ())
+        },
         "draws": []
         if outcome is None
         else [

@@ -1,4 +1,4 @@
-"""Findings in, one self-contained HTML page out: no script, no external resource, light and dark."""
+"""Findings in, one self-contained HTML page out: no external resource, light and dark."""
 
 import re
 from collections.abc import Sequence
@@ -13,8 +13,19 @@ from checker.losses import Limit, amount
 from checker.oracle import CODE_NAMES, Verdict
 from checker.rendering import confirmation_text, failure_text, step_text
 from checker.report.losses import damage_words, goal_line, goal_text, repair_text, request_line, unmet_text
-from checker.report.sentences import blamed, decision, missions, percent, rate_line, verdict_word
+from checker.report.sentences import (
+    blamed,
+    decision,
+    kept_line,
+    missions,
+    percent,
+    rate_line,
+    sensitivity_line,
+    stop_line,
+    verdict_word,
+)
 from checker.report.svg import Dot, rate_plot, scatter_plot, strip_plot
+from checker.report.timelines import Pair, pair_plot
 from checker.sampling.rendering import describe, number
 from checker.story import Step, StepKind, Story
 from checker.tally import Tally
@@ -27,9 +38,12 @@ _MOST_LOSSES = 40
 _COLOURS = 6
 
 
-def html_report(findings: Findings, excerpts: Excerpts, stories: Sequence[Story | None]) -> str:
-    """The page; `stories` has the story of each fault's example, in the order of the faults."""
+def html_report(
+    findings: Findings, excerpts: Excerpts, stories: Sequence[Story | None], pairs: Sequence[Pair | None] = ()
+) -> str:
+    """The page; `stories` and `pairs` have the story of each fault's example, and a passing mission beside it."""
     style = files("checker.report").joinpath("page.css").read_text(encoding="utf-8")
+    script = files("checker.report").joinpath("page.js").read_text(encoding="utf-8")
     name = escape(findings.agent.name)
     parts = [
         "<!doctype html>",
@@ -39,11 +53,11 @@ def html_report(findings: Findings, excerpts: Excerpts, stories: Sequence[Story 
         f"<style>\n{style}</style></head><body><main>",
         *_head(findings),
         *_losses(findings.tally, excerpts),
-        *_faults(findings, excerpts, stories),
+        *_faults(findings, excerpts, stories, pairs),
         *_parameters(findings),
         *_table(findings),
         f"<footer>nddlc, run {findings.run_id}, seed {findings.seed}. The same run gives the same page.</footer>",
-        "</main></body></html>",
+        f"<script>\n{script}</script></main></body></html>",
     ]
     return "\n".join(parts) + "\n"
 
@@ -62,6 +76,7 @@ def _head(findings: Findings) -> list[str]:
     tiles.append((percent(rate.limit), "accepted"))
     if findings.errors:
         tiles.append((str(len(findings.errors)), f"errors {blamed(findings)}"))
+    further = (stop_line(findings), kept_line(findings), sensitivity_line(findings))
     return [
         f'<span class="verdict {word}">{word}</span>',
         f"<h1>{escape(findings.agent.name)}</h1>",
@@ -71,6 +86,7 @@ def _head(findings: Findings) -> list[str]:
         "</div>",
         rate_plot(rate),
         f'<p class="soft">{escape(rate_line(rate))}</p>',
+        *(f'<p class="soft">{escape(line)}</p>' for line in further if line),
     ]
 
 
@@ -90,16 +106,21 @@ def _losses(tally: Tally, excerpts: Excerpts) -> list[str]:
     return parts
 
 
-def _faults(findings: Findings, excerpts: Excerpts, stories: Sequence[Story | None]) -> list[str]:
+def _faults(
+    findings: Findings, excerpts: Excerpts, stories: Sequence[Story | None], pairs: Sequence[Pair | None]
+) -> list[str]:
     if not findings.faults:
         return []
     parts = ["<h2>What fails</h2>"]
     for index, (fault, story) in enumerate(zip(findings.faults, stories, strict=True)):
-        parts += _fault(index, fault, findings, excerpts, story)
+        pair = pairs[index] if index < len(pairs) else None
+        parts += _fault(index, fault, findings, excerpts, story, pair)
     return parts
 
 
-def _fault(index: int, fault: Fault, findings: Findings, excerpts: Excerpts, story: Story | None) -> list[str]:
+def _fault(
+    index: int, fault: Fault, findings: Findings, excerpts: Excerpts, story: Story | None, pair: Pair | None
+) -> list[str]:
     bucket = fault.bucket
     first, last = bucket.first_tick, bucket.last_tick
     when = f"at tick {first}" if first == last else f"at ticks {first} to {last}"
@@ -120,6 +141,9 @@ def _fault(index: int, fault: Fault, findings: Findings, excerpts: Excerpts, sto
         parts.append(f'<p class="when">fails {when} <b>{text}</b></p><ul class="evidence">{items}</ul>')
     if fault.confirmation is not None:
         parts.append(f'<p class="soft">z3 {escape(confirmation_text(fault))}.</p>')
+    if story is not None and pair is not None:
+        parts.append(pair_plot(pair, story))
+        parts.append('<p class="soft">Numbers are steps of the chain below; dashed lines their ticks.</p>')
     if story is not None:
         parts.append(f"<details open><summary>Mission {story.number}, from the draw to the abort</summary>")
         parts.append('<ol class="chain">')
@@ -188,40 +212,42 @@ def _fault_numbers(findings: Findings) -> dict[int, int]:
 
 
 def _table(findings: Findings) -> list[str]:
+    """The missions, failures first; sorted and filtered by a script, whole without it."""
     telling = [result for result in findings.results if result.verdict is not Verdict.PASS]
     passing = [result for result in findings.results if result.verdict is Verdict.PASS]
-    parts = ["<h2>Missions</h2>"]
-    if telling:
-        parts += _rows(findings, telling)
-    if passing:
-        parts.append(f"<details><summary>{missions(len(passing))} passed</summary>")
-        parts += [*_rows(findings, passing), "</details>"]
-    return parts
-
-
-def _rows(findings: Findings, results: Sequence[MissionResult]) -> list[str]:
     names = [parameter.name for parameter in findings.agent.parameters]
     fault_of = _fault_numbers(findings)
-    captions = "".join(f'<th class="n">{escape(name)}</th>' for name in names)
+    verdicts = dict.fromkeys(result.verdict.value for result in (*telling, *passing))
+    choices = "".join(f'<option value="{one}">{one}</option>' for one in verdicts)
+    captions = [("mission", "n"), ("verdict", ""), ("tick", "n"), *((name, "n") for name in names)]
+    captions += [("goals lost", "n"), ("repairs", "n"), ("seed", "n"), ("reason", "")]
+    heads = "".join(
+        f'<th class="{kind}" scope="col"><button type="button">{escape(name)}</button></th>' for name, kind in captions
+    )
     parts = [
-        '<div class="scroll"><table><thead><tr><th class="n">mission</th><th>verdict</th><th class="n">tick</th>'
-        f'{captions}<th class="n">goals lost</th><th class="n">repairs</th><th class="n">seed</th><th>reason</th>'
-        "</tr></thead><tbody>"
+        '<h2>Missions</h2><div class="missions"><div class="controls" hidden>'
+        '<label>filter <input type="search" placeholder="F1, gps, 7234 ..."></label> '
+        f'<label>verdict <select><option value="">all</option>{choices}</select></label> <output></output></div>'
+        f'<div class="scroll" tabindex="0"><table><thead><tr>{heads}</tr></thead><tbody>'
     ]
-    for result in results[:_MOST_ROWS]:
-        last = {draw.parameter: draw.value for draw in (result.outcome.draws if result.outcome else ())}
-        values = "".join(f'<td class="n">{number(last[name]) if name in last else ""}</td>' for name in names)
-        fault = fault_of.get(result.number)
-        colour = f' style="background: var(--f{fault % _COLOURS})"' if fault is not None else ""
-        tick = result.outcome.last_tick if result.outcome is not None else ""
-        word = f"{result.verdict.value} {result.judgement.code}".strip()
-        parts.append(
-            f'<tr><td class="n">{result.number}</td><td class="v"><i class="chip"{colour}></i>{word}</td>'
-            f'<td class="n">{tick}</td>{values}<td class="n">{amount(result.losses, Limit.REJECTED)}</td>'
-            f'<td class="n">{result.losses.repaired}</td><td class="n">{result.seed}</td>'
-            f"<td>{_words(failure_text(result.judgement, result.open_goals))}</td></tr>"
-        )
-    parts.append("</tbody></table></div>")
-    if len(results) > _MOST_ROWS:
-        parts.append(f'<p class="soft">{len(results) - _MOST_ROWS} more are in the JSON report.</p>')
+    shown = [*telling[:_MOST_ROWS], *passing[:_MOST_ROWS]]
+    parts += [_row(result, names, fault_of.get(result.number)) for result in shown]
+    parts.append("</tbody></table></div></div>")
+    if len(findings.results) > len(shown):
+        parts.append(f'<p class="soft">{len(findings.results) - len(shown)} more are in the JSON report.</p>')
     return parts
+
+
+def _row(result: MissionResult, names: Sequence[str], fault: int | None) -> str:
+    last = {draw.parameter: draw.value for draw in (result.outcome.draws if result.outcome else ())}
+    values = "".join(f'<td class="n">{number(last[name]) if name in last else ""}</td>' for name in names)
+    colour = f' style="background: var(--f{fault % _COLOURS})"' if fault is not None else ""
+    tick = result.outcome.last_tick if result.outcome is not None else ""
+    word = f"{result.verdict.value} {result.judgement.code}".strip()
+    return (
+        f'<tr data-verdict="{result.verdict.value}"><td class="n">{result.number}</td>'
+        f'<td class="v"><i class="chip"{colour}></i>{word}</td>'
+        f'<td class="n">{tick}</td>{values}<td class="n">{amount(result.losses, Limit.REJECTED)}</td>'
+        f'<td class="n">{result.losses.repaired}</td><td class="n">{result.seed}</td>'
+        f"<td>{_words(failure_text(result.judgement, result.open_goals))}</td></tr>"
+    )

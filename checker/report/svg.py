@@ -112,7 +112,8 @@ def _horizontal(axis: Axis, floor: float, unit: str = "") -> Iterator[str]:
     for tick in axis.ticks():
         x = axis.at(tick)
         yield f'<line class="axis" x1="{x:.1f}" x2="{x:.1f}" y1="{floor:.1f}" y2="{floor + 4:.1f}"/>'
-        yield _text("tick", x, floor + 18.0, f"{number(tick)}{unit}")
+        anchor = "end" if x > _WIDTH - 24.0 else "start" if x < 16.0 else "middle"
+        yield _text("tick", min(x, _WIDTH - 2.0), floor + 18.0, f"{number(tick)}{unit}", anchor)
 
 
 def _drawn(dots: Sequence[Dot]) -> list[Dot]:

@@ -1,6 +1,6 @@
 """Findings in, the summary that a terminal or a CI log shows out: some 25 lines."""
 
-from checker.conditions.rendering import condition_claim
+from checker.conditions.rendering import condition_lines
 from checker.excerpts import Excerpts
 from checker.explain import excerpt_lines
 from checker.findings import Findings
@@ -43,7 +43,7 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
             lines += excerpt_lines(bucket.culprit.place, excerpts, marked=True, indent="   ")
         for limit in bucket.culprit.limits:
             lines += excerpt_lines(limit, excerpts, marked=True, indent="   ")
-        lines += [f"   fails {condition_claim(fault.condition)}"] if fault.condition is not None else []
+        lines += condition_lines(fault.condition, "   ") if fault.condition is not None else []
         if fault.confirmation is not None:
             lines.append(f"   z3 {confirmation_text(fault)}")
         lines.append(f"   why: nddlc explain {findings.run_id}#{bucket.example}")

@@ -148,8 +148,8 @@ class Publisher:
     def _tell_draws(self, tick: int) -> None:
         log = self.log
         while log.told_draws < log.draw_count and log.draws[2 * log.told_draws] <= tick:
-            at, parameter = log.draws[2 * log.told_draws : 2 * log.told_draws + 2]
-            self.trace.record_draw(self.name, self.draws[int(parameter), int(at)])
+            at = 2 * log.told_draws
+            self.trace.record_draw(self.name, self.draws[int(log.draws[at + 1]), int(log.draws[at])])
             log.told_draws += 1
 
     def _tell_achieved(self, rows: dict[int, int], tick: int) -> None:

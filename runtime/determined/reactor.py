@@ -371,13 +371,9 @@ class DeterminedReactor:
     def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """What sets the end of a token that was published: asked of a general reactor, as this one has no causes."""
         general = self.general or self._witness(self.tick, True)
-        row = (
-            self.machine.log.rows[ROW * token : ROW * token + 2]
-            if 0 <= token < self.machine.log.row_count
-            else (NONE, NONE)
-        )
-        if row[0] == key:
-            line = general.by_name[self.program.model.lines[row[1]].name]
+        log = self.machine.log
+        if 0 <= token < log.row_count and log.rows[ROW * token] == key:
+            line = general.by_name[self.program.model.lines[int(log.rows[ROW * token + 1])].name]
             if line.current >= 0 and general.bench.started_at(line.current) == key:
                 return latest(general.bench, general.bench.end(line.current))
         return general.why_it_lasts(token, key)

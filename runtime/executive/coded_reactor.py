@@ -17,7 +17,8 @@ from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen,
 
 _INFINITY = 4503599627370495
 _NEVER = 2**62
-_Kinds = Callable[[str, str], Mapping[str, tuple[str, str]] | None]  # timeline, predicate: parameters; None: unknown
+_MOST_CAUSES = 3
+_Kinds = Callable[[str, str], "Mapping[str, tuple[str, str]] | None"]  # timeline, predicate: parameters; None: unknown
 
 
 class CodedReactor:
@@ -143,7 +144,7 @@ class CodedReactor:
     def observations(self, tick: int) -> list[Observation]:
         """What the code has published."""
         found = []
-        causes = tuple(sorted(set(self.events.values())))[-3:]
+        causes = tuple(sorted(sorted(set(self.events.values()), reverse=True)[:_MOST_CAUSES]))
         for one in {each.timeline: each for each in self.published}.values():
             arguments = self._arguments(one.timeline, one.predicate, one.arguments)
             event = self.trace.record(EventKind.OBSERVATION, self.name, one.timeline, one.predicate, arguments, causes)

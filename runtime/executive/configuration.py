@@ -5,6 +5,7 @@ picklable, compares by content and names no machine: model files are named relat
 """
 
 from dataclasses import dataclass
+from enum import StrEnum
 from typing import Literal
 
 Value = int | float | bool | str
@@ -91,6 +92,39 @@ class ParameterConfiguration:
     share: float | None = None
 
 
+class PropertyKind(StrEnum):
+    """What a property promises."""
+
+    REACHED = "reached"  # a matching token is over in time
+    ALWAYS = "always"  # each token on the timeline matches
+    NEVER = "never"  # none does
+    WITHIN = "within"  # each matching token is followed by another in so many ticks
+    UNTIL = "until"  # tokens match until another begins
+
+
+@dataclass(frozen=True, slots=True)
+class TokenPattern:
+    """Tokens on a timeline: with a predicate (empty: any), values or ranges of arguments, and a condition on them."""
+
+    timeline: str
+    predicate: str = ""
+    parameters: tuple[tuple[str, Value | Bounds], ...] = ()
+    where: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PropertyConfiguration:
+    """A property of a mission, judged when it is over; it holds from tick `since` to tick `by` (None: the last)."""
+
+    name: str
+    kind: PropertyKind
+    pattern: TokenPattern
+    then: TokenPattern | None = None
+    since: int = 0
+    by: int | None = None
+    ticks: int = 0
+
+
 @dataclass(frozen=True, slots=True)
 class AgentConfiguration:
     """One mission but for its seed. A parameter of the model that is not listed is uniform over its base domain."""
@@ -106,3 +140,4 @@ class AgentConfiguration:
     constraints: tuple[str, ...] = ()  # Python files with constraints that the models call, relative to the root
     constraint_seconds: float = 5.0  # that one call of these may take
     coded: tuple[CodeConfiguration, ...] = ()  # reactors written in Python
+    properties: tuple[PropertyConfiguration, ...] = ()

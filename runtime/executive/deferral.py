@@ -36,7 +36,7 @@ class Deferral:
         if known is None:
             known = self._is_loose[line.name] = self._may_end(line)
         waiting = self.waiting.get(line.name)
-        if waiting and waiting[-1].tick == observation.tick:
+        if waiting and waiting[len(waiting) - 1].tick == observation.tick:
             waiting.pop()  # the last word counts
         predicate = line.predicates.get(observation.predicate, NOTHING)
         if not known or predicate == NOTHING or not self._says_nothing(predicate):
@@ -54,11 +54,11 @@ class Deferral:
             return last
         for name, waiting in self.waiting.items():
             line = self.lines[name]
-            if waiting and waiting[-1].tick == tick:
+            if waiting and waiting[len(waiting) - 1].tick == tick:
                 news = waiting.pop()
                 line.news = line.news or news
             if waiting:
-                last = max(last, waiting[-1].tick)
+                last = max(last, waiting[len(waiting) - 1].tick)
         found = []
         order = list(self.lines)
         for name, waiting in self.waiting.items():
@@ -69,7 +69,10 @@ class Deferral:
                 found.append((each.tick, order.index(name), each, end, is_kept))
         # Keys are given in the order of time, as if each had been folded in when it came.
         for _, _, each, end, is_kept in sorted(found, key=lambda one: one[:2]):
-            (self._observe if is_kept else self._pass)(self.lines[each.timeline], each, end)
+            if is_kept:
+                self._observe(self.lines[each.timeline], each, end)
+            else:
+                self._pass(self.lines[each.timeline], each, end)
         self.waiting.clear()
         return last
 
@@ -86,7 +89,7 @@ class Deferral:
         """Let an observation begin a token; the one before ended at `end`."""
         bench, tick = self.bench, observation.tick
         holds = line.current == NOTHING or bench.fix(bench.end(line.current), end, SPAN_OBSERVATION, line.current)
-        fact = bench.new_token(line.predicates[observation.predicate], line.object_id, is_fact=True)
+        fact = bench.new_token(line.predicates[observation.predicate], line.object_id, True)
         holds = holds and bench.fix(bench.start(fact), tick, SPAN_OBSERVATION, fact)
         holds = holds and bench.at_least(bench.end(fact), tick + 1, SPAN_OBSERVATION, fact)
         holds = holds and bench.restrict_parameters(fact, observation.arguments, SPAN_OBSERVATION)
@@ -108,7 +111,7 @@ class Deferral:
                 end - observation.tick,
                 observation.tick,
                 end,
-                tuple(_value(given[each.name]) for each in code.parameters),
+                tuple([_value(given[each.name]) for each in code.parameters]),
                 NOBODY,
                 "observation",
                 "over",

@@ -82,8 +82,9 @@ class Dispatch:
             if self.due_time(line, token, tick) > tick:
                 continue
             if not self.bench.is_blocked(token, line.current, tick):
-                asked.append(self._ask(line, token, tick))
-                self.sent[self.bench.key(token)] = asked[len(asked) - 1]
+                request = self._ask(line, token, tick)
+                asked.append(request)
+                self.sent[self.bench.key(token)] = request
                 self.sent_tokens[self.bench.key(token)] = token
         return asked
 

@@ -320,6 +320,19 @@ class OpenGoal:
 
 
 @dataclass(frozen=True, slots=True)
+class PropertyFate:
+    """Whether a property of the mission was kept; if not, the tick of its violation.
+
+    `margin` is how far it was from being violated, infinite where no number decides.
+    """
+
+    name: str
+    is_kept: bool
+    tick: int | None
+    margin: float
+
+
+@dataclass(frozen=True, slots=True)
 class Outcome:
     """A finished mission. `final_tick` is where it was to end, `last_tick` where it ended."""
 
@@ -331,6 +344,7 @@ class Outcome:
     events: Sequence[Event]
     open_goals: tuple[OpenGoal, ...]
     breaches: tuple[Reason, ...] = ()  # what the judge found to break the model though nothing failed
+    properties: tuple[PropertyFate, ...] = ()
     behaviour: tuple[int, ...] = ()  # what the checker found that it exercised: rules, branches, kinds of events
 
     @property

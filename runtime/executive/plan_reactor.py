@@ -154,13 +154,14 @@ class PlanReactor:
         for attempt in range(3):
             if attempt:
                 self.trace.phase = Phase.REPAIR
+                latest_failure = failures[attempt - 1]
                 event = self.trace.record(
                     EventKind.RELAX,
                     self.name,
                     causes=causes,
                     stage=RepairStage.KEEP_PAST if attempt == 1 else RepairStage.FORGET_PAST,
-                    reason=failures[len(failures) - 1].reason,
-                    conflict=failures[len(failures) - 1].conflict,
+                    reason=latest_failure.reason,
+                    conflict=latest_failure.conflict,
                 )
                 broke = failures[0]
                 self.goals.note_repair(Repair(tick, event, broke.reason, broke.conflict, broke.deadlock), watched)

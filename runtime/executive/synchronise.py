@@ -396,6 +396,5 @@ class _Search:
         """A failure with all that was tried on its timeline, where that was more than one thing."""
         if failure is None or failure.deadlock is not None or len(failure.timelines) != 1:
             return failure
-        [name] = failure.timelines
-        tried = tuple(self.tried.get(name, {}).values())
-        return replace(failure, deadlock=Deadlock(None, name, tried)) if len(tried) > 1 else failure
+        tried = tuple(self.tried.get(failure.timelines[0], {}).values())
+        return replace(failure, deadlock=Deadlock(None, failure.timelines[0], tried)) if len(tried) > 1 else failure

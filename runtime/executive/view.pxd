@@ -57,9 +57,6 @@ cdef class PlanView:
     @cython.locals(engine=Engine, lower=double, shape="long long", single=bint, upper=double)
     cpdef object domain(self, long long v, str kind, str type_name)
 
-    @cython.locals(found=dict)
-    cpdef dict parameter_numbers(self, long long predicate)
-
     cpdef long long key(self, long long t) except? -1
 
     cpdef bint is_alive(self, long long t, long long key) except -1
@@ -101,9 +98,6 @@ cdef class PlanView:
     cpdef long long next_of(self, long long o, long long current) except? -1
 
     cpdef long long following(self, long long t) except? -1
-
-    @cython.locals(found=list, t="long long")
-    cpdef list planned_after(self, long long o, long long current)
 
     @cython.locals(live=list, rows=Rows, t="long long")
     cpdef list all_tokens(self)

@@ -174,14 +174,6 @@ class PlanView:
             return DomainConstant(kind, type_name, None, tuple([self.database.objects.names[x] for x in values]))
         return DomainConstant(kind, type_name, None, tuple([prototypes.symbols.text(x) for x in values]))
 
-    def parameter_numbers(self, predicate: int) -> dict[str, int]:
-        """The numbers of a predicate's parameters, by name."""
-        found = self.parameters.get(predicate)
-        if found is None:
-            parameters = self.database.program.predicates[predicate].parameters
-            found = self.parameters[predicate] = {parameter.name: k for k, parameter in enumerate(parameters)}
-        return found
-
     # ---- asking ----
 
     def key(self, t: int) -> int:
@@ -272,15 +264,6 @@ class PlanView:
     def following(self, t: int) -> int:
         """The token behind another one in the sequence of their timeline; NONE behind the last."""
         return int(self.rows.link_after[LISTS * t + LIST_ORDER])
-
-    def planned_after(self, o: int, current: int) -> list[int]:
-        """The sequence of a timeline behind the current token."""
-        found = []
-        t = self.next_of(o, current)
-        while t >= 0:
-            found.append(t)
-            t = int(self.rows.link_after[LISTS * t + LIST_ORDER])
-        return found
 
     def all_tokens(self) -> list[int]:
         """All tokens, oldest first."""

@@ -39,6 +39,9 @@ cdef class Workbench(PlanView):
     @cython.locals(was_decided=bint)
     cpdef bint _narrow(self, long long v, double lower, double upper, long long span, long long t) except -1
 
+    @cython.locals(found=dict)
+    cpdef dict _parameter_numbers(self, long long predicate)
+
     @cython.locals(names=dict, v="long long")
     cpdef bint restrict_parameters(self, long long t, tuple arguments, long long span) except -1
 

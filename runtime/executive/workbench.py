@@ -83,9 +83,17 @@ class Workbench(PlanView):
             wake_guards(self.plan, v)
         return fire(self.plan)
 
+    def _parameter_numbers(self, predicate: int) -> dict[str, int]:
+        """The numbers of a predicate's parameters, by name."""
+        found = self.parameters.get(predicate)
+        if found is None:
+            parameters = self.database.program.predicates[predicate].parameters
+            found = self.parameters[predicate] = {parameter.name: k for k, parameter in enumerate(parameters)}
+        return found
+
     def restrict_parameters(self, t: int, arguments: Arguments, span: int) -> bool:
         """Narrow parameters to what somebody else knows of them; a name that `t` does not have is a misfit."""
-        names = self.parameter_numbers(self.rows.predicate[t])
+        names = self._parameter_numbers(self.rows.predicate[t])
         for name, domain in arguments:
             if name not in names:
                 return False
@@ -246,7 +254,9 @@ class Workbench(PlanView):
         if self.rows.link_head[LISTS * fact + LIST_ORDER] >= 0:
             return True
         before = NONE
-        for t in self.planned_after(o, NONE):
+        t = self.next_of(o, NONE)
+        while t >= 0:
             if self.upper(self.start(t)) < self.lower(self.start(fact)):
                 before = t
+            t = self.following(t)
         return self.place_after(o, fact, before)

@@ -67,7 +67,7 @@ def test_the_json_is_strict_and_complete(findings: Findings) -> None:
 
 def test_the_page_stands_alone(campaign: Campaign, findings: Findings) -> None:
     page = html_report(findings, Excerpts(ROOT), campaign.stories(findings))
-    assert "<script" not in page
+    assert page.count("<script") == page.count("<script>") == 1
     assert re.search(r"(src|href)=|url\(|https?:", page) is None
     assert "prefers-color-scheme: dark" in page
     assert page.count("<svg") == page.count("</svg>") == 4
@@ -75,6 +75,30 @@ def test_the_page_stands_alone(campaign: Campaign, findings: Findings) -> None:
     assert "<mark>duration &lt;= SURFACE_MAX;</mark>" in page
     for svg in re.findall(r"<svg.*?</svg>", page, re.DOTALL):
         ElementTree.fromstring(svg)
+
+
+def test_a_failing_and_a_passing_mission_stand_beside_each_other(campaign: Campaign, findings: Findings) -> None:
+    pairs = campaign.pairs(findings)
+    (pair,) = pairs
+    assert pair is not None
+    assert pair.failing.verdict is Verdict.FAIL
+    assert pair.passing.verdict is Verdict.PASS
+    assert pair.passing.has_trace
+    page = html_report(findings, Excerpts(ROOT), campaign.stories(findings), pairs)
+    assert page.count("<figure>") == 2
+    assert f"mission {pair.passing.number} passes" in page
+    figures = [ElementTree.fromstring(one) for one in re.findall(r"<figure>.*?(<svg.*?</svg>)", page, re.DOTALL)]
+    marks = [line for line in figures[0].iter("line") if line.get("class") in ("edge", "edge fault")]
+    assert marks, "the steps of the chain are marked in the failing mission"
+    assert not [line for line in figures[1].iter("line") if "edge" in str(line.get("class"))]
+
+
+def test_the_table_can_be_sorted_and_filtered(campaign: Campaign, findings: Findings) -> None:
+    page = html_report(findings, Excerpts(ROOT), campaign.stories(findings))
+    table = page[page.index('class="missions"') : page.index("</table>")]
+    assert table.count("<tr data-verdict") == 60
+    assert table.count('<th class="n" scope="col"><button') + table.count('<th class="" scope="col"><button') >= 8
+    assert '<input type="search"' in table
 
 
 def test_junit_has_a_case_per_mission(findings: Findings) -> None:

@@ -29,6 +29,13 @@ code = "psim.nddl:Detector"
 [[goal]]
 timeline = "nav"
 predicate = "Hold"
+[[property]]
+name = "p"
+kind = "within"
+timeline = "nav"
+ticks = 3
+[property.then]
+timeline = "nav"
 [parameters.A]
 range = [0, 1]
 """
@@ -80,6 +87,8 @@ def test_the_schema_has_the_keys_that_the_reader_asks_for(monkeypatch: pytest.Mo
     assert asked["reactor", "1"] == listed["reactor", "1"]
     assert asked["goal", "0"] == listed["goal", "0"]
     assert asked["check",] == listed["check",]
+    assert asked["property", "0"] == listed["property", "0"]
+    assert asked["property", "0", "then"] == listed["property", "0", "then"]
     assert asked["constraints",] == listed["constraints",]
     assert asked["parameters", "*"] | asked["parameters",] >= listed["parameters", "*"]
 

@@ -87,3 +87,16 @@ def test_what_grew_or_changed_is_restored() -> None:
     assert rows.token_count == 0
     assert table == {"a": [1]}
     assert (line.current, line.event) == (-1, -1)
+
+
+def test_what_is_to_be_kept_is_not_restored() -> None:
+    inner: list[int] = []
+    table: dict[str, list[int]] = {"a": inner}
+    line = TimelineState("lamp", 3, True, 0, {"Off": 0})
+    snapshot = LoadedState((table, line), kept=(inner,))
+    inner.append(1)
+    table["b"] = []
+    line.current = 5
+    snapshot.restore()
+    assert table == {"a": [1]}
+    assert line.current == -1

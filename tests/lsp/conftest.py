@@ -17,7 +17,7 @@ from lsp.project import ServerSettings
 from lsp.server import make_session
 from lsp.transport import receive
 
-TIMEOUT = 60  # seconds; only a server that never answers uses them up
+TIMEOUT = 240  # seconds; only a server that never answers uses them up
 Message = dict[str, Any]
 
 

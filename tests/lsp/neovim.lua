@@ -4,7 +4,7 @@ local folder = vim.env.NDDLC_SCRIPT
 local seen = {}
 
 local function wait(what, condition)
-  if not vim.wait(60000, condition, 20) then
+  if not vim.wait(240000, condition, 20) then
     error("waited in vain for " .. what)
   end
 end
@@ -20,7 +20,7 @@ local function text()
 end
 
 local function ask(method, params)
-  local answers = vim.lsp.buf_request_sync(0, method, params, 60000)
+  local answers = vim.lsp.buf_request_sync(0, method, params, 240000)
   for _, answer in pairs(answers or {}) do
     if answer.err then
       error(method .. ": " .. vim.inspect(answer.err))
@@ -74,7 +74,7 @@ local function main()
   local format = vim.lsp.buf.formatting_sync or function()
     vim.lsp.buf.format({ async = false })
   end
-  format(nil, 60000)
+  format(nil, 240000)
   seen.formatted = text()
   vim.cmd("silent wall")
 end

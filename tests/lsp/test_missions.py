@@ -169,3 +169,11 @@ def test_lenses_offer_to_fly_missions(opened: Any) -> None:
     shown = [(each["range"]["start"]["line"], each["command"]["title"]) for each in found]
     assert shown == [(0, "run 100 missions"), (0, "run all missions"), (0, "explain last failure")]
     assert found[0]["command"]["arguments"] == [uri, 100]
+
+
+def test_the_configuration_of_a_solver_is_judged_too(client: Any, tmp_path: Path) -> None:
+    client.start(folder=tmp_path)
+    uri = (tmp_path / "solver.toml").as_uri()
+    told = client.open(uri, "[[nonsense]]\nx = 3\n")["diagnostics"]
+    assert told
+    assert all(each["code"].startswith("NDDL") for each in told)

@@ -41,7 +41,7 @@ def test_a_user_of_neovim_can_work(tmp_path: Path) -> None:
         env=environment,
         cwd=tmp_path,
         capture_output=True,
-        timeout=240,
+        timeout=900,
         check=False,
     )
     assert ended.returncode == 0, ended.stderr

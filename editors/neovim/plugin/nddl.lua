@@ -63,7 +63,7 @@ vim.api.nvim_create_autocmd("FileType", {
 })
 vim.api.nvim_create_autocmd({ "BufReadPost", "BufNewFile" }, {
   group = group,
-  pattern = { "mission*.toml", "nddlc.toml" },
+  pattern = { "mission*.toml", "*solver*.toml", "nddlc.toml" },
   callback = function(event)
     start(event.buf)
   end,

@@ -24,6 +24,7 @@ export function makeClient(): LanguageClient {
     documentSelector: [
       { language: "nddl" },
       { scheme: "file", pattern: "**/mission*.toml" },
+      { scheme: "file", pattern: "**/*solver*.toml" },
       { scheme: "file", pattern: "**/nddlc.toml" },
     ],
     initializationOptions: {

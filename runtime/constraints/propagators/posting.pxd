@@ -20,8 +20,10 @@ cpdef void _watch(Store s, long long c, long long position, long long v, long lo
 @cython.locals(count="long long", first="long long", slot="long long")
 cpdef int release_constraint(Store s, long long c) except -1
 
-@cython.locals(position="long long", has_real=bint, is_alone=bint)
+@cython.locals(position="long long")
 cpdef long long post_constraint(Store s, long long op, list arguments, long long span, long long owner) except? -1
+
+cpdef bint _repeats(Store s, long long c) except -1
 
 cpdef long long start_element(
     Store s, long long result, long long index, long long rows, long long span, long long owner

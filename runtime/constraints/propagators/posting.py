@@ -117,10 +117,18 @@ def post_constraint(s: Store, op: int, arguments: list[int], span: int, owner: i
     for position in range(s.arity[c]):
         _watch(s, c, position, arguments[position], _events_of(s, c, position))
     # One run reaches its fixpoint, where no bound has to jump over holes and no real is rounded to a whole number.
-    is_alone = not has_real and s.arity[c] <= IDEMPOTENT_UP_TO[s.op[c]]
-    s.idempotent[c] = is_alone and len(set(arguments)) == len(arguments)
+    s.idempotent[c] = not has_real and s.arity[c] <= IDEMPOTENT_UP_TO[s.op[c]] and not _repeats(s, c)
     s.schedule(c)
     return c
+
+
+def _repeats(s: Store, c: int) -> bool:
+    """Tell whether a variable is an argument twice."""
+    for k in range(s.first[c], s.first[c] + s.arity[c]):
+        for j in range(s.first[c], k):
+            if s.slot_variable[j] == s.slot_variable[k]:
+                return True
+    return False
 
 
 def start_element(s: Store, result: int, index: int, rows: int, span: int, owner: int) -> int:

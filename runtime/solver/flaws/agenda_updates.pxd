@@ -12,10 +12,10 @@ cdef long long UNDO_NEW_TOKEN, UNDO_STATUS
 cpdef int rebuild(Agenda agenda) except -1
 
 
-cpdef long long reopen(Agenda agenda) except? -1
+cpdef int reopen(Agenda agenda) except -1
 
 
-cpdef long long _begin(Agenda agenda) except? -1
+cpdef int _begin(Agenda agenda) except -1
 
 
 @cython.locals(

@@ -45,16 +45,16 @@ def rebuild(agenda: Agenda) -> None:
     for s in range(agenda.rows.scope_count):
         if agenda.rows.scope_watch[s] >= 0 and agenda.rows.scope_branch[s] == BRANCH_WAITING:
             agenda.waiting_guards[0] += 1
-    return _begin(agenda)
+    _begin(agenda)
 
 
-def reopen(agenda: Agenda) -> int:
+def reopen(agenda: Agenda) -> None:
     """Offer again what the first selection after `rebuild` has dropped or deferred; nothing has changed since."""
     agenda.backtrack(0, agenda.dynamic_count, 0, 0)
-    return _begin(agenda)
+    _begin(agenda)
 
 
-def _begin(agenda: Agenda) -> int:
+def _begin(agenda: Agenda) -> None:
     """Read the trails from here on."""
     agenda.rows_seen = agenda.rows.trail_length if agenda.rows.level else 0  # the first mark empties that trail
     agenda.engine_seen = agenda.engine.trail_size

@@ -1,16 +1,24 @@
 """A condition of failing separates missions with other draws; what does not is marked or not claimed."""
 
 from collections.abc import Callable
+from dataclasses import replace
+from math import inf
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from checker.conditions.condition import Condition, Extreme, Literal, Share, axis_feature, holds
+from checker.batch.result import MissionResult
+from checker.conditions.condition import Condition, Extreme, Feature, Literal, Share, axis_feature, holds
 from checker.conditions.flights import Ended
 from checker.conditions.measure import measured_on
+from checker.conditions.record import read_condition, write_condition
 from checker.conditions.rendering import condition_claim, condition_text
 from checker.conditions.rules import induce
+from checker.conditions.space import Space
+from checker.oracle import Judgement, Verdict
+from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.outcome import Draw, Outcome
 from tests.checker.conditions.campaigns import RANGES, campaign, conditions
 
 WHOLE = "int P = [0 10]; int Q = [0 10]; float R = [0.0 1.0];"
@@ -141,3 +149,20 @@ def test_words_of_conditions() -> None:
     assert condition_text(told) == "0.25 < P <= 0.5, or a draw of Q > 3.8, or every draw of Q <= 3.8"
     assert condition_claim(told).startswith("in part when 0.25 < P")
     assert "partial: precision 90 % (80 % to 95 %)" in condition_claim(told)
+    product = Feature(((2.0, (("P", 1), ("Q", -1))), (-1.0, (("R", 2),))))
+    told = replace(told, conjunctions=((Literal(product, True, 0.1),),), in_terms=(high,))
+    assert condition_text(told) == "2 * P / Q - R * R > 0.1"
+    assert read_condition(write_condition(told)) == told
+    assert read_condition(write_condition(None)) is None
+
+
+def test_an_endless_range_is_that_of_what_was_drawn() -> None:
+    parameter = ParameterConfiguration("P", -inf, inf, distribution="normal", mean=1.0, deviation=2.0)
+    agent = AgentConfiguration("endless", ".", 10, (), parameters=(parameter,))
+    draws = tuple(Draw("P", 0, value, value) for value in (-1.0, 3.0))
+    results = [
+        MissionResult(number, number, Judgement(Verdict.PASS), Outcome(number, 9, 9, None, (one,), (), ()), False)
+        for number, one in enumerate(draws, 1)
+    ]
+    (found,) = Space(agent, results).parameters
+    assert (found.lower, found.upper, found.at(0.5)) == (-1.0, 3.0, 1.0)

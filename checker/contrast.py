@@ -1,0 +1,156 @@
+"""Contrast: a failed mission in, what sets it apart from the nearest mission that passes out.
+
+Delta debugging (Zeller and Hildebrandt, 2002) over the parameters that are drawn once: the smallest set that makes the
+passing mission fail. Then the two missions that differ in that set alone, tick by tick from where they part.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import combinations, groupby
+
+from checker.batch.result import MissionResult
+from checker.buckets import bucket_key
+from checker.conditions.space import Point, Space
+from checker.oracle import Verdict
+from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.outcome import Event, EventKind
+
+Trace = Callable[[AgentConfiguration, int, int], MissionResult]  # agent, number, seed; with the events kept
+_MOST_RUNS = 31
+_PAIRS = 6  # parameters of which all pairs are tried
+_MOST_TICKS = 6  # that are shown
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A parameter with its value in the failing mission and in the passing one."""
+
+    parameter: str
+    failing: float
+    passing: float
+
+
+@dataclass(frozen=True, slots=True)
+class Parting:
+    """One tick at which the two missions differ: what happened in one of them only."""
+
+    tick: int
+    failing: tuple[Event, ...]
+    passing: tuple[Event, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Contrast:
+    """Mission `passing` passes; with the `decisive` values of the failed one it fails as that does.
+
+    `is_smallest`: no smaller set does; else only no part of this one. `partings` are the first ticks that differ, of
+    `differing` in all.
+    """
+
+    passing: int
+    decisive: tuple[Difference, ...]
+    is_smallest: bool
+    flights: int
+    partings: tuple[Parting, ...]
+    differing: int
+
+
+def find_contrast(
+    failed: MissionResult, results: Sequence[MissionResult], agent: AgentConfiguration, trace: Trace
+) -> Contrast | None:
+    """The contrast of a failed mission; None where no mission passes, or what is redrawn decides."""
+    space = Space(agent, results, redrawn=False)
+    row = space.row(failed)
+    passing = [result for result in results if result.verdict is Verdict.PASS]
+    if row is None or not passing or not space.parameters:
+        return None
+    failing_point = space.point(row)
+    nearest = min(passing, key=lambda one: (_distance(space, failing_point, one), one.number))
+    nearest_row = space.row(nearest)
+    assert nearest_row is not None
+    search = SubsetSearch(space, failed, failing_point, space.point(nearest_row), trace)
+    differing = tuple(n for n, (a, b) in enumerate(zip(search.failing, search.passing, strict=True)) if a != b)
+    if not differing or search.fails(()) or not search.fails(differing):
+        return None
+    decisive, is_smallest = search.smallest(differing)
+    chosen, other = search.flown[decisive], search.flown[()]
+    assert chosen.outcome is not None and other.outcome is not None
+    partings = _partings(chosen.outcome.events, other.outcome.events)
+    names = space.names
+    return Contrast(
+        nearest.number,
+        tuple(Difference(names[n], search.failing[n], search.passing[n]) for n in decisive),
+        is_smallest,
+        len(search.flown),
+        partings[:_MOST_TICKS],
+        len(partings),
+    )
+
+
+class SubsetSearch:
+    """Flies the passing mission with some of the failing values."""
+
+    def __init__(self, space: Space, failed: MissionResult, failing: Point, passing: Point, trace: Trace) -> None:
+        self.space, self.failed, self.failing, self.passing, self.trace = space, failed, failing, passing, trace
+        self.flown: dict[tuple[int, ...], MissionResult] = {}
+
+    def fails(self, chosen: tuple[int, ...]) -> bool:
+        """Whether it fails as the failed mission does with the failing values of the parameters `chosen`."""
+        result = self.flown.get(chosen)
+        if result is None:
+            point = tuple(self.failing[n] if n in chosen else value for n, value in enumerate(self.passing))
+            result = self.trace(self.space.agent_at(point), self.failed.number, self.failed.seed)
+            self.flown[chosen] = result
+        return result.verdict is Verdict.FAIL and bucket_key(result) == bucket_key(self.failed)
+
+    def smallest(self, chosen: tuple[int, ...]) -> tuple[tuple[int, ...], bool]:
+        """A set of which no part fails, and whether none is smaller: single parameters and pairs are all tried."""
+        whole = chosen
+        for number in whole:
+            rest = tuple(one for one in chosen if one != number)
+            if rest and self.fails(rest):
+                chosen = rest
+        for size in (1, 2):
+            if len(chosen) <= size:
+                return chosen, True
+            if size == 2 and len(whole) > _PAIRS:
+                break
+            for candidate in combinations(whole, size):
+                if len(self.flown) >= _MOST_RUNS:
+                    return chosen, False
+                if self.fails(candidate):
+                    return candidate, True
+        return chosen, len(chosen) <= 3 and len(whole) <= _PAIRS
+
+
+def _distance(space: Space, point: Point, result: MissionResult) -> float:
+    row = space.row(result)
+    assert row is not None
+    pairs = zip(space.parameters, point, space.point(row), strict=True)
+    return sum(abs(a - b) / parameter.width for parameter, a, b in pairs)
+
+
+def _partings(failing: Sequence[Event], passing: Sequence[Event]) -> tuple[Parting, ...]:
+    """The ticks at which two traces differ; draws are left out, for they differ by construction."""
+    one, other = _by_tick(failing), _by_tick(passing)
+    found = []
+    for tick in sorted({*one, *other}):
+        here, there = one.get(tick, {}), other.get(tick, {})
+        only_here = tuple(event for key, event in here.items() if key not in there)
+        only_there = tuple(event for key, event in there.items() if key not in here)
+        if only_here or only_there:
+            found.append(Parting(tick, only_here, only_there))
+    return tuple(found)
+
+
+def _by_tick(events: Sequence[Event]) -> dict[int, dict[object, Event]]:
+    """What happened at each tick, by what can be compared: numbers of events, tokens and requests may differ."""
+    kept = [event for event in events if event.kind is not EventKind.SAMPLE]
+    grouped = groupby(kept, key=lambda event: event.tick)
+    return {tick: {_comparable(event): event for event in group} for tick, group in grouped}
+
+
+def _comparable(event: Event) -> object:
+    reason = event.reason.kind if event.reason is not None else None
+    arguments = tuple(str(one) for one in event.arguments)
+    return (event.kind, event.reactor, event.timeline, event.predicate, arguments, event.stage, event.code, reason)

@@ -1,0 +1,192 @@
+"""Properties of a mission: a record in, which promise was kept and by what margin out.
+
+Each is about the tokens that were executed on one timeline, or on two. A margin is how far a numeric condition was from
+being violated (in units of the argument, or in ticks); it steers the adaptive sampler, and reports tell the least one.
+"""
+
+import ast
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from runtime.executive.columns import TokenColumns
+from runtime.executive.configuration import AgentConfiguration, PropertyConfiguration, PropertyKind, TokenPattern
+from runtime.executive.expression import ExpressionError, parse_expression
+from runtime.executive.outcome import PropertyFate
+from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord
+
+_NAMES = ("start", "end", "duration")
+
+
+@dataclass(frozen=True, slots=True)
+class _Held:
+    """A token that was executed: `end` is infinite while it goes on; its arguments by name."""
+
+    predicate: str
+    start: int
+    end: float
+    arguments: Mapping[str, object]
+
+
+def property_fates(
+    agent: AgentConfiguration, arguments: Mapping[str, Sequence[str]], record: MissionRecord, last_tick: int
+) -> tuple[PropertyFate, ...]:
+    """What became of each property; `arguments` names those of each predicate (`Class.predicate`)."""
+    histories: dict[str, list[_Held]] = {}
+
+    def history(timeline: str) -> list[_Held]:
+        if timeline not in histories:
+            histories[timeline] = _history(agent, timeline, arguments, record, last_tick)
+        return histories[timeline]
+
+    return tuple(
+        _fate(one, history(one.pattern.timeline), history(one.then.timeline) if one.then else [], agent, last_tick)
+        for one in agent.properties
+    )
+
+
+def _history(
+    agent: AgentConfiguration,
+    timeline: str,
+    arguments: Mapping[str, Sequence[str]],
+    record: MissionRecord,
+    last_tick: int,
+) -> list[_Held]:
+    """What was executed on a timeline, in order; as its owner recorded it, else as one who observed it did."""
+    owners = [one.name for one in agent.reactors if timeline in one.internal]
+    users = [one.name for one in agent.reactors if timeline in one.external]
+    reactor = next((one for name in (*owners, *users) for one in record.reactors if one.reactor == name), None)
+    if reactor is None:
+        return []
+    found = []
+    for token in _tokens_on(reactor, timeline):
+        if token.state != "active" or token.fate == "cut" or not isinstance(token.start, int | float):
+            continue
+        start = int(token.start)
+        if start > last_tick:
+            continue
+        end = float(token.end) if isinstance(token.end, int | float) else math.inf
+        given = dict(zip(arguments.get(token.predicate, ()), token.arguments, strict=False))
+        given |= {"start": start, "end": end, "duration": end - start}
+        found.append(_Held(token.predicate.rpartition(".")[2], start, end, given))
+    return sorted(found, key=lambda one: (one.start, one.end))
+
+
+def _tokens_on(reactor: ReactorRecord, timeline: str) -> Iterator[TokenRecord]:
+    tokens = reactor.tokens
+    if isinstance(tokens, TokenColumns):
+        if timeline in tokens.names:
+            places = (tokens.times.objects == tokens.names.index(timeline)).nonzero()[0]
+            yield from (tokens[int(place)] for place in places)
+    else:
+        yield from (token for token in tokens if token.object == timeline)
+
+
+def _fate(
+    one: PropertyConfiguration, held: list[_Held], then: list[_Held], agent: AgentConfiguration, last_tick: int
+) -> PropertyFate:
+    """Whether a property was kept; `tick` is when it was violated."""
+    first, last = one.since, agent.final_tick if one.by is None else one.by
+    pattern = one.pattern
+    match one.kind:
+        case PropertyKind.REACHED:
+            ends = [
+                token.end
+                for token in held
+                if token.start >= first and token.end <= last_tick and _margin(pattern, token) >= 0.0
+            ]
+            best = min(ends, default=math.inf)
+            return PropertyFate(one.name, best <= last, None if best <= last else min(last, last_tick), last - best)
+        case PropertyKind.ALWAYS:
+            told = _told_of(pattern, held)
+            spans = [(token, _margin(pattern, token)) for token in told if token.start <= last and token.end > first]
+        case PropertyKind.NEVER:
+            spans = [(token, -_margin(pattern, token)) for token in held if token.start <= last and token.end > first]
+            spans = [(token, -1e-300 if margin == 0.0 else margin) for token, margin in spans]
+        case PropertyKind.WITHIN:
+            assert one.then is not None
+            begins = [token.start for token in then if _margin(one.then, token) >= 0.0]
+            spans = []
+            for token in held:
+                if first <= token.start <= last and _margin(pattern, token) >= 0.0:
+                    after = min((begin for begin in begins if begin >= token.start), default=math.inf)
+                    is_open = after == math.inf and token.start + one.ticks > last_tick
+                    spans.append((token, math.inf if is_open else one.ticks - (after - token.start)))
+        case PropertyKind.UNTIL:
+            assert one.then is not None
+            begins = [token.start for token in then if token.start >= first and _margin(one.then, token) >= 0.0]
+            stop = min(begins, default=math.inf)
+            if stop > last:
+                return PropertyFate(one.name, False, min(last, last_tick), last - stop)
+            told = _told_of(pattern, held)
+            spans = [(token, _margin(pattern, token)) for token in told if token.start < stop and token.end > first]
+    worst = next((token for token, margin in spans if margin < 0.0), None)
+    least = min((margin for _, margin in spans), default=math.inf)
+    return PropertyFate(one.name, worst is None, None if worst is None else max(worst.start, first), least)
+
+
+def _told_of(pattern: TokenPattern, held: list[_Held]) -> list[_Held]:
+    """The tokens that a promise is about: where arguments are promised of a predicate, those with it."""
+    has_condition = bool(pattern.parameters or pattern.where)
+    return [one for one in held if not (has_condition and pattern.predicate) or one.predicate == pattern.predicate]
+
+
+def _margin(pattern: TokenPattern, token: _Held) -> float:
+    """How far a token is from not matching: negative where it does not, infinite where no number decides."""
+    if pattern.predicate and token.predicate != pattern.predicate:
+        return -math.inf
+    least = math.inf
+    for name, wanted in pattern.parameters:
+        least = min(least, _argument_margin(token.arguments.get(name), wanted))
+    if pattern.where and least > -math.inf:
+        least = min(least, _where_margin(pattern.where, token))
+    return least
+
+
+def _argument_margin(value: object, wanted: object) -> float:
+    if isinstance(wanted, tuple):
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            return -math.inf  # never decided: nothing is promised of it
+        return float(min(value - wanted[0], wanted[1] - value))
+    if isinstance(wanted, int | float) and not isinstance(wanted, bool) and isinstance(value, int | float):
+        return math.inf if value == wanted else -abs(float(value) - wanted)
+    return math.inf if value == wanted else -math.inf
+
+
+def _where_margin(text: str, token: _Held) -> float:
+    expression = parse_expression(text)
+    values = {name: token.arguments.get(name) for name in expression.names}
+    given = {name: float(value) for name, value in values.items() if isinstance(value, int | float)}
+    if len(given) < len(values):
+        return -math.inf
+    return _condition_margin(expression.root, given)
+
+
+def _condition_margin(node: ast.expr, given: Mapping[str, float]) -> float:
+    """The margin of a condition: of an order the difference, of a conjunction the least, else all or nothing."""
+    match node:
+        case ast.BoolOp(op=ast.And(), values=parts):
+            return min(_condition_margin(part, given) for part in parts)
+        case ast.BoolOp(op=ast.Or(), values=parts):
+            return max(_condition_margin(part, given) for part in parts)
+        case ast.Compare(left=left, ops=[ast.Lt() | ast.LtE() | ast.Gt() | ast.GtE() as op], comparators=[right]):
+            less, more = (left, right) if isinstance(op, ast.Lt | ast.LtE) else (right, left)
+            gap = _number(more, given) - _number(less, given)
+            is_strict = isinstance(op, ast.Lt | ast.Gt)
+            return -1e-300 if gap == 0.0 and is_strict else gap
+        case _:
+            return math.inf if _number(node, given) else -math.inf
+
+
+def _number(node: ast.expr, given: Mapping[str, float]) -> float:
+    text = ast.unparse(node)
+    try:
+        return parse_expression(text).value(given)
+    except ExpressionError:
+        return math.nan
+
+
+def names_of(pattern: TokenPattern) -> tuple[str, ...]:
+    """The arguments that a pattern speaks of; the times of a token are none."""
+    where = parse_expression(pattern.where).names if pattern.where else ()
+    return tuple(name for name in (*(name for name, _ in pattern.parameters), *where) if name not in _NAMES)

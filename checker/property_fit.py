@@ -1,0 +1,76 @@
+"""Hold the properties of a mission file against its models: predicates and arguments that these do not have."""
+
+from collections.abc import Iterator, Mapping
+
+from checker.codes import ILL_VALUE, NO_ARGUMENT, NO_PREDICATE
+from checker.goal_fit import strange_value
+from checker.mission import Mission
+from checker.mission_table import describe
+from checker.properties import names_of
+from compiler.program import PredicateCode, Program
+from nddl_lang.text.diagnostic import Diagnostic
+from nddl_lang.text.nearest import nearest
+from runtime.executive.configuration import TokenPattern
+
+_Path = tuple[str | int, ...]
+_TIMES = ("start", "end", "duration")
+
+
+def property_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[Diagnostic]:
+    """Complain of what a property says of tokens that can never be."""
+    for number, one in enumerate(mission.agent.properties):
+        path: _Path = ("property", number)
+        yield from _pattern_misfits(mission, one.pattern, path, programs)
+        if one.then is not None:
+            yield from _pattern_misfits(mission, one.then, (*path, "then"), programs)
+
+
+def _pattern_misfits(
+    mission: Mission, pattern: TokenPattern, path: _Path, programs: Mapping[str, Program]
+) -> Iterator[Diagnostic]:
+    agent = mission.agent
+    listed = [one for one in agent.reactors if pattern.timeline in (*one.internal, *one.external)]
+    program = next((programs[one.model] for one in listed if one.model in programs), None)
+    if program is None:
+        return
+    objects = {name: code.type_name for name, code in program.globals if code.kind == "object"}
+    class_name = objects.get(pattern.timeline)
+    own = [one for one in program.predicates if one.class_name == class_name]
+    known = {one.name.rpartition(".")[2]: one for one in own}
+    if pattern.predicate and pattern.predicate not in known:
+        span = mission.text.value_span((*path, "predicate"))
+        advice = _advice(pattern.predicate, list(known), "predicates")
+        yield NO_PREDICATE.at(span, class_name=class_name, predicate=pattern.predicate, help=advice)
+        return
+    chosen = [known[pattern.predicate]] if pattern.predicate else own
+    names = {parameter.name for one in chosen for parameter in one.parameters}
+    for name in dict.fromkeys(names_of(pattern)):
+        if name not in names:
+            is_listed = name in dict(pattern.parameters)
+            key: _Path = (*path, "parameters", name) if is_listed else (*path, "where")
+            span = mission.text.key_span(key) if is_listed else mission.text.value_span(key)
+            what = pattern.predicate or str(class_name)
+            advice = _advice(name, [*sorted(names), *_TIMES], "arguments")
+            yield NO_ARGUMENT.at(span, predicate=what, name=name, help=advice)
+    for one in chosen:
+        yield from _strange_values(mission, pattern, path, one, program)
+
+
+def _strange_values(
+    mission: Mission, pattern: TokenPattern, path: _Path, predicate: PredicateCode, program: Program
+) -> Iterator[Diagnostic]:
+    codes = {parameter.name: parameter for parameter in predicate.parameters}
+    for name, value in pattern.parameters:
+        if name in codes and not isinstance(value, tuple):
+            strange = strange_value(codes[name], value, program)
+            if strange is not None:
+                span = mission.text.value_span((*path, "parameters", name))
+                yield ILL_VALUE.at(
+                    span, predicate=predicate.name, name=name, wanted=strange.wanted, found=describe(value),
+                    help=strange.advice,
+                )  # fmt: skip
+
+
+def _advice(name: str, known: list[str], what: str) -> str:
+    close = nearest(name, known)
+    return f"did you mean `{close}`?" if close else f"{what}: {', '.join(known) or 'none'}"

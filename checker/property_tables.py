@@ -1,0 +1,68 @@
+"""Read the properties of a mission: the tables [[property]] of a mission file in, typed promises out."""
+
+from collections.abc import Mapping
+
+from checker.codes import MISSING_KEY, NO_OWNER, TWICE
+from checker.mission_table import Table
+from nddl_lang.text.nearest import nearest
+from runtime.executive.configuration import Bounds, PropertyConfiguration, PropertyKind, TokenPattern, Value
+from runtime.executive.expression import ExpressionError, parse_expression
+
+_NEEDS_THEN = (PropertyKind.WITHIN, PropertyKind.UNTIL)
+
+
+def read_properties(tables: list[Table], owned: tuple[str, ...]) -> tuple[PropertyConfiguration, ...]:
+    """The properties of a file; `owned` are the timelines that some reactor owns."""
+    found: list[PropertyConfiguration] = []
+    for table in tables:
+        name = table.string("name")
+        kind = PropertyKind(table.choice("kind", tuple(PropertyKind), PropertyKind.ALWAYS))
+        if not table.has("kind"):
+            span = table.text.key_span(table.path)
+            table.text.diagnostics.append(MISSING_KEY.at(span, table=table.caption, key="kind"))
+        if name in [one.name for one in found]:
+            span = table.text.value_span((*table.path, "name"))
+            table.text.diagnostics.append(TWICE.at(span, what="the property", name=name))
+        pattern = _read_pattern(table, owned)
+        inner = table.table("then", "[property.then]", needed=kind in _NEEDS_THEN)
+        then = _read_pattern(inner, owned) if inner.values else None
+        inner.close()
+        since, by = table.whole("from", 0, 0), table.whole("by", -1, 0) if table.has("by") else None
+        ticks = table.whole("ticks", 0, 1) if table.has("ticks") or kind is PropertyKind.WITHIN else 0
+        if kind is PropertyKind.WITHIN and not table.has("ticks"):
+            span = table.text.key_span(table.path)
+            table.text.diagnostics.append(MISSING_KEY.at(span, table=table.caption, key="ticks"))
+        table.asked += ["by", "ticks"]
+        if kind not in _NEEDS_THEN and then is not None:
+            table.complain_of_value("then", "a table", "left out: it belongs to within and until")
+        table.close()
+        found.append(PropertyConfiguration(name, kind, pattern, then, since, by, ticks))
+    return tuple(found)
+
+
+def _read_pattern(table: Table, owned: tuple[str, ...]) -> TokenPattern:
+    timeline = table.string("timeline") if table.values else ""
+    if timeline and timeline not in owned:
+        close = nearest(timeline, owned)
+        advice = f"did you mean `{close}`?" if close else "owned timelines: " + ", ".join(owned)
+        span = table.text.value_span((*table.path, "timeline"))
+        table.text.diagnostics.append(NO_OWNER.at(span, timeline=timeline, help=advice))
+    given = table.table("parameters", "[property.parameters]")
+    where = table.string("where", "")
+    if where:
+        try:
+            parse_expression(where)
+        except ExpressionError as problem:
+            table.complain_of_value("where", f"`{where}`: {problem}", "arithmetic over the arguments of a token")
+            where = ""
+    parameters = tuple((key, _wanted(given, key, given.values)) for key in given.values)
+    return TokenPattern(timeline, table.string("predicate", ""), parameters, where)
+
+
+def _wanted(table: Table, key: str, values: Mapping[str, object]) -> Value | Bounds:
+    value = values[key]
+    if isinstance(value, list):
+        return table.bounds(key) or 0
+    if isinstance(value, int | float | str):
+        return value
+    return table.string(key)  # complains

@@ -1,0 +1,136 @@
+"""`nddlc compare`: two runs of missions with common seeds, such as those of two versions of a model."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+
+from checker.batch.result import MissionResult, write_point
+from checker.batch.store import RunStore, StoreError, open_store
+from checker.comparison import Comparison, Mission, Trialled, compare
+from checker.oracle import Verdict
+from checker.rendering import failure_text
+from checker.report.sentences import missions, percent
+from checker.sampling.rendering import number
+from checker.sampling.sampler import RANDOM_POINT
+from nddlc.check import STORE
+from nddlc.inputs import Unusable
+
+_SAME, _WORSE = 0, 1
+_SURE = 0.05
+_MOST = 40  # flips that are printed
+
+
+@click.command()
+@click.argument("before", metavar="A")
+@click.argument("after", metavar="B")
+@click.option("--confidence", type=click.FloatRange(0.5, 0.999999), default=0.95, help="Of the interval.")
+@click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where runs are kept.")
+@click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+def command(before: str, after: str, confidence: float, store_path: Path, style: str) -> int:
+    """Compare two runs on the seeds that both have flown, and list the missions that flipped.
+
+    A and B are ids of runs (as `nddlc check` printed them, or `latest`), or reports (report.json). Ends with 1 where B
+    fails more often, and chance would bring so uneven a count of flips in less than one case in twenty.
+    """
+    both = [_missions(each, store_path) for each in (before, after)]
+    found = compare(both[0], both[1], confidence)
+    if not found.missions:
+        raise Unusable("these runs have no mission in common", "fly both with the same --seed and sampler")
+    if style == "json":
+        click.echo(json.dumps(_data(found, before, after, confidence), ensure_ascii=False, indent=1))
+    else:
+        click.echo(_text(found, before, after, confidence), nl=False)
+    is_worse = found.change > 0.0 and found.chance < _SURE
+    return _WORSE if is_worse else _SAME
+
+
+def _missions(name: str, store_path: Path) -> dict[Mission, Trialled]:
+    """The missions of a run, by what makes them the same; ERRORs are left out."""
+    if name.endswith(".json"):
+        return _reported(Path(name))
+    if not store_path.exists():
+        raise Unusable(f"there is no store `{store_path}`", "`nddlc check` makes one; --store names another")
+    try:
+        with open_store(store_path) as store:
+            return _stored(store, name)
+    except StoreError as problem:
+        raise Unusable(str(problem), problem.advice) from None
+
+
+def _stored(store: RunStore, name: str) -> dict[Mission, Trialled]:
+    run = store.find(name)
+    if run is None:
+        known = ", ".join(store.run_ids()[:10])
+        raise Unusable(f"no single run is named `{name}`", f"runs in the store: {known or 'none'}")
+    results = [one for one in store.results(run.id) if one.number > 0 and one.verdict is not Verdict.ERROR]
+    return {(one.seed, write_point(one.point)): _trialled(one) for one in results}
+
+
+def _trialled(result: MissionResult) -> Trialled:
+    judgement = result.judgement
+    text = failure_text(judgement, result.open_goals)
+    return Trialled(result.number, result.verdict is Verdict.FAIL, judgement.code, text)
+
+
+def _reported(path: Path) -> dict[Mission, Trialled]:
+    """The missions of a report; only plain random ones are known by their seed alone."""
+    try:
+        listed = json.loads(path.read_text(encoding="utf-8"))["missions"]
+        point = write_point(RANDOM_POINT)
+        return {
+            (int(one["seed"]), point): Trialled(
+                int(one["mission"]), one["verdict"] == "FAIL", str(one["code"]), str(one["reason"])
+            )
+            for one in listed
+            if one["verdict"] != "ERROR" and one.get("role", "random") == "random"
+        }
+    except (OSError, ValueError, KeyError, TypeError) as problem:
+        raise Unusable(f"`{path}` is no report of nddlc: {problem}") from None
+
+
+def _text(found: Comparison, before: str, after: str, confidence: float) -> str:
+    count = found.missions
+    lower, upper = (number(round(100.0 * end, 2)) for end in found.interval)
+    worse = sum(one.now_fails for one in found.flips)
+    lines = [
+        f"{missions(count)} in common: {before} failed {found.failed_before} ({percent(found.failed_before / count)}), "
+        f"{after} failed {found.failed_after} ({percent(found.failed_after / count)})",
+        f"  {worse} fail only in {after}, {len(found.flips) - worse} only in {before}; "
+        f"McNemar's exact test: p = {found.chance:.3g}",
+        f"  the rate changes by {number(round(100.0 * found.change, 2))} points, "
+        f"{number(confidence * 100.0)} % interval {lower} to {upper}",
+    ]
+    for one in found.flips[:_MOST]:
+        failing = one.after if one.now_fails else one.before
+        side = "now fails" if one.now_fails else "no longer fails"
+        lines.append(f"  mission {failing.number} (seed {one.seed}) {side}: {failing.code} {failing.reason}")
+    if len(found.flips) > _MOST:
+        lines.append(f"  and {len(found.flips) - _MOST} more")
+    return "\n".join(lines) + "\n"
+
+
+def _data(found: Comparison, before: str, after: str, confidence: float) -> dict[str, Any]:
+    return {
+        "before": before,
+        "after": after,
+        "missions": found.missions,
+        "failed_before": found.failed_before,
+        "failed_after": found.failed_after,
+        "p": found.chance,
+        "change": found.change,
+        "confidence": confidence,
+        "interval": list(found.interval),
+        "flips": [
+            {
+                "seed": one.seed,
+                "before": one.before.number,
+                "after": one.after.number,
+                "now_fails": one.now_fails,
+                "code": (one.after if one.now_fails else one.before).code,
+                "reason": (one.after if one.now_fails else one.before).reason,
+            }
+            for one in found.flips
+        ],
+    }

@@ -1,0 +1,54 @@
+# The C types of `reactor.py`.
+
+cimport cython
+from runtime.determined.machine cimport Machine
+from runtime.determined.publish cimport Publisher
+
+cdef long long FAR, NONE, ROW, STOPS, _AHEAD
+
+
+cdef class DeterminedReactor:
+    cdef public str name
+    cdef public tuple internal, external
+    cdef public long long latency, lookahead, final_tick, watched, execution_latency, tick, reached, base, due, steps_made
+    cdef public object program, drawn, make_general, trace, inputs, general
+    cdef public list parameters, wishes, refused_goals, refusals_made
+    cdef public Machine machine
+    cdef public Publisher publisher
+    cdef public dict numbers, news, windows
+    cdef public bint is_beyond
+
+    cpdef object start_tick(self, long long tick)
+
+    cpdef object synchronise(self, long long tick)
+
+    cpdef bint _carry_out(self, long long tick) except -1
+
+    cpdef object _return_to(self, long long tick)
+
+    cpdef object _forget_ahead(self, long long tick)
+
+    cpdef bint draw(self, Machine machine, long long parameter, long long tick) except -1
+
+    cpdef list observations(self, long long tick)
+
+    cpdef long long untold(self) except? -1
+
+    cpdef object pass_over(self, long long tick)
+
+    cpdef double urgency(self, long long tick) except? -1.0
+
+    @cython.locals(limit="long long", machine=Machine, publisher=Publisher, watched="long long")
+    cpdef bint step(self, long long tick) except -1
+
+    cpdef object _take_requests(self, long long tick)
+
+    cpdef bint _comes_last(self, wish, long long tick) except -1
+
+    cpdef long long next_tick(self, long long tick) except? -1
+
+    cpdef list refusals(self)
+
+    cpdef list requests(self, long long tick)
+
+    cpdef list recalls(self)

@@ -1,0 +1,24 @@
+# The C types of `deferral.py`.
+
+cimport cython
+from runtime.executive.timelines cimport TimelineState
+from runtime.executive.workbench cimport Workbench
+from runtime.plan.store.rows cimport Rows
+
+cdef long long NOTHING, SPAN_EXECUTIVE, SPAN_OBSERVATION
+cdef double inf
+
+
+cdef class Deferral:
+    cdef public Workbench bench
+    cdef public dict lines, waiting, _is_loose, _is_plain
+    cdef public list passed
+
+    @cython.locals(line=TimelineState, predicate="long long")
+    cpdef bint takes(self, observation) except -1
+
+    @cython.locals(bench=Workbench, fact="long long", holds=bint, tick="long long")
+    cpdef int _observe(self, TimelineState line, observation, long long end) except -1
+
+    @cython.locals(rows=Rows)
+    cpdef int _pass(self, TimelineState line, observation, long long end) except -1

@@ -1,0 +1,180 @@
+"""Properties are judged over what was executed: by hand-made records, and on the GPS mission."""
+
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from checker.mission import Mission, parse_mission
+from checker.models import load_models
+from checker.properties import property_fates
+from nddl_lang.text.source import Source
+from nddlc.main import run
+from runtime.executive.configuration import (
+    AgentConfiguration,
+    PropertyConfiguration,
+    PropertyKind,
+    ReactorConfiguration,
+    TokenPattern,
+)
+from runtime.executive.outcome import PropertyFate
+from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord, Value, ValueRange
+
+GPS = Path("models/gps").resolve()
+ARGUMENTS = {"Dive.Down": ("depth", "mode"), "Dive.Up": (), "Radio.On": ()}
+
+
+def token(line: str, predicate: str, start: Value, end: Value, *given: Value, **more: Any) -> TokenRecord:
+    fields: dict[str, Any] = {
+        "key": 1, "predicate": predicate, "object": line, "state": "active", "duration": 0, "start": start, "end": end,
+        "arguments": given, "merged_into": -1, "origin": "rule", "fate": "over", "tick": 0, "runs": (),
+    }  # fmt: skip
+    return TokenRecord(**(fields | more))
+
+
+TOKENS = (
+    token("dive", "Dive.Up", 0, 10),
+    token("dive", "Dive.Down", 10, 30, 40.0, "FAST"),
+    token("dive", "Dive.Up", 30, 50),
+    token("dive", "Dive.Down", 50, 80, 55.0, "SLOW"),
+    token("dive", "Dive.Up", 80, ValueRange(101, 200)),
+    token("radio", "Radio.On", 35, 40),
+    token("radio", "Radio.On", 90, 95),
+    token("dive", "Dive.Down", 20, 25, 99.0, "FAST", state="merged"),
+    token("dive", "Dive.Down", 26, 29, 99.0, "FAST", fate="cut"),
+    token("dive", "Dive.Down", ValueRange(120, 130), ValueRange(140, 150), 99.0, "FAST"),
+)
+
+
+def fate(kind: str, pattern: TokenPattern, **given: Any) -> PropertyFate:
+    one = PropertyConfiguration("p", PropertyKind(kind), pattern, **given)
+    reactor = ReactorConfiguration("r", "m.nddl", internal=("dive", "radio"))
+    agent = AgentConfiguration("a", "", 100, (reactor,), properties=(one,))
+    record = MissionRecord((ReactorRecord("r", 100, (), (), (), TOKENS),))
+    (found,) = property_fates(agent, ARGUMENTS, record, 100)
+    return found
+
+
+def down(where: str = "", **parameters: Any) -> TokenPattern:
+    return TokenPattern("dive", "Down", tuple(parameters.items()), where)
+
+
+UP, ON = TokenPattern("dive", "Up"), TokenPattern("radio", "On")
+LATE_UP = TokenPattern("dive", "Up", (), "start > 60")
+
+
+@pytest.mark.parametrize(
+    ("kind", "pattern", "given", "kept", "tick", "margin"),
+    [
+        ("reached", down(), {}, True, None, 70.0),
+        ("reached", down(depth=55.0), {}, True, None, 20.0),
+        ("reached", down(depth=55.0), {"by": 79}, False, 79, -1.0),
+        ("reached", down(depth=55.0), {"by": 80}, True, None, 0.0),
+        ("reached", down(depth=(50, 60)), {"since": 51}, False, 100, float("-inf")),
+        ("reached", TokenPattern("dive", "Up", (), "start > 60"), {}, False, 100, float("-inf")),
+        ("never", down("depth > 60"), {}, True, None, 5.0),
+        ("never", down("depth > 50"), {}, False, 50, -5.0),
+        ("never", down("depth > 50"), {"by": 49}, True, None, 10.0),
+        ("never", down("depth >= 55"), {}, False, 50, -1e-300),
+        ("never", down(mode="SLOW"), {}, False, 50, float("-inf")),
+        ("never", down(mode="SLOW"), {"since": 80}, True, None, float("inf")),
+        ("never", TokenPattern("dive", "Sideways"), {}, True, None, float("inf")),
+        ("always", TokenPattern("dive", "", (), "duration <= 30"), {"by": 79}, True, None, 0.0),
+        ("always", TokenPattern("dive", "", (), "duration < 30"), {"by": 79}, False, 50, -1e-300),
+        ("always", TokenPattern("dive", "", (), "duration <= 25 or start == 50"), {"by": 79}, True, None, 5.0),
+        ("always", UP, {}, False, 10, float("-inf")),
+        ("always", down("depth <= 50"), {}, False, 50, -5.0),
+        ("always", down("depth <= 60"), {}, True, None, 5.0),
+        ("always", UP, {"since": 30, "by": 49}, True, None, float("inf")),
+        ("within", down(), {"then": ON, "ticks": 40}, True, None, 0.0),
+        ("within", down(), {"then": ON, "ticks": 39}, False, 50, -1.0),
+        (
+            "within",
+            TokenPattern("dive", "Up", (), "start > 60"),
+            {"then": down(), "ticks": 30},
+            True,
+            None,
+            float("inf"),
+        ),
+        (
+            "within",
+            TokenPattern("dive", "Up", (), "start > 60"),
+            {"then": down(), "ticks": 20},
+            False,
+            80,
+            float("-inf"),
+        ),
+        ("until", UP, {"then": down()}, True, None, float("inf")),
+        ("until", TokenPattern("dive", "", (), "duration <= 20"), {"then": ON}, True, None, 0.0),
+        ("until", TokenPattern("dive", "", (), "duration <= 19"), {"then": ON}, False, 10, -1.0),
+        ("until", UP, {"then": TokenPattern("radio", "Off")}, False, 100, float("-inf")),
+    ],
+)
+def test_a_property_has_its_fate(
+    kind: str, pattern: TokenPattern, given: dict[str, Any], kept: bool, tick: int | None, margin: float
+) -> None:
+    assert fate(kind, pattern, **given) == PropertyFate("p", kept, tick, margin)
+
+
+# ---- mission files ----
+
+PROPERTY = """
+[[property]]
+name = "surfaces once"
+kind = "always"
+timeline = "nav"
+predicate = "Transit"
+where = "distance <= 300"
+"""
+
+
+def read(text: str) -> tuple[Mission | None, list[tuple[int, str]]]:
+    source = Source("models/gps/mission.toml", (GPS / "mission.toml").read_text() + text)
+    mission, found = parse_mission(source, Path("models/gps"))
+    if mission is not None:
+        found = (*found, *load_models(mission).diagnostics)
+    first = source.text.count("\n") - text.count("\n")
+    return mission, [(one.span.source.locate(one.span.begin)[0] - first, one.message) for one in found]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "message"),
+    [
+        ('"nav"', '"nva"', 5, "no reactor owns the timeline `nva`"),
+        ('"Transit"', '"Transt"', 6, "`Nav` has no predicate `Transt`"),
+        ("distance <=", "distnce <=", 7, "`Transit` has no parameter `distnce`"),
+        ("distance <= 300", "distance <=", 7, "`where` must be arithmetic over the arguments of a token"),
+        ('"always"', '"allways"', 4, "`kind` cannot be `allways`"),
+        ('kind = "always"', "", 2, "[[property]] needs the key `kind`"),
+        ('kind = "always"', 'kind = "within"', 2, "[[property]] needs the key `then`"),
+        ('where = "distance <= 300"', "parameters = { distance = \"far\" }", 7, "`distance` of `Nav.Transit` must be"),
+        ('where = "distance <= 300"', "parameters = { dist = 3 }", 7, "`Transit` has no parameter `dist`"),
+    ],
+)  # fmt: skip
+def test_a_mistake_in_a_property_is_named_where_it_stands(old: str, new: str, line: int, message: str) -> None:
+    assert read(PROPERTY)[1] == []
+    _, found = read(PROPERTY.replace(old, new))
+    assert any(at == line and message in text for at, text in found), found
+
+
+@pytest.fixture
+def gps(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    shutil.copytree(GPS, tmp_path / "gps", ignore=shutil.ignore_patterns(".*", "nddlc-*"))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path / "gps" / "mission.toml"
+
+
+def test_missions_fail_by_a_property_that_they_break(gps: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = gps.read_text()
+    assert run(["check", "gps/mission.toml", "--missions", "6", "--seed", "3", "--max-failure-rate", "1"]) == 0
+    before = capsys.readouterr().out
+    gps.write_text(text + PROPERTY.replace("300", "200"))
+    assert run(["check", "gps/mission.toml", "--missions", "6", "--seed", "3"]) == 1
+    after = capsys.readouterr().out
+    assert "P1 a property of the mission was violated" in after
+    assert "the property `surfaces once` is violated at tick" in after
+    assert "P1" not in before
+    gps.write_text(text + PROPERTY)
+    assert run(["check", "gps/mission.toml", "--missions", "6", "--seed", "3", "--max-failure-rate", "1"]) == 0
+    assert "P1" not in capsys.readouterr().out
