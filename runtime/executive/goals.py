@@ -207,7 +207,11 @@ class Goals:
 
     def note_failed_starts(self, tokens: list[int]) -> None:
         """Count that the present failed when the owner of `tokens` had just begun what goals asked for."""
-        roots = {self.bench.root(token) for token in tokens}
+        roots = set()
+        for token in tokens:
+            while token >= 0:
+                root, token = token, self.bench.parent(token)
+            roots.add(root)
         for goal in self.live():
             if self.bench.is_alive(goal.token, goal.token_key) and self.bench.stands_for(goal.token) in roots:
                 goal.failed_starts += 1

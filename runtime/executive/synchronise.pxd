@@ -26,6 +26,7 @@ cdef class _Search:
     cdef public Dispatch asked
     cdef public list timelines, lines, made
     cdef public object first
+    cdef public dict tried
     cdef public long long tick, first_depth
     cdef public bint explains, is_last, is_out_of_budget
 
@@ -77,6 +78,8 @@ cdef class _Search:
     cpdef int _note(self) except -1
 
     @cython.locals(kind="long long", predicate="long long", token="long long")
-    cpdef int _note_failure(self, TimelineState line, tuple choice) except -1
+    cpdef object _note_failure(self, TimelineState line, tuple choice)
 
-    cpdef int _fail(self, str code, tuple timelines, what, long long depth=*) except -1
+    cpdef int _fail(self, str code, tuple timelines, what) except -1
+
+    cpdef object explained(self, failure)

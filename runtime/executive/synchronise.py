@@ -4,9 +4,11 @@ Each timeline is a decision with a few choices; decisions are taken in the order
 chronologically. Where that takes long, a timeline on which nothing fits is decided first from then on.
 """
 
+from dataclasses import replace
+
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.messages import Observation
-from runtime.executive.outcome import Reason, ReasonKind
+from runtime.executive.outcome import ChoiceKind, Deadlock, FailedChoice, PresentChoice, Reason, ReasonKind
 from runtime.executive.planning import EPISODE_DONE, EPISODE_EXHAUSTED, EPISODE_TOO_DEEP, LimitError, Planner
 from runtime.executive.reactor import SyncFailure
 from runtime.executive.story import conflict_of
@@ -23,6 +25,7 @@ _TRIES_EXHAUSTED = SyncFailure("", (), Reason(ReasonKind.UNMET), None)
 # such a way, the token that it is about (NOTHING: none yet) and the predicate of a new one.
 _EXTEND, _NEXT, _NEW, _FACT, _MEET = range(5)
 _Choice = tuple[int, int, int]
+_KINDS = (ChoiceKind.EXTEND, ChoiceKind.NEXT, ChoiceKind.NEW, ChoiceKind.OBSERVE, ChoiceKind.MEET)
 
 
 def synchronise(
@@ -54,7 +57,8 @@ def synchronise(
         return None
     # Choices fail all the time; only when all have failed is it worth while to find out why.
     bench.rewind_to(mark)
-    return _Search(bench, planner, timelines, tick, final_tick, asked, True).run()
+    search = _Search(bench, planner, timelines, tick, final_tick, asked, True)
+    return search.explained(search.run())
 
 
 def _persist(bench: Workbench, timelines: list[TimelineState], tick: int, asked: Dispatch) -> SyncFailure | None:
@@ -99,6 +103,7 @@ class _Search:
         self.made: list[int] = []
         self.first: SyncFailure | None = None
         self.first_depth = NOTHING
+        self.tried: dict[str, dict[_Choice, FailedChoice]] = {}  # by timeline: each choice, as it first failed
         self.is_out_of_budget = False
 
     def run(self) -> SyncFailure | None:
@@ -362,6 +367,14 @@ class _Search:
 
     def _note_failure(self, line: TimelineState, choice: _Choice) -> None:
         kind, token, predicate = choice
+        conflict = conflict_of(self.bench) if self.explains else None
+        if self.explains:
+            named = self.bench.name_of(token) if token != NOTHING else None
+            called = "" if predicate == NOTHING else self.bench.predicate_name(predicate)
+            tried = self.tried.setdefault(line.name, {})
+            tried.setdefault(choice, FailedChoice(PresentChoice(_KINDS[kind], named, called), conflict))
+        if self.first is not None:
+            return
         code = "F3" if line.is_internal else "F8" if line.news and line.news.predicate == "Failed" else "F2"
         if kind == _EXTEND:
             what = Reason(ReasonKind.CANNOT_GO_ON, self.bench.name_of(token), tick=self.tick)
@@ -370,10 +383,18 @@ class _Search:
         else:
             name = self.bench.predicate_name(predicate)
             what = Reason(ReasonKind.NONE_CAN_START, predicate=name, tick=self.tick)
-        self._fail(code, (line.name,), what, self.lines.index(line))
+        self.first = SyncFailure(code, (line.name,), what, conflict)
+        self.first_depth = self.lines.index(line)
 
-    def _fail(self, code: str, timelines: tuple[str, ...], what: Reason, depth: int = NOTHING) -> None:
+    def _fail(self, code: str, timelines: tuple[str, ...], what: Reason) -> None:
         """Remember what went wrong, unless something did before."""
         if self.first is None:
             self.first = SyncFailure(code, timelines, what, conflict_of(self.bench) if self.explains else None)
-            self.first_depth = depth
+            self.first_depth = NOTHING
+
+    def explained(self, failure: SyncFailure | None) -> SyncFailure | None:
+        """A failure with all that was tried on its timeline, where that was more than one thing."""
+        if failure is None or failure.deadlock is not None or len(failure.timelines) != 1:
+            return failure
+        tried = tuple(self.tried.get(failure.timelines[0], {}).values())
+        return replace(failure, deadlock=Deadlock(None, failure.timelines[0], tried)) if len(tried) > 1 else failure

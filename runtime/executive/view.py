@@ -247,12 +247,6 @@ class PlanView:
         """The token whose rule asked for `t`; NONE where there is none."""
         return int(self.rows.parent[t])
 
-    def root(self, t: int) -> int:
-        """The token that `t` goes back to, rule by rule; itself if no rule asked for it."""
-        while self.rows.parent[t] >= 0:
-            t = int(self.rows.parent[t])
-        return t
-
     def stands_for(self, t: int) -> int:
         """The token of the plan that `t` is, or is merged into."""
         return int(self.rows.merged_into[t] if self.rows.status[t] == MERGED else t)
@@ -369,13 +363,8 @@ class PlanView:
 
     def must_begin(self, o: int, tick: int) -> list[int]:
         """Undecided tokens on a timeline, not goals, that can begin at `tick` only."""
-        return [
-            t
-            for t in self.undecided()
-            if not self.is_goal(t)
-            and self.object_of(t) == o
-            and self.engine.lower(self.start(t)) <= tick == self.engine.upper(self.start(t))
-        ]
+        found = [t for t in self.undecided() if not self.is_goal(t) and self.object_of(t) == o]
+        return [t for t in found if self.engine.lower(self.start(t)) <= tick == self.engine.upper(self.start(t))]
 
     def waits_for_own(self, t: int, tick: int) -> bool:
         """Whether the token is to follow one of this reactor that has not begun, and that nobody asked for."""

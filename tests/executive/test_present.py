@@ -3,6 +3,7 @@
 import pytest
 
 from runtime.executive.configuration import GoalConfiguration
+from runtime.executive.outcome import ChoiceKind, PresentChoice
 from runtime.executive.rendering import reason_text
 from tests.executive.flying import fly, history, lines, planner, simulator
 
@@ -104,3 +105,20 @@ def test_a_request_waits_until_its_timeline_is_free() -> None:
     goals = (GoalConfiguration("cell", "B", at=1), GoalConfiguration("cell", "C", at=2))
     outcome = fly(simulator("it", f"{STATES} Cell::B {{ duration == 5; }} {CELL}", "cell"), until=12, goals=goals)
     assert history(outcome, "cell") == ["0 A", "2 B", "7 C"]
+
+
+def test_all_that_was_tried_on_a_timeline_is_told() -> None:
+    model = """
+    class User extends AgentTimeline { predicate Idle { } predicate Busy { } User(Mode m) { super(m, "Idle"); } }
+    User::Idle { duration <= 3; start <= 0; }
+    User::Busy { start >= 99; }
+    User user = new User(Internal); close();
+    """
+    outcome = fly(planner("user", model, "user"), until=9)
+    assert outcome.abort is not None and outcome.abort.code == "F3" and outcome.abort.deadlock is not None
+    found = {}
+    for one in outcome.abort.deadlock.tried:
+        assert isinstance(one.choice, PresentChoice) and one.conflict is not None
+        found[one.choice.kind, one.choice.predicate] = {each.place.line for each in one.conflict.elements if each.place}
+    assert {kind for kind, _ in found} == {ChoiceKind.NEW} and len(found) == 2
+    assert {4, 5} <= set().union(*found.values())

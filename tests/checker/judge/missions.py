@@ -3,7 +3,7 @@
 from functools import lru_cache
 from pathlib import Path
 
-from checker.flight import load_programs
+from checker.flight import programs_of
 from checker.judge.judge import judge_mission
 from checker.mission import read_mission
 from checker.models import load_models
@@ -11,6 +11,7 @@ from runtime.executive.configuration import GoalConfiguration, ParameterConfigur
 from runtime.executive.mission import record_mission
 from tests.executive.flying import Flown, flown, planner, simulator
 
+INL = Path(__file__).resolve().parents[3] / "models/auv/inl/mission.toml"
 GPS = Path(__file__).resolve().parents[3] / "models/gps/mission.toml"
 
 # Two models share the oven and its meter.
@@ -138,17 +139,16 @@ def walking(seed: int, until: int = 60, *, compiles: bool = True) -> Flown:
 
 
 @lru_cache(maxsize=4)
-def _loaded(path: Path):  # type: ignore[no-untyped-def]
+def loaded(path: Path):  # type: ignore[no-untyped-def]
     mission, _ = read_mission(path)
     assert mission is not None
     agent = load_models(mission).agent
-    reactors = tuple((reactor.model, reactor.solver) for reactor in agent.reactors)
-    return agent, load_programs(Path(agent.root), reactors, agent.constraints, agent.constraint_seconds)
+    return agent, programs_of(agent)
 
 
 def surveying(seed: int) -> Flown:
     """The GPS mission."""
-    agent, programs = _loaded(GPS)
+    agent, programs = loaded(GPS)
     outcome, record = record_mission(agent, programs, seed)
     return Flown(agent, programs.programs, outcome, record, judge_mission(agent, programs.programs, outcome, record))
 

@@ -14,11 +14,14 @@ from checker.judge.bulk_timelines import BulkTimelines
 from checker.judge.columns import Texts, column_of
 from checker.judge.functions import COMPUTED
 from checker.judge.functions import conforms as conforms_one
+from checker.judge.judge import judge_mission
 from checker.judge.meanings import MEANINGS, TESTS
 from checker.judge.report import JudgeReport
-from runtime.executive.record import OpenValues, TokenRecord, Value, ValueRange
+from runtime.executive.columns import TokenColumns
+from runtime.executive.mission import record_mission
+from runtime.executive.record import MissionRecord, OpenValues, TokenRecord, Value, ValueRange
 from tests.checker.judge.corruption import ALTERATIONS, again
-from tests.checker.judge.missions import MISSIONS
+from tests.checker.judge.missions import INL, MISSIONS, loaded
 from tests.executive.flying import Flown
 
 
@@ -154,3 +157,15 @@ def test_a_column_gives_back_its_values() -> None:
                 assert column.value(k, texts) == value
             else:
                 assert not isinstance(value, kind)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_record_in_columns_is_judged_like_single_tokens(seed: int) -> None:
+    agent, programs = loaded(INL)
+    outcome, record = record_mission(agent, programs, seed, until=400)
+    assert any(isinstance(each.tokens, TokenColumns) for each in record.reactors)
+    reports = [
+        judge_mission(agent, programs.programs, outcome, MissionRecord(tuple(reactors)), programs.constraints)
+        for reactors in (record.reactors, [each._replace(tokens=tuple(each.tokens)) for each in record.reactors])
+    ]
+    assert reports[0] == reports[1] and reports[0].holds and reports[0].judged > 10_000
