@@ -100,7 +100,7 @@ class Flyer:
 
         `load` loads the models where they are others than those that the process was started with.
         """
-        task = Task(number, seed, agent, load)
+        task = Task(number, seed, agent, load=load)
         if self._worker is None:
             self._worker = _Worker(self._load, self._agent)
             if not self._worker.connection.poll(_START_LIMIT):
