@@ -40,7 +40,7 @@ class Fate(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Measured:
+class MutantReport:
     """One mutant: `rank` is that of the changed line among the causes, `rule_rank` that of a line of its rule.
 
     Both count from 1, and are 0 where there is none.
@@ -99,7 +99,7 @@ def prepare(mission: Mission, models: ModelSet, missions: int, flyer: Flyer) -> 
     return Ground(mission, models, tuple(passing))
 
 
-def measure(ground: Ground, flyer: Flyer, seed: int, bounds: Callable[[], Bounds]) -> Iterator[Measured]:
+def measure(ground: Ground, flyer: Flyer, seed: int, bounds: Callable[[], Bounds]) -> Iterator[MutantReport]:
     """Measure mutants, as many as the caller takes; those that are no models any more are left out."""
     agent = ground.models.agent
     sampled = {parameter.name for parameter in agent.parameters}
@@ -113,17 +113,17 @@ def measure(ground: Ground, flyer: Flyer, seed: int, bounds: Callable[[], Bounds
 
 def _measured(
     ground: Ground, mutant: Mutant, overlay: Overlay, models: ModelSet, flyer: Flyer, bounds: Bounds
-) -> Measured:
+) -> MutantReport:
     results: list[MissionResult] = []
     for number, seed in ground.seeds:
         result = flyer.fly(models.agent, number, seed, partial(load_over, overlay))
         results.append(_judged(ground.mission, result))
         if results[-1].verdict is Verdict.ERROR:
             message = results[-1].judgement.message
-            return Measured(mutant.edit, mutant.site.rule, Fate.ERROR, 0, len(results), message=message)
+            return MutantReport(mutant.edit, mutant.site.rule, Fate.ERROR, 0, len(results), message=message)
     failed = [result for result in results if result.verdict is Verdict.FAIL]
     if not failed:
-        return Measured(mutant.edit, mutant.site.rule, Fate.SILENT, 0, len(results))
+        return MutantReport(mutant.edit, mutant.site.rule, Fate.SILENT, 0, len(results))
     alike = [one for one in failed if one.judgement.code == failed[0].judgement.code]
     programs = [models.programs[each.model] for each in models.agent.reactors]
     passed = [one for one in results if one.verdict is Verdict.PASS]
@@ -134,7 +134,7 @@ def _measured(
     def first(is_it: Callable[[str, int], bool]) -> int:
         return next((k for k, cause in enumerate(causes.ranked, 1) if is_it(*_at(cause, root))), 0)
 
-    return Measured(
+    return MutantReport(
         mutant.edit,
         mutant.site.rule,
         Fate.FAILS,

@@ -15,7 +15,7 @@ from checker.counterfactual.trials import MOST_FLIGHTS, MOST_SECONDS, Bounds
 from checker.mission import LARGEST_SEED, Mission
 from checker.models import load_models
 from checker.names import relative_name
-from checker.yardstick import TOP, Fate, Measured, measure, open_flyer, prepare, with_mandatory_goals
+from checker.yardstick import TOP, Fate, MutantReport, measure, open_flyer, prepare, with_mandatory_goals
 from nddlc.inputs import Unusable
 from nddlc.one_mission import prepare as read
 from nddlc.trust import trust_option
@@ -55,7 +55,7 @@ def command(
     if mandatory:
         mission = with_mandatory_goals(mission)
         models = load_models(mission)
-    found: list[Measured] = []
+    found: list[MutantReport] = []
     with open_flyer(mission, models.agent) as flyer, _until_interrupted() as ending:
         ground = prepare(mission, models, missions, flyer)
         if not ground.seeds:
@@ -82,7 +82,7 @@ def _until_interrupted() -> Iterator[list[str]]:
         ending.append("interrupted")
 
 
-def _line(one: Measured, mission: Mission) -> str:
+def _line(one: MutantReport, mission: Mission) -> str:
     edit = one.edit
     place = f"{relative_name(edit.file, Path(mission.agent.root))}:{edit.line}"
     old, new = (" ".join(text.split()) for text in (edit.old, edit.new))
@@ -100,7 +100,7 @@ def _line(one: Measured, mission: Mission) -> str:
             return f"{head}: {one.failed} of {one.flown} fail ({one.code}), {rank}, {one.causes.flights} trials"
 
 
-def _summary(found: Sequence[Measured]) -> list[str]:
+def _summary(found: Sequence[MutantReport]) -> list[str]:
     counts = _counts(found)
     lines = [
         f"{counts['mutants']} faults: {counts['fails']} make missions fail, {counts['silent']} stay silent, "
@@ -118,7 +118,7 @@ def _summary(found: Sequence[Measured]) -> list[str]:
     return lines
 
 
-def _counts(found: Sequence[Measured]) -> dict[str, Any]:
+def _counts(found: Sequence[MutantReport]) -> dict[str, Any]:
     fates = Counter(one.fate for one in found)
     counts: dict[str, Any] = {"mutants": len(found), **{fate.value: fates[fate] for fate in Fate}}
     for name, is_drop in (("changed", False), ("dropped", True)):
@@ -132,7 +132,7 @@ def _counts(found: Sequence[Measured]) -> dict[str, Any]:
     return counts
 
 
-def _data(found: Sequence[Measured], mission: Mission, seed: int, interrupted: bool) -> dict[str, Any]:
+def _data(found: Sequence[MutantReport], mission: Mission, seed: int, interrupted: bool) -> dict[str, Any]:
     root = Path(mission.agent.root)
     return {
         "mission": mission.agent.name,

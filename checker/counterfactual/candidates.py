@@ -12,7 +12,7 @@ from pathlib import Path
 
 from checker.causes import culprit_of, failed_by
 from checker.counterfactual.dependence import Dependence
-from checker.mutation.edits import Site
+from checker.mutation.edits import EditSite
 from nddl_lang.text.read import real_path
 from runtime.executive.outcome import Conflict, Deadlock, EventKind, Outcome, SourcePlace
 
@@ -33,7 +33,7 @@ class Suspicion(StrEnum):
 class Candidate:
     """A site that is worth a trial: `far` from what ended the mission, by lines that hang together."""
 
-    site: Site
+    site: EditSite
     far: float
     source: Suspicion
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from checker.mutation.edits import Site
+from checker.mutation.edits import EditSite
 from compiler.program import (
     DURATION,
     END,
@@ -63,7 +63,7 @@ class LooseEnd:
 class Dependence:
     """The sites of some programs by number, and the variables that join them."""
 
-    def __init__(self, programs: Sequence[Program], sites: Sequence[Site]) -> None:
+    def __init__(self, programs: Sequence[Program], sites: Sequence[EditSite]) -> None:
         self.sites = sites
         self._at: dict[tuple[str, int], list[int]] = defaultdict(list)
         for number, site in enumerate(sites):

@@ -9,7 +9,7 @@ from enum import StrEnum
 from pathlib import Path
 
 from checker.counterfactual.candidates import Candidate
-from checker.counterfactual.trials import HEAVY, Loose, Trial, Trials, TrialsEnd
+from checker.counterfactual.trials import HEAVY, LineTrial, Loose, Trials, TrialsEnd
 from checker.mutation.edits import EditKind
 from checker.names import relative_name
 from runtime.executive.outcome import SourcePlace
@@ -87,7 +87,7 @@ def rank(trials: Trials, root: Path) -> Causes:
     return Causes(tuple(lines.values()), trials.lines, trials.flights, trials.ended)
 
 
-def _claim(trial: Trial) -> Claim:
+def _claim(trial: LineTrial) -> Claim:
     if trial.damage >= HEAVY:
         return Claim.EVADES
     if trial.helped < trial.missions or trial.spoilt:
@@ -95,7 +95,7 @@ def _claim(trial: Trial) -> Claim:
     return Claim.MENDS if trial.cost < _LARGE else Claim.LOOSENS
 
 
-def _tried(trial: Trial, root: Path) -> RankedLine:
+def _tried(trial: LineTrial, root: Path) -> RankedLine:
     site, edit = trial.candidate.site, trial.edit
     change = TriedChange(edit.kind, edit.old, edit.new.strip())
     place = _place(trial.candidate, edit.line, root)

@@ -12,9 +12,10 @@ from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.smallness import usage_of
 from checker.counterfactual.trials import Bounds, Loose, Missions, Trials, try_out
 from checker.losses import Limit
-from checker.mutation.edits import Site, SmallEdit, sites_of
+from checker.mutation.edits import EditSite, SmallEdit, sites_of
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
 from checker.oracle import judge_losses
+from checker.sampling.sampler import with_point
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
 
@@ -32,10 +33,10 @@ class Suspended:
     overlay: Overlay = ()
 
 
-def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[Site]:
+def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]:
     """The sites of all models of an agent, those of a text that several include once."""
     root = Path(agent.root)
-    found: dict[tuple[str, int, str], Site] = {}
+    found: dict[tuple[str, int, str], EditSite] = {}
     for model in dict.fromkeys(each.model for each in agent.reactors):
         for site in sites_of(load_graph(root / model, overlay)):
             found.setdefault((site.file, site.first, site.text), site)
@@ -67,5 +68,5 @@ def _loose(graph: Dependence, candidates: Sequence[Candidate]) -> tuple[Loose, .
 
 def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult) -> MissionResult:
     load = partial(load_over, with_edit(world.overlay, edit))
-    result = world.flyer.fly(world.agent, mission.number, mission.seed, load)
+    result = world.flyer.fly(with_point(world.agent, mission.point), mission.number, mission.seed, load)
     return replace(result, judgement=judge_losses(result.judgement, result.losses, world.limits))

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
-from checker.mutation.edits import DROPPED, EditKind, Site, SmallEdit
+from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _LOOSE = "any"  # the relation that demands nothing
@@ -34,7 +34,7 @@ class Usage:
         return name in self.named and not self.counts[name]
 
 
-def usage_of(sites: Sequence[Site]) -> Usage:
+def usage_of(sites: Sequence[EditSite]) -> Usage:
     """The usage of words in all lines; a line that sets a variable does not use it."""
     counts: Counter[str] = Counter()
     kinds: Counter[EditKind] = Counter()
@@ -44,12 +44,12 @@ def usage_of(sites: Sequence[Site]) -> Usage:
     return Usage(counts, {site.named for site in sites if site.named}, kinds)
 
 
-def cost_of(edit: SmallEdit, site: Site, usage: Usage) -> float:
+def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     """How much an edit changes: 1 is one word or sign, what takes a demand away altogether costs most."""
     return _change(edit, site, usage) + _RARITY * math.log(max(usage.kinds[edit.kind], 1))
 
 
-def _change(edit: SmallEdit, site: Site, usage: Usage) -> float:
+def _change(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     match edit.kind:
         case EditKind.OFF_BY_ONE | EditKind.SIGN | EditKind.ARGUMENTS:
             return 0.8
@@ -71,7 +71,7 @@ def _change(edit: SmallEdit, site: Site, usage: Usage) -> float:
             return _DROP
 
 
-def delay_of(edit: SmallEdit, site: Site, usage: Usage) -> float | None:
+def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     """How late an edit is tried at its line; None: only if another edit of the line has helped.
 
     What loosens most comes first: where it does not help, smaller ones seldom do.
@@ -87,6 +87,8 @@ def delay_of(edit: SmallEdit, site: Site, usage: Usage) -> float | None:
             return 1.0
         case EditKind.RELATION:
             return 0.3 if edit.new == _LOOSE else 1.1 + _rareness(edit.new, usage)
+        case EditKind.COMPARISON if not _is_demand(edit, site):
+            return _LATE
         case EditKind.COMPARISON if edit.old in _UNEQUAL:
             return -0.5
         case EditKind.COMPARISON if edit.old in _EQUAL:
@@ -101,7 +103,7 @@ def delay_of(edit: SmallEdit, site: Site, usage: Usage) -> float | None:
             return 0.4 if abs(float(edit.old)) <= _FEW else None
 
 
-def follow_ups(edit: SmallEdit, site: Site, usage: Usage) -> list[SmallEdit]:
+def follow_ups(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]:
     """Smaller edits of the same line, where this one has helped; the smallest first."""
     mine = cost_of(edit, site, usage)
     smaller = [
@@ -123,7 +125,7 @@ def _direction(edit: SmallEdit) -> bool:
     return edit.kind in _NUMERIC and float(edit.new) > float(edit.old)
 
 
-def alternatives(edit: SmallEdit, site: Site, usage: Usage) -> list[SmallEdit]:
+def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]:
     """Other edits of the same line that change about as much."""
     most = cost_of(edit, site, usage) + 0.5
     others = [
@@ -139,7 +141,13 @@ def _rareness(relation: str, usage: Usage) -> float:
     return max(0.0, (0.1 if relation in _COMMON else 0.4) - 0.05 * math.log1p(usage.counts[relation]))
 
 
-def _is_about_time(site: Site) -> bool:
+def _is_demand(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a comparison is what a line demands, and neither a condition nor a truth value that is computed."""
+    before = site.text[: edit.begin - site.begin]
+    return site.text.endswith(";") and before.count("(") == before.count(")")
+
+
+def _is_about_time(site: EditSite) -> bool:
     return any(word in _TIMES for word in _WORD.findall(site.text))
 
 

@@ -15,7 +15,7 @@ from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import Candidate
 from checker.counterfactual.smallness import Usage, alternatives, cost_of, delay_of, follow_ups
 from checker.losses import GoalFate
-from checker.mutation.edits import Site, SmallEdit
+from checker.mutation.edits import EditSite, SmallEdit
 from checker.oracle import Verdict
 
 MOST_FLIGHTS = 40
@@ -48,7 +48,7 @@ class Bounds:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Trial:
+class LineTrial:
     """A change that makes the mission pass: what is still lost then, and on how many failed missions it helps.
 
     `spoilt` missions passed before and do not with the change.
@@ -80,7 +80,7 @@ class Loose:
 class Trials:
     """All that was tried for one fault: `causes` are ranked, one for each line."""
 
-    causes: tuple[Trial, ...]
+    causes: tuple[LineTrial, ...]
     suspects: tuple[Candidate, ...]  # lines in the order of suspicion, tried or not
     lines: int  # that were tried
     flights: int
@@ -107,8 +107,8 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
             at = _NEARNESS * candidate.far + delay + _TURN * turn
             heapq.heappush(queue, (at, next(order), candidate, edit))
     reserve = min(_CONFIRMED * (len(failed) - 1 + len(missions.passed)), bounds.flights // 4)
-    best: dict[Site, Trial] = {}
-    tried: set[tuple[Site, SmallEdit]] = set()
+    best: dict[EditSite, LineTrial] = {}
+    tried: set[tuple[EditSite, SmallEdit]] = set()
     while queue and trials.may_go_on(reserve):
         at, _, candidate, edit = heapq.heappop(queue)
         site = candidate.site
@@ -120,7 +120,7 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
         result = trials.fly(edit, failed[0])
         if result.verdict is not Verdict.PASS:
             continue
-        trial = Trial(candidate, edit, damage_of(result), cost)
+        trial = LineTrial(candidate, edit, damage_of(result), cost)
         if known is None or trial.damage + trial.cost < known.damage + known.cost:
             best[site] = trial
         for other in follow_ups(edit, site, usage) if trial.damage < HEAVY else ():
@@ -128,7 +128,7 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
     if trials.ended is TrialsEnd.FLIGHTS:
         trials.ended = None
     ranked = sorted(best.values(), key=lambda one: one.weight)
-    confirmed: list[Trial] = []
+    confirmed: list[LineTrial] = []
     while ranked and sum(not one.spoilt for one in confirmed) < _CONFIRMED:
         confirmed.append(trials.confirmed(ranked.pop(0), usage))
     ranked = sorted([*confirmed, *ranked], key=lambda one: one.weight)
@@ -138,7 +138,7 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
     return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
 
 
-def _first_edits(site: Site, usage: Usage) -> list[tuple[float, SmallEdit]]:
+def _first_edits(site: EditSite, usage: Usage) -> list[tuple[float, SmallEdit]]:
     """The edits of a line that are tried whether or not others help, the soonest first."""
     delays = [(delay_of(edit, site, usage), number, edit) for number, edit in enumerate(site.edits)]
     wanted = sorted((delay, number, edit) for delay, number, edit in delays if delay is not None)
@@ -177,7 +177,7 @@ class _Trials:
         self.flights += 1
         return self._fly(edit, mission)
 
-    def confirmed(self, trial: Trial, usage: Usage) -> Trial:
+    def confirmed(self, trial: LineTrial, usage: Usage) -> LineTrial:
         """The trial with what it does to the other failed missions; of its line, the edit that helps more of them."""
         helped, missions, damage, spoilt = 1, 1, trial.damage, 0
         unhelped: list[MissionResult] = []
@@ -205,5 +205,5 @@ class _Trials:
             again = self.fly(other, first)
             if again.verdict is Verdict.PASS:
                 cost = cost_of(other, site, usage)
-                return Trial(trial.candidate, other, damage_of(again), cost, missions, missions)
-        return Trial(trial.candidate, trial.edit, damage, trial.cost, helped, missions, spoilt)
+                return LineTrial(trial.candidate, other, damage_of(again), cost, missions, missions)
+        return LineTrial(trial.candidate, trial.edit, damage, trial.cost, helped, missions, spoilt)

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from checker.mutation.edits import EditKind, Site, SmallEdit
+from checker.mutation.edits import EditKind, EditSite, SmallEdit
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Mutant:
     """A fault: the edit that made it, and the line that it changed."""
 
-    site: Site
+    site: EditSite
     edit: SmallEdit
 
     def is_at(self, file: str, line: int) -> bool:
@@ -25,7 +25,7 @@ class Mutant:
         return file == self.site.file and first <= line <= last
 
 
-def mutants_of(sites: Sequence[Site], seed: int) -> Iterator[Mutant]:
+def mutants_of(sites: Sequence[EditSite], seed: int) -> Iterator[Mutant]:
     """All mutants in an order that `seed` decides: a kind after the other, of each kind a line after the other."""
     chance = np.random.default_rng(seed)
     waiting: dict[EditKind, list[Mutant]] = {}

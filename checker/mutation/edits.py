@@ -83,11 +83,11 @@ class SmallEdit:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Site:
+class EditSite:
     """A statement that may be mistaken, from its first line to its last: `rule` is what it is a part of.
 
     A branch has the lines of its condition. `scope` are the lines of the whole rule. `named` is the global variable
-    that is set here; `is_rule`: it is the head of a rule, for which something may be missing.
+    that is set here; `is_rule`: it is the head of a rule, for which something may be missing. `begin` is its offset.
     """
 
     file: str
@@ -100,6 +100,7 @@ class Site:
     edits: tuple[SmallEdit, ...]
     named: str = ""
     is_rule: bool = False
+    begin: int = 0
 
     def holds(self, file: str, line: int) -> bool:
         """Whether a place is one of its lines."""
@@ -111,7 +112,7 @@ def edited(text: str, edit: SmallEdit) -> str:
     return text[: edit.begin] + edit.new + text[edit.end :]
 
 
-def sites_of(loaded: LoadedModules) -> list[Site]:
+def sites_of(loaded: LoadedModules) -> list[EditSite]:
     """Every site of a model, files that come with the package left out, in the order of execution."""
     library = real_path(LIBRARY)
     own = [one for one in loaded.module.statements if not _path(one.span, loaded).is_relative_to(library)]
@@ -136,14 +137,14 @@ class _Reader:
         self._loaded = loaded
         self._limits = sorted(name for name, kind in names.items() if kind in _NUMBERS)
 
-    def sites(self, statement: Any) -> Iterator[Site]:
+    def sites(self, statement: Any) -> Iterator[EditSite]:
         """The sites of a top-level statement."""
         match statement:
             case RuleDecl(class_name=owner, predicate=predicate, body=body):
                 rule = f"{owner.name}.{predicate.name}"
                 head, scope = owner.span, _lines(statement.span)
                 file = str(_path(head, self._loaded))
-                yield Site(
+                yield EditSite(
                     file,
                     head.line,
                     head.column,
@@ -168,7 +169,7 @@ class _Reader:
             case _:
                 pass
 
-    def _body(self, body: Iterable[Any], rule: str, whole: Span) -> Iterator[Site]:
+    def _body(self, body: Iterable[Any], rule: str, whole: Span) -> Iterator[EditSite]:
         for statement in body:
             match statement:
                 case IfStatement(condition=condition, then=then, otherwise=otherwise):
@@ -190,13 +191,13 @@ class _Reader:
         roots: tuple[Any, ...],
         named: str = "",
         branches: Iterable[SmallEdit] = (),
-    ) -> Site:
+    ) -> EditSite:
         edits = [edit for root in roots for edit in self._edits(root)]
         if isinstance(node, (CallConstraint, ExprConstraint)):
             edits.append(self._edit(EditKind.DROPPED_CONSTRAINT, node.span, _blank(node.span.text)))
         last = _lines(node.span)[1]
         file = str(_path(node.span, self._loaded))
-        return Site(
+        return EditSite(
             file,
             node.span.line,
             node.span.column,
@@ -206,6 +207,7 @@ class _Reader:
             node.span.text,
             (*edits, *branches),
             named,
+            begin=node.span.begin,
         )
 
     def _dropped(self, span: Span) -> SmallEdit:

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from checker.mutation.choice import mutants_of
-from checker.mutation.edits import EditKind, Site, SmallEdit, edited, sites_of
+from checker.mutation.edits import EditKind, EditSite, SmallEdit, edited, sites_of
 from checker.mutation.variant import load_graph, open_over, with_edit
 
 MODEL = """class T extends Timeline { predicate P { int n; n <= 9; } }
@@ -32,7 +32,7 @@ def model(tmp_path: Path) -> Path:
     return path
 
 
-def sites(path: Path) -> list[Site]:
+def sites(path: Path) -> list[EditSite]:
     return sites_of(load_graph(path, ()))
 
 
