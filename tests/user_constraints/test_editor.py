@@ -5,8 +5,9 @@ from pathlib import Path
 import pytest
 
 from lsp.completion import completions
-from lsp.documents import DocumentContext, Documents
+from lsp.documents import Documents
 from lsp.hover import hover_at
+from lsp.open_text import DocumentContext
 from lsp.project import ServerSettings
 from tests.user_constraints.own import TWICE, written
 

@@ -6,6 +6,7 @@ import pytest
 
 from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.outcome import EventKind
+from runtime.executive.record import TokenRecord
 from tests.checker.judge.corruption import again
 from tests.executive.flying import Flown, flown, planner
 
@@ -39,6 +40,6 @@ def test_what_is_said_to_be_achieved_must_have_been_executed(stop: int | None) -
     assert ("goal" in {one.kind for one in again(silent).disagreements}) == (stop is None)
 
 
-def replace_end(token):  # type: ignore[no-untyped-def]
+def replace_end(token: TokenRecord) -> TokenRecord:
     """The token, as if it went on."""
     return token._replace(end=31, duration=31 - token.start)

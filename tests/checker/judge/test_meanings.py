@@ -117,5 +117,7 @@ def test_draws_are_those_of_the_mission(kind: Any) -> None:
         )
         for seed in (0, 7, 2**53 - 1):
             for tick in range(0, 70, 3):
-                (value,) = drawn(place, seed, np.array([tick]))
+                values_drawn = drawn(place, seed, np.array([tick]))
+                assert values_drawn is not None
+                (value,) = values_drawn
                 assert value == pytest.approx(sample(place, seed, tick).value, abs=1e-9)
