@@ -42,4 +42,5 @@ def test_what_is_said_to_be_achieved_must_have_been_executed(stop: int | None) -
 
 def replace_end(token: TokenRecord) -> TokenRecord:
     """The token, as if it went on."""
+    assert isinstance(token.start, int)
     return token._replace(end=31, duration=31 - token.start)
