@@ -181,13 +181,13 @@ def _buckets(data: dict[str, Any], root: Path) -> Iterator[_Bucket]:
         spot = _spot(fault.get("place"), root)
         if spot is None:
             continue
-        conditions = [each["condition"] for each in fault.get("thresholds") or () if each.get("is_causal")]
+        condition = fault.get("condition") or {}
         because = f": {fault['because']}" if fault.get("because") else ""
         yield _Bucket(
             spot,
             str(fault.get("code")),
             f"{fault.get('count')} of {flown} missions of `{data['name']}` fail here, {fault.get('meaning')}{because}",
-            " and ".join(conditions) or None,
+            condition.get("text") and f"{condition['text']}{' (in part)' if condition.get('partial') else ''}",
             tuple(each for limit in fault.get("limits") or () if (each := _spot(limit, root)) is not None),
         )
 

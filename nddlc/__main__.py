@@ -9,4 +9,5 @@ if Path(sys.path[0]).resolve() != Path(__file__).resolve().parent.parent:
 
 from nddlc.main import main
 
-main()
+if __name__ == "__main__":
+    main()

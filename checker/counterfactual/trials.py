@@ -24,6 +24,7 @@ _NEARNESS = 0.4  # of the distance, beside how late an edit is tried at its line
 _TURN = 0.3  # how much later each further edit of one line is tried
 _CONFIRMED = 3  # causes that are tried on other missions too
 HEAVY = 10.0  # damage of a mission that passes without a goal
+_CONSTANT = 0.5  # how much nearer a constant counts: a number that somebody chose, and one that is often wrong
 _FOLLOWED = 0.35  # how much likelier a change of a line is once another change of that line has helped
 
 Try = Callable[[SmallEdit, MissionResult], MissionResult]  # a change and a mission in, how it ends with that change out
@@ -104,7 +105,8 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
     order = count()
     for candidate in candidates:
         for turn, (delay, edit) in enumerate(_first_edits(candidate.site, usage)):
-            at = _NEARNESS * candidate.far + delay + _TURN * turn
+            far = candidate.far * (_CONSTANT if candidate.site.named is not None else 1.0)
+            at = _NEARNESS * far + delay + _TURN * turn
             heapq.heappush(queue, (at, next(order), candidate, edit))
     reserve = min(_CONFIRMED * (len(failed) - 1 + len(missions.passed)), bounds.flights // 4)
     best: dict[EditSite, LineTrial] = {}

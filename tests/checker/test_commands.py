@@ -32,7 +32,7 @@ def test_a_failing_model_ends_with_findings_and_a_reason(agent: None, capsys: py
     assert "34 |     duration <= SURFACE_MAX;" in text
     assert "5 | SURFACE_MAX = 64;" in text
     assert "fails when GPS_HIT_RATE > 3.8" in text
-    assert len(text.splitlines()) <= 25
+    assert len(text.splitlines()) <= 28
     assert sorted(path.name for path in Path("nddlc-report").iterdir()) == [
         "junit.xml",
         "report.html",

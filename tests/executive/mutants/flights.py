@@ -81,7 +81,7 @@ def lines_of(number: int, missions: int, seconds: int) -> Iterator[str]:
         mission, _ = read_mission(place / file.name)
         assert mission is not None
         models = sorted(place.glob("*.nddl"))
-        kind = ""
+        kind, read = "", load_models(mission)
         for _ in range(TRIALS):
             model = models[chance.randrange(len(models))]
             whole = model.read_text()
