@@ -1,4 +1,4 @@
-"""Hand the engine's modules to setuptools; all else is in pyproject.toml."""
+"""Hand the engine's modules and the man page to setuptools; all else is in pyproject.toml."""
 
 import sys
 from pathlib import Path
@@ -10,4 +10,7 @@ sys.path.insert(0, str(ROOT / "build_backend"))
 
 from engine_build import BuildEngine, engine_extensions  # noqa: E402
 
-setup(ext_modules=engine_extensions(ROOT), cmdclass={"build_ext": BuildEngine})
+MAN_PAGE = "docs/nddlc.1"
+PAGES = [("share/man/man1", [MAN_PAGE])] if (ROOT / MAN_PAGE).is_file() else []
+
+setup(ext_modules=engine_extensions(ROOT), cmdclass={"build_ext": BuildEngine}, data_files=PAGES)
