@@ -1,6 +1,7 @@
 """`nddlc run`: fly one mission, show what happened, and say how it ended."""
 
 import sys
+from collections import Counter
 from pathlib import Path
 
 import click
@@ -14,6 +15,7 @@ from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable, mission_here
 from nddlc.one_mission import prepare, values_of
 from nddlc.trust import trust_option
+from runtime.executive.events import single_events
 from runtime.executive.outcome import EventKind
 from runtime.executive.rendering import event_text, goal_text, reason_text
 
@@ -61,12 +63,13 @@ def _report(name: str, flight: Flight) -> str:
     """The Gantt of what happened, what was given up and repaired, and the outcome."""
     outcome, judgement = flight.outcome, flight.judgement
     lines = [gantt(outcome)]
-    for event in outcome.events:
+    events = single_events(outcome.events)
+    for event in events:
         if event.kind in _TOLD:
             who = " ".join(filter(None, (event.reactor, event.kind.value, event.timeline)))
             lines.append(f"{event.tick:>7}  {who}: {event_text(event)}\n")
-    counts = {kind: sum(event.kind is kind for event in outcome.events) for kind in EventKind}
-    done = sum(event.kind is EventKind.ACHIEVED and (event.request or 0) < 0 for event in outcome.events)
+    counts = Counter(event.kind for event in events)
+    done = sum(event.kind is EventKind.ACHIEVED and (event.request or 0) < 0 for event in events)
     lines.append(
         f"{name}, seed {flight.settings.seed}: {judgement.verdict.value}"
         f"{f' {judgement.code}' if judgement.code else ''} at tick {outcome.last_tick}\n"
