@@ -25,7 +25,7 @@ def near(a: Column, b: Column) -> Mask:
     if (a.kind == INT and b.kind == INT) or same.all():
         return same
     margin = TOLERANCE + RELATIVE * np.maximum(np.abs(x), np.abs(y))
-    return np.asarray(same | (np.abs(x - y) <= margin))
+    return np.asarray(same | ((np.abs(x - y) <= margin) & np.isfinite(margin)))
 
 
 def _differ(a: Column, b: Column) -> tuple[Mask, Mask]:
