@@ -18,6 +18,7 @@ from runtime.constraints.domains.queries import has_finitely_many, listed, may_b
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     FLAG_DECISION,
+    FLAG_FROZEN,
     FLAG_VALUES,
     FLOAT_TOLERANCE,
     KIND_FLOAT,
@@ -149,6 +150,11 @@ class Engine(Store):
         self.newest_restriction = r
         support = r * 4 + SUPPORT_RESTRICTION
         return bool(self.consistent and raise_to(self, v, lo, support) and reduce_to(self, v, hi, support))
+
+    def freeze_base(self, v: int, lo: float, hi: float, span: int, owner: int) -> None:
+        """Restrict the base domain for good to what has happened; such a restriction is known by FLAG_FROZEN."""
+        self.restrict_base(v, lo, hi, span, owner)
+        self.restriction_flags[self.newest_restriction] = FLAG_FROZEN
 
     def restrict_base_values(self, v: int, values: list[float], span: int, owner: int) -> bool:
         """Intersect the base domain with a set; false if no value is left."""

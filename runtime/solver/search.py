@@ -238,7 +238,7 @@ class Solver:
             self.failures += 1
             if self.failure_log is not None:
                 self.failure_log.note_failure(d - 1)
-            self.stack.reasons[d - 1] = EVERYTHING
+            self.stack.rest_on_everything(d - 1)
         if not holds and d == 0 and self.failure_log is not None:
             self.failure_log.note_contradiction()
         release(self.plan, number)
