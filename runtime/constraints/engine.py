@@ -61,6 +61,9 @@ class Engine(Store):
         self.constants: dict[tuple[object, ...], int] = {}
         self.newest_edge = -1
         self.newest_restriction = -1
+        self.coarse_after = _COARSE_AFTER
+        self.most_runs = _MOST_RUNS
+        self.creeping: set[int] = set()  # constraints that were slowed down; what they left out is not known
 
     # ------------------------------------------------------------------------------------------------ variables
 
@@ -332,9 +335,11 @@ class Engine(Store):
             self.run_count[c] = 0
         self.run_count[c] += 1
         # A cycle that creeps is slowed down, then left alone: what is not narrowed away loses no solution.
-        if self.run_count[c] > _MOST_RUNS:
-            return True
-        self.coarse = self.run_count[c] > _COARSE_AFTER
+        if self.run_count[c] > self.coarse_after:
+            self.creeping.add(c)
+            if self.run_count[c] > self.most_runs:
+                return True
+            self.coarse = True
         self.running = c if self.idempotent[c] else -1
         holding = propagate_constraint(self, c)
         self.coarse = False
