@@ -57,7 +57,8 @@ def command(plan: Path, mission_path: Path | None, seed: int, target: Path | Non
         raise Unusable(f"`{plan}`: {problem}", problem.advice or "docs/validate.md describes the form") from None
     except UnusableModelError as problem:
         raise Unusable(str(problem)) from None
-    click.echo(report_text(report) if style == "text" else json.dumps(report_data(report), indent=1))
+    advises = plan.suffix != ".toml"
+    click.echo(report_text(report, advises=advises) if style == "text" else json.dumps(report_data(report), indent=1))
     return 0 if report.holds else 1
 
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from checker.judge.bench import Bench
 from checker.judge.bodies import StepMaker, Written, compile_body
 from checker.judge.determined import Determined
+from checker.judge.functions import COMPUTED
 from checker.judge.meanings import Meaning, equal, is_true
 from checker.judge.operands import BodyFrame, Read, VariableNames, domain_value, is_range, reader
 from checker.judge.relating import LEFT_OPEN, Step, child_step, relate_step
@@ -258,9 +259,16 @@ def _refuse(
     names: VariableNames,
     said: tuple[str, str] = ("it holds", "it does not"),
 ) -> None:
-    named = tuple((names.of(operand), value) for operand, value in zip(post.operands, values, strict=True))
+    named = [(names.of(operand), value) for operand, value in zip(post.operands, values, strict=True)]
     frame.bench.judged += 1
-    _note(frame, "constraint", post.name, named, *said, post.span)
+    if post.name in COMPUTED:
+        place = 0 if COMPUTED[post.name][0] == 0 else len(values) - 1
+        solve = solver(post.name, place, len(values))
+        if solve is not None:
+            named.append(("computed", solve(*values[:place], *values[place + 1 :])))
+    if frame.within:
+        named.append(("within", frame.within))
+    _note(frame, "constraint", post.name, tuple(named), *said, post.span)
 
 
 # ---- branches ----
@@ -281,6 +289,7 @@ def _guard(guard: Guard, then: list[Step], otherwise: list[Step], names: Variabl
                 return
             inner = BodyFrame(bench, frame.tok, list(frame.slots), list(frame.tokens))
             inner.choosing = frame.choosing
+            inner.within = text if truth else f"else of {text}"
             for each in then if truth else otherwise:
                 each(inner)
             return
@@ -302,6 +311,7 @@ def _guard(guard: Guard, then: list[Step], otherwise: list[Step], names: Variabl
         if reached.run is not None:
             inner = BodyFrame(bench, frame.tok, list(frame.slots), list(frame.tokens))
             inner.follow(reached.run)
+            inner.within = text if reached.branch == "then" else f"else of {text}"
             for each in then if reached.branch == "then" else otherwise:
                 each(inner)
 
