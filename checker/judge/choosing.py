@@ -106,7 +106,7 @@ def _missed(pairs: tuple[Demand, ...], origin: Tok, target: Tok) -> tuple[float,
         if far > most:
             points = {START: "start", END: "end"}
             named = ((f"{a.name}.{points[start]}", a.values[start]), (f"{b.name}.{points[end]}", b.values[end]))
-            bound = ("least distance", lower) if gap[1] < lower else ("most distance", upper)
+            bound = ("distance at least", lower) if gap[1] < lower else ("distance at most", upper)
             most, found = far, (*named, bound)
     return most, found
 

@@ -48,7 +48,7 @@ def test_a_plan_by_hand_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]
 @pytest.mark.parametrize(
     ("plan", "line"),
     [
-        (changed(5, start=120), "`up before fix;` does not hold"),
+        (changed(5, start=120), "`up before fix` does not hold"),
         (changed(5, arguments={"minHits": 9}), "`fix.minHits == minHits` does not hold"),
         (changed(3, end=99), "`run.end == end` does not hold"),
         (changed(0, end=6), "overlap on `nav`"),
@@ -62,6 +62,88 @@ def test_a_broken_plan_is_told_by_its_line(
 ) -> None:
     assert run(["validate", written(tmp_path, plan)]) == 1
     assert line in capsys.readouterr().out
+
+
+OVEN = """
+Reusable power = new Reusable(3.0, 0.0);
+enum Tone { low, high }
+class Oven extends Timeline { predicate Heat { int level; float warmth; Tone tone; } }
+class Table extends Timeline { predicate Served { } }
+Oven::Heat {
+  duration >= 5;
+  warmth == 20.0 + level * 10.5;
+  if (level >= 4) { tone == high; } else { tone == low; }
+  before [1 3] (Table.Served s);
+  equals(power.uses load);
+  load.quantity == 2.0;
+}
+Oven oven = new Oven();
+Oven other = new Oven();
+Table table = new Table();
+close();
+"""
+
+
+def heat(**fields: Any) -> dict[str, Any]:
+    """A plan for the oven; `fields` are of its first token, its arguments among them."""
+    arguments = {"level": 5, "warmth": 72.5, "tone": "high"} | fields.pop("arguments", {})
+    return {
+        "model": "oven.nddl",
+        "tokens": [
+            {"predicate": "Oven.Heat", "object": "oven", "start": 0, "end": 10, "arguments": arguments} | fields,
+            {"predicate": "Table.Served", "object": "table", "start": 12, "end": 20},
+            {"predicate": "Reusable.uses", "object": "power", "start": 0, "end": 10, "arguments": {"quantity": 2.0}},
+        ],
+    }
+
+
+def twice(tokens: list[int]) -> dict[str, Any]:
+    """The plan for the oven, with some tokens once more, on other objects."""
+    plan = heat()
+    plan["tokens"] += [plan["tokens"][k] | ({"object": "other"} if not k else {}) for k in tokens]
+    return plan
+
+
+@pytest.mark.parametrize(
+    ("plan", "said"),
+    [
+        (
+            heat(arguments={"warmth": 70.0}),
+            "`warmth == 20.0 + level * 10.5` does not hold (Oven.Heat#0): warmth = 70.0, computed = 72.5",
+        ),
+        (
+            heat(arguments={"tone": "low"}),
+            "`tone == high` does not hold (Oven.Heat#0): tone = low, within = if (level >= 4)",
+        ),
+        (
+            heat(arguments={"level": 2, "warmth": 41.0}),
+            "`tone == low` does not hold (Oven.Heat#0): tone = high, within = else of if (level >= 4)",
+        ),
+        (heat(end=6), "Oven.Heat#0.end = 6, Table.Served#1.start = 12, distance at most = 3"),
+        (heat(duration=9), "the duration is not the time from start to end"),
+        (twice([0, 2]), "the level of `power` is below 0 (Reusable.uses#2, Reusable.uses#4): level = -1.0, tick = 0"),
+        (
+            twice([1]),
+            "overlap on `table`: both at once, where one token follows the other (Table.Served#1, Table.Served#3)",
+        ),
+    ],
+)
+def test_a_broken_plan_is_told_with_what_is_in_the_way(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], plan: dict[str, Any], said: str
+) -> None:
+    (tmp_path / "oven.nddl").write_text(OVEN, encoding="utf-8")
+    assert run(["validate", written(tmp_path, plan)]) == 1
+    out = capsys.readouterr().out
+    assert said in out and "help: " in out and "#" in out.partition("is the token with the key")[0]
+
+
+def test_right_plans_for_the_oven_hold(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "oven.nddl").write_text(OVEN, encoding="utf-8")
+    open_ended = heat(end={"between": [9, 11]}, arguments={"tone": {"one_of": ["low", "high"]}})
+    open_ended["tokens"][2]["end"] = {"between": [9, 11]}
+    for plan in (heat(), open_ended, twice([]), heat(arguments={"level": 2, "warmth": 41.0, "tone": "low"})):
+        assert run(["validate", written(tmp_path, plan)]) == 0
+        assert ", 0 disagreements" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
