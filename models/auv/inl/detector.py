@@ -43,23 +43,28 @@ class Detector(Reactor):
 
 
 class Surveyor(Reactor):
-    """Asks for a denser survey around the place where the feature was entered, as long as there are samplers left.
+    """Asks for a denser survey around the place where the feature was entered, as long as there are samplers for it.
 
     It stands between `feature` and `survey`, so that who finds the feature does not depend on who plans surveys.
     """
 
+    def __init__(self, settings: Mapping[str, Value]) -> None:
+        super().__init__(settings)
+        self.pairs = int(settings["samplers"]) // 2
+        self.asked: set[int] = set()  # numbers of the surveys that were asked for and not refused
+
     def tick(self, now: Now) -> None:
         """Ask for a box around the present estimate whenever the feature is entered."""
+        self.asked -= now.refused
         if "feature" not in now.news or now.seen["feature"].predicate != "Inside":
             return
-        left = now.seen["gulper"].arguments["left"]
-        if not isinstance(left, int) or left < 2:
+        if len(self.asked) >= self.pairs:
             return
         here = now.seen["vehicle"].arguments
         x, y = here["x"], here["y"]
         assert isinstance(x, float) and isinstance(y, float)
         width, spacing, lines = float(self.settings["width"]), float(self.settings["spacing"]), self.settings["lines"]
-        now.ask(
+        number = now.ask(
             "survey",
             "HighRes",
             x0=x - width / 2.0,
@@ -71,6 +76,7 @@ class Surveyor(Reactor):
             top=float(self.settings["top"]),
             bottom=float(self.settings["bottom"]),
         )
+        self.asked.add(number)
 
 
 def cluster_table(text: str) -> dict[int, float]:
