@@ -6,11 +6,14 @@ from pathlib import Path
 
 from runtime.user.reactor import Now, Reactor, Value
 
+UNDER_WAY = ("YoYo", "Straight")  # behaviours that lead through the water
+
 
 class Detector(Reactor):
     """Hidden Markov model of two states, Outside and Inside, over the clusters that the water is found to belong to.
 
-    It owns `feature` and uses `water`. The table says of each cluster how probable Inside is where it is met; the
+    It owns `feature` and uses `water`, and `helm`: what is met while the vehicle is not under way tells nothing new, it
+    stays where it is or is at the surface. The table says of each cluster how probable Inside is where it is met; the
     estimate enters as a likelihood ratio. Two thresholds keep it from going back and forth.
     """
 
@@ -29,6 +32,8 @@ class Detector(Reactor):
         if now.tick == 0:
             now.publish("feature", "Outside")
         if "water" not in now.news or now.seen["water"].predicate != "Holds":
+            return
+        if now.seen["helm"].arguments.get("kind") not in UNDER_WAY:
             return
         cluster = now.seen["water"].arguments["id"]
         if not isinstance(cluster, int):
