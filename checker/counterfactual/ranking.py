@@ -9,12 +9,12 @@ from enum import StrEnum
 from pathlib import Path
 
 from checker.counterfactual.candidates import Candidate
+from checker.counterfactual.smallness import is_loosening
 from checker.counterfactual.trials import HEAVY, LineTrial, Loose, Trials, TrialsEnd
 from checker.mutation.edits import EditKind
 from checker.names import relative_name
 from runtime.executive.outcome import SourcePlace
 
-_LARGE = 2.5  # cost from which on an edit only takes a demand away
 _MOST_LOOSE = 2
 
 
@@ -92,7 +92,7 @@ def _claim(trial: LineTrial) -> Claim:
         return Claim.EVADES
     if trial.helped < trial.missions or trial.spoilt:
         return Claim.PARTLY
-    return Claim.MENDS if trial.cost < _LARGE else Claim.LOOSENS
+    return Claim.LOOSENS if is_loosening(trial.edit) else Claim.MENDS
 
 
 def _tried(trial: LineTrial, root: Path) -> RankedLine:

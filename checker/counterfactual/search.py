@@ -50,7 +50,7 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     sampled = {parameter.name for parameter in world.agent.parameters}
     sites = [site for site in sites_in(world.agent, world.overlay) if site.named not in sampled]
     graph = Dependence(world.programs, sites)
-    candidates = candidates_of(outcome, graph, Path(world.agent.root))
+    candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties)
     trials = try_out(candidates, missions, usage_of(sites), partial(_fly, world), bounds)
     return replace(trials, loose=_loose(graph, candidates))
 
@@ -66,7 +66,8 @@ def _loose(graph: Dependence, candidates: Sequence[Candidate]) -> tuple[Loose, .
     return tuple(loose for _, _, loose in sorted(found, key=lambda one: one[:2]))
 
 
-def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult) -> MissionResult:
+def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult, most_seconds: float) -> MissionResult:
     load = partial(load_over, with_edit(world.overlay, edit))
-    result = world.flyer.fly(with_point(world.agent, mission.point), mission.number, mission.seed, load)
+    agent = with_point(world.agent, mission.point)
+    result = world.flyer.fly(agent, mission.number, mission.seed, load, most_seconds=most_seconds)
     return replace(result, judgement=judge_losses(result.judgement, result.losses, world.limits))
