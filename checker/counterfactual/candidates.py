@@ -2,8 +2,8 @@
 
 Three sources: the conflict that ended it (and those of what was tried and repaired before), what is said of tokens and
 goals that found no place, and, by the dependence graph, the lines that bear on these. Where a property was violated, or
-a reactor ended without a conflict, what was observed there stands for them. Lines of rules whose predicate never held or
-was never asked for in the mission come after all others.
+a reactor ended without a conflict, what was observed there stands for them. Lines of rules whose predicate never held,
+nor was asked for in the mission, come after all others.
 """
 
 from collections.abc import Iterator, Sequence
@@ -123,7 +123,9 @@ def _violated(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> 
         assert broken is not None
         for pattern in (each.pattern, each.then) if each.name == broken.name else ():
             if pattern is not None:
-                held = (event.predicate for event in _latest(outcome, broken.tick) if event.timeline == pattern.timeline)
+                held = (
+                    event.predicate for event in _latest(outcome, broken.tick) if event.timeline == pattern.timeline
+                )
                 found |= {pattern.predicate} if pattern.predicate else set(held)
     return found
 

@@ -23,7 +23,7 @@ MOST_SECONDS = 60.0
 _NEARNESS = 0.4  # of the distance, beside how late an edit is tried at its line
 _TURN = 0.3  # how much later each further edit of one line is tried
 _CONFIRMED = 3  # causes that are tried on other missions too
-FAR = 0.1
+_FAR = 0.1  # what the distance of a line counts beside the cost of its change
 HEAVY = 10.0  # damage of a mission that passes without a goal
 _CONSTANT = 0.5  # how much nearer a constant counts: a number that somebody chose, and one that is often wrong
 _SLOW = 8.0  # times the slowest flight before that passed or failed: a change may leave a search without an end
@@ -70,8 +70,9 @@ class LineTrial:
 
     @property
     def weight(self) -> tuple[float, float, float]:
-        """What causes are ranked by: missions that fail with it, what is lost and how much changes, then how far."""
-        return self.spoilt + 1.0 - self.helped / self.missions, self.damage + self.cost + FAR * self.candidate.far, self.cost
+        """What causes are ranked by: missions that fail with it; what is lost, how likely it is, and how far off."""
+        change = self.damage + self.cost + _FAR * self.candidate.far
+        return self.spoilt + 1.0 - self.helped / self.missions, change, self.cost
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -9,6 +9,7 @@ from typing import Any
 
 from checker.batch.result import MissionResult
 from checker.conditions.rendering import condition_data
+from checker.counterfactual.rendering import causes_data
 from checker.coverage import Coverage
 from checker.excerpts import Excerpts
 from checker.explain import confirmation_data, place_data
@@ -95,15 +96,16 @@ def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
         "meaning": CODE_NAMES.get(bucket.code),
         "reason": failure_text(bucket.judgement, bucket.open_goals),
         "reactor": bucket.reactor,
-        "place": place_data(culprit.place, excerpts),
+        "place": place_data(next(iter(fault.places), None), excerpts),
         "because": element_text(culprit.element) if culprit.element is not None else "",
-        "limits": [place_data(limit, excerpts) for limit in culprit.limits],
+        "limits": [place_data(place, excerpts) for place in fault.places[1:]],
         "count": len(bucket.missions),
         "share": bucket.share,
         "interval": None if fault.interval is None else list(fault.interval),
         "example": bucket.example,
         "missions": list(bucket.missions),
         "ticks": [bucket.first_tick, bucket.last_tick],
+        "causes": causes_data(fault.causes),
         "condition": condition_data(fault.condition),
         "z3": confirmation_data(fault),
     }
