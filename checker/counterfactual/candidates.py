@@ -1,7 +1,8 @@
 """A failed mission in, the lines out that may be the mistaken one, the likeliest first.
 
-Three sources: the conflict that ended it (and those of what was tried and repaired before), what is said of tokens and
-goals that found no place, and, by the dependence graph, the lines that bear on these. Where a property was violated, or
+Four sources: the conflict that ended it (and those of what was tried and repaired before), what is said of tokens and
+goals that found no place, rules and branches that passing missions do not reach, and, by the dependence graph, the
+lines that bear on these. Where a property was violated, or
 a reactor ended without a conflict, what was observed there stands for them. Lines of rules whose predicate never held,
 nor was asked for in the mission, come after all others.
 """
@@ -15,10 +16,11 @@ from checker.causes import culprit_of, failed_by
 from checker.counterfactual.dependence import Dependence
 from checker.mutation.edits import EditSite
 from nddl_lang.text.read import real_path
+from nddl_lang.text.source import Span
 from runtime.executive.configuration import PropertyConfiguration
 from runtime.executive.outcome import Conflict, Deadlock, Event, EventKind, Outcome, SourcePlace
 
-_CULPRIT, _CONFLICT, _LOG, _EVENT, _NAMED = 0.0, 0.25, 0.5, 1.0, 1.5
+_CULPRIT, _CONFLICT, _LOG, _COVERED, _EVENT, _NAMED = 0.0, 0.25, 0.5, 0.75, 1.0, 1.5
 _UNSEEN = 4.0  # added for lines of a rule that nothing fired
 
 
@@ -28,6 +30,7 @@ class Suspicion(StrEnum):
     CONFLICT = "conflict"
     SEARCH = "failure log"
     TRACE = "trace"  # a repair, a refusal or a rejection on the way
+    COVERAGE = "coverage"  # passing missions do not reach it
     DEPENDENCE = "dependence"
 
 
@@ -41,9 +44,13 @@ class Candidate:
 
 
 def candidates_of(
-    outcome: Outcome, graph: Dependence, root: Path, properties: Sequence[PropertyConfiguration] = ()
+    outcome: Outcome,
+    graph: Dependence,
+    root: Path,
+    properties: Sequence[PropertyConfiguration] = (),
+    exercised: Sequence[Span] = (),
 ) -> list[Candidate]:
-    """All lines that can have a part in it, the nearest first."""
+    """All lines that can have a part in it, the nearest first; `exercised` rules and branches passing missions lack."""
     roots: dict[int, tuple[float, Suspicion]] = {}
 
     def note(place: SourcePlace | None, far: float, source: Suspicion) -> None:
@@ -64,6 +71,10 @@ def candidates_of(
     for predicate in predicates:
         for number in graph.of_predicate(predicate):
             roots.setdefault(number, (_NAMED, Suspicion.TRACE))
+    for span in exercised:
+        for number in graph.within(span):
+            if number not in roots or roots[number][0] > _COVERED:
+                roots[number] = (_COVERED, Suspicion.COVERAGE)
     distances = graph.distances({number: far for number, (far, _) in roots.items()})
     seen = _held(outcome)
     found = []

@@ -14,6 +14,7 @@ from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
 from checker.counterfactual.smallness import usage_of
 from checker.counterfactual.trials import HEAVY, Bounds, Loose, Missions, Trials, damage_of, try_out
+from checker.coverage import Universe
 from checker.losses import Limit
 from checker.mutation.edits import EditSite, SmallEdit, sites_of
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
@@ -75,7 +76,9 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     sampled = {parameter.name for parameter in world.agent.parameters}
     sites = [site for site in sites_in(world.agent, world.overlay) if site.named not in sampled]
     graph = Dependence(world.programs, sites)
-    candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties)
+    sites_reached = Universe(world.programs).sites
+    exercised = [site.span for number, site in enumerate(sites_reached) if number in missions.exercised]
+    candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised)
     trials = try_out(candidates, missions, usage_of(sites), partial(_fly, world), bounds)
     return replace(trials, loose=_loose(graph, candidates))
 

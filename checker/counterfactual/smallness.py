@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
+_SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
 _LOOSE = "any"  # the relation that demands nothing
 _SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 _UNEQUAL, _EQUAL = "!=", "=="
@@ -26,7 +27,7 @@ _KINDS = 0.5  # how much the number of lines counts at which an edit of the kind
 _UNUSUAL = 0.5  # how much the odds count that a word is meant
 _OCTAVE = 0.15  # for each doubling of a constant
 _DIGIT = 0.1  # for each digit that a constant has more
-_IDLE = 2.5  # odds of a constant that nothing uses any more
+_IDLE = 2.5  # odds of a constant that nothing uses any more, or where the range of a draw is used as a number
 _SUBSUMED = 0.4  # what is lost where one edit stands for several
 
 # How often a word is meant, in lines of a sort, before any line of the model is read.
@@ -40,19 +41,25 @@ _COMPARISONS = {
     "condition": {"==": 3.0, "<=": 2.0, ">=": 2.0, "<": 2.0, ">": 2.0, "!=": 0.7},
 }
 _RARE = 0.3  # all other words
+_LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Usage:
     """How often the lines of a model use each word; `named` are its global variables, `kinds` counts lines by edit.
 
-    `meant` counts relations and comparisons by the sort of line that they stand in.
+    `meant` counts relations and comparisons by the sort of line that they stand in; `sampled` are the ranges of draws.
     """
 
     counts: Counter[str]
     named: Container[str]
     kinds: Counter[EditKind]
     meant: Counter[tuple[object, str]]
+    sampled: Container[str]
+
+    def is_swapped(self, edit: SmallEdit) -> bool:
+        """Whether a constant stands where another one is missed, or the range of a draw where a number is meant."""
+        return edit.new not in self.sampled and (self.is_idle(edit.new) or edit.old in self.sampled)
 
     def is_idle(self, name: str) -> bool:
         """Whether nothing uses a variable that somebody declared: another may have taken its place."""
@@ -63,7 +70,8 @@ class Usage:
         sort, prior = _sort(edit, site)
         old, new = _sign(edit.old), _sign(edit.new)
         before = prior.get(old, _RARE) + self.meant[sort, old] - 1  # but for this very line
-        return math.log(before / (prior.get(new, _RARE) + self.meant[sort, new]))
+        odds = math.log(before / (prior.get(new, _RARE) + self.meant[sort, new]))
+        return max(odds, _LEAST_ODDS) if sort == "condition" else odds
 
 
 def usage_of(sites: Sequence[EditSite]) -> Usage:
@@ -76,7 +84,8 @@ def usage_of(sites: Sequence[EditSite]) -> Usage:
         kinds.update({edit.kind for edit in site.edits})
         words = {edit.begin: edit for edit in site.edits if edit.kind in (EditKind.RELATION, EditKind.COMPARISON)}
         meant.update((_sort(edit, site)[0], _sign(edit.old)) for edit in words.values())
-    return Usage(counts, {site.named for site in sites if site.named}, kinds, meant)
+    sampled = {name for site in sites for name in _SAMPLED.findall(site.text)}
+    return Usage(counts, {site.named for site in sites if site.named}, kinds, meant, sampled)
 
 
 def is_loosening(edit: SmallEdit) -> bool:
@@ -100,7 +109,7 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.RELATION | EditKind.COMPARISON:
             return 1.0 + _UNUSUAL * usage.odds(edit, site)
         case EditKind.LIMIT:
-            return 1.5 - _IDLE * usage.is_idle(edit.new)
+            return 1.5 - _IDLE * usage.is_swapped(edit)
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
             return 1.0 + _OCTAVE * _octaves(edit) + _DIGIT * (_digits(edit.new) - _digits(edit.old))
         case _:
@@ -114,7 +123,7 @@ def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     """
     match edit.kind:
         case EditKind.LIMIT:
-            return -1.0 if usage.is_idle(edit.new) else None
+            return -1.0 if usage.is_swapped(edit) else _LATE
         case EditKind.SIGN | EditKind.ARGUMENTS:
             return 0.5
         case EditKind.DROPPED_CONSTRAINT:

@@ -97,10 +97,14 @@ class Trials:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Missions:
-    """Missions of one fault, of which the first is what trials are made on; and some that passed."""
+    """Missions of one fault, of which the first is what trials are made on; and some that passed.
+
+    `exercised` are the rules and branches (by number, see `checker.coverage`) that only missions of the fault reached.
+    """
 
     failed: Sequence[MissionResult]
     passed: Sequence[MissionResult] = ()
+    exercised: frozenset[int] = frozenset()
 
 
 def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, fly: Try, bounds: Bounds) -> Trials:
