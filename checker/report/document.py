@@ -105,7 +105,7 @@ def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
         "missions": list(bucket.missions),
         "ticks": [bucket.first_tick, bucket.last_tick],
         "condition": condition_data(fault.condition),
-        "z3": confirmation_data(fault),
+        "z3": confirmation_data(fault.confirmation),
     }
 
 

@@ -45,7 +45,7 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
             lines += excerpt_lines(limit, excerpts, marked=True, indent="   ")
         lines += condition_lines(fault.condition, "   ") if fault.condition is not None else []
         if fault.confirmation is not None:
-            lines.append(f"   z3 {confirmation_text(fault)}")
+            lines.append(f"   z3 {confirmation_text(fault.confirmation)}")
         lines.append(f"   why: nddlc explain {findings.run_id}#{bucket.example}")
     if len(findings.faults) > _MOST_FAULTS:
         lines += ["", f"{len(findings.faults) - _MOST_FAULTS} more kinds of failure are in the report"]
