@@ -58,10 +58,10 @@ def object_claim(child: Child, binding: Binding) -> Claim | None:
     if child.object == "own":
         return target == token_number(*ours, OBJECT, binding.names, binding.symbols)
     assert not isinstance(child.object, str)
-    return equality(target, child.object, binding)
+    return _equality(target, child.object, binding)
 
 
-def equality(target: Number, operand: Operand, binding: Binding) -> Claim | None:
+def _equality(target: Number, operand: Operand, binding: Binding) -> Claim | None:
     """That a number equals an operand."""
     base: list[Claim] = []
     value = number(operand, binding, base)
@@ -76,7 +76,7 @@ def assign_claim(given: Assign, binding: Binding) -> Claim | None:
         return None
     if given.domain is not None:
         return z3.And(binding.symbols.within(target, given.domain), *base)
-    return None if given.value is None else equality(target, given.value, binding)
+    return None if given.value is None else _equality(target, given.value, binding)
 
 
 def domain_claim(new: NewVariable, target: Number, binding: Binding) -> Claim:

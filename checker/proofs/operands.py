@@ -45,6 +45,7 @@ class Symbols:
 
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {}
+        self._variables: dict[tuple[str, bool], Number] = {}
         self._fresh = 0
 
     def constant(self, value: Scalar, kind: str) -> Number:
@@ -57,7 +58,11 @@ class Symbols:
 
     def variable(self, name: str, kind: str) -> Number:
         """The variable called `name`."""
-        return z3.Real(name) if kind == "float" else z3.Int(name)
+        key = (name, kind == "float")
+        known = self._variables.get(key)
+        if known is None:
+            known = self._variables[key] = z3.Real(name) if kind == "float" else z3.Int(name)
+        return known
 
     def anonymous(self, kind: str) -> Number:
         """A variable that nobody else knows."""
@@ -82,6 +87,18 @@ def rational(value: float | Fraction) -> Number:
     """An exact real."""
     exact = Fraction(value)
     return z3.Q(exact.numerator, exact.denominator)
+
+
+def name_of(number: Number | None) -> str:
+    """The name of a variable; empty for everything else."""
+    if (
+        number is None
+        or isinstance(number, z3.IntNumRef | z3.RatNumRef)
+        or not z3.is_const(number)
+        or number.decl().kind() != z3.Z3_OP_UNINTERPRETED
+    ):
+        return ""
+    return str(number.decl().name())
 
 
 @dataclass(frozen=True, eq=False, slots=True)

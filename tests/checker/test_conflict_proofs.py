@@ -19,7 +19,7 @@ MOST = int(os.environ.get("NDDLC_PROOFS", "40"))
 
 @pytest.fixture(scope="module")
 def conflicts() -> list[tuple[Conflict, ModelText]]:
-    return list(islice(conflicts_of_mutants(GPS, MOST, 4), MOST))
+    return list(islice(conflicts_of_mutants(GPS, MOST, 4 if MOST < 500 else 10), MOST))
 
 
 def test_each_printed_conflict_contradicts_itself_and_needs_every_part(
