@@ -23,6 +23,7 @@ from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Verdict, judge_losses
+from checker.proofs.places import ModelText, text_of
 from checker.regression import RegressionCase, agent_of
 from checker.report.timelines import Pair
 from checker.sampling.sampler import RANDOM_POINT, RandomSampler, Sampler, Setting, axes_of, with_point
@@ -170,6 +171,7 @@ class Campaign:
                 ending=ending,
                 focus=focus,
                 conditions=conditions,
+                text=self._text(),
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
                 seeker=self._seeker(flyer, bounds, seconds) if is_flying and bounds is not None else None,
             )
@@ -198,9 +200,12 @@ class Campaign:
         programs = [self.models.programs[each.model] for each in agent.reactors]
         return CauseSearch(Suspended(agent, programs, self.mission.check.limits, flyer), bounds, seconds)
 
+    def _text(self) -> ModelText:
+        return text_of(self.models.agent, self.models.programs)
+
     def story(self, result: MissionResult, fault: Fault | None) -> Story:
         """Why a mission failed."""
-        return tell(result, self.models.agent, self.models.influence, fault)
+        return tell(result, self.models.agent, self.models.influence, fault, self._text())
 
     def pairs(self, findings: Findings) -> list[Pair | None]:
         """The example of each fault with a passing mission near to it, which is flown again for its events."""

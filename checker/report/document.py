@@ -107,7 +107,7 @@ def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
         "ticks": [bucket.first_tick, bucket.last_tick],
         "causes": causes_data(fault.causes),
         "condition": condition_data(fault.condition),
-        "z3": confirmation_data(fault),
+        "z3": confirmation_data(fault.confirmation),
     }
 
 

@@ -141,7 +141,7 @@ def _fault(
         evidence = escape(condition_evidence(fault.condition))
         parts.append(f'<p class="when">fails {when} <b>{text}</b></p><p class="soft">{evidence}.</p>')
     if fault.confirmation is not None:
-        parts.append(f'<p class="soft">z3 {escape(confirmation_text(fault))}.</p>')
+        parts.append(f'<p class="soft">z3 {escape(confirmation_text(fault.confirmation, fault.condition))}.</p>')
     if story is not None and pair is not None:
         parts.append(pair_plot(pair, story))
         parts.append('<p class="soft">Numbers are steps of the chain below; dashed lines their ticks.</p>')

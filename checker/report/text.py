@@ -46,7 +46,7 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
             lines += excerpt_lines(place, excerpts, marked=number == 0, indent="   ")
         lines += condition_lines(fault.condition, "   ") if fault.condition is not None else []
         if fault.confirmation is not None:
-            lines.append(f"   z3 {confirmation_text(fault)}")
+            lines.append(f"   z3 {confirmation_text(fault.confirmation, fault.condition)}")
         lines.append(f"   why: {explained_by(findings, bucket.example)}")
     if len(findings.faults) > _MOST_FAULTS:
         lines += ["", f"{len(findings.faults) - _MOST_FAULTS} more kinds of failure are in the report"]
