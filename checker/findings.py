@@ -16,6 +16,7 @@ from checker.counterfactual.trials import Missions
 from checker.mission import Mission
 from checker.oracle import Verdict
 from checker.rate import Rate, judge_missions, rate_interval
+from checker.regression import FlownCase
 from checker.sensitivity import Sensitivity, sensitivities
 from checker.smt.confirm import Confirmation, confirm
 from checker.statistics import Interval
@@ -80,7 +81,7 @@ class Findings:
     ending: Ending
     sampling: Sampling = RANDOMLY
     sensitivities: tuple[Sensitivity, ...] = ()
-    kept: tuple[MissionResult, ...] = ()  # failures of earlier runs, flown first; they are in no percentage
+    cases: tuple[FlownCase, ...] = ()  # regression cases, flown first; they are in no percentage
 
     @property
     def is_interrupted(self) -> bool:
@@ -102,6 +103,11 @@ class Findings:
         return not (self.rate.exceeds or self.errors or self.is_interrupted)
 
 
+def regressed(cases: Sequence[FlownCase], limit: float) -> tuple[FlownCase, ...]:
+    """The cases that had to pass and did not: promoted ones, and where no mission may fail all."""
+    return tuple(one for one in cases if not one.passes and (one.case.is_promoted or limit == 0.0))
+
+
 def assess(
     mission: Mission,
     agent: AgentConfiguration,
@@ -116,6 +122,7 @@ def assess(
     sampling: Sampling = RANDOMLY,
     find: Find | None = None,
     conditions: Conditions | None = None,
+    cases: tuple[FlownCase, ...] = (),
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
@@ -124,7 +131,6 @@ def assess(
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
-    kept = tuple(result for result in reversed(by_number) if result.number < 0)
     check = mission.check
     flown = [one for one in ordered if one.verdict is not Verdict.ERROR]
     rate = judge_missions(
@@ -134,7 +140,7 @@ def assess(
         most_weight=sampling.most_weight,
         is_sequential=sampling.is_sequential,
     )
-    if check.max_failure_rate == 0.0 and any(one.verdict is Verdict.FAIL for one in kept):
+    if regressed(cases, check.max_failure_rate):
         rate = replace(rate, exceeds=True, is_certain=True)
     faults: list[Fault] = []
     for position, bucket in enumerate(group_failures(ordered)):
@@ -152,7 +158,7 @@ def assess(
         faults.append(replace(fault, interval=interval, causes=causes))
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
-        sampling, sensitivities(agent, ordered, check.confidence), kept,
+        sampling, sensitivities(agent, ordered, check.confidence), cases,
     )  # fmt: skip
 
 

@@ -19,6 +19,7 @@ from checker.findings import Findings
 from checker.flight import load
 from checker.mission import LARGEST_SEED, Mission, read_mission
 from checker.oracle import USER_CODE
+from checker.regression import RegressionCase, RegressionError, agent_of, read_cases, regressions_path
 from checker.report.coverage import coverage_text
 from checker.report.document import json_report
 from checker.report.github import github_report
@@ -38,7 +39,6 @@ from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
-from nddlc.regressions import regressions_hold
 from nddlc.samplers import find_sampler
 from nddlc.trust import trust_option
 
@@ -124,24 +124,32 @@ def command(
         if style == "text":
             click.echo(f"`{path}` and its models are in order; nothing was flown")
         return _HOLDS
-    regressed = not regressions_hold(campaign, file, is_told=style == "text")
+    promoted = _promoted(campaign, file)
     count, enough = workers or cores(), Enough(seconds, max_failures, rule)
     try:
         with ExitStack() as stack:
             store = None if no_store else stack.enter_context(open_store(store_path))
             show = stack.enter_context(Display(campaign.mission.check.confidence))
-            flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show)
+            flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show, promoted=promoted)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
-    findings = campaign.assess(flown.results, ending=flown.ending, sampling=flown.sampling)
+    findings = campaign.assess(flown.results, ending=flown.ending, sampling=flown.sampling, cases=flown.cases)
     if not no_store:
         _keep(findings, store_path)
     code = _report(campaign, findings, style, output, coverage=coverage)
-    if regressed and code == _HOLDS:
-        code = _FINDINGS
-        if style == "text":
-            click.echo("a regression case fails again: see above")
     return code if flown.ended_by is None else _SIGNALLED + flown.ended_by
+
+
+def _promoted(campaign: Campaign, file: Path) -> tuple[RegressionCase, ...]:
+    """The regression cases beside the mission file, which must fit it."""
+    place = regressions_path(file)
+    try:
+        cases = read_cases(place)
+        for case in cases:
+            agent_of(case, campaign.models.agent)
+    except RegressionError as problem:
+        raise Unusable(str(problem), f"mend `{place}`, or remove the case") from None
+    return cases
 
 
 def _keep(findings: Findings, store_path: Path) -> None:

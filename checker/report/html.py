@@ -15,8 +15,8 @@ from checker.rendering import confirmation_text, failure_text, step_text
 from checker.report.losses import damage_words, goal_line, goal_text, repair_text, request_line, unmet_text
 from checker.report.sentences import (
     blamed,
+    case_lines,
     decision,
-    kept_line,
     missions,
     percent,
     rate_line,
@@ -76,7 +76,7 @@ def _head(findings: Findings) -> list[str]:
     tiles.append((percent(rate.limit), "accepted"))
     if findings.errors:
         tiles.append((str(len(findings.errors)), f"errors {blamed(findings)}"))
-    further = (stop_line(findings), kept_line(findings), sensitivity_line(findings))
+    further = (stop_line(findings), *case_lines(findings), sensitivity_line(findings))
     return [
         f'<span class="verdict {word}">{word}</span>',
         f"<h1>{escape(findings.agent.name)}</h1>",

@@ -8,10 +8,10 @@ from checker.rendering import confirmation_text, failure_text
 from checker.report.losses import damage_words, loss_lines
 from checker.report.sentences import (
     blamed,
+    case_lines,
     decision,
     fault_title,
     headline,
-    kept_line,
     rate_line,
     sensitivity_line,
     stop_line,
@@ -29,7 +29,7 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
     if lost:
         lines.append(f"  cost: {lost}")
     lines += [f"  {rate_line(findings.rate)}", f"  run {findings.run_id}, seed {findings.seed}"]
-    lines += [f"  {line}" for line in (stop_line(findings), kept_line(findings), sensitivity_line(findings)) if line]
+    lines += [f"  {line}" for line in (stop_line(findings), *case_lines(findings), sensitivity_line(findings)) if line]
     lines += [f"  {line}" for line in loss_lines(findings.tally, excerpts)]
     lines += [f"  {parameter.name}: {describe(parameter)}" for parameter in findings.agent.parameters]
     for index, fault in enumerate(findings.faults[:_MOST_FAULTS]):
