@@ -36,6 +36,7 @@ from runtime.executive.configuration import AgentConfiguration
 
 _MOST_STORIES = 8
 _MOST_PAIRS = 4
+_BY_THE_CLOCK = (Ending.SECONDS, Ending.SIGNAL)
 _MOST_ALIKE = 3  # failures of a bucket that are kept
 
 
@@ -336,11 +337,12 @@ class _Watch:
     def _flown(self, results: tuple[MissionResult, ...], ending: Ending, ended_by: Signals | None = None) -> Flown:
         """With the regression cases, and what the sampling allows to say.
 
-        An exact interval keeps its confidence where plain random missions end with the k-th failure, else not.
+        An exact interval keeps its confidence where plain random missions end with the last or the k-th failure; when
+        time is over, how long missions take has decided which of them count.
         """
         rule = self.enough.rule
         is_plain = is_random([result.point for result in results])
-        is_sequential = rule is not None or (ending is Ending.FAILURES and not is_plain)
+        is_sequential = rule is not None or ending in _BY_THE_CLOCK or (ending is Ending.FAILURES and not is_plain)
         sampling = Sampling(
             self.campaign.sampler_name, self.sampler.most_weight, is_sequential, self.shown, rule.text if rule else ""
         )
