@@ -9,7 +9,7 @@ from pathlib import Path
 from signal import Signals
 
 from checker.batch.identity import engine_digest, model_digest, run_id
-from checker.batch.pool import Flyer, FlyTasks, fly_all, nothing_more
+from checker.batch.pool import Batch, FlyBatch, Flyer, fly_all, nothing_more
 from checker.batch.progress import Progress
 from checker.batch.result import MissionResult
 from checker.batch.store import Run, RunStore
@@ -73,7 +73,7 @@ class Campaign:
     load: Load
     sampler_name: str = "random"
     make_sampler: Callable[[Setting], Sampler] = RandomSampler
-    fly_tasks: FlyTasks = fly_all
+    fly_batch: FlyBatch = fly_all
 
     @property
     def sampler(self) -> Sampler:
@@ -128,7 +128,7 @@ class Campaign:
             more = nothing_more if watch.schedule.is_settled else watch.schedule.more
             if tasks:
                 agent, limit = self.models.agent, check.time_limit
-                ended_by = self.fly_tasks(self.load, agent, tasks, workers, limit, watch, more)
+                ended_by = self.fly_batch(Batch(self.load, agent, tasks, workers, limit, more), watch)
         if store is not None:
             store.flush()
         flown = watch.flown(ended_by)

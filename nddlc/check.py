@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from checker.batch.pool import FlyTasks
+from checker.batch.pool import FlyBatch
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
 from checker.conditions.record import write_condition
@@ -119,7 +119,7 @@ def command(
         return _UNUSABLE
     campaign = replace(campaign, sampler_name=sampler, make_sampler=make_sampler)
     if cluster is not None:
-        campaign = replace(campaign, fly_tasks=_cluster_at(cluster))
+        campaign = replace(campaign, fly_batch=_cluster_at(cluster))
     if dry_run:
         if style == "text":
             click.echo(f"`{path}` and its models are in order; nothing was flown")
@@ -211,11 +211,11 @@ def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
         click.echo(f"{errors} error{'' if errors == 1 else 's'}: nothing was flown")
 
 
-def _cluster_at(address: str) -> FlyTasks:
+def _cluster_at(address: str) -> FlyBatch:
     """What flies missions on a cluster; asked for late, as Dask is large."""
     if find_spec("distributed") is None:
         raise Unusable("a cluster needs the package `distributed`", "install `nddlc[cluster]`")
-    found: FlyTasks = named("checker.batch.cluster:Cluster")(address).fly_tasks
+    found: FlyBatch = named("checker.batch.cluster:Cluster")(address).fly
     return found
 
 

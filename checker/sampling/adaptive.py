@@ -46,7 +46,6 @@ class _Kernels:
 class Adaptive:
     """Samples where missions fail, or nearly do; see the head of this file."""
 
-    has_weights = True
     most_weight = 1.0 / _UNIFORM
 
     def __init__(self, setting: Setting) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from checker.batch.pool import nothing_more
+from checker.batch.pool import Batch
 from checker.batch.result import MissionResult, write_result
 from checker.batch.worker import Fly, Load, Task
 from checker.oracle import Verdict
@@ -31,7 +31,7 @@ def fly_there(address: str, load: Load, seeds: range) -> list[MissionResult]:
     cluster = pytest.importorskip("checker.batch.cluster")
     taker = Taker()
     tasks = [Task(number, seed) for number, seed in enumerate(seeds, 1)]
-    ended = cluster.Cluster(address).fly_tasks(load, agent(), tasks, 2, 30.0, taker, nothing_more)
+    ended = cluster.Cluster(address).fly(Batch(load, agent(), tasks, 2, 30.0), taker)
     assert ended is None
     return sorted(taker.results, key=lambda result: result.number)
 

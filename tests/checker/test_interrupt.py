@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.pool import fly_all
+from checker.batch.pool import Batch, fly_all
 from checker.batch.worker import Task
 from checker.mission import read_mission
 from checker.oracle import Verdict
@@ -154,7 +154,8 @@ def test_a_real_time_signal_costs_one_mission() -> None:
     mission, _ = read_mission(Path(GPS))
     assert mission is not None
     taker = Taker()
-    assert fly_all(load_signalled, mission.agent, [Task(n, n) for n in range(1, 7)], 1, 30.0, taker) is None
+    tasks = [Task(n, n) for n in range(1, 7)]
+    assert fly_all(Batch(load_signalled, mission.agent, tasks, 1, 30.0), taker) is None
     lost = {one.number: one.judgement.message for one in taker.results if one.verdict is Verdict.ERROR}
     assert lost == {3: "the process died (signal 40)"}
     assert len(taker.results) == 6
