@@ -36,6 +36,11 @@ timeline = "nav"
 ticks = 3
 [property.then]
 timeline = "nav"
+[[property]]
+name = "q"
+kind = "level"
+resource = "battery"
+margin = 3
 [parameters.A]
 range = [0, 1]
 """
@@ -87,7 +92,7 @@ def test_the_schema_has_the_keys_that_the_reader_asks_for(monkeypatch: pytest.Mo
     assert asked["reactor", "1"] == listed["reactor", "1"]
     assert asked["goal", "0"] == listed["goal", "0"]
     assert asked["check",] == listed["check",]
-    assert asked["property", "0"] == listed["property", "0"]
+    assert asked["property", "0"] | asked["property", "1"] == listed["property", "0"]
     assert asked["property", "0", "then"] == listed["property", "0", "then"]
     assert asked["constraints",] == listed["constraints",]
     assert asked["parameters", "*"] | asked["parameters",] >= listed["parameters", "*"]
@@ -102,6 +107,8 @@ def test_the_schema_has_the_distributions() -> None:
     ("old", "new"),
     [
         ("final_tick = 600", "final_tick = 0"),
+        ('resource = "battery"', 'timeline = "nav"'),
+        ('timeline = "nav"\nticks', 'resource = "nav"\nticks'),
         ("final_tick = 600", 'final_tick = "late"'),
         ("final_tick = 600", "final_tick = 600\nfinal = 3"),
         ('model = "navigator.nddl"\n', ""),
