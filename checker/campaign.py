@@ -2,7 +2,7 @@
 
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -20,6 +20,7 @@ from checker.contrast import Contrast, find_contrast
 from checker.counterfactual.ranking import Causes, rank
 from checker.counterfactual.search import Suspended, find_causes
 from checker.counterfactual.trials import Bounds, Missions
+from checker.drawn import Drawn, drawn_paths
 from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
@@ -215,6 +216,15 @@ class Campaign:
                 again = flyer.fly(agent, near.number, near.seed, keeps_trace=True)
                 found.append(Pair(example, again) if again.outcome is not None else None)
         return found
+
+    def drawn(self, findings: Findings, pairs: Sequence[Pair | None]) -> Drawn | None:
+        """The paths that the mission file asks figures of."""
+        figures = self.mission.figures
+        if figures is None or findings.is_interrupted:
+            return None
+        agent = self.models.agent
+        with Flyer(self.load, agent, self.mission.check.time_limit) as flyer:
+            return drawn_paths(figures, agent, findings, pairs, flyer)
 
     def stories(self, findings: Findings) -> list[Story | None]:
         """The story of each fault's example; of very many faults, of the first ones."""

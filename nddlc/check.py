@@ -228,9 +228,11 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *,
     """Write every form of the report, print the one that was asked for, and say how it ended."""
     excerpts = Excerpts(Path(campaign.models.agent.root))
     covered = coverage_of(campaign.models, findings.results) if coverage else None
+    pairs = campaign.pairs(findings)
+    page = html_report(findings, excerpts, campaign.stories(findings), pairs, campaign.drawn(findings, pairs))
     reports = {
         "json": ("report.json", json_report(findings, excerpts, covered)),
-        "html": ("report.html", html_report(findings, excerpts, campaign.stories(findings), campaign.pairs(findings))),
+        "html": ("report.html", page),
         "junit": ("junit.xml", junit_report(findings, excerpts)),
         "sarif": ("report.sarif", sarif_report(findings, excerpts)),
         "markdown": ("report.md", markdown_report(findings, excerpts)),

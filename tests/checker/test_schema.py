@@ -41,6 +41,8 @@ name = "q"
 kind = "level"
 resource = "battery"
 margin = 3
+[figures]
+path = "nav"
 [parameters.A]
 range = [0, 1]
 """
@@ -94,6 +96,7 @@ def test_the_schema_has_the_keys_that_the_reader_asks_for(monkeypatch: pytest.Mo
     assert asked["check",] == listed["check",]
     assert asked["property", "0"] | asked["property", "1"] == listed["property", "0"]
     assert asked["property", "0", "then"] == listed["property", "0", "then"]
+    assert asked["figures",] == listed["figures",]
     assert asked["constraints",] == listed["constraints",]
     assert asked["parameters", "*"] | asked["parameters",] >= listed["parameters", "*"]
 
