@@ -186,8 +186,8 @@ def _paths(drawn: Drawn | None) -> list[str]:
         return []
     parts = [
         "<h2>Where it went</h2>",
-        '<p class="soft">From above: missions that pass in grey, failing ones in colour; the dark line is the one with '
-        "every parameter in the middle of its range.</p>",
+        '<p class="soft">From above: missions that pass in grey, failing ones in colour; the black (or white) line '
+        "is the one with every parameter in the middle of its range.</p>",
     ]
     parts.append(_wide(plan_figure(drawn.paths)))
     for caption, track in drawn.closer:

@@ -107,7 +107,7 @@ def section_figure(track: Track, cell: float) -> str:
     left, right, top, tall = 64.0, _WIDTH - 14.0, 34.0, 230.0
     begin = float(min(track.ticks[0], track.last_tick - 1))
     time = Axis(begin, float(track.last_tick), left, right)
-    cells = max(1, int(np.ceil(float(track.positions[:, 2].max()) / cell + 1e-9)))
+    cells = max(1, int(np.ceil(float(track.positions[:, 2].max()) / cell - 1e-9)))
     depth = Axis(0.0, cells * cell, top, top + tall)
     parts = [*_cells(track, cell, cells, time, depth), *_frame(time, depth)]
     rows = _thinned(track)
@@ -136,7 +136,7 @@ def _cells(track: Track, cell: float, cells: int, time: Axis, depth: Axis) -> It
     """The cells that were visited, each with the mean probability held there."""
     width = (time.upper - time.lower) / _COLUMNS
     columns = np.clip(((track.ticks - time.lower) / width).astype(int), 0, _COLUMNS - 1)
-    rows = np.clip((track.positions[:, 2] / cell).astype(int), 0, cells - 1)
+    rows = np.clip((track.positions[:, 2] / cell - 1e-9).astype(int), 0, cells - 1)  # a cell has its lower end
     numbers = columns * cells + rows
     counts = np.bincount(numbers, minlength=_COLUMNS * cells)
     sums = np.bincount(numbers, weights=track.probabilities, minlength=_COLUMNS * cells)

@@ -74,7 +74,7 @@ def _drawn(events: Sequence[Event], last_tick: int) -> tuple[int, int]:
 
 def _spans(events: Sequence[Event], last_tick: int) -> list[Span]:
     """What held, from one observation to the next; tokens of one predicate after each other are one span each."""
-    ends = [*(event.tick for event in events[1:]), last_tick]
+    ends = [*(min(event.tick, last_tick) for event in events[1:]), last_tick][: len(events)]
     return [Span(event.tick, end, event.predicate) for event, end in zip(events, ends, strict=True) if end > event.tick]
 
 

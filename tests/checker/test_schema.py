@@ -11,6 +11,7 @@ import pytest
 
 from checker.mission import parse_mission
 from checker.mission_table import Table
+from checker.study.reading import read_study
 from nddl_lang.text.source import Source
 from runtime.executive.distributions import DISTRIBUTIONS
 
@@ -124,3 +125,27 @@ def test_the_schema_refuses_what_the_reader_refuses(old: str, new: str) -> None:
     assert errors(FULL) == []
     assert errors(text)
     assert parse_mission(Source("m.toml", text), Path("models/gps"))[0] is None
+
+
+STUDY: dict[str, Any] = json.loads(Path("checker/study_schema.json").read_text(encoding="utf-8"))
+STUDY_FILE = Path("models/auv/study.toml")
+
+
+def test_the_schema_of_studies_has_the_keys_that_the_reader_asks_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: dict[tuple[str, ...], set[str]] = {}
+    close = Table.close
+
+    def note(table: Table) -> None:
+        asked.setdefault(tuple(str(each) for each in table.path), set()).update(table.asked)
+        close(table)
+
+    monkeypatch.setattr(Table, "close", note)
+    study, found = read_study(STUDY_FILE)
+    assert study is not None, [one.message for one in found]
+    jsonschema.Draft202012Validator.check_schema(STUDY)
+    assert not list(jsonschema.Draft202012Validator(STUDY).iter_errors(tomllib.loads(STUDY_FILE.read_text())))
+    listed = dict(tables(STUDY))
+    assert asked[()] == listed[()]
+    assert asked["study",] == listed["study",]
+    assert asked["variant", "0"] == listed["variant", "0"]
+    assert asked["variant", "0", "expected"] == listed["variant", "0", "expected"]
