@@ -73,14 +73,14 @@ def figure_misfits(
     wanted = [("position", figures.path, name) for name in figures.position]
     wanted += [("feature", figures.feature, figures.probability)] if figures.feature else []
     for key, timeline, name in wanted:
-        predicates = predicates_of(timeline, agent, programs)
+        predicates = _predicates_of(timeline, agent, programs)
         known = dict.fromkeys(one.name for each in predicates for one in each.parameters)
         if predicates and name not in known:
             span = text.value_span(("figures", key))
             close = nearest(name, known)
             advice = f"did you mean `{close}`?" if close else f"arguments: {', '.join(known) or 'none'}"
             yield NO_ARGUMENT.at(span, predicate=timeline, name=name, help=advice)
-    predicates = predicates_of(figures.samples, agent, programs)
+    predicates = _predicates_of(figures.samples, agent, programs)
     known = dict.fromkeys(one.name.rpartition(".")[2] for one in predicates)
     if predicates and figures.firing not in known:
         close = nearest(figures.firing, known)
@@ -89,7 +89,9 @@ def figure_misfits(
         yield NO_PREDICATE.at(span, class_name=figures.samples, predicate=figures.firing, help=advice)
 
 
-def predicates_of(timeline: str, agent: AgentConfiguration, programs: Mapping[str, Program]) -> Sequence[PredicateCode]:
+def _predicates_of(
+    timeline: str, agent: AgentConfiguration, programs: Mapping[str, Program]
+) -> Sequence[PredicateCode]:
     """The predicates that may hold on a timeline, as the first model that lists it says; none where no model does."""
     listed = [one for one in agent.reactors if timeline in (*one.internal, *one.external)]
     program = next((programs[one.model] for one in listed if one.model in programs), None)

@@ -10,7 +10,7 @@ from runtime.executive.outcome import Event, EventKind, Outcome
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Span:
+class Band:
     """A predicate that held on a timeline, from its first tick to the one after its last."""
 
     start: int
@@ -29,7 +29,7 @@ class Track:
     positions: np.ndarray
     probabilities: np.ndarray
     samples: tuple[int, ...]
-    phases: tuple[Span, ...]
+    phases: tuple[Band, ...]
     targets: tuple[tuple[int, str], ...]
     last_tick: int
 
@@ -72,10 +72,10 @@ def _drawn(events: Sequence[Event], last_tick: int) -> tuple[int, int]:
     return (busy[0].start, busy[-1].end) if busy else (0, last_tick)
 
 
-def _spans(events: Sequence[Event], last_tick: int) -> list[Span]:
+def _spans(events: Sequence[Event], last_tick: int) -> list[Band]:
     """What held, from one observation to the next; tokens of one predicate after each other are one span each."""
     ends = [*(min(event.tick, last_tick) for event in events[1:]), last_tick][: len(events)]
-    return [Span(event.tick, end, event.predicate) for event, end in zip(events, ends, strict=True) if end > event.tick]
+    return [Band(event.tick, end, event.predicate) for event, end in zip(events, ends, strict=True) if end > event.tick]
 
 
 def _number(event: Event, name: str) -> float:
