@@ -6,6 +6,7 @@ What happened in a mission is worded by `runtime.executive.rendering`.
 from collections.abc import Sequence
 from typing import assert_never
 
+from checker.conditions.rendering import literal_text
 from checker.findings import Fault
 from checker.losses import Exceeded, Limit
 from checker.oracle import CODE_NAMES, Judgement
@@ -119,6 +120,8 @@ def confirmation_text(fault: Fault) -> str:
     match fault.confirmation.finding:
         case Finding.CONFIRMED:
             text = f"confirms the conflict: {len(fault.confirmation.core)} causes that cannot hold together"
+            if fault.condition is not None and fault.condition.in_terms:
+                text += ", just where " + " and ".join(literal_text(one) for one in fault.condition.in_terms)
         case Finding.REFUTED:
             text = "does not confirm the conflict: by their terms alone the causes can hold together"
         case Finding.UNKNOWN:

@@ -19,6 +19,7 @@ from checker.report.sentences import (
     blamed,
     case_lines,
     decision,
+    explained_by,
     missions,
     percent,
     rate_line,
@@ -138,14 +139,14 @@ def _fault(
         f"<h3>{missions(len(bucket.missions))} ({percent(bucket.share)}): {why}</h3>",
         f'<p class="soft">{bucket.code}, {meaning}; {escape(bucket.reactor)} gives up {when}</p>',
     ]
-    places = [place for place in (bucket.culprit.place, *bucket.culprit.limits) if place is not None]
+    places = fault.places
     if places:
         parts.append("<pre>" + "\n".join(_excerpt(place, excerpts, marked=True) for place in places) + "</pre>")
     if fault.condition is not None:
-        items = "".join(f"<li>{escape(item)}</li>" for item in condition_evidence(fault.condition))
         when = "in part when" if fault.condition.is_partial else "when"
         text = escape(condition_text(fault.condition))
-        parts.append(f'<p class="when">fails {when} <b>{text}</b></p><ul class="evidence">{items}</ul>')
+        evidence = escape(condition_evidence(fault.condition))
+        parts.append(f'<p class="when">fails {when} <b>{text}</b></p><p class="soft">{evidence}.</p>')
     if fault.confirmation is not None:
         parts.append(f'<p class="soft">z3 {escape(confirmation_text(fault))}.</p>')
     if story is not None and pair is not None:
@@ -156,7 +157,7 @@ def _fault(
         parts.append('<ol class="chain">')
         parts += [_step(step, story, excerpts) for step in story.steps]
         parts.append("</ol></details>")
-    parts.append(f"<p><code>nddlc explain {findings.run_id}#{bucket.example}</code></p></section>")
+    parts.append(f"<p><code>{escape(explained_by(findings, bucket.example))}</code></p></section>")
     return parts
 
 

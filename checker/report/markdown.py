@@ -9,6 +9,7 @@ from checker.report.sentences import (
     blamed,
     case_lines,
     decision,
+    explained_by,
     fault_title,
     headline,
     percent,
@@ -52,12 +53,12 @@ def markdown_report(findings: Findings, excerpts: Excerpts) -> str:
 def _fault(fault: Fault, findings: Findings, excerpts: Excerpts) -> list[str]:
     bucket = fault.bucket
     lines = [_plain(failure_text(bucket.judgement, bucket.open_goals)) + "."]
-    places = [place for place in (bucket.culprit.place, *bucket.culprit.limits) if place is not None]
+    places = fault.places
     if places:
         lines += ["", "```", *(f"{excerpts.path(place)}: {excerpts.line(place).strip()}" for place in places), "```"]
     if fault.condition is not None:
         lines += ["", f"Fails {_plain(condition_claim(fault.condition))}."]
-    return [*lines, "", f"`nddlc explain {findings.run_id}#{bucket.example}`"]
+    return [*lines, "", explained_by(findings, bucket.example, "`")]
 
 
 def _costs(findings: Findings, excerpts: Excerpts) -> list[str]:
