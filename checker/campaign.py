@@ -1,10 +1,10 @@
 """A mission and how to fly it in, the findings of a whole run out; what is finished is stored as it comes."""
 
+import math
 import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from signal import Signals
 
@@ -17,13 +17,13 @@ from checker.batch.worker import Load, Task, fly_one
 from checker.buckets import Key, bucket_key
 from checker.conditions.record import Conditions
 from checker.contrast import Contrast, find_contrast
-from checker.counterfactual.ranking import Causes, rank
-from checker.counterfactual.search import Suspended, find_causes
-from checker.counterfactual.trials import Bounds, Missions
+from checker.counterfactual.search import CauseSearch, Suspended
+from checker.counterfactual.trials import Bounds
 from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Verdict, judge_losses
+from checker.proofs.places import ModelText, text_of
 from checker.regression import RegressionCase, agent_of
 from checker.report.timelines import Pair
 from checker.sampling.sampler import RANDOM_POINT, RandomSampler, Sampler, Setting, axes_of, with_point
@@ -142,14 +142,17 @@ class Campaign:
         focus: int | None = None,
         sampling: Sampling | None = None,
         bounds: Bounds | None = None,
+        seconds: float = math.inf,
         conditions: Conditions | None = None,
     ) -> Findings:
         """Judge the results; with `may_fly` conditions are sought and tested by flights.
 
-        With a `focus` that is done only for the fault that mission `focus` belongs to, and lines that may be its cause
-        are tried within `bounds`. Of `conditions` are those that are known already.
+        Lines that may be the cause of a fault are tried within `bounds`, for all faults together no longer than
+        `seconds`. With a `focus` all that is done only for the fault that mission `focus` belongs to. Of `conditions`
+        are those that are known already.
         """
         run, agent = self.run, self.models.agent
+        is_flying = may_fly and ending is not Ending.SIGNAL
         points = {result.number: result.point for result in results}
         with Flyer(self.load, agent, self.mission.check.time_limit) as flyer:
 
@@ -164,12 +167,13 @@ class Campaign:
                 run.seed,
                 run.missions,
                 [self.judged(result) for result in results],
-                refly if may_fly and ending is not Ending.SIGNAL else None,
+                refly if is_flying else None,
                 ending=ending,
                 focus=focus,
                 conditions=conditions,
+                text=self._text(),
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
-                find=partial(self._causes, flyer, bounds) if may_fly and bounds is not None else None,
+                seeker=self._seeker(flyer, bounds, seconds) if is_flying and bounds is not None else None,
             )
 
     def contrast(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Contrast | None:
@@ -191,16 +195,17 @@ class Campaign:
     def _traced(self, agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
         return self.judged(fly_one(self.load(agent), Task(number, seed), keep_trace=True))
 
-    def _causes(self, flyer: Flyer, bounds: Bounds, missions: Missions) -> Causes:
-        """The causes of one fault, tried on its missions."""
+    def _seeker(self, flyer: Flyer, bounds: Bounds, seconds: float) -> CauseSearch:
         agent = self.models.agent
         programs = [self.models.programs[each.model] for each in agent.reactors]
-        limits = self.mission.check.limits
-        return rank(find_causes(missions, Suspended(agent, programs, limits, flyer), bounds), Path(agent.root))
+        return CauseSearch(Suspended(agent, programs, self.mission.check.limits, flyer), bounds, seconds)
+
+    def _text(self) -> ModelText:
+        return text_of(self.models.agent, self.models.programs)
 
     def story(self, result: MissionResult, fault: Fault | None) -> Story:
         """Why a mission failed."""
-        return tell(result, self.models.agent, self.models.influence, fault)
+        return tell(result, self.models.agent, self.models.influence, fault, self._text())
 
     def pairs(self, findings: Findings) -> list[Pair | None]:
         """The example of each fault with a passing mission near to it, which is flown again for its events."""

@@ -13,6 +13,7 @@ from checker.batch.pool import FlyTasks
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
 from checker.conditions.record import write_condition
+from checker.counterfactual.trials import MOST_FLIGHTS, Bounds
 from checker.coverage import coverage_of
 from checker.excerpts import Excerpts
 from checker.findings import Findings
@@ -46,6 +47,7 @@ _HOLDS, _FINDINGS, _UNUSABLE, _BUG = 0, 1, 2, 3
 _SIGNALLED = 128  # and the number of the signal: 130 for Ctrl-C, 143 for SIGTERM
 STORE = Path(".nddlc/runs.sqlite")
 _REPORT = Path("nddlc-report")
+_SECONDS_A_FAULT, _SECONDS = 30.0, 60.0  # that causes are sought, for one fault and for all of them
 _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 
 
@@ -66,6 +68,7 @@ _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 @click.option("--stop-when", metavar="RULE", help='End when the missions show or refute a rule such as "p<0.01@95%".')
 @click.option("--sampler", default="random", metavar="NAME", help="How missions are chosen (docs/mission.md).")
 @click.option("--coverage", is_flag=True, help="Tell which rules and branches no mission exercised.")
+@click.option("--flights", type=click.IntRange(0), default=MOST_FLIGHTS, help=f"Trials for causes ({MOST_FLIGHTS}).")
 @click.option("--cluster", metavar="ADDRESS", help="Fly on a Dask cluster, such as tcp://127.0.0.1:8786.")
 @click.option("--dry-run", is_flag=True, help="Only look whether mission file and models are in order.")
 @trust_option
@@ -89,6 +92,7 @@ def command(
     stop_when: str | None,
     sampler: str,
     coverage: bool,
+    flights: int,
     cluster: str | None,
     dry_run: bool,
 ) -> int:
@@ -133,7 +137,14 @@ def command(
             flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
-    findings = campaign.assess(flown.results, ending=flown.ending, sampling=flown.sampling)
+    findings = campaign.assess(
+        flown.results,
+        ending=flown.ending,
+        sampling=flown.sampling,
+        bounds=Bounds(flights, _SECONDS_A_FAULT) if flights else None,
+        seconds=_SECONDS,
+    )
+    findings = replace(findings, is_stored=not no_store)
     if not no_store:
         _keep(findings, store_path)
     code = _report(campaign, findings, style, output, coverage=coverage)
@@ -147,6 +158,7 @@ def command(
 def _keep(findings: Findings, store_path: Path) -> None:
     """Have the store remember the conditions, so that `explain` need not fly for them; it can if that fails."""
     known = {fault.bucket.example: write_condition(fault.condition) for fault in findings.faults}
+    known |= {part: write_condition(one.bucket.example) for one in findings.faults for part in one.bucket.parts[1:]}
     with suppress(StoreError), open_store(store_path) as store:
         store.keep_conditions(findings.run_id, known)
 

@@ -6,6 +6,7 @@ content does not.
 """
 
 import contextlib
+import math
 import multiprocessing
 import os
 import signal
@@ -103,11 +104,13 @@ class Flyer:
         load: Load | None = None,
         *,
         keeps_trace: bool = False,
+        most_seconds: float = math.inf,
     ) -> MissionResult:
         """The result of one mission; an ERROR where the process died or took too long.
 
         `load` loads the models where they are others than those that the process was started with.
         """
+        limit = min(self._time_limit, most_seconds)
         task = Task(number, seed, agent, keeps_trace=keeps_trace, load=load)
         if self._worker is None:
             self._worker = _Worker(self._load, self._agent)
@@ -118,9 +121,9 @@ class Flyer:
                 raise _unloaded(message)
             if message != READY:
                 return self._lost(task, "the process did not start")
-        self._worker.give([task], self._time_limit)
-        if not self._worker.connection.poll(self._time_limit):
-            return self._lost(task, f"took longer than {self._time_limit:g} s")
+        self._worker.give([task], limit)
+        if not self._worker.connection.poll(limit):
+            return self._lost(task, f"took longer than {limit:g} s")
         result = self._heard()
         if isinstance(result, LastWords):
             return self._lost(task, result.reason, USER_CODE)

@@ -148,5 +148,6 @@ def _exceeded(
 ) -> None:
     users = tuple(use.tok for use in uses if use.tok is not None and use.start <= tick)[-4:]
     span = next((use.span for use in reversed(uses) if use.span is not None and use.start <= tick), None)
-    values: tuple[tuple[str, Value], ...] = ((what, amount), ("least", least), ("most", most), ("tick", tick))
-    bench.report("level", resource, users, values, "within its limits", "beyond them", span)
+    values: tuple[tuple[str, Value], ...] = ((what, amount), ("tick", tick))
+    found = f"above {most:g}" if amount > most else f"below {least:g}"
+    bench.report("level", resource, users, values, what, found, span)

@@ -9,6 +9,7 @@ from typing import Any
 
 from checker.batch.result import MissionResult
 from checker.conditions.rendering import condition_data
+from checker.counterfactual.rendering import causes_data
 from checker.coverage import Coverage
 from checker.excerpts import Excerpts
 from checker.explain import confirmation_data, place_data
@@ -104,8 +105,9 @@ def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
         "example": bucket.example,
         "missions": list(bucket.missions),
         "ticks": [bucket.first_tick, bucket.last_tick],
+        "causes": causes_data(fault.causes),
         "condition": condition_data(fault.condition),
-        "z3": confirmation_data(fault),
+        "z3": confirmation_data(fault.confirmation),
     }
 
 

@@ -16,6 +16,7 @@ from checker.report.losses import damage_words, goal_line, goal_text, repair_tex
 from checker.report.sentences import (
     blamed,
     decision,
+    explained_by,
     kept_line,
     missions,
     percent,
@@ -131,16 +132,16 @@ def _fault(
         f"<h3>{missions(len(bucket.missions))} ({percent(bucket.share)}): {why}</h3>",
         f'<p class="soft">{bucket.code}, {meaning}; {escape(bucket.reactor)} gives up {when}</p>',
     ]
-    places = [place for place in (bucket.culprit.place, *bucket.culprit.limits) if place is not None]
+    places = fault.places
     if places:
         parts.append("<pre>" + "\n".join(_excerpt(place, excerpts, marked=True) for place in places) + "</pre>")
     if fault.condition is not None:
-        items = "".join(f"<li>{escape(item)}</li>" for item in condition_evidence(fault.condition))
         when = "in part when" if fault.condition.is_partial else "when"
         text = escape(condition_text(fault.condition))
-        parts.append(f'<p class="when">fails {when} <b>{text}</b></p><ul class="evidence">{items}</ul>')
+        evidence = escape(condition_evidence(fault.condition))
+        parts.append(f'<p class="when">fails {when} <b>{text}</b></p><p class="soft">{evidence}.</p>')
     if fault.confirmation is not None:
-        parts.append(f'<p class="soft">z3 {escape(confirmation_text(fault))}.</p>')
+        parts.append(f'<p class="soft">z3 {escape(confirmation_text(fault.confirmation, fault.condition))}.</p>')
     if story is not None and pair is not None:
         parts.append(pair_plot(pair, story))
         parts.append('<p class="soft">Numbers are steps of the chain below; dashed lines their ticks.</p>')
@@ -149,7 +150,7 @@ def _fault(
         parts.append('<ol class="chain">')
         parts += [_step(step, story, excerpts) for step in story.steps]
         parts.append("</ol></details>")
-    parts.append(f"<p><code>nddlc explain {findings.run_id}#{bucket.example}</code></p></section>")
+    parts.append(f"<p><code>{escape(explained_by(findings, bucket.example))}</code></p></section>")
     return parts
 
 

@@ -5,7 +5,16 @@ from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.rendering import failure_text
 from checker.report.losses import goal_line, goal_text, repair_text, request_line, unmet_text
-from checker.report.sentences import blamed, decision, fault_title, headline, percent, rate_line, verdict_word
+from checker.report.sentences import (
+    blamed,
+    decision,
+    explained_by,
+    fault_title,
+    headline,
+    percent,
+    rate_line,
+    verdict_word,
+)
 from checker.sampling.rendering import describe
 
 _MARKS = str.maketrans({**{mark: f"\\{mark}" for mark in "\\*_|[]#"}, "<": "&lt;", ">": "&gt;"})
@@ -41,12 +50,12 @@ def markdown_report(findings: Findings, excerpts: Excerpts) -> str:
 def _fault(fault: Fault, findings: Findings, excerpts: Excerpts) -> list[str]:
     bucket = fault.bucket
     lines = [_plain(failure_text(bucket.judgement, bucket.open_goals)) + "."]
-    places = [place for place in (bucket.culprit.place, *bucket.culprit.limits) if place is not None]
+    places = fault.places
     if places:
         lines += ["", "```", *(f"{excerpts.path(place)}: {excerpts.line(place).strip()}" for place in places), "```"]
     if fault.condition is not None:
         lines += ["", f"Fails {_plain(condition_claim(fault.condition))}."]
-    return [*lines, "", f"`nddlc explain {findings.run_id}#{bucket.example}`"]
+    return [*lines, "", explained_by(findings, bucket.example, "`")]
 
 
 def _costs(findings: Findings, excerpts: Excerpts) -> list[str]:

@@ -24,6 +24,13 @@ def counted(count: int, word: str) -> str:
     return f"{count} {word}{'' if count == 1 else 's'}"
 
 
+def explained_by(findings: Findings, number: int, quote: str = "") -> str:
+    """The command that explains a mission, as it can be followed; `quote` stands on both sides of it."""
+    if findings.is_stored:
+        return f"{quote}nddlc explain {findings.run_id}#{number}{quote}"
+    return f"{quote}nddlc explain latest#{number}{quote} after a check without --no-store"
+
+
 def missions(count: int) -> str:
     """`1 mission`, `2 missions`."""
     return counted(count, "mission")
