@@ -19,7 +19,7 @@ from runtime.executive.configuration import (
     TokenPattern,
 )
 from runtime.executive.expression import ExpressionError, parse_expression
-from runtime.executive.outcome import PropertyFate
+from runtime.executive.outcome import Event, EventKind, PropertyFate
 from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord
 
 _ROUNDING = 1e-9
@@ -41,14 +41,19 @@ def property_fates(
     arguments: Mapping[str, Sequence[str]],
     record: MissionRecord,
     last_tick: int,
+    events: Sequence[Event] = (),
     profiles: Sequence[ResourceProfile] = (),
 ) -> tuple[PropertyFate, ...]:
-    """What became of each property; `arguments` names those of each predicate (`Class.predicate`)."""
+    """What became of each property; `arguments` names those of each predicate (`Class.predicate`).
+
+    What no reactor with a model owns or uses is in no record: of that the events tell what was published.
+    """
     histories: dict[str, list[_Held]] = {}
 
     def history(timeline: str) -> list[_Held]:
         if timeline not in histories:
-            histories[timeline] = _history(agent, timeline, arguments, record, last_tick)
+            found = _history(agent, timeline, arguments, record, last_tick)
+            histories[timeline] = _published(timeline, events) if found is None else found
         return histories[timeline]
 
     def fate(one: PropertyConfiguration) -> PropertyFate:
@@ -94,13 +99,13 @@ def _history(
     arguments: Mapping[str, Sequence[str]],
     record: MissionRecord,
     last_tick: int,
-) -> list[_Held]:
+) -> list[_Held] | None:
     """What was executed on a timeline, in order; as its owner recorded it, else as one who observed it did."""
     owners = [one.name for one in agent.reactors if timeline in one.internal]
     users = [one.name for one in agent.reactors if timeline in one.external]
     reactor = next((one for name in (*owners, *users) for one in record.reactors if one.reactor == name), None)
     if reactor is None:
-        return []
+        return None
     found = []
     for token in _tokens_on(reactor, timeline):
         if token.state != "active" or token.fate == "cut" or not isinstance(token.start, int | float):
@@ -113,6 +118,30 @@ def _history(
         given |= {"start": start, "end": end, "duration": end - start}
         found.append(_Held(token.predicate.rpartition(".")[2], start, end, given))
     return sorted(found, key=lambda one: (one.start, one.end))
+
+
+def _published(timeline: str, events: Sequence[Event]) -> list[_Held]:
+    """What was published on a timeline, in order: each value holds until the next, of two in a tick the later."""
+    seen = [each for each in events if each.kind is EventKind.OBSERVATION and each.timeline == timeline]
+    ends = [*(float(each.tick) for each in seen[1:]), math.inf]
+    held = []
+    for each, end in zip(seen, ends, strict=True):
+        if end > each.tick:
+            given = _given(each) | {"start": each.tick, "end": end, "duration": end - each.tick}
+            held.append(_Held(each.predicate, each.tick, end, given))
+    return held
+
+
+def _given(event: Event) -> dict[str, object]:
+    """The arguments of what was published; those that are not one value are left out."""
+    given: dict[str, object] = {}
+    for name, domain in event.arguments:
+        lower, upper = domain.interval or (0.0, 1.0)
+        if lower == upper:
+            given[name] = lower
+        elif domain.interval is None and domain.values is not None and len(domain.values) == 1:
+            given[name] = domain.values[0]
+    return given
 
 
 def _tokens_on(reactor: ReactorRecord, timeline: str) -> Iterator[TokenRecord]:

@@ -12,6 +12,7 @@ from checker.judge.report import ResourceProfile
 from checker.mission import Mission, parse_mission
 from checker.models import load_models
 from checker.properties import property_fates
+from compiler.program import DomainConstant
 from nddl_lang.text.source import Source
 from nddlc.main import run
 from runtime.executive.configuration import (
@@ -22,7 +23,7 @@ from runtime.executive.configuration import (
     ReactorConfiguration,
     TokenPattern,
 )
-from runtime.executive.outcome import PropertyFate
+from runtime.executive.outcome import Event, EventKind, Phase, PropertyFate
 from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord, Value, ValueRange
 
 GPS = Path("models/gps").resolve()
@@ -289,3 +290,30 @@ def test_missions_fail_by_a_property_that_they_break(gps: Path, capsys: pytest.C
     gps.write_text(text + PROPERTY)
     assert run(["check", "gps/mission.toml", "--missions", "6", "--seed", "3", "--max-failure-rate", "1"]) == 0
     assert "P1" not in capsys.readouterr().out
+
+
+def test_what_only_code_publishes_is_judged_by_its_events() -> None:
+    def seen(tick: int, predicate: str, *given: tuple[str, DomainConstant]) -> Event:
+        return Event(tick, Phase.OBSERVE, EventKind.OBSERVATION, "lookout", "whales", predicate, given)
+
+    near = ("distance", DomainConstant("int", "int", (40, 40), None))
+    events = (
+        seen(0, "Nothing"),
+        seen(20, "Seen", near),
+        seen(20, "Nothing"),
+        seen(30, "Seen", near),
+        seen(60, "Nothing"),
+    )
+    one = PropertyConfiguration(
+        "p", PropertyKind("within"), TokenPattern("whales", "Seen", ()), ticks=10, then=TokenPattern("dive", "Down", ())
+    )
+    reactors = (ReactorConfiguration("r", "m.nddl", internal=("dive", "radio")),)
+    record = MissionRecord((ReactorRecord("r", 100, (), (), (), TOKENS),))
+
+    def found(one: PropertyConfiguration) -> PropertyFate:
+        agent = AgentConfiguration("a", "", 100, reactors, properties=(one,))
+        return property_fates(agent, ARGUMENTS, record, 100, events)[0]
+
+    assert found(one) == PropertyFate("p", False, 30, -10.0)
+    far = TokenPattern("whales", "Seen", (), "distance >= 50 and duration >= 30")
+    assert found(PropertyConfiguration("p", PropertyKind("always"), far)) == PropertyFate("p", False, 30, -10.0)
