@@ -6,6 +6,7 @@ from enum import StrEnum
 
 from checker.batch.result import MissionResult
 from checker.buckets import Bucket, group_failures, joined
+from checker.causes import failed_by
 from checker.conditions.condition import Condition
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
@@ -14,9 +15,11 @@ from checker.counterfactual.ranking import NO_CAUSES, Causes
 from checker.faults import MOST_SOUGHT, Seeker, faults_of, missions_of
 from checker.mission import Mission
 from checker.oracle import Verdict
+from checker.proofs.conflict import Confirmation, confirm
+from checker.proofs.places import ModelText
 from checker.rate import Rate, judge_missions, rate_interval
+from checker.regression import FlownCase
 from checker.sensitivity import Sensitivity, sensitivities
-from checker.smt.confirm import Confirmation, confirm
 from checker.statistics import Interval
 from checker.tally import Tally, tally
 from runtime.executive.configuration import AgentConfiguration
@@ -89,7 +92,7 @@ class Findings:
     ending: Ending
     sampling: Sampling = RANDOMLY
     sensitivities: tuple[Sensitivity, ...] = ()
-    kept: tuple[MissionResult, ...] = ()  # failures of earlier runs, flown first; they are in no percentage
+    cases: tuple[FlownCase, ...] = ()  # regression cases, flown first; they are in no percentage
     is_stored: bool = True  # so that `nddlc explain` can tell more of it
 
     @property
@@ -112,6 +115,11 @@ class Findings:
         return not (self.rate.exceeds or self.errors or self.is_interrupted)
 
 
+def regressed(cases: Sequence[FlownCase], limit: float) -> tuple[FlownCase, ...]:
+    """The cases that had to pass and did not: promoted ones, and where no mission may fail all."""
+    return tuple(one for one in cases if not one.passes and (one.case.is_promoted or limit == 0.0))
+
+
 def assess(
     mission: Mission,
     agent: AgentConfiguration,
@@ -126,15 +134,17 @@ def assess(
     sampling: Sampling = RANDOMLY,
     seeker: Seeker | None = None,
     conditions: Conditions | None = None,
+    text: ModelText | None = None,
+    cases: tuple[FlownCase, ...] = (),
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
     With a `focus` it does so only for the fault that mission `focus` belongs to. So does `seeker`, which finds causes;
-    without a focus, buckets of one cause become one fault. Of `conditions` are those that are known already.
+    without a focus, buckets of one cause become one fault. Of `conditions` are those that are known already; `text` is
+    what z3 reads the meaning of lines from.
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
-    kept = tuple(result for result in reversed(by_number) if result.number < 0)
     check = mission.check
     flown = [one for one in ordered if one.verdict is not Verdict.ERROR]
     rate = judge_missions(
@@ -144,7 +154,7 @@ def assess(
         most_weight=sampling.most_weight,
         is_sequential=sampling.is_sequential,
     )
-    if check.max_failure_rate == 0.0 and any(one.verdict is Verdict.FAIL for one in kept):
+    if regressed(cases, check.max_failure_rate):
         rate = replace(rate, exceeds=True, is_certain=True)
     faults: list[Fault] = []
     buckets = _alike(group_failures(ordered), conditions or {})
@@ -167,11 +177,11 @@ def assess(
             most_weight=sampling.most_weight,
             is_sequential=sampling.is_sequential,
         )
-        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None, conditions or {})
+        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None, conditions or {}, text)
         faults.append(replace(fault, interval=interval, causes=causes))
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
-        sampling, sensitivities(agent, ordered, check.confidence), kept,
+        sampling, sensitivities(agent, ordered, check.confidence), cases,
     )  # fmt: skip
 
 
@@ -182,10 +192,11 @@ def _fault(
     seed: int,
     refly: Refly | None,
     known: Conditions,
+    text: ModelText | None,
 ) -> Fault:
     example = next(result for result in results if result.number == bucket.example)
-    abort = example.outcome.abort if example.outcome else None
-    confirmation = confirm(abort.conflict) if abort and abort.conflict else None
+    conflict = failed_by(example.outcome).conflict
+    confirmation = confirm(conflict, text) if conflict is not None else None
     condition = known.get(bucket.example, bucket.example)
     if not isinstance(condition, int):
         return Fault(bucket, condition, confirmation)
