@@ -85,7 +85,8 @@ def nearest_of(
     best: tuple[float, Tok, tuple[tuple[str, Value], ...]] | None = None
     for tok in _of_predicate(frame, child, names):
         if holder is not None and not may_be_equal(tok.values[OBJECT], holder):
-            far, values = inf, (("object", tok.values[OBJECT]), ("asked", holder))
+            far = inf
+            values: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))
         elif origin is not None:
             far, values = _missed(pairs, origin, tok)
         else:
@@ -98,7 +99,8 @@ def nearest_of(
 def _missed(pairs: tuple[Demand, ...], origin: Tok, target: Tok) -> tuple[float, tuple[tuple[str, Value], ...]]:
     """By how many ticks two tokens miss a relation, and the times of which that is so."""
     times = [(tok, place) for tok in (origin, target) for place in (START, END)]
-    most, found = 0.0, ()
+    most = 0.0
+    found: tuple[tuple[str, Value], ...] = ()
     for first, second, lower, upper in pairs:
         (a, start), (b, end) = times[first], times[second]
         gap = hull(difference(b.values[end], a.values[start])) or (-inf, inf)
