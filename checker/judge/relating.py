@@ -58,8 +58,8 @@ def child_step(child: Child, names: VariableNames) -> Step:
         frame.tokens[slot] = tok
         holder = parent.values[OBJECT] if child.object == "own" else None if given is None else given(frame)
         if holder is not None and not bench.weigh(equal(tok.values[OBJECT], holder)):
-            values: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))
-            bench.report("child", label, (parent, tok), values, "on its object", "on another", child.span)
+            objects: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))
+            bench.report("child", label, (parent, tok), objects, "on its object", "on another", child.span)
         first = frame.tokens[origin]
         if first is None:
             return
