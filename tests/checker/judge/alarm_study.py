@@ -64,9 +64,13 @@ def _random() -> Flights:
     number = 0
     while True:
         agent, programs = random_case(number).agent()
-        outcome, record = record_mission(agent, programs, number, compiles=number % 2 == 0)
-        report = judge_mission(agent, programs.programs, outcome, record)
-        yield f"random {number}", outcome.abort is None, [disagreement_text(one) for one in report.errors]
+        try:
+            outcome, record = record_mission(agent, programs, number, compiles=number % 2 == 0)
+        except Exception as problem:  # a fault of the executive, which it tells itself
+            print(f"random {number} raised: {problem}", flush=True)
+        else:
+            report = judge_mission(agent, programs.programs, outcome, record)
+            yield f"random {number}", outcome.abort is None, [disagreement_text(one) for one in report.errors]
         number += 1
 
 
