@@ -86,7 +86,8 @@ def nearest_of(
     values: tuple[tuple[str, Value], ...]
     for tok in _of_predicate(frame, child, names):
         if holder is not None and not may_be_equal(tok.values[OBJECT], holder):
-            far, values = inf, (("object", tok.values[OBJECT]), ("asked", holder))
+            far = inf
+            values: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))
         elif origin is not None:
             far, values = _missed(pairs, origin, tok)
         else:
