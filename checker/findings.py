@@ -18,6 +18,7 @@ from checker.oracle import Verdict
 from checker.proofs.conflict import Confirmation, confirm
 from checker.proofs.places import ModelText
 from checker.rate import Rate, judge_missions, rate_interval
+from checker.regression import FlownCase
 from checker.sensitivity import Sensitivity, sensitivities
 from checker.statistics import Interval
 from checker.tally import Tally, tally
@@ -91,7 +92,7 @@ class Findings:
     ending: Ending
     sampling: Sampling = RANDOMLY
     sensitivities: tuple[Sensitivity, ...] = ()
-    kept: tuple[MissionResult, ...] = ()  # failures of earlier runs, flown first; they are in no percentage
+    cases: tuple[FlownCase, ...] = ()  # regression cases, flown first; they are in no percentage
     is_stored: bool = True  # so that `nddlc explain` can tell more of it
 
     @property
@@ -114,6 +115,11 @@ class Findings:
         return not (self.rate.exceeds or self.errors or self.is_interrupted)
 
 
+def regressed(cases: Sequence[FlownCase], limit: float) -> tuple[FlownCase, ...]:
+    """The cases that had to pass and did not: promoted ones, and where no mission may fail all."""
+    return tuple(one for one in cases if not one.passes and (one.case.is_promoted or limit == 0.0))
+
+
 def assess(
     mission: Mission,
     agent: AgentConfiguration,
@@ -129,6 +135,7 @@ def assess(
     seeker: Seeker | None = None,
     conditions: Conditions | None = None,
     text: ModelText | None = None,
+    cases: tuple[FlownCase, ...] = (),
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
@@ -138,7 +145,6 @@ def assess(
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
-    kept = tuple(result for result in reversed(by_number) if result.number < 0)
     check = mission.check
     flown = [one for one in ordered if one.verdict is not Verdict.ERROR]
     rate = judge_missions(
@@ -148,7 +154,7 @@ def assess(
         most_weight=sampling.most_weight,
         is_sequential=sampling.is_sequential,
     )
-    if check.max_failure_rate == 0.0 and any(one.verdict is Verdict.FAIL for one in kept):
+    if regressed(cases, check.max_failure_rate):
         rate = replace(rate, exceeds=True, is_certain=True)
     faults: list[Fault] = []
     buckets = _alike(group_failures(ordered), conditions or {})
@@ -175,7 +181,7 @@ def assess(
         faults.append(replace(fault, interval=interval, causes=causes))
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
-        sampling, sensitivities(agent, ordered, check.confidence), kept,
+        sampling, sensitivities(agent, ordered, check.confidence), cases,
     )  # fmt: skip
 
 

@@ -9,12 +9,20 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from checker.judge.report import ResourceProfile
 from runtime.executive.columns import TokenColumns
-from runtime.executive.configuration import AgentConfiguration, PropertyConfiguration, PropertyKind, TokenPattern
+from runtime.executive.configuration import (
+    AgentConfiguration,
+    LevelPattern,
+    PropertyConfiguration,
+    PropertyKind,
+    TokenPattern,
+)
 from runtime.executive.expression import ExpressionError, parse_expression
 from runtime.executive.outcome import Event, EventKind, PropertyFate
 from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord
 
+_ROUNDING = 1e-9
 _NAMES = ("start", "end", "duration")
 
 
@@ -34,6 +42,7 @@ def property_fates(
     record: MissionRecord,
     last_tick: int,
     events: Sequence[Event] = (),
+    profiles: Sequence[ResourceProfile] = (),
 ) -> tuple[PropertyFate, ...]:
     """What became of each property; `arguments` names those of each predicate (`Class.predicate`).
 
@@ -47,10 +56,41 @@ def property_fates(
             histories[timeline] = _published(timeline, events) if found is None else found
         return histories[timeline]
 
-    return tuple(
-        _fate(one, history(one.pattern.timeline), history(one.then.timeline) if one.then else [], agent, last_tick)
-        for one in agent.properties
-    )
+    def fate(one: PropertyConfiguration) -> PropertyFate:
+        if one.level is not None:
+            return _level_fate(one, one.level, profiles, agent.final_tick if one.by is None else one.by)
+        then = history(one.then.timeline) if one.then else []
+        return _fate(one, history(one.pattern.timeline), then, agent, last_tick)
+
+    return tuple(fate(one) for one in agent.properties)
+
+
+def _level_fate(
+    one: PropertyConfiguration, wanted: LevelPattern, profiles: Sequence[ResourceProfile], last: int
+) -> PropertyFate:
+    """Whether a resource kept its levels; where its limits were never fixed nothing is known, and nothing kept."""
+    own = (each for each in profiles if each.resource == wanted.resource and wanted.reactor in ("", each.reactor))
+    profile = next(own, None)
+    if profile is None:
+        return PropertyFate(one.name, False, one.since, -math.inf)
+    lower, upper = wanted.bounds
+    if wanted.margin > 0.0:
+        lower, upper = max(lower, profile.least + wanted.margin), min(upper, profile.most - wanted.margin)
+    ends = [*(tick for tick, _ in profile.levels[1:]), math.inf]
+    held = [(begin, end, level) for (begin, level), end in zip(profile.levels, ends, strict=True)]
+    margins = [
+        (max(begin, one.since), _level_margin(level, lower, upper))
+        for begin, end, level in held
+        if begin <= last and end > one.since
+    ]
+    worst = next((tick for tick, margin in margins if margin < 0.0), None)
+    return PropertyFate(one.name, worst is None, worst, min((margin for _, margin in margins), default=math.inf))
+
+
+def _level_margin(level: float, lower: float, upper: float) -> float:
+    """How far a level is within its bounds; levels are sums of floats, so what is off by rounding counts as kept."""
+    margin = min(level - lower, upper - level)
+    return 0.0 if -_ROUNDING * max(1.0, abs(level)) <= margin < 0.0 else margin
 
 
 def _history(
@@ -129,6 +169,8 @@ def _fate(
             ]
             best = min(ends, default=math.inf)
             return PropertyFate(one.name, best <= last, None if best <= last else min(last, last_tick), last - best)
+        case PropertyKind.LEVEL:
+            raise AssertionError("levels are no tokens")
         case PropertyKind.ALWAYS:
             told = _told_of(pattern, held)
             spans = [(token, _margin(pattern, token)) for token in told if token.start <= last and token.end > first]

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from checker.batch.pool import FlyTasks
+from checker.batch.pool import FlyBatch
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
 from checker.conditions.record import write_condition
@@ -20,6 +20,7 @@ from checker.findings import Findings
 from checker.flight import load
 from checker.mission import LARGEST_SEED, Mission, read_mission
 from checker.oracle import USER_CODE
+from checker.regression import RegressionCase, RegressionError, agent_of, read_cases, regressions_path
 from checker.report.coverage import coverage_text
 from checker.report.document import json_report
 from checker.report.github import github_report
@@ -39,7 +40,6 @@ from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
-from nddlc.regressions import regressions_hold
 from nddlc.samplers import find_sampler
 from nddlc.trust import trust_option
 from nddlc.watch import WatchedCommand
@@ -124,18 +124,18 @@ def command(
         return _UNUSABLE
     campaign = replace(campaign, sampler_name=sampler, make_sampler=make_sampler)
     if cluster is not None:
-        campaign = replace(campaign, fly_tasks=_cluster_at(cluster))
+        campaign = replace(campaign, fly_batch=_cluster_at(cluster))
     if dry_run:
         if style == "text":
             click.echo(f"`{path}` and its models are in order; nothing was flown")
         return _HOLDS
-    regressed = not regressions_hold(campaign, file, is_told=style == "text")
+    promoted = _promoted(campaign, file)
     count, enough = workers or cores(), Enough(seconds, max_failures, rule)
     try:
         with ExitStack() as stack:
             store = None if no_store else stack.enter_context(open_store(store_path))
             show = stack.enter_context(Display(campaign.mission.check.confidence))
-            flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show)
+            flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show, promoted=promoted)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
     findings = campaign.assess(
@@ -144,16 +144,25 @@ def command(
         sampling=flown.sampling,
         bounds=Bounds(flights, _SECONDS_A_FAULT) if flights else None,
         seconds=_SECONDS,
+        cases=flown.cases,
     )
     findings = replace(findings, is_stored=not no_store)
     if not no_store:
         _keep(findings, store_path)
     code = _report(campaign, findings, style, output, coverage=coverage)
-    if regressed and code == _HOLDS:
-        code = _FINDINGS
-        if style == "text":
-            click.echo("a regression case fails again: see above")
     return code if flown.ended_by is None else _SIGNALLED + flown.ended_by
+
+
+def _promoted(campaign: Campaign, file: Path) -> tuple[RegressionCase, ...]:
+    """The regression cases beside the mission file, which must fit it."""
+    place = regressions_path(file)
+    try:
+        cases = read_cases(place)
+        for case in cases:
+            agent_of(case, campaign.models.agent)
+    except RegressionError as problem:
+        raise Unusable(str(problem), f"mend `{place}`, or remove the case") from None
+    return cases
 
 
 def _keep(findings: Findings, store_path: Path) -> None:
@@ -216,11 +225,11 @@ def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
         click.echo(f"{errors} error{'' if errors == 1 else 's'}: nothing was flown")
 
 
-def _cluster_at(address: str) -> FlyTasks:
+def _cluster_at(address: str) -> FlyBatch:
     """What flies missions on a cluster; asked for late, as Dask is large."""
     if find_spec("distributed") is None:
         raise Unusable("a cluster needs the package `distributed`", "install `nddlc[cluster]`")
-    found: FlyTasks = named("checker.batch.cluster:Cluster")(address).fly_tasks
+    found: FlyBatch = named("checker.batch.cluster:Cluster")(address).fly
     return found
 
 
@@ -233,9 +242,11 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *,
     """Write every form of the report, print the one that was asked for, and say how it ended."""
     excerpts = Excerpts(Path(campaign.models.agent.root))
     covered = coverage_of(campaign.models, findings.results) if coverage else None
+    pairs = campaign.pairs(findings)
+    page = html_report(findings, excerpts, campaign.stories(findings), pairs, campaign.drawn(findings, pairs))
     reports = {
         "json": ("report.json", json_report(findings, excerpts, covered)),
-        "html": ("report.html", html_report(findings, excerpts, campaign.stories(findings), campaign.pairs(findings))),
+        "html": ("report.html", page),
         "junit": ("junit.xml", junit_report(findings, excerpts)),
         "sarif": ("report.sarif", sarif_report(findings, excerpts)),
         "markdown": ("report.md", markdown_report(findings, excerpts)),

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 import numpy as np
 
 from checker.judge.columns import Array
-from checker.judge.report import Disagreement, Kind
+from checker.judge.report import Disagreement, Kind, ResourceProfile
 from checker.judge.values import UNKNOWN, difference, hull, is_open
 from nddl_lang.text.source import Span
 from runtime.executive.columns import TokenColumns
@@ -133,6 +133,7 @@ class Bench:
         self.infers = False  # whether runs that are not on record are found out
         self.told: frozenset[str] | None = None  # the classes of whose objects all tokens are known; None: all
         self.found: list[Disagreement] = []
+        self.profiles: list[ResourceProfile] = []
         self.judged = 0
         self.open = 0
         self.skipped: dict[str, int] = {}

@@ -167,4 +167,5 @@ def _summary(benches: Sequence[Bench]) -> JudgeReport:
         sum(bench.judged for bench in benches),
         sum(bench.open for bench in benches),
         tuple(sorted(skipped.items())),
+        tuple(one for bench in benches for one in bench.profiles),
     )

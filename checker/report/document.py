@@ -15,6 +15,7 @@ from checker.excerpts import Excerpts
 from checker.explain import confirmation_data, place_data
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES, Verdict
+from checker.regression import FlownCase
 from checker.rendering import failure_text
 from checker.report.coverage import coverage_data
 from checker.report.losses import mission_losses, tally_data
@@ -66,7 +67,7 @@ def _report_data(findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
             {"parameter": one.parameter, "distance": one.distance, "interval": list(one.interval)}
             for one in findings.sensitivities
         ],
-        "kept": [_mission(result, findings.tally) for result in findings.kept],
+        "cases": [_case(one, findings.tally) for one in findings.cases],
         "losses": tally_data(findings.tally, excerpts),
         "limits": {limit.value: most for limit, most in findings.mission.check.limits},
         "parameters": [_parameter(parameter) for parameter in agent.parameters],
@@ -109,6 +110,10 @@ def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
         "condition": condition_data(fault.condition),
         "z3": confirmation_data(fault.confirmation),
     }
+
+
+def _case(one: FlownCase, tally: Tally) -> dict[str, Any]:
+    return {"name": one.case.name or None, "was": one.case.was, "passes": one.passes, **_mission(one.result, tally)}
 
 
 def _mission(result: MissionResult, tally: Tally) -> dict[str, Any]:

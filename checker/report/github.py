@@ -5,7 +5,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.rendering import failure_text
 from checker.report.losses import damage_words, goal_text, repair_text
-from checker.report.sentences import decision, explained_by, fault_title, headline
+from checker.report.sentences import case_lines, decision, explained_by, fault_title, headline
 from nddl_lang.text.github import command_line
 from runtime.executive.outcome import SourcePlace
 
@@ -34,8 +34,14 @@ def github_report(findings: Findings, excerpts: Excerpts) -> str:
         assert repair.place is not None
         text_of = repair_text(repair, excerpts)
         lines.append(command_line("notice", _place(repair.place, "plan repaired", excerpts), text_of))
+    cases = case_lines(findings)
     cost = damage_words(findings.tally)
-    whole = [decision(findings), *([f"cost: {cost}"] if cost else []), f"run {findings.run_id}, seed {findings.seed}"]
+    whole = [
+        decision(findings),
+        *cases,
+        *([f"cost: {cost}"] if cost else []),
+        f"run {findings.run_id}, seed {findings.seed}",
+    ]
     lines.append(command_line("notice", {"title": headline(findings)}, "\n".join(whole)))
     return "\n".join(lines) + "\n"
 

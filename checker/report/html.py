@@ -7,17 +7,19 @@ from importlib.resources import files
 
 from checker.batch.result import MissionResult
 from checker.conditions.rendering import condition_evidence, condition_text
+from checker.drawn import Drawn
 from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.losses import Limit, amount
 from checker.oracle import CODE_NAMES, Verdict
 from checker.rendering import confirmation_text, failure_text, step_text
 from checker.report.losses import damage_words, goal_line, goal_text, repair_text, request_line, unmet_text
+from checker.report.paths import plan_figure, section_figure, space_figure
 from checker.report.sentences import (
     blamed,
+    case_lines,
     decision,
     explained_by,
-    kept_line,
     missions,
     percent,
     rate_line,
@@ -40,7 +42,11 @@ _COLOURS = 6
 
 
 def html_report(
-    findings: Findings, excerpts: Excerpts, stories: Sequence[Story | None], pairs: Sequence[Pair | None] = ()
+    findings: Findings,
+    excerpts: Excerpts,
+    stories: Sequence[Story | None],
+    pairs: Sequence[Pair | None] = (),
+    drawn: Drawn | None = None,
 ) -> str:
     """The page; `stories` and `pairs` have the story of each fault's example, and a passing mission beside it."""
     style = files("checker.report").joinpath("page.css").read_text(encoding="utf-8")
@@ -55,6 +61,7 @@ def html_report(
         *_head(findings),
         *_losses(findings.tally, excerpts),
         *_faults(findings, excerpts, stories, pairs),
+        *_paths(drawn),
         *_parameters(findings),
         *_table(findings),
         f"<footer>nddlc, run {findings.run_id}, seed {findings.seed}. The same run gives the same page.</footer>",
@@ -77,7 +84,7 @@ def _head(findings: Findings) -> list[str]:
     tiles.append((percent(rate.limit), "accepted"))
     if findings.errors:
         tiles.append((str(len(findings.errors)), f"errors {blamed(findings)}"))
-    further = (stop_line(findings), kept_line(findings), sensitivity_line(findings))
+    further = (stop_line(findings), *case_lines(findings), sensitivity_line(findings))
     return [
         f'<span class="verdict {word}">{word}</span>',
         f"<h1>{escape(findings.agent.name)}</h1>",
@@ -172,6 +179,26 @@ def _excerpt(place: SourcePlace, excerpts: Excerpts, *, marked: bool) -> str:
         end = start + len(first)
         text = f"{escape(line[:start])}<mark>{escape(line[start:end])}</mark>{escape(line[end:])}"
     return f'<span class="at">{escape(excerpts.path(place))}</span>\n<span class="no">{place.line} | </span>{text}'
+
+
+def _paths(drawn: Drawn | None) -> list[str]:
+    """Where the vehicle went, as the mission file asks for."""
+    if drawn is None:
+        return []
+    parts = [
+        "<h2>Where it went</h2>",
+        '<p class="soft">From above: missions that pass in grey, failing ones in colour; the black (or white) line '
+        "is the one with every parameter in the middle of its range.</p>",
+    ]
+    parts.append(_wide(plan_figure(drawn.paths)))
+    for caption, track in drawn.closer:
+        parts += [f"<h3>{escape(caption)}</h3>", _wide(space_figure(track)), _wide(section_figure(track, drawn.cell))]
+    return parts
+
+
+def _wide(figure: str) -> str:
+    """A figure that is scrolled on a narrow screen rather than made too small to read."""
+    return f'<div class="scroll figure" tabindex="0">{figure}</div>'
 
 
 def _parameters(findings: Findings) -> list[str]:

@@ -7,6 +7,7 @@ from checker.rendering import failure_text
 from checker.report.losses import goal_line, goal_text, repair_text, request_line, unmet_text
 from checker.report.sentences import (
     blamed,
+    case_lines,
     decision,
     explained_by,
     fault_title,
@@ -32,6 +33,8 @@ def markdown_report(findings: Findings, excerpts: Excerpts) -> str:
         f"| {len(findings.results)} | {rate.failures} | {percent(rate.observed)} | {percent(rate.limit)} "
         f"| {len(findings.errors)} |"
     )
+    if cases := case_lines(findings):
+        lines += ["", f"{_plain(cases[0])}.", "", *(f"* {_plain(line)}" for line in cases[1:])]
     for index, fault in enumerate(findings.faults[:_MOST_FAULTS]):
         lines += ["", f"### {_plain(fault_title(findings, index))}", "", *_fault(fault, findings, excerpts)]
     if len(findings.faults) > _MOST_FAULTS:
