@@ -16,7 +16,7 @@ import z3
 
 from checker.proofs.box import Box, Point, box_of
 from checker.proofs.claims import Claim, Number
-from checker.proofs.dating import Requirement, Dated, dated
+from checker.proofs.dating import Dated, Requirement, dated
 from checker.proofs.intervals import Ranges
 from checker.proofs.operands import rational
 from checker.proofs.solving import fraction
