@@ -12,6 +12,7 @@ from typing import cast
 from checker.agent_file import read_agent_file
 from checker.batch_xml import read_batch
 from checker.codes import CYCLE, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_TOML, TWICE
+from checker.figures import Figures, read_figures
 from checker.goal_fit import goals_out_of_time
 from checker.losses import Limit
 from checker.mission_table import MissionText, Table, TomlTable
@@ -56,6 +57,7 @@ class Mission:
     agent: AgentConfiguration
     check: CheckConfiguration
     needs_range: tuple[str, ...]  # parameters whose range is the base domain in the model
+    figures: Figures | None = None
 
     @property
     def source(self) -> Source:
@@ -103,6 +105,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
         properties=read_properties(top.tables("property"), owned),
     )
     check = _read_check(top.table("check", "[check]"))
+    figures = read_figures(top.table("figures", "[figures]"), owned)
     if file := head.string("batch", ""):
         agent, check = _with_batch(agent, check, file, root, top)
     head.close()
@@ -111,7 +114,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
     found = tuple(sorted(text.diagnostics, key=lambda diagnostic: diagnostic.span.begin))
     if any(diagnostic.severity is Severity.ERROR for diagnostic in found):
         return None, found
-    return Mission(text, agent, check, unranged), found
+    return Mission(text, agent, check, unranged, figures), found
 
 
 def _with_batch(

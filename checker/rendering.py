@@ -6,6 +6,8 @@ What happened in a mission is worded by `runtime.executive.rendering`.
 from collections.abc import Sequence
 from typing import assert_never
 
+from checker.conditions.condition import Condition
+from checker.conditions.rendering import literal_text
 from checker.losses import Exceeded, Limit
 from checker.oracle import CODE_NAMES, Judgement
 from checker.proofs.conflict import Confirmation, Finding
@@ -112,13 +114,15 @@ def step_label(step: Step) -> str:
     return "   <== the line to blame" if step.kind is StepKind.FAULT else ""
 
 
-def confirmation_text(found: Confirmation) -> str:
+def confirmation_text(found: Confirmation, condition: Condition | None = None) -> str:
     """What z3 says, as the end of a sentence that begins with its name."""
     match found.finding:
         case Finding.CONFIRMED:
             text = f"confirms the conflict: these {len(found.core)} causes contradict each other"
             text += ", each of them is needed" if found.is_minimal else ""
             text += f" ({found.written} read from the model's text)" if found.written else ""
+            if condition is not None and condition.in_terms:
+                text += ", just where " + " and ".join(literal_text(one) for one in condition.in_terms)
         case Finding.REFUTED:
             text = "does not confirm the conflict: by themselves the causes can hold together"
         case Finding.UNKNOWN:

@@ -50,16 +50,6 @@ class MissionResult:
         return self.outcome.open_goals if self.outcome is not None and self.outcome.abort is None else ()
 
 
-@dataclass(frozen=True, slots=True)
-class KeptFailure:
-    """A mission that failed in an earlier run of the same mission file, and the code that it failed with."""
-
-    seed: int
-    point: SamplePoint
-    code: str
-    run: str
-
-
 def condense(outcome: Outcome) -> Outcome:
     """An outcome without its events, and of each parameter the least, the greatest and the last draw."""
     kept: list[Draw] = []
