@@ -143,8 +143,9 @@ def _held(reactor: ReactorRecord) -> set[tuple[str, str]]:
     tokens = reactor.tokens
     if not isinstance(tokens, TokenColumns):
         return {(str(token.object), token.predicate) for token in tokens}
-    pairs = np.unique(np.stack([tokens.times.objects, tokens.times.predicates]), axis=1)
-    return {(tokens.names[timeline], tokens.names[predicate]) for timeline, predicate in pairs.T.tolist()}
+    count = len(tokens.names)
+    pairs = np.flatnonzero(np.bincount(tokens.times.objects * count + tokens.times.predicates)).tolist()
+    return {(tokens.names[pair // count], tokens.names[pair % count]) for pair in pairs}
 
 
 _KNOWN: list[Universe] = []  # the last one: a worker flies one set of programs

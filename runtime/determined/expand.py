@@ -46,10 +46,12 @@ class _Expansion:
         self.awaited = [line for line in range(machine.lines) if self.walk.awaited[line] >= 0]
         awaited = np.array([self.walk.awaited[line] for line in self.awaited], np.int64)
         keys = np.concatenate([self.keys, self.merged[:, 0], awaited])
-        self.order = np.argsort(keys, kind="stable")  # the row of each place
-        self.places = np.empty(len(keys), np.int64)
-        self.places[self.order] = np.arange(len(keys))
-        self.all_keys = keys[self.order]
+        is_key = np.zeros(self.walk.next_key + 1, bool)
+        is_key[keys] = True
+        self.places = (np.cumsum(is_key) - 1)[keys]
+        self.order = np.empty(len(keys), np.int64)  # the row of each place
+        self.order[self.places] = np.arange(len(keys))
+        self.all_keys = np.flatnonzero(is_key)
         self.slots = self._slots()
 
     def _slots(self) -> Array:
@@ -223,7 +225,7 @@ class _Expansion:
         roots = np.flatnonzero(np.asarray(self.walk.children)[: self.walk.count] >= 0)
         blocks = self.rows[roots, 3] & (WISHED - 1)
         found: list[TokenGroup] = []
-        for block in np.unique(blocks).tolist():
+        for block in np.flatnonzero(np.bincount(blocks)).tolist():
             found += self._groups_of(block, roots[blocks == block])
         return tuple(found)
 
@@ -238,7 +240,7 @@ class _Expansion:
                 _note_truths(body, table, shown, np.ones(len(roots), bool), truths)
         kinds = np.zeros(len(roots), np.int64)
         for guard in np.flatnonzero(truths.any(axis=0)).tolist():
-            _, kinds = np.unique(2 * kinds + truths[:, guard], return_inverse=True)
+            kinds = _numbered(2 * kinds + truths[:, guard])
         for kind in range(int(kinds.max()) + 1):
             alike = np.flatnonzero(kinds == kind)
             part = _Part(self, table[alike], first[alike], shown, readings)
@@ -296,6 +298,11 @@ class _Part:
             tuple(self.children[child] for child in body.children),
             tuple(guards),
         )
+
+
+def _numbered(kinds: Array) -> Array:
+    """The same small numbers without gaps, in the same order."""
+    return (np.cumsum(np.bincount(kinds) > 0) - 1)[kinds]
 
 
 def _note_truths(body: BodyReading, table: Array, shown: dict[int, int], reached: Array, truths: Array) -> None:

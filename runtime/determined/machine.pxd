@@ -1,6 +1,7 @@
 # The C types of `machine.py`.
 
 cimport cython
+from libc cimport math
 from runtime.determined.log cimport Log
 from runtime.determined.present cimport Present
 

@@ -39,7 +39,7 @@ from runtime.determined.tags import (
     WISHED,
 )
 
-_NAN = math.nan
+_NAN = float("nan")
 _TOLERANCE = 1e-5  # that of the engine's floats
 _LARGEST = 2.0**51  # what is larger counts as infinite
 
@@ -264,14 +264,20 @@ class Machine:
                     return False
                 r[out] = math.sqrt(r[a])
             elif op == 11:  # FLOOR
+                if not -_LARGEST < r[a] < _LARGEST:
+                    return False
                 r[out] = math.floor(r[a] + _TOLERANCE)
             elif op == 12:  # CEIL
+                if not -_LARGEST < r[a] < _LARGEST:
+                    return False
                 r[out] = math.ceil(r[a] - _TOLERANCE)
             elif op == 13:  # MOD
-                if r[b] == 0.0:
+                if r[b] == 0.0 or not -_LARGEST < r[a] < _LARGEST:
                     return False
                 r[out] = math.fmod(r[a], r[b])
             elif op == 14:  # WHOLE
+                if not -_LARGEST < r[a] < _LARGEST:
+                    return False
                 r[out] = math.ceil(r[a] - _TOLERANCE)
                 if r[out] != math.floor(r[a] + _TOLERANCE):
                     return False
@@ -305,7 +311,10 @@ class Machine:
                 z = r[code[at - 2]]
                 if z <= 0.0:
                     return False
-                r[out] = max(1.0, math.ceil(math.sqrt(x * x + y * y) / z - 1e-9))
+                z = math.sqrt(x * x + y * y) / z - 1e-9
+                if not z < _LARGEST:
+                    return False
+                r[out] = max(1.0, math.ceil(z))
             elif op == 25:  # UNIFY
                 if r[out] != r[out]:
                     r[out] = r[a]
@@ -380,7 +389,8 @@ class Machine:
         value = self.registers[a]
         if not -_LARGEST < value < _LARGEST or value != math.floor(value):
             return False
-        bound = present.state[START * n + line] + int(value)
+        bound = int(value)
+        bound += present.state[START * n + line]
         slot = present.state[SLOT * n + line]
         if op != 38 and bound > present.state[LEAST * n + slot]:  # LAST_EXACTLY, LAST_LEAST
             present.state[LEAST * n + slot] = bound

@@ -2,14 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 Value = int | float | bool | str
 Argument = Value | tuple[float, float] | frozenset[Value]
 Ticks = int | tuple[int, int] | None
 
 
-@dataclass(frozen=True, slots=True)
-class Seen:
+class Seen(NamedTuple):
     """What holds on a timeline since tick `since`; of an argument that is not known, its two bounds or its values."""
 
     predicate: str
