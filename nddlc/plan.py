@@ -20,7 +20,7 @@ from runtime.constraints.domains.tags import HALF_INF, INF
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.level_profile import LevelProfile, level_profiles
-from runtime.plan.readout.readout import live_tokens, read_state, token_names
+from runtime.plan.readout.readout import live_tokens, read_state, span_of, token_names
 from runtime.plan.tags import FLAG_GOAL, FLAG_REJECTABLE, REJECTED
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.limits import Limits, model_limits
@@ -146,6 +146,7 @@ def command(
         strategy == "europa",
         frozenset(_goals(database)),
         explain,
+        _creeping(database),
     )
     profiles = level_profiles(database, limits.start)
     if as_json:
@@ -154,7 +155,7 @@ def command(
         _show(loaded, report, profiles, reasons, style)
     if ended == INTERRUPTED:
         return 130
-    return int(result != PLAN or (bool(report.beyond()) and not allow_unplanned))
+    return int(result != PLAN or bool(report.creeping) or (bool(report.beyond()) and not allow_unplanned))
 
 
 def _tell_of_memory(loaded: Loaded, budget: int, steps: int, as_json: bool) -> int:
@@ -166,6 +167,12 @@ def _tell_of_memory(loaded: Loaded, budget: int, steps: int, as_json: bool) -> i
         click.echo(f"no plan found yet: stopped after {steps} steps, when {budget} MiB of memory were used up")
         click.echo("  help: a rule may ask for ever more tokens, see `nddlc lint`; --max-memory allows more", err=True)
     return 1
+
+
+def _creeping(database: PlanDatabase) -> list[str]:
+    """The places of constraints whose bounds still moved when propagation was left off."""
+    spans = {span_of(database, database.engine.span[c]) for c in database.engine.creeping if database.engine.op[c] >= 0}
+    return [f"{Path(span.source.name).name}:{span.line}" for span in sorted(filter(None, spans), key=lambda s: s.begin)]
 
 
 def _goals(database: PlanDatabase) -> Iterator[str]:
@@ -188,6 +195,7 @@ def _data(
     data["solve"] = {"result": report.result, "steps": report.steps, "depth": report.depth}
     if report.is_exhausted:
         data["solve"]["is_complete"] = report.is_complete
+    data["solve"]["creeping"] = list(report.creeping) if report.result == "plan" else []
     data["solve"]["unplanned"] = report.beyond() if report.result == "plan" else []
     if report.is_explained:
         data["explanation"] = {name: reason_data(failure) for name, failure in reasons.items()}

@@ -20,14 +20,15 @@ from runtime.constraints.domains.variables cimport (
     start_interval, start_values, take_row,
 )
 
-cdef long long FLAG_DECISION, FLAG_VALUES, KIND_FLOAT, _MOST_RUNS, OP_ELEMENT, OP_EXTERNAL, _COARSE_AFTER
+cdef long long FLAG_DECISION, FLAG_FROZEN, FLAG_VALUES, KIND_FLOAT, OP_ELEMENT, OP_EXTERNAL
 cdef long long SUPPORT_RESTRICTION
 cdef double FLOAT_TOLERANCE, inf
 
 
 cdef class Engine(Store):
     cdef public dict constants
-    cdef public long long newest_edge, newest_restriction
+    cdef public long long newest_edge, newest_restriction, coarse_after, most_runs
+    cdef public set creeping
 
     cpdef long long reserve(self, long long count) except? -1
 
@@ -51,6 +52,8 @@ cdef class Engine(Store):
     cpdef long long new_constant_values(self, long long kind, list values) except? -1
 
     cpdef bint restrict_base(self, long long v, double lo, double hi, long long span, long long owner) except -1
+
+    cpdef int freeze_base(self, long long v, double lo, double hi, long long span, long long owner) except -1
 
     cpdef bint restrict_base_values(self, long long v, list values, long long span, long long owner) except -1
 

@@ -18,6 +18,7 @@ from runtime.constraints.domains.queries import has_finitely_many, listed, may_b
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
     FLAG_DECISION,
+    FLAG_FROZEN,
     FLAG_VALUES,
     FLOAT_TOLERANCE,
     KIND_FLOAT,
@@ -60,6 +61,9 @@ class Engine(Store):
         self.constants: dict[tuple[object, ...], int] = {}
         self.newest_edge = -1
         self.newest_restriction = -1
+        self.coarse_after = _COARSE_AFTER
+        self.most_runs = _MOST_RUNS
+        self.creeping: set[int] = set()  # constraints that were slowed down; what they left out is not known
 
     # ------------------------------------------------------------------------------------------------ variables
 
@@ -149,6 +153,11 @@ class Engine(Store):
         self.newest_restriction = r
         support = r * 4 + SUPPORT_RESTRICTION
         return bool(self.consistent and raise_to(self, v, lo, support) and reduce_to(self, v, hi, support))
+
+    def freeze_base(self, v: int, lo: float, hi: float, span: int, owner: int) -> None:
+        """Restrict the base domain for good to what has happened; such a restriction is known by FLAG_FROZEN."""
+        self.restrict_base(v, lo, hi, span, owner)
+        self.restriction_flags[self.newest_restriction] = FLAG_FROZEN
 
     def restrict_base_values(self, v: int, values: list[float], span: int, owner: int) -> bool:
         """Intersect the base domain with a set; false if no value is left."""
@@ -326,9 +335,11 @@ class Engine(Store):
             self.run_count[c] = 0
         self.run_count[c] += 1
         # A cycle that creeps is slowed down, then left alone: what is not narrowed away loses no solution.
-        if self.run_count[c] > _MOST_RUNS:
-            return True
-        self.coarse = self.run_count[c] > _COARSE_AFTER
+        if self.run_count[c] > self.coarse_after:
+            self.creeping.add(c)
+            if self.run_count[c] > self.most_runs:
+                return True
+            self.coarse = True
         self.running = c if self.idempotent[c] else -1
         holding = propagate_constraint(self, c)
         self.coarse = False

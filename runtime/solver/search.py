@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+from runtime.constraints.convergence import converge
 from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import fire
@@ -183,7 +184,7 @@ class Solver:
                 if self.relief is not None:
                     self.relief.waiting = agenda.waiting_guards[d]
                 if not select(agenda):
-                    if self.relief is None or self._holds():
+                    if self._holds():
                         return PLAN
                     return FAILED if d > 0 else EXHAUSTED
                 self._enter()
@@ -227,18 +228,19 @@ class Solver:
         return EXHAUSTED
 
     def _holds(self) -> bool:
-        """Whether what was postponed holds now that nothing else is to be done; if not, the last decision is undone."""
-        if not self.plan.resources.postponed:
+        """Whether what was postponed or slowed down holds now that all else is done; if not, a decision is undone."""
+        is_postponed = self.relief is not None and len(self.plan.resources.postponed) > 0
+        if not is_postponed and not self.engine.creeping:
             return True
         self.plan.resources.relief = None
         number = mark(self.plan)
-        holds = fire(self.plan)
+        holds = (not is_postponed or fire(self.plan)) and converge(self.engine)
         d = self.stack.depth
         if not holds and d > 0:
             self.failures += 1
             if self.failure_log is not None:
                 self.failure_log.note_failure(d - 1)
-            self.stack.reasons[d - 1] = EVERYTHING
+            self.stack.rest_on_everything(d - 1)
         if not holds and d == 0 and self.failure_log is not None:
             self.failure_log.note_contradiction()
         release(self.plan, number)

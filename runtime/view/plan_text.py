@@ -35,6 +35,7 @@ class PlanReport:
     is_europa: bool
     goals: frozenset[str]  # what was asked for and may not be given up
     is_explained: bool
+    creeping: Sequence[str]  # places of constraints whose bounds still move: nobody knows whether values remain
 
     @property
     def is_exhausted(self) -> bool:
@@ -150,6 +151,9 @@ def _ending(report: PlanReport) -> str:
         case "plan":
             if left := len(report.beyond()):
                 return f"plan found after {count}, {force}, but {left} goal{'' if left == 1 else 's'} left out"
+            if report.creeping:
+                yet = f"bounds still move at {_listed(report.creeping)}, so values may not exist"
+                return f"no plan known: all flaws are resolved after {count}, {force}, but {yet}"
             return f"plan found after {count}, {force}"
         case "timeout":
             return f"no plan found yet: stopped after {count}, {force}"

@@ -170,6 +170,25 @@ def test_values_that_the_search_found_are_shown(tmp_path: Path, capsys: pytest.C
     assert "x         1\ny         2\n\nplan found" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("step", "verdict"),
+    [
+        ("0.1", "no plan exists: all choices fail, after 0 steps"),
+        (
+            "0.0001",
+            "no plan known: all flaws are resolved after 0 steps, 0 decisions in force, but bounds still move at "
+            "model.nddl:4, so values may not exist",
+        ),
+    ],
+)
+def test_what_propagation_left_off_is_carried_on_or_told(
+    step: str, verdict: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = f"float a = [0.0 100.0];\nfloat b = [0.0 100.0];\na == b + {step};\na == b;\n"
+    assert planned(tmp_path, text) == 1
+    assert capsys.readouterr().out.endswith(verdict + "\n")
+
+
 @pytest.mark.parametrize("width", [40, 60, 80, 200])
 def test_lines_are_no_wider_than_the_terminal(
     width: int, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch

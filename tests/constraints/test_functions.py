@@ -75,6 +75,8 @@ def test_a_function_of_known_arguments_gives_its_value(op: int, arguments: list[
         (opcodes.OP_MOD, [1.0, 0.0]),
         (opcodes.OP_POW, [-8.0, 0.5]),
         (opcodes.OP_POW, [0.0, -1.0]),
+        (opcodes.OP_LOGF, [0.0]),
+        (opcodes.OP_LOGF, [-1.0]),
     ],
 )
 def test_a_function_without_a_value_is_a_conflict(op: int, arguments: list[float]) -> None:

@@ -11,7 +11,7 @@ cdef long long KIND_FLOAT, OP_ABSF, OP_CEILF, OP_CIRCLE_MOD, OP_COSF, OP_DEG_TO_
 cdef long long OP_LOGF, OP_MAXF, OP_MINF, OP_SIN, OP_SINF, OP_SQRTF, OP_TICK_DATE, OP_WGS_DISPLACE
 cdef long long OP_WGS_DISPLACEMENT, SUPPORT_CONSTRAINT
 cdef double _DEGREE, _DISTANCE_TOLERANCE, FLOAT_TOLERANCE, _LEAST_METRES_PER_DEGREE, _METRES_PER_DEGREE, _POSITION_TOLERANCE
-cdef double _SLACK, STRICT_STEP, inf
+cdef double _LEAST, _SLACK, STRICT_STEP, inf
 
 
 @cython.locals(first="long long", op="long long", r="long long", x="long long")

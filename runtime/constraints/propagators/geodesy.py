@@ -35,6 +35,7 @@ from runtime.constraints.propagators.opcodes import (
 from runtime.constraints.propagators.reals import down, hold_absolute, hold_extreme, up, within
 
 _SLACK = 1e-9
+_LEAST = 1.0  # what a number without a logarithm is narrowed to: nothing is left
 _POSITION_TOLERANCE = 5e-7
 _DISTANCE_TOLERANCE = 0.5
 _DEGREE = math.pi / 180.0
@@ -68,6 +69,8 @@ def propagate_geodesy(s: Store, c: int) -> bool:
     if op == OP_EXPF:
         return _hold_exponential(s, r, x, support)
     if op == OP_LOGF:
+        if high(s, x) <= 0.0:  # within the tolerance of the exponential, but no logarithm
+            return bool(raise_to(s, x, _LEAST, support))
         return _hold_exponential(s, x, r, support)
     if op == OP_DEG_TO_RAD:
         return _scale(s, r, x, _DEGREE, support)

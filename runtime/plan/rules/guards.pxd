@@ -2,7 +2,7 @@
 
 cimport cython
 from runtime.constraints.domains.base_domain cimport is_growing
-from runtime.plan.store.scopes cimport constraint
+from runtime.plan.store.scopes cimport constraint, new_inputs
 from runtime.plan.store.operands cimport member
 from runtime.plan.store.plan cimport Plan
 

@@ -5,7 +5,7 @@ from runtime.constraints.domains.tags import KIND_OBJECT
 from runtime.constraints.propagators.opcodes import OP_WATCH
 from runtime.plan.store.operands import member
 from runtime.plan.store.plan import Plan
-from runtime.plan.store.scopes import constraint
+from runtime.plan.store.scopes import constraint, new_inputs
 from runtime.plan.tags import BRANCH_ELSE, BRANCH_THEN, BRANCH_WAITING, MERGED, NONE, ROLE_TOKEN, SCOPE_GUARD, STATE
 
 
@@ -17,11 +17,7 @@ def wait(plan: Plan, scope: int, at: int, condition: int, first: int, span: int)
         SCOPE_GUARD, owner, rows.scope_rule[scope], scope, rows.scope_slots[scope], rows.scope_size[scope]
     )
     count = plan.operands_used - first
-    inputs = rows.new_cells(count + 2)
-    rows.cells[inputs] = count
-    rows.cells[inputs + 1] = condition
-    for i in range(count):
-        rows.cells[inputs + 2 + i] = plan.operands[first + i]
+    inputs = new_inputs(plan, condition, first, count)
     plan.operands_used = first
     _listen(plan, condition)
     for i in range(count):
@@ -30,8 +26,7 @@ def wait(plan: Plan, scope: int, at: int, condition: int, first: int, span: int)
         plan.await_variable(plan.operands[position])
     watch = constraint(plan, s, OP_WATCH, first, span)
     plan.note_watch(watch, s)
-    rows.scope_at[s] = at
-    rows.set_inputs(s, inputs, watch)
+    rows.set_guard(s, at, inputs, watch)
     plan.enqueue(s)
 
 

@@ -48,7 +48,7 @@ def run(plan: Plan) -> bool:
         at = plan.stack_at[top]
         scope = plan.stack_scope[top]
         if plan.stack_slot[top] >= 0:
-            rows.cells[rows.scope_frame[scope] + plan.stack_slot[top]] = plan.stack_value[top]
+            rows.set_slot(scope, plan.stack_slot[top], plan.stack_value[top])
             plan.stack_slot[top] = NONE
         if at == plan.stack_end[top]:
             plan.stack_length = top
@@ -88,7 +88,7 @@ def _step(plan: Plan, scope: int, at: int) -> int:
     slot = plan.code[at + 2]
     v = plan.services.make_object(scope, plan.code[at + 3])
     if slot >= 0:
-        plan.rows.cells[plan.rows.scope_frame[scope] + slot] = v
+        plan.rows.set_slot(scope, slot, v)
     return 4
 
 
@@ -99,7 +99,7 @@ def _variable(plan: Plan, scope: int, at: int, span: int) -> int:
     if plan.code[at + 5] != IN_NONE:
         source = operand(plan, scope, plan.code[at + 5], plan.code[at + 6], span)
         restrict(plan, scope, v, source, span)
-    plan.rows.cells[plan.rows.scope_frame[scope] + plan.code[at + 2]] = v
+    plan.rows.set_slot(scope, plan.code[at + 2], v)
     return 7
 
 
@@ -157,12 +157,10 @@ def _child(plan: Plan, scope: int, at: int, span: int) -> int:
     if mode == OBJECT_OWN:
         predicate = own_predicate(plan, predicate, parent)
     t = make_token(plan, predicate, flags, parent, scope, given, span)
-    rows.label[t] = plan.code[at + 4]
-    rows.relation[t] = plan.code[at + 9]
-    tokens = rows.scope_frame[scope] + rows.scope_slots[scope]
-    origin = rows.cells[tokens + plan.code[at + 10]]
-    rows.origin[t] = origin
-    rows.cells[tokens + plan.code[at + 2]] = t
+    tokens = rows.scope_slots[scope]
+    origin = rows.cells[rows.scope_frame[scope] + tokens + plan.code[at + 10]]
+    rows.set_asking(t, plan.code[at + 4], plan.code[at + 9], origin)
+    rows.set_slot(scope, tokens + plan.code[at + 2], t)
     relate(plan, scope, plan.code[at + 9], origin, t, at + 11, span)
     return 12 + 2 * plan.code[at + 11]
 

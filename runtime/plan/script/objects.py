@@ -199,9 +199,8 @@ class Objects:
             return None
         constructor = self.constructors[number][chosen]
         scope = plan.rows.new_scope(SCOPE_SCRIPT, NONE, NONE, NONE, constructor.slots, constructor.slots)
-        frame = plan.rows.scope_frame[scope]
         for slot, (prototype, argument) in enumerate(zip(constructor.parameters, arguments, strict=True)):
-            plan.rows.cells[frame + slot] = copy_current(plan, prototype, argument)
+            plan.rows.set_slot(scope, slot, copy_current(plan, prototype, argument))
         outer = plan.self_object
         fault: Diagnostic | None = None
         for step in constructor.steps:

@@ -143,8 +143,7 @@ class Script:
             t = make_token(plan, predicate, _KINDS[new.kind], NONE, NONE, given, span)
             if new.label is not None:
                 self.labels[t] = new.label
-            rows = plan.rows
-            rows.cells[rows.scope_frame[self.scope] + self.program.script_slots + new.slot] = t
+            plan.rows.set_slot(self.scope, self.program.script_slots + new.slot, t)
             return None
 
         return act

@@ -119,7 +119,7 @@ def undo(rows: Rows, length: int) -> None:
             rows.scope_branch[index] = old
         elif code == UNDO_INPUTS:
             rows.scope_inputs[index] = NONE
-            rows.scope_watch[index] = NONE
+            rows.forget_watch(index)
         elif code == UNDO_MERGED:
             rows.merged[old] = rows.merged_next[index]
             rows.merged_into[index] = NONE
@@ -144,7 +144,7 @@ def _undo_token(rows: Rows, t: int) -> None:
 
 def _undo_scope(rows: Rows, s: int) -> None:
     """Take back the making of `s`, the latest scope."""
-    rows.scope_watch[s] = NONE
+    rows.forget_watch(s)
     if rows.scope_token[s] >= 0:
         rows.scopes[rows.scope_token[s]] = rows.scope_next[s]
     if s == rows.scope_count - 1:

@@ -58,6 +58,8 @@ cdef class Plan:
 
     cpdef int await_variable(self, long long v) except -1
 
+    cpdef int end_waiting(self, long long watch) except -1
+
     cpdef int forget_awaited(self, long long count) except -1
 
     cpdef int note_variable(self, long long v, long long role, long long owner, long long name) except -1

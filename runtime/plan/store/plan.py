@@ -230,6 +230,11 @@ class Plan:
             self.awaited[self.awaited_count] = v
             self.awaited_count += 1
 
+    def end_waiting(self, watch: int) -> None:
+        """Count that a guard, or the follower of a merged token, waits no more for what `watch` listens to."""
+        for v in self.engine.arguments(watch):
+            self.variable_guards[v] -= 1
+
     def forget_awaited(self, count: int) -> None:
         """Go back to where a search had made `count` variables awaited."""
         while self.awaited_count > count:

@@ -59,7 +59,15 @@ cdef class Rows:
 
     cpdef int set_branch(self, long long s, long long branch) except -1
 
-    cpdef int set_inputs(self, long long s, long long inputs, long long watch) except -1
+    cpdef int set_guard(self, long long s, long long at, long long inputs, long long watch) except -1
+
+    cpdef int forget_watch(self, long long s) except -1
+
+    cpdef int set_slot(self, long long s, long long slot, long long value) except -1
+
+    cpdef int set_variables(self, long long t, long long first, long long width) except -1
+
+    cpdef int set_asking(self, long long t, long long label, long long relation, long long origin) except -1
 
     cpdef int hold(self, long long s, long long kind, long long identity, long long extent) except -1
 

@@ -153,6 +153,17 @@ class Rows:
             self.log(UNDO_NEW_TOKEN, t, 0)
         return t
 
+    def set_variables(self, t: int, first: int, width: int) -> None:
+        """Note the variables of `t`: `width` of them from `first` on."""
+        self.var0[t] = first
+        self.width[t] = width
+
+    def set_asking(self, t: int, label: int, relation: int, origin: int) -> None:
+        """Note how a rule asked for `t`: its name there, and its relation to the token `origin`."""
+        self.label[t] = label
+        self.relation[t] = relation
+        self.origin[t] = origin
+
     def release_token(self, t: int) -> None:
         """Give the row of `t` back; nothing may name it any more (level 0)."""
         if self.parent[t] >= 0:
@@ -243,13 +254,9 @@ class Rows:
         self.scope_branch[s] = 0
         self.scope_watch[s] = NONE
         self.scope_inputs[s] = NONE
-        if parent >= 0:
-            source = self.scope_frame[parent]
-            for offset in range(size):
-                self.cells[frame + offset] = self.cells[source + offset]
-        else:
-            for offset in range(size):
-                self.cells[frame + offset] = NONE
+        source = self.scope_frame[parent] if parent >= 0 else NONE
+        for offset in range(size):
+            self.cells[frame + offset] = self.cells[source + offset] if parent >= 0 else NONE
         if token >= 0:
             self.scope_next[s] = self.scopes[token]
             self.scopes[token] = s
@@ -263,7 +270,7 @@ class Rows:
         inputs = self.scope_inputs[s]
         if inputs >= 0:
             self._release_cells(inputs, self.cells[inputs] + 2)
-        self.scope_watch[s] = NONE
+        self.forget_watch(s)
         self.scope_next[s] = self.free_scope
         self.free_scope = s
 
@@ -273,12 +280,21 @@ class Rows:
             self.log(UNDO_BRANCH, s, self.scope_branch[s])
         self.scope_branch[s] = branch
 
-    def set_inputs(self, s: int, inputs: int, watch: int) -> None:
-        """Note the variables that decide a guard, and the constraint that listens to them."""
+    def set_guard(self, s: int, at: int, inputs: int, watch: int) -> None:
+        """Note a guard's instruction, the variables that decide it, and the constraint that listens to them."""
         if self.level:
             self.log(UNDO_INPUTS, s, 0)
+        self.scope_at[s] = at
         self.scope_inputs[s] = inputs
         self.scope_watch[s] = watch
+
+    def forget_watch(self, s: int) -> None:
+        """Note that no constraint listens for scope `s` any more."""
+        self.scope_watch[s] = NONE
+
+    def set_slot(self, s: int, slot: int, value: int) -> None:
+        """Put a variable or a token into a slot of the frame of `s`."""
+        self.cells[self.scope_frame[s] + slot] = value
 
     def hold(self, s: int, kind: int, identity: int, extent: int) -> int:
         """Hang an edge, a constraint, variables or a decision on scope `s`; nothing hangs on that of the script."""

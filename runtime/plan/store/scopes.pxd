@@ -23,6 +23,9 @@ cpdef long long constraint(
 ) except? -1
 
 
+cpdef long long new_inputs(Plan plan, long long condition, long long first, long long count) except? -1
+
+
 cpdef long long post_two(
     Plan plan, long long scope, long long operation, long long a, long long b, long long span
 ) except? -1

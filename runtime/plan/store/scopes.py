@@ -50,6 +50,17 @@ def constraint(plan: Plan, scope: int, operation: int, first: int, span: int) ->
     return c
 
 
+def new_inputs(plan: Plan, condition: int, first: int, count: int) -> int:
+    """Take cells for what decides a guard: how many operands from `first` on, its condition, these operands."""
+    rows = plan.rows
+    start = rows.new_cells(count + 2)
+    rows.cells[start] = count
+    rows.cells[start + 1] = condition
+    for i in range(count):
+        rows.cells[start + 2 + i] = plan.operands[first + i]
+    return start
+
+
 def post_two(plan: Plan, scope: int, operation: int, a: int, b: int, span: int) -> int:
     """Post a constraint on two variables."""
     first = plan.operands_used

@@ -233,12 +233,10 @@ def _keep_domain(plan: Plan, v: int, supports: set[int]) -> bool:
     is_real = engine.kind[v] == KIND_FLOAT
     if lower in supports:
         bound = engine.flo[v] if is_real else engine.lower(v)
-        engine.restrict_base(v, bound, float("inf"), _span_of(plan, lower), owner)
-        engine.restriction_flags[engine.newest_restriction] = FLAG_FROZEN
+        engine.freeze_base(v, bound, float("inf"), _span_of(plan, lower), owner)
     if upper in supports:
         bound = engine.fhi[v] if is_real else engine.upper(v)
-        engine.restrict_base(v, -float("inf"), bound, _span_of(plan, upper), owner)
-        engine.restriction_flags[engine.newest_restriction] = FLAG_FROZEN
+        engine.freeze_base(v, -float("inf"), bound, _span_of(plan, upper), owner)
     return lower in supports or upper in supports
 
 

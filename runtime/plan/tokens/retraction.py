@@ -176,8 +176,7 @@ def _collect_holds(plan: Plan, s: int, sweep: _Sweep) -> None:
     """Collect what one scope holds, and give the holds back."""
     rows = plan.rows
     if rows.scope_watch[s] >= 0:
-        for v in plan.engine.arguments(rows.scope_watch[s]):
-            plan.variable_guards[v] -= 1
+        plan.end_waiting(rows.scope_watch[s])
     while rows.scope_holds[s] >= 0:
         h = rows.scope_holds[s]
         kind = rows.hold_kind[h]
@@ -186,7 +185,7 @@ def _collect_holds(plan: Plan, s: int, sweep: _Sweep) -> None:
         elif kind == HOLDS_CONSTRAINT:
             c = rows.hold_id[h]
             if rows.scope_kind[s] == SCOPE_MERGE and plan.engine.op[c] == OP_WATCH:
-                plan.variable_guards[plan.engine.arguments(c)[0]] -= 1
+                plan.end_waiting(c)
             sweep.constraints.append(c)
         elif kind == HOLDS_RESTRICTION:
             sweep.restrictions.append(rows.hold_id[h])
@@ -279,9 +278,8 @@ def _drop_held(plan: Plan, s: int, edges: set[int], constraints: set[int], restr
     rows = plan.rows
     watch = rows.scope_watch[s]
     if watch >= 0 and watch in constraints:
-        for v in plan.engine.arguments(watch):
-            plan.variable_guards[v] -= 1
-        rows.scope_watch[s] = NONE  # what the guard has chosen stays
+        plan.end_waiting(watch)
+        rows.forget_watch(s)  # what the guard has chosen stays
     h = rows.scope_holds[s]
     while h >= 0:
         following = rows.hold_next[h]

@@ -41,8 +41,7 @@ def make_token(plan: Plan, predicate: int, flags: int, parent: int, creator: int
     t = rows.new_token(predicate, flags, parent, creator, span)
     count = plan.parameter_count[predicate]
     first = engine.reserve(FIRST_PARAMETER + count)
-    rows.var0[t] = first
-    rows.width[t] = FIRST_PARAMETER + count
+    rows.set_variables(t, first, FIRST_PARAMETER + count)
     state = plan.state_prototype
     if flags & FLAG_NATIVE:
         state = plan.native_prototype
@@ -67,7 +66,7 @@ def make_token(plan: Plan, predicate: int, flags: int, parent: int, creator: int
     size = plan.body_slots[predicate] + plan.body_tokens[predicate]
     scope = rows.new_scope(SCOPE_BODY, t, NONE, NONE, plan.body_slots[predicate], size)
     if size > plan.body_slots[predicate]:
-        rows.cells[rows.scope_frame[scope] + plan.body_slots[predicate]] = t
+        rows.set_slot(scope, plan.body_slots[predicate], t)
     for k in range(count):
         if plan.parameter_copy_kind[start + k] != IN_NONE:
             value = plan.parameter_copy_value[start + k]
@@ -113,7 +112,7 @@ def activation(plan: Plan, t: int, span: int) -> bool:
         if plan.rule_declared[rule] <= plan.statement:
             slots = plan.rule_slots[rule]
             s = rows.new_scope(SCOPE_RULE, t, rule, NONE, slots, slots + plan.rule_tokens[rule])
-            rows.cells[rows.scope_frame[s] + slots] = t
+            rows.set_slot(s, slots, t)
             made += 1
     # The latest scope stands first on the token's list: pushed in this order, the ancestor's rule is on top.
     s = rows.scopes[t]

@@ -189,7 +189,7 @@ class ConflictAnalysis(SupportWalk):
         engine = self.engine
         support = engine.conflict_support
         if engine.consistent or support < 0 or self.agenda.plan.loops_read_choices:
-            self.stack.reasons[d] = EVERYTHING
+            self.stack.rest_on_everything(d)
             return False
         self.begin()
         v = engine.conflict_variable
@@ -201,7 +201,7 @@ class ConflictAnalysis(SupportWalk):
                 self.ask_domain(v)
         elif engine.op[support >> 2] == OP_EXTERNAL and isinstance(engine.externals[support >> 2], Violation):
             if not self._explain_violation(support >> 2, d):
-                self.stack.reasons[d] = EVERYTHING
+                self.stack.rest_on_everything(d)
                 return False
         else:
             self.visit_support(support)
@@ -238,7 +238,7 @@ class ConflictAnalysis(SupportWalk):
         stack = self.stack
         if stack.reasons[d] == EVERYTHING:
             if d > 0:
-                stack.reasons[d - 1] = EVERYTHING
+                stack.rest_on_everything(d - 1)
             return d - 1
         latest = 0
         reason = stack.reasons[d]
