@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from runtime.determined.tags import CAUSE, EVENT, FAR, ROW, SHOWN
 
 _MOST_KEPT = 3  # pieces of memory of each kind
-Array = NDArray[Any]
+_Array = NDArray[Any]
 
 
 class _Stock:
@@ -21,9 +21,9 @@ class _Stock:
 
     def __init__(self, kind: type) -> None:
         self.kind = kind
-        self.owned: list[tuple[Array, weakref.ref[Array]]] = []  # the smallest first
+        self.owned: list[tuple[_Array, weakref.ref[_Array]]] = []  # the smallest first
 
-    def room(self, least: int) -> memoryview:
+    def room(self, least: int) -> "memoryview[Any]":
         """Room for `least` numbers or more, whatever they are."""
         idle = [k for k, (memory, lease) in enumerate(self.owned) if lease() is None and len(memory) >= least]
         memory = self.owned.pop(idle[len(idle) - 1])[0] if idle else np.empty(least, self.kind)
@@ -31,10 +31,10 @@ class _Stock:
         self.owned.append((memory, weakref.ref(lease)))
         self.owned.sort(key=_size)
         del self.owned[:-_MOST_KEPT]
-        return memoryview(lease)
+        return lease.data
 
 
-def _size(one: tuple[Array, object]) -> int:
+def _size(one: tuple[_Array, object]) -> int:
     return len(one[0])
 
 
@@ -45,10 +45,10 @@ class Log:
     """Arrays that grow by doubling; `told` has the rows that are part of the trace, in the order of their events."""
 
     def __init__(self, lines: int) -> None:
-        self.rows = _WHOLE.room(ROW * 256)
-        self.values = _REAL.room(1024)
+        self.rows: memoryview[int] = _WHOLE.room(ROW * 256)
+        self.values: memoryview[float] = _REAL.room(1024)
         self.draws = array("q", bytes(8 * 2 * 64))  # tick, parameter
-        self.told = _WHOLE.room(256)
+        self.told: memoryview[int] = _WHOLE.room(256)
         self.latest = array("q", [-1]) * lines  # the latest event of each timeline
         self.order = array("q", bytes(8 * lines))  # own timelines, as they are told
         self.shown = 0  # how many of them

@@ -6,8 +6,7 @@ the block of what starts in its place, timelines in causal order. It stops at wh
 value that is not known, a constraint that does not hold, bounds without a value. What it has written by then is void;
 who runs it goes back to a snapshot, or hands over to the general engine.
 
-The operations are those of `compiler.determined.code`; their numbers are written out, so that the C compiler makes a
-jump table of them.
+The operations are those of `compiler.determined.code`, by numbers of which the C compiler makes a jump table.
 """
 
 import math
@@ -336,8 +335,10 @@ class Machine:
                 if r[out] != 0.0:
                     at = 8 * a
             elif op == 31:  # DRAW
-                if self.sample_until[a] <= self.present.now and not self.draw(a):
-                    return False
+                if self.sample_until[a] <= self.present.now:
+                    if not self.world.draw(self, a, self.present.now):  # type: ignore[attr-defined]
+                        return False
+                    self.log.note_draw(self.present.now, a)
                 r[out] = self.sample_value[a]
             elif not self.arrange(op, out, a, b, at):
                 return False
@@ -396,11 +397,4 @@ class Machine:
             present.state[LEAST * n + slot] = bound
         if op != 37 and bound < present.state[MOST * n + slot]:  # LAST_EXACTLY, LAST_MOST
             present.state[MOST * n + slot] = bound
-        return True
-
-    def draw(self, parameter: int) -> bool:
-        """Have the world draw a parameter anew."""
-        if not self.world.draw(self, parameter, self.present.now):  # type: ignore[attr-defined]
-            return False
-        self.log.note_draw(self.present.now, parameter)
         return True

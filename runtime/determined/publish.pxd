@@ -16,7 +16,7 @@ cdef class Samples:
     cpdef bint draw(self, Machine machine, long long parameter, long long tick) except -1
 
 
-cdef class Told:
+cdef class _Told:
     cdef public str name
     cdef public object program
     cdef public Log log

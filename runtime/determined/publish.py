@@ -52,7 +52,7 @@ class Samples:
         return True
 
 
-class Told:
+class _Told:
     """What was told of a log, as the columns that a trace expands."""
 
     def __init__(self, name: str, program: RegisterProgram, log: Log) -> None:
@@ -107,7 +107,7 @@ class Publisher:
         self.log = log
         self.samples = samples
         self.trace = trace
-        self.columns = Told(name, program, log)
+        self.columns = _Told(name, program, log)
         for k, line in enumerate(program.internal):
             log.order[k] = line
         log.shown = len(program.internal)

@@ -11,7 +11,6 @@ from runtime.determined.asking import Ask, ask, ask_instead
 from runtime.determined.expand import expand, record_of
 from runtime.determined.inputs import Inputs, catch_up, take_over
 from runtime.determined.loading import RegisterProgram
-from runtime.determined.machine import Machine
 from runtime.determined.publish import Publisher, Samples, Wish
 from runtime.determined.tags import FAR, NONE, ROW, STOPS
 from runtime.executive.configuration import ReactorConfiguration
