@@ -60,7 +60,7 @@ class Machine:
         self.previous = array("q", bytes(8 * lines))
         self.remembers = array("q", bytes(8 * lines))
         self.starts = array("q", bytes(8 * lines))
-        self.is_trial = False  # a start is tried out: nothing else is about to end
+        self.is_trial = False  # is a start tried out, when nothing else is about to end
         self.is_planned = False  # what starts was asked for or followed, it is not the default
         self.width = array("q", bytes(8 * lines))
         self.default_block = array("q", bytes(8 * lines))
@@ -127,12 +127,11 @@ class Machine:
             if present.state[FOLLOWER * n + i] >= 0 and present.state[ENDING * n + present.state[OWNER * n + i]]:
                 present.state[DUE * n + i] = present.state[FOLLOWER * n + i]
                 present.state[FOLLOWER * n + i] = NONE
-                if present.state[OWNER * n + i] == i:
-                    continue
-                first = self.following[i]
-                into = self.incoming[i]
-                for j in range(self.width[i]):
-                    self.registers[into + j] = self.registers[first + j]
+                if present.state[OWNER * n + i] != i:
+                    first = self.following[i]
+                    into = self.incoming[i]
+                    for j in range(self.width[i]):
+                        self.registers[into + j] = self.registers[first + j]
         for k in range(n):
             i = self.order[k]
             if i < 0:
@@ -340,8 +339,9 @@ class Machine:
                         return False
                     self.log.note_draw(self.present.now, a)
                 r[out] = self.sample_value[a]
-            elif not self.arrange(op, out, a, b, at):
-                return False
+            else:
+                if not self.arrange(op, out, a, b, at):
+                    return False
 
     def arrange(self, op: int, line: int, a: int, b: int, at: int) -> bool:
         """Operations on timelines; false where they are not possible."""
