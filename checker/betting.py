@@ -15,7 +15,7 @@ from checker.statistics import DIGITS, Interval
 
 # The share of the stake that each bet may lose.
 _BETS = np.array([0.999, 0.98, 0.9, 0.75, *(0.5**power for power in range(1, 12))])
-_HALVINGS = 60
+_FINE = 0.01 * 10.0**-DIGITS  # at which halving ends
 _LEAST = 1e-12
 
 
@@ -23,7 +23,7 @@ def betting_interval(values: Sequence[float], most: float, confidence: float) ->
     """The interval for the mean of `values`, each in [0, `most`], with that mean given all before it."""
     array = np.asarray(values, dtype=float)
     positive, zeros = array[array > 0.0], int((array <= 0.0).sum())
-    needed = math.log(2.0 / (1.0 - confidence))
+    needed = log_stake(confidence)
     lower, upper = 0.0, 1.0
     if len(positive):
         # Bets that p is too small: 1 + c (x / p - 1).
@@ -48,14 +48,33 @@ def betting_interval(values: Sequence[float], most: float, confidence: float) ->
     return (max(0.0, math.floor(lower * 10**DIGITS) / 10**DIGITS), min(1.0, round(upper, DIGITS)))
 
 
+def log_stake(confidence: float) -> float:
+    """The logarithm of the wealth at which a mean is ruled out."""
+    return math.log(2.0 / (1.0 - confidence))
+
+
+def log_wealth(values: Sequence[float], most: float, mean: float) -> tuple[np.ndarray, np.ndarray]:
+    """After each value, the logarithms of what is won by bets that the mean is above `mean`, and that it is below."""
+    array = np.asarray(values, dtype=float)
+    stakes = _BETS[:, None]
+    above = np.log1p(stakes * (array / max(mean, _LEAST) - 1.0)).cumsum(axis=1)
+    below = np.log(np.maximum(1.0 + stakes * (mean - array) / max(most - mean, _LEAST), 1e-300)).cumsum(axis=1)
+    return _mixtures(above), _mixtures(below)
+
+
+def _mixtures(logs: np.ndarray) -> np.ndarray:
+    """Of bets in rows: the logarithm of the mean of each column."""
+    top = logs.max(axis=0)
+    return np.asarray(top + np.log(np.exp(logs - top).mean(axis=0)))
+
+
 def _mixture(logs: np.ndarray) -> float:
-    top = float(logs.max())
-    return top + math.log(float(np.exp(logs - top).mean()))
+    return float(_mixtures(logs[:, None])[0])
 
 
 def _cross(falling: Callable[[float], float], lower: float, upper: float, level: float) -> float:
     """Where a decreasing function falls below `level`, by halving."""
-    for _ in range(_HALVINGS):
+    while upper - lower > _FINE:
         middle = (lower + upper) / 2.0
         if falling(middle) >= level:
             lower = middle

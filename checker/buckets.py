@@ -1,6 +1,7 @@
 """Failed missions in, groups out: what the same line of the model is to blame for counts as one fault."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 from checker.batch.result import MissionResult
 from checker.causes import Culprit, culprit_of, failed_by
@@ -17,7 +18,8 @@ Key = tuple[str, str, int, tuple[str, ...]]
 class Bucket:
     """Missions that failed alike. `share` is that of all ordinary missions; `example` is the first of them.
 
-    `judgement` and `open_goals` are those of the example.
+    `judgement` and `open_goals` are those of the example. Where several groups turned out to be of one fault, `parts`
+    are their examples, and the first of them stands for all.
     """
 
     judgement: Judgement
@@ -28,6 +30,8 @@ class Bucket:
     share: float
     first_tick: int
     last_tick: int
+    keys: frozenset[Key]
+    parts: tuple[int, ...]
 
     @property
     def code(self) -> str:
@@ -37,7 +41,11 @@ class Bucket:
     @property
     def example(self) -> int:
         """The mission that stands for all."""
-        return self.missions[0]
+        return self.parts[0]
+
+    def holds(self, result: MissionResult) -> bool:
+        """Whether a failed mission failed as these did."""
+        return bucket_key(result) in self.keys
 
 
 def bucket_key(result: MissionResult) -> Key:
@@ -101,4 +109,19 @@ def _bucket(members: list[MissionResult], counted: int) -> Bucket:
         round(len(members) / counted, 9),
         min(ticks),
         max(ticks),
+        frozenset({bucket_key(members[0])}),
+        (members[0].number,),
+    )
+
+
+def joined(buckets: Sequence[Bucket]) -> Bucket:
+    """Several buckets as one; the first stands for all."""
+    return replace(
+        buckets[0],
+        missions=tuple(sorted(number for one in buckets for number in one.missions)),
+        share=round(sum(one.share for one in buckets), 9),
+        first_tick=min(one.first_tick for one in buckets),
+        last_tick=max(one.last_tick for one in buckets),
+        keys=frozenset(key for one in buckets for key in one.keys),
+        parts=tuple(part for one in buckets for part in one.parts),
     )

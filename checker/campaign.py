@@ -1,30 +1,31 @@
 """A mission and how to fly it in, the findings of a whole run out; what is finished is stored as it comes."""
 
+import math
 import time
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from pathlib import Path
 from signal import Signals
 
 from checker.batch.identity import engine_digest, model_digest, run_id
-from checker.batch.pool import Flyer, FlyTasks, fly_all, nothing_more
+from checker.batch.pool import Batch, FlyBatch, Flyer, fly_all, nothing_more
 from checker.batch.progress import Progress
-from checker.batch.result import KeptFailure, MissionResult
+from checker.batch.result import MissionResult
 from checker.batch.store import Run, RunStore
 from checker.batch.worker import Load, Task, fly_one
 from checker.buckets import Key, bucket_key
 from checker.conditions.record import Conditions
 from checker.contrast import Contrast, find_contrast
-from checker.counterfactual.ranking import Causes, rank
-from checker.counterfactual.search import Suspended, find_causes
-from checker.counterfactual.trials import Bounds, Missions
+from checker.counterfactual.search import CauseSearch, Suspended
+from checker.counterfactual.trials import Bounds
+from checker.drawn import Drawn, drawn_paths
 from checker.findings import RANDOMLY, Ending, Fault, Findings, Sampling, assess
 from checker.mission import Mission
 from checker.models import ModelSet
 from checker.oracle import Verdict, judge_losses
-from checker.regression import RegressionCase, agent_of
+from checker.proofs.places import ModelText, text_of
+from checker.regression import FlownCase, RegressionCase
 from checker.report.timelines import Pair
 from checker.sampling.sampler import RANDOM_POINT, RandomSampler, Sampler, Setting, axes_of, with_point
 from checker.sampling.seeds import mission_seed
@@ -36,6 +37,7 @@ from runtime.executive.configuration import AgentConfiguration
 
 _MOST_STORIES = 8
 _MOST_PAIRS = 4
+_BY_THE_CLOCK = (Ending.SECONDS, Ending.SIGNAL)
 _MOST_ALIKE = 3  # failures of a bucket that are kept
 
 
@@ -60,6 +62,7 @@ class Flown:
     ending: Ending
     ended_by: Signals | None = None
     sampling: Sampling = RANDOMLY
+    cases: tuple[FlownCase, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -71,7 +74,7 @@ class Campaign:
     load: Load
     sampler_name: str = "random"
     make_sampler: Callable[[Setting], Sampler] = RandomSampler
-    fly_tasks: FlyTasks = fly_all
+    fly_batch: FlyBatch = fly_all
 
     @property
     def sampler(self) -> Sampler:
@@ -108,29 +111,30 @@ class Campaign:
         enough: Enough = _NO_BOUND,
         progress: Callable[[Progress], None] | None = None,
         keeps_failures: bool = True,
+        promoted: tuple[RegressionCase, ...] = (),
     ) -> Flown:
-        """Fly what is not in the store yet, or with `fresh` all of it again.
+        """Fly what is not in the store yet, or with `fresh` all of it again; `promoted` cases come first.
 
-        With `keeps_failures` those of earlier runs come first, and those of this one are kept.
+        With `keeps_failures` those of earlier runs follow, and those of this one are kept.
         """
         run, check = self.run, self.mission.check
         kept = store.begin(run, keep=not fresh) if store is not None else {}
         planned = min(check.missions, enough.missions or check.missions)
         kept = {number: result for number, result in kept.items() if number <= planned}
         failures = store.failures(run) if store is not None and keeps_failures else ()
-        watch = _Watch(self, run, kept, store, enough, progress, failures)
+        watch = _Watch(self, run, kept, store, enough, progress, (*promoted, *failures))
         ended_by = None
+        tasks = watch.schedule.more()
         if not watch.is_enough():
-            tasks = watch.schedule.more()
             more = nothing_more if watch.schedule.is_settled else watch.schedule.more
             if tasks:
                 agent, limit = self.models.agent, check.time_limit
-                ended_by = self.fly_tasks(self.load, agent, tasks, workers, limit, watch, more)
+                ended_by = self.fly_batch(Batch(self.load, agent, tasks, workers, limit, more), watch)
         if store is not None:
             store.flush()
         flown = watch.flown(ended_by)
         if store is not None and keeps_failures:
-            store.keep_failures(run, _worth_keeping(flown.results))
+            store.keep_failures(run, _worth_keeping(flown))
         return flown
 
     def assess(
@@ -142,14 +146,18 @@ class Campaign:
         focus: int | None = None,
         sampling: Sampling | None = None,
         bounds: Bounds | None = None,
+        seconds: float = math.inf,
         conditions: Conditions | None = None,
+        cases: tuple[FlownCase, ...] = (),
     ) -> Findings:
         """Judge the results; with `may_fly` conditions are sought and tested by flights.
 
-        With a `focus` that is done only for the fault that mission `focus` belongs to, and lines that may be its cause
-        are tried within `bounds`. Of `conditions` are those that are known already.
+        Lines that may be the cause of a fault are tried within `bounds`, for all faults together no longer than
+        `seconds`. With a `focus` all that is done only for the fault that mission `focus` belongs to. Of `conditions`
+        are those that are known already.
         """
         run, agent = self.run, self.models.agent
+        is_flying = may_fly and ending is not Ending.SIGNAL
         points = {result.number: result.point for result in results}
         with Flyer(self.load, agent, self.mission.check.time_limit) as flyer:
 
@@ -164,12 +172,14 @@ class Campaign:
                 run.seed,
                 run.missions,
                 [self.judged(result) for result in results],
-                refly if may_fly and ending is not Ending.SIGNAL else None,
+                refly if is_flying else None,
                 ending=ending,
                 focus=focus,
                 conditions=conditions,
+                text=self._text(),
+                cases=cases,
                 sampling=sampling or Sampling(self.sampler_name, self.sampler.most_weight),
-                find=partial(self._causes, flyer, bounds) if may_fly and bounds is not None else None,
+                seeker=self._seeker(flyer, bounds, seconds) if is_flying and bounds is not None else None,
             )
 
     def contrast(self, failed: MissionResult, results: tuple[MissionResult, ...]) -> Contrast | None:
@@ -181,26 +191,20 @@ class Campaign:
         """The simplest mission that fails as `failed` does; flown in this process."""
         return shrink(failed, results, with_point(self.models.agent, failed.point), self._traced)
 
-    def regressions(self, cases: tuple[RegressionCase, ...]) -> tuple[tuple[RegressionCase, MissionResult], ...]:
-        """The missions that are to pass, flown."""
-        agents = [(case, agent_of(case, self.models.agent)) for case in cases]
-        with Flyer(self.load, self.models.agent, self.mission.check.time_limit) as flyer:
-            flown = [(case, flyer.fly(agent, number, case.seed)) for number, (case, agent) in enumerate(agents, 1)]
-        return tuple((case, self.judged(result)) for case, result in flown)
-
     def _traced(self, agent: AgentConfiguration, number: int, seed: int) -> MissionResult:
         return self.judged(fly_one(self.load(agent), Task(number, seed), keep_trace=True))
 
-    def _causes(self, flyer: Flyer, bounds: Bounds, missions: Missions) -> Causes:
-        """The causes of one fault, tried on its missions."""
+    def _seeker(self, flyer: Flyer, bounds: Bounds, seconds: float) -> CauseSearch:
         agent = self.models.agent
         programs = [self.models.programs[each.model] for each in agent.reactors]
-        limits = self.mission.check.limits
-        return rank(find_causes(missions, Suspended(agent, programs, limits, flyer), bounds), Path(agent.root))
+        return CauseSearch(Suspended(agent, programs, self.mission.check.limits, flyer), bounds, seconds)
+
+    def _text(self) -> ModelText:
+        return text_of(self.models.agent, self.models.programs)
 
     def story(self, result: MissionResult, fault: Fault | None) -> Story:
         """Why a mission failed."""
-        return tell(result, self.models.agent, self.models.influence, fault)
+        return tell(result, self.models.agent, self.models.influence, fault, self._text())
 
     def pairs(self, findings: Findings) -> list[Pair | None]:
         """The example of each fault with a passing mission near to it, which is flown again for its events."""
@@ -218,6 +222,15 @@ class Campaign:
                 found.append(Pair(example, again) if again.outcome is not None else None)
         return found
 
+    def drawn(self, findings: Findings, pairs: Sequence[Pair | None]) -> Drawn | None:
+        """The paths that the mission file asks figures of."""
+        figures = self.mission.figures
+        if figures is None or findings.is_interrupted:
+            return None
+        agent = self.models.agent
+        with Flyer(self.load, agent, self.mission.check.time_limit) as flyer:
+            return drawn_paths(figures, agent, findings, pairs, flyer)
+
     def stories(self, findings: Findings) -> list[Story | None]:
         """The story of each fault's example; of very many faults, of the first ones."""
         by_number = {result.number: result for result in findings.results}
@@ -227,15 +240,16 @@ class Campaign:
         ]
 
 
-def _worth_keeping(results: tuple[MissionResult, ...]) -> list[MissionResult]:
-    """Of each bucket of failures the first ones, unless it has as many among the kept failures."""
-    found: Counter[Key] = Counter()
+def _worth_keeping(flown: Flown) -> list[MissionResult]:
+    """Of each bucket of failures the first ones, unless it has as many among the cases."""
+    cases = [one.result for one in flown.cases if one.result.verdict is Verdict.FAIL]
+    found: Counter[Key] = Counter(bucket_key(result) for result in cases)
     chosen = []
-    for result in results:  # kept failures come first
+    for result in flown.results:
         if result.verdict is Verdict.FAIL:
             key = bucket_key(result)
             found[key] += 1
-            if result.number > 0 and found[key] <= _MOST_ALIKE:
+            if found[key] <= _MOST_ALIKE:
                 chosen.append(result)
     return chosen
 
@@ -272,7 +286,7 @@ class _Watch:
         store: RunStore | None,
         enough: Enough,
         progress: Callable[[Progress], None] | None,
-        failures: tuple[KeptFailure, ...],
+        cases: tuple[RegressionCase, ...],
     ) -> None:
         self.campaign, self.run, self.store, self.enough, self.progress = campaign, run, store, enough, progress
         self.results = {number: campaign.judged(result) for number, result in kept.items()}
@@ -285,11 +299,12 @@ class _Watch:
         self.shown: bool | None = None  # what the stopping rule came to
         self.sampler = campaign.sampler
         seed = campaign.mission.check.seed
-        self.schedule = Schedule(campaign.models.agent, self.sampler, seed, self.planned, failures, self.results)
+        self.schedule = Schedule(campaign.models.agent, self.sampler, seed, self.planned, cases, self.results)
 
     def take(self, result: MissionResult) -> None:
         """Have one more result."""
-        if self.store is not None:
+        case = self.schedule.cases.get(result.number)
+        if self.store is not None and (case is None or not case.is_promoted):
             self.store.add(self.run, result)
         self.results[result.number] = self.campaign.judged(result)
 
@@ -306,7 +321,9 @@ class _Watch:
             self.failures_reached += following.verdict is Verdict.FAIL
             if self.enough.rule is not None:
                 self.shown = self.enough.rule.outcome(counted(self._first()), self.sampler.most_weight)
-        return (most is not None and seconds >= most) or not self._wants_more()
+        if most is not None and seconds >= most:
+            return True
+        return not self._wants_more() and len(self.schedule.flown_cases()) == len(self.schedule.cases)
 
     def _progress(self, seconds: float, most: float | None) -> Progress:
         flown = [result for number, result in self.results.items() if number > 0]
@@ -333,18 +350,18 @@ class _Watch:
         return self._flown(self._all(), Ending.COMPLETE)
 
     def _flown(self, results: tuple[MissionResult, ...], ending: Ending, ended_by: Signals | None = None) -> Flown:
-        """With the kept failures, and what the sampling allows to say.
+        """With the regression cases, and what the sampling allows to say.
 
-        An exact interval keeps its confidence where plain random missions end with the k-th failure, else not.
+        An exact interval keeps its confidence where plain random missions end with the last or the k-th failure; when
+        time is over, how long missions take has decided which of them count.
         """
-        kept = tuple(result for number, result in sorted(self.results.items(), reverse=True) if number < 0)
         rule = self.enough.rule
         is_plain = is_random([result.point for result in results])
-        is_sequential = rule is not None or (ending is Ending.FAILURES and not is_plain)
+        is_sequential = rule is not None or ending in _BY_THE_CLOCK or (ending is Ending.FAILURES and not is_plain)
         sampling = Sampling(
             self.campaign.sampler_name, self.sampler.most_weight, is_sequential, self.shown, rule.text if rule else ""
         )
-        return Flown((*kept, *results), ending, ended_by, sampling)
+        return Flown(results, ending, ended_by, sampling, self.schedule.flown_cases())
 
     def _all(self) -> tuple[MissionResult, ...]:
         return tuple(self.results[number] for number in sorted(self.results) if number > 0)

@@ -41,3 +41,5 @@ NO_TEXT_FILE = Code("NDDL724", Severity.ERROR, "include", "`{path}` is {what}, n
 ILL_BATCH = Code("NDDL725", Severity.ERROR, "syntax", "this is no batch file: {reason}")
 UNKNOWN_ELEMENT = Code("NDDL726", Severity.ERROR, "name", "no element `{tag}` in {parent}")
 NO_EFFECT = Code("NDDL727", Severity.WARNING, "name", "`{what}` has no effect here")
+NO_RESOURCE = Code("NDDL728", Severity.ERROR, "name", "no model has a resource `{name}`")
+NO_REACTOR = Code("NDDL729", Severity.ERROR, "name", "there is no reactor `{name}`")

@@ -80,7 +80,7 @@ class _Sites:
         return self.first + len(self.sites) - 1
 
     def note(self, run: BodyRun | RunColumns, at: _Branch, found: set[int]) -> None:
-        """Add the sites that a run of a body reached."""
+        """Add the sites that a run of a body, or that runs of it, reached."""
         found.add(at.site)
         forks = list(at.guards)
         loops = sum(fork.is_looped for fork in forks)
@@ -90,11 +90,23 @@ class _Sites:
             forks = [*forks[:before], *forks[before : before + loops] * max(rounds, 0), *forks[before + loops :]]
         guards: Sequence[GuardRun | GuardColumns] = run.guards
         for fork, guard in zip(forks, guards, strict=False):
-            branch = {"then": fork.then, "else": fork.otherwise}.get(guard.branch)
-            if branch is not None:
+            for branch, inner in _taken(fork, guard):
                 found.add(branch.site)
-                if guard.run is not None:
-                    self.note(guard.run, branch, found)
+                if inner is not None:
+                    self.note(inner, branch, found)
+
+
+def _taken(fork: _Fork, guard: GuardRun | GuardColumns) -> Iterator[tuple[_Branch, BodyRun | RunColumns | None]]:
+    """The branches of a guard that were taken, and what ran there."""
+    if isinstance(guard, GuardRun):
+        branch = {"then": fork.then, "else": fork.otherwise}.get(guard.branch)
+        if branch is not None:
+            yield branch, guard.run
+        return
+    if guard.is_true.any():
+        yield fork.then, guard.then
+    if not guard.is_true.all():
+        yield fork.otherwise, guard.otherwise
 
 
 class Universe:
@@ -144,8 +156,8 @@ def _held(reactor: ReactorRecord) -> set[tuple[str, str]]:
     if not isinstance(tokens, TokenColumns):
         return {(str(token.object), token.predicate) for token in tokens}
     count = len(tokens.names)
-    pairs = np.flatnonzero(np.bincount(tokens.times.objects * count + tokens.times.predicates)).tolist()
-    return {(tokens.names[pair // count], tokens.names[pair % count]) for pair in pairs}
+    pairs = np.flatnonzero(np.bincount(tokens.times.objects * count + tokens.times.predicates))
+    return {(tokens.names[pair // count], tokens.names[pair % count]) for pair in pairs.tolist()}
 
 
 _KNOWN: list[Universe] = []  # the last one: a worker flies one set of programs

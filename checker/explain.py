@@ -9,6 +9,7 @@ from checker.counterfactual.rendering import causes_data, claim_text, effort_tex
 from checker.excerpts import Excerpts
 from checker.findings import Fault
 from checker.oracle import CODE_NAMES
+from checker.proofs.conflict import Confirmation
 from checker.rendering import confirmation_text, failure_text, step_label, step_text
 from checker.sampling.rendering import number
 from checker.story import Step, StepKind, Story
@@ -33,8 +34,9 @@ def story_text(story: Story, run_id: str, excerpts: Excerpts, most: int = MOST_C
         lines += _step_lines(index, step, story, excerpts)
         if index < len(story.steps):
             lines.append(_ARROW)
-    if story.fault is not None:
-        lines += ["", *_fault_lines(story.fault, story.number)]
+    found = [f"z3 {confirmation_text(story.confirmation)}"] if story.confirmation is not None else []
+    found += _fault_lines(story.fault, story.number) if story.fault is not None else []
+    lines += ["", *found] if found else []
     return "\n".join(lines) + "\n"
 
 
@@ -73,8 +75,7 @@ def excerpt_lines(place: SourcePlace, excerpts: Excerpts, *, marked: bool = Fals
 
 
 def _fault_lines(fault: Fault, told: int) -> list[str]:
-    lines = [f"z3 {confirmation_text(fault)}"] if fault.confirmation is not None else []
-    lines += condition_lines(fault.condition) if fault.condition is not None else []
+    lines = condition_lines(fault.condition) if fault.condition is not None else []
     others = [str(mission) for mission in fault.bucket.missions if mission != told]
     if others:
         shown = ", ".join(others[:12]) + (", ..." if len(others) > 12 else "")
@@ -95,7 +96,7 @@ def story_data(story: Story, run_id: str, excerpts: Excerpts) -> dict[str, Any]:
         "final_tick": story.final_tick,
         "causes": None if fault is None else causes_data(fault.causes),
         "steps": [_step_data(step, story, excerpts) for step in story.steps],
-        "z3": None if fault is None else confirmation_data(fault),
+        "z3": confirmation_data(story.confirmation),
         "condition": None if fault is None else condition_data(fault.condition),
         "alike": [] if fault is None else list(fault.bucket.missions),
     }
@@ -140,9 +141,14 @@ def place_data(place: SourcePlace | None, excerpts: Excerpts) -> dict[str, Any] 
     return {"file": place.file, "line": place.line, "column": place.column, "text": excerpts.line(place).strip()}
 
 
-def confirmation_data(fault: Fault) -> dict[str, Any] | None:
+def confirmation_data(found: Confirmation | None) -> dict[str, Any] | None:
     """z3's word: its finding and the causes in the core."""
-    found = fault.confirmation
     if found is None:
         return None
-    return {"finding": found.finding.value, "core": list(found.core), "untranslated": list(found.untranslated)}
+    return {
+        "finding": found.finding.value,
+        "core": list(found.core),
+        "minimal": found.is_minimal,
+        "from_text": found.written,
+        "untranslated": list(found.untranslated),
+    }

@@ -1,29 +1,29 @@
 """All missions of a run in, what there is to say about it out: the rate, and each fault with its line and condition."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from checker.batch.result import MissionResult
-from checker.buckets import Bucket, group_failures
+from checker.buckets import Bucket, group_failures, joined
+from checker.causes import failed_by
 from checker.conditions.condition import Condition
 from checker.conditions.find import find_condition
 from checker.conditions.flights import Refly
 from checker.conditions.record import Conditions
-from checker.counterfactual.examples import examples_of
 from checker.counterfactual.ranking import NO_CAUSES, Causes
-from checker.counterfactual.trials import Missions
+from checker.faults import MOST_SOUGHT, Seeker, faults_of, missions_of
 from checker.mission import Mission
 from checker.oracle import Verdict
+from checker.proofs.conflict import Confirmation, confirm
+from checker.proofs.places import ModelText
 from checker.rate import Rate, judge_missions, rate_interval
+from checker.regression import FlownCase
 from checker.sensitivity import Sensitivity, sensitivities
-from checker.smt.confirm import Confirmation, confirm
 from checker.statistics import Interval
 from checker.tally import Tally, tally
 from runtime.executive.configuration import AgentConfiguration
-
-Find = Callable[[Missions], Causes]
-_MOST_SHARPENED = 8  # buckets whose conditions are sought by flying again; the rest must do with samples
+from runtime.executive.outcome import SourcePlace
 
 
 class Ending(StrEnum):
@@ -38,7 +38,7 @@ class Ending(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """A bucket of failures with what is known about it; `confirmation` is z3's word on the example's conflict.
+    """Failures of one cause with what is known about them; `confirmation` is z3's word on the example's conflict.
 
     `causes` are lines that were tried, empty where that was not asked for.
     """
@@ -48,6 +48,18 @@ class Fault:
     confirmation: Confirmation | None
     causes: Causes = NO_CAUSES
     interval: Interval | None = None  # of the rate of this fault alone
+
+    @property
+    def places(self) -> tuple[SourcePlace, ...]:
+        """The lines to look at: the likeliest cause, then where the example's conflict gave way, and what limits it."""
+        first = self.causes.first
+        found = [first.place] if first is not None else []
+        known = {(place.file, place.line) for place in found}
+        for place in (self.bucket.culprit.place, *self.bucket.culprit.limits):
+            if place is not None and (place.file, place.line) not in known:
+                known.add((place.file, place.line))
+                found.append(place)
+        return tuple(found)
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +92,8 @@ class Findings:
     ending: Ending
     sampling: Sampling = RANDOMLY
     sensitivities: tuple[Sensitivity, ...] = ()
-    kept: tuple[MissionResult, ...] = ()  # failures of earlier runs, flown first; they are in no percentage
+    cases: tuple[FlownCase, ...] = ()  # regression cases, flown first; they are in no percentage
+    is_stored: bool = True  # so that `nddlc explain` can tell more of it
 
     @property
     def is_interrupted(self) -> bool:
@@ -102,6 +115,11 @@ class Findings:
         return not (self.rate.exceeds or self.errors or self.is_interrupted)
 
 
+def regressed(cases: Sequence[FlownCase], limit: float) -> tuple[FlownCase, ...]:
+    """The cases that had to pass and did not: promoted ones, and where no mission may fail all."""
+    return tuple(one for one in cases if not one.passes and (one.case.is_promoted or limit == 0.0))
+
+
 def assess(
     mission: Mission,
     agent: AgentConfiguration,
@@ -114,17 +132,19 @@ def assess(
     ending: Ending = Ending.COMPLETE,
     focus: int | None = None,
     sampling: Sampling = RANDOMLY,
-    find: Find | None = None,
+    seeker: Seeker | None = None,
     conditions: Conditions | None = None,
+    text: ModelText | None = None,
+    cases: tuple[FlownCase, ...] = (),
 ) -> Findings:
     """Judge a run; `refly` flies single missions again with changed parameters, None where that is not wanted.
 
-    With a `focus` it does so only for the fault that mission `focus` belongs to, whose causes `find` then finds.
-    Of `conditions` are those that are known already.
+    With a `focus` it does so only for the fault that mission `focus` belongs to. So does `seeker`, which finds causes;
+    without a focus, buckets of one cause become one fault. Of `conditions` are those that are known already; `text` is
+    what z3 reads the meaning of lines from.
     """
     by_number = sorted(results, key=lambda result: result.number)
     ordered = tuple(result for result in by_number if result.number > 0)
-    kept = tuple(result for result in reversed(by_number) if result.number < 0)
     check = mission.check
     flown = [one for one in ordered if one.verdict is not Verdict.ERROR]
     rate = judge_missions(
@@ -134,11 +154,22 @@ def assess(
         most_weight=sampling.most_weight,
         is_sequential=sampling.is_sequential,
     )
-    if check.max_failure_rate == 0.0 and any(one.verdict is Verdict.FAIL for one in kept):
+    if regressed(cases, check.max_failure_rate):
         rate = replace(rate, exceeds=True, is_certain=True)
     faults: list[Fault] = []
-    for position, bucket in enumerate(group_failures(ordered)):
-        is_wanted = position < _MOST_SHARPENED if focus is None else focus in bucket.missions
+    buckets = _alike(group_failures(ordered), conditions or {})
+    if seeker is None:
+        sought = [(bucket, NO_CAUSES) for bucket in buckets]
+    elif focus is None:
+        sought = faults_of(buckets, ordered, seeker)
+    else:
+        sought = [
+            (one, seeker.causes(missions_of(one, ordered, focus)) if focus in one.missions else NO_CAUSES)
+            for one in buckets
+        ]
+    sought.sort(key=lambda one: -len(one[0].missions))
+    for position, (bucket, causes) in enumerate(sought):
+        is_wanted = position < MOST_SOUGHT if focus is None else focus in bucket.missions
         members = set(bucket.missions)
         interval, _ = rate_interval(
             [(one.number in members, one.point) for one in flown],
@@ -146,13 +177,11 @@ def assess(
             most_weight=sampling.most_weight,
             is_sequential=sampling.is_sequential,
         )
-        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None, conditions or {})
-        is_sought = focus is not None and is_wanted
-        causes = _causes(bucket, ordered, find, focus) if is_sought else NO_CAUSES
+        fault = _fault(bucket, ordered, agent, seed, refly if is_wanted else None, conditions or {}, text)
         faults.append(replace(fault, interval=interval, causes=causes))
     return Findings(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
-        sampling, sensitivities(agent, ordered, check.confidence), kept,
+        sampling, sensitivities(agent, ordered, check.confidence), cases,
     )  # fmt: skip
 
 
@@ -163,19 +192,21 @@ def _fault(
     seed: int,
     refly: Refly | None,
     known: Conditions,
+    text: ModelText | None,
 ) -> Fault:
     example = next(result for result in results if result.number == bucket.example)
-    abort = example.outcome.abort if example.outcome else None
-    confirmation = confirm(abort.conflict) if abort and abort.conflict else None
-    if bucket.example in known:
-        return Fault(bucket, known[bucket.example], confirmation)
+    conflict = failed_by(example.outcome).conflict
+    confirmation = confirm(conflict, text) if conflict is not None else None
+    condition = known.get(bucket.example, bucket.example)
+    if not isinstance(condition, int):
+        return Fault(bucket, condition, confirmation)
     return Fault(bucket, find_condition(bucket, results, agent, seed, refly), confirmation)
 
 
-def _causes(bucket: Bucket, results: tuple[MissionResult, ...], find: Find | None, focus: int | None) -> Causes:
-    """The causes of a fault, tried on mission `focus` first."""
-    if find is None:
-        return NO_CAUSES
-    members = [result for result in results if result.number in bucket.missions]
-    members.sort(key=lambda result: (result.number != focus, result.number))
-    return find(examples_of(members, [result for result in results if result.verdict is Verdict.PASS]))
+def _alike(buckets: tuple[Bucket, ...], known: Conditions) -> tuple[Bucket, ...]:
+    """The buckets, those joined that are known to be of one fault."""
+    groups: dict[int, list[Bucket]] = {}
+    for bucket in sorted(buckets, key=lambda one: isinstance(known.get(one.example), int)):
+        same = known.get(bucket.example)
+        groups.setdefault(same if isinstance(same, int) else bucket.example, []).append(bucket)
+    return tuple(joined(group) for group in groups.values())

@@ -21,6 +21,7 @@ from runtime.executive.configuration import AgentConfiguration, CodeConfiguratio
 from runtime.executive.events import changed_events
 from runtime.executive.mission import MissionPrograms, record_mission
 from runtime.executive.outcome import Conflict, Deadlock, Event, Outcome, SourcePlace
+from runtime.executive.record import MissionRecord
 from runtime.solver.configuration.configuration import Configuration, default_configuration
 from runtime.solver.configuration.read import read_configuration
 from runtime.user.library import load_library
@@ -59,6 +60,17 @@ def fly_programs(
     until: int | None = None,
 ) -> Outcome:
     """Fly one mission with the models as they were compiled; see `fly_once`."""
+    return fly_recorded(agent, programs, seed, values, until)[0]
+
+
+def fly_recorded(
+    agent: AgentConfiguration,
+    programs: MissionPrograms,
+    seed: int,
+    values: Mapping[str, float] | None = None,
+    until: int | None = None,
+) -> tuple[Outcome, MissionRecord]:
+    """The same, with the record of what was executed."""
     root = Path(agent.root)
     with redirect_stdout(sys.stderr):  # what constraints print would end up in reports
         outcome, record = record_mission(agent, programs, seed, values, until=until)
@@ -67,9 +79,9 @@ def fly_programs(
         raise DisagreementError(report)
     behaviour = universe_of(programs.programs).features(record, outcome.events)
     arguments = _arguments(programs) if agent.properties else {}
-    fates = property_fates(agent, arguments, record, outcome.last_tick)
+    fates = property_fates(agent, arguments, record, outcome.last_tick, outcome.events, report.profiles)
     outcome = replace(outcome, breaches=breaches(report), behaviour=behaviour, properties=fates)
-    return _relative(outcome, root)
+    return _relative(outcome, root), record
 
 
 def _arguments(programs: MissionPrograms) -> dict[str, tuple[str, ...]]:

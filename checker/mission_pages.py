@@ -14,6 +14,8 @@ from checker.codes import (
     NO_OWNER,
     NO_PREDICATE,
     NO_RANGE,
+    NO_REACTOR,
+    NO_RESOURCE,
     NO_TEXT_FILE,
     NO_TIMELINE,
     NOT_TOML,
@@ -230,6 +232,23 @@ MISSION_PAGES = (
         "Models, constraints and flaw handling are read more than once, by several processes: regular files only.",
         '[[reactor]]\nmodel = "/dev/stdin"\n',
         '[[reactor]]\nmodel = "psim.nddl"\n',
+        "toml",
+    ),
+    RulePage(
+        NO_RESOURCE,
+        "A property is about the level of a resource that no model has.",
+        "It could never be judged. A resource is a global variable whose class extends Reservoir, Reusable, CBReusable "
+        "or Unary.",
+        '[[property]]\nname = "reserve"\nkind = "level"\nresource = "batery"\nlevel = [20, inf]\n',
+        '[[property]]\nname = "reserve"\nkind = "level"\nresource = "battery"\nlevel = [20, inf]\n',
+        "toml",
+    ),
+    RulePage(
+        NO_REACTOR,
+        "A property names a reactor that the mission does not have.",
+        "Its plan is where the level of the resource is looked up.",
+        '[[property]]\nname = "reserve"\nkind = "level"\nresource = "battery"\nreactor = "vehcle"\nmargin = 5\n',
+        '[[property]]\nname = "reserve"\nkind = "level"\nresource = "battery"\nreactor = "vehicle"\nmargin = 5\n',
         "toml",
     ),
     RulePage(

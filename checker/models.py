@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from checker.figures import figure_misfits
 from checker.influence import Influence, lines_of_influence
 from checker.mission import Mission, read_mission
 from checker.model_fit import complete, find_misfits, sampling_misfits
@@ -73,6 +74,8 @@ def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
     misfits = [*find_misfits(mission, programs), *sampling_misfits(mission, sites)]
     misfits += find_role_misfits(mission, programs, library.constraints)
     misfits += property_misfits(mission, programs)
+    if mission.figures is not None:
+        misfits += figure_misfits(mission.figures, mission.text, agent, programs)
     completed = complete(mission, sites)
     return ModelSet(completed, programs, texts, _influence(programs, sites, root), (*found.values(), *misfits))
 

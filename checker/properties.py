@@ -9,12 +9,20 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from checker.judge.report import ResourceProfile
 from runtime.executive.columns import TokenColumns
-from runtime.executive.configuration import AgentConfiguration, PropertyConfiguration, PropertyKind, TokenPattern
+from runtime.executive.configuration import (
+    AgentConfiguration,
+    LevelPattern,
+    PropertyConfiguration,
+    PropertyKind,
+    TokenPattern,
+)
 from runtime.executive.expression import ExpressionError, parse_expression
-from runtime.executive.outcome import PropertyFate
+from runtime.executive.outcome import Event, EventKind, PropertyFate
 from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord
 
+_ROUNDING = 1e-9
 _NAMES = ("start", "end", "duration")
 
 
@@ -29,20 +37,60 @@ class _Held:
 
 
 def property_fates(
-    agent: AgentConfiguration, arguments: Mapping[str, Sequence[str]], record: MissionRecord, last_tick: int
+    agent: AgentConfiguration,
+    arguments: Mapping[str, Sequence[str]],
+    record: MissionRecord,
+    last_tick: int,
+    events: Sequence[Event] = (),
+    profiles: Sequence[ResourceProfile] = (),
 ) -> tuple[PropertyFate, ...]:
-    """What became of each property; `arguments` names those of each predicate (`Class.predicate`)."""
+    """What became of each property; `arguments` names those of each predicate (`Class.predicate`).
+
+    What no reactor with a model owns or uses is in no record: of that the events tell what was published.
+    """
     histories: dict[str, list[_Held]] = {}
 
     def history(timeline: str) -> list[_Held]:
         if timeline not in histories:
-            histories[timeline] = _history(agent, timeline, arguments, record, last_tick)
+            found = _history(agent, timeline, arguments, record, last_tick)
+            histories[timeline] = _published(timeline, events) if found is None else found
         return histories[timeline]
 
-    return tuple(
-        _fate(one, history(one.pattern.timeline), history(one.then.timeline) if one.then else [], agent, last_tick)
-        for one in agent.properties
-    )
+    def fate(one: PropertyConfiguration) -> PropertyFate:
+        if one.level is not None:
+            return _level_fate(one, one.level, profiles, agent.final_tick if one.by is None else one.by)
+        then = history(one.then.timeline) if one.then else []
+        return _fate(one, history(one.pattern.timeline), then, agent, last_tick)
+
+    return tuple(fate(one) for one in agent.properties)
+
+
+def _level_fate(
+    one: PropertyConfiguration, wanted: LevelPattern, profiles: Sequence[ResourceProfile], last: int
+) -> PropertyFate:
+    """Whether a resource kept its levels; where its limits were never fixed nothing is known, and nothing kept."""
+    own = (each for each in profiles if each.resource == wanted.resource and wanted.reactor in ("", each.reactor))
+    profile = next(own, None)
+    if profile is None:
+        return PropertyFate(one.name, False, one.since, -math.inf)
+    lower, upper = wanted.bounds
+    if wanted.margin > 0.0:
+        lower, upper = max(lower, profile.least + wanted.margin), min(upper, profile.most - wanted.margin)
+    ends = [*(tick for tick, _ in profile.levels[1:]), math.inf]
+    held = [(begin, end, level) for (begin, level), end in zip(profile.levels, ends, strict=True)]
+    margins = [
+        (max(begin, one.since), _level_margin(level, lower, upper))
+        for begin, end, level in held
+        if begin <= last and end > one.since
+    ]
+    worst = next((tick for tick, margin in margins if margin < 0.0), None)
+    return PropertyFate(one.name, worst is None, worst, min((margin for _, margin in margins), default=math.inf))
+
+
+def _level_margin(level: float, lower: float, upper: float) -> float:
+    """How far a level is within its bounds; levels are sums of floats, so what is off by rounding counts as kept."""
+    margin = min(level - lower, upper - level)
+    return 0.0 if -_ROUNDING * max(1.0, abs(level)) <= margin < 0.0 else margin
 
 
 def _history(
@@ -51,13 +99,13 @@ def _history(
     arguments: Mapping[str, Sequence[str]],
     record: MissionRecord,
     last_tick: int,
-) -> list[_Held]:
+) -> list[_Held] | None:
     """What was executed on a timeline, in order; as its owner recorded it, else as one who observed it did."""
     owners = [one.name for one in agent.reactors if timeline in one.internal]
     users = [one.name for one in agent.reactors if timeline in one.external]
     reactor = next((one for name in (*owners, *users) for one in record.reactors if one.reactor == name), None)
     if reactor is None:
-        return []
+        return None
     found = []
     for token in _tokens_on(reactor, timeline):
         if token.state != "active" or token.fate == "cut" or not isinstance(token.start, int | float):
@@ -70,6 +118,30 @@ def _history(
         given |= {"start": start, "end": end, "duration": end - start}
         found.append(_Held(token.predicate.rpartition(".")[2], start, end, given))
     return sorted(found, key=lambda one: (one.start, one.end))
+
+
+def _published(timeline: str, events: Sequence[Event]) -> list[_Held]:
+    """What was published on a timeline, in order: each value holds until the next, of two in a tick the later."""
+    seen = [each for each in events if each.kind is EventKind.OBSERVATION and each.timeline == timeline]
+    ends = [*(float(each.tick) for each in seen[1:]), math.inf]
+    held = []
+    for each, end in zip(seen, ends, strict=True):
+        if end > each.tick:
+            given = _given(each) | {"start": each.tick, "end": end, "duration": end - each.tick}
+            held.append(_Held(each.predicate, each.tick, end, given))
+    return held
+
+
+def _given(event: Event) -> dict[str, object]:
+    """The arguments of what was published; those that are not one value are left out."""
+    given: dict[str, object] = {}
+    for name, domain in event.arguments:
+        lower, upper = domain.interval or (0.0, 1.0)
+        if lower == upper:
+            given[name] = lower
+        elif domain.interval is None and domain.values is not None and len(domain.values) == 1:
+            given[name] = domain.values[0]
+    return given
 
 
 def _tokens_on(reactor: ReactorRecord, timeline: str) -> Iterator[TokenRecord]:
@@ -97,6 +169,8 @@ def _fate(
             ]
             best = min(ends, default=math.inf)
             return PropertyFate(one.name, best <= last, None if best <= last else min(last, last_tick), last - best)
+        case PropertyKind.LEVEL:
+            raise AssertionError("levels are no tokens")
         case PropertyKind.ALWAYS:
             told = _told_of(pattern, held)
             spans = [(token, _margin(pattern, token)) for token in told if token.start <= last and token.end > first]

@@ -2,15 +2,16 @@
 
 from collections.abc import Iterator, Mapping
 
-from checker.codes import ILL_VALUE, NO_ARGUMENT, NO_PREDICATE
+from checker.codes import ILL_VALUE, NO_ARGUMENT, NO_PREDICATE, NO_REACTOR, NO_RESOURCE
 from checker.goal_fit import strange_value
+from checker.judge.resources import resources_of
 from checker.mission import Mission
 from checker.mission_table import describe
 from checker.properties import names_of
 from compiler.program import PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
-from runtime.executive.configuration import TokenPattern
+from runtime.executive.configuration import LevelPattern, TokenPattern
 
 _Path = tuple[str | int, ...]
 _TIMES = ("start", "end", "duration")
@@ -20,9 +21,29 @@ def property_misfits(mission: Mission, programs: Mapping[str, Program]) -> Itera
     """Complain of what a property says of tokens that can never be."""
     for number, one in enumerate(mission.agent.properties):
         path: _Path = ("property", number)
+        if one.level is not None:
+            yield from _level_misfits(mission, one.level, path, programs)
+            continue
         yield from _pattern_misfits(mission, one.pattern, path, programs)
         if one.then is not None:
             yield from _pattern_misfits(mission, one.then, (*path, "then"), programs)
+
+
+def _level_misfits(
+    mission: Mission, level: LevelPattern, path: _Path, programs: Mapping[str, Program]
+) -> Iterator[Diagnostic]:
+    """Complain of a reactor or a resource that is not there."""
+    names = [one.name for one in mission.agent.reactors]
+    if level.reactor and level.reactor not in names:
+        advice = _advice(level.reactor, names, "reactors")
+        span = mission.text.value_span((*path, "reactor"))
+        yield NO_REACTOR.at(span, name=level.reactor, help=advice)
+        return
+    chosen = [one for one in mission.agent.reactors if level.reactor in ("", one.name) and one.model in programs]
+    known = [name for one in chosen for name in resources_of(programs[one.model])]
+    if level.resource not in known:
+        advice = _advice(level.resource, list(dict.fromkeys(known)), "resources")
+        yield NO_RESOURCE.at(mission.text.value_span((*path, "resource")), name=level.resource, help=advice)
 
 
 def _pattern_misfits(

@@ -1,11 +1,19 @@
 """Read the properties of a mission: the tables [[property]] of a mission file in, typed promises out."""
 
+import math
 from collections.abc import Mapping
 
 from checker.codes import MISSING_KEY, NO_OWNER, TWICE
 from checker.mission_table import Table
 from nddl_lang.text.nearest import nearest
-from runtime.executive.configuration import Bounds, PropertyConfiguration, PropertyKind, TokenPattern, Value
+from runtime.executive.configuration import (
+    Bounds,
+    LevelPattern,
+    PropertyConfiguration,
+    PropertyKind,
+    TokenPattern,
+    Value,
+)
 from runtime.executive.expression import ExpressionError, parse_expression
 
 _NEEDS_THEN = (PropertyKind.WITHIN, PropertyKind.UNTIL)
@@ -23,11 +31,17 @@ def read_properties(tables: list[Table], owned: tuple[str, ...]) -> tuple[Proper
         if name in [one.name for one in found]:
             span = table.text.value_span((*table.path, "name"))
             table.text.diagnostics.append(TWICE.at(span, what="the property", name=name))
+        since, by = table.whole("from", 0, 0), table.whole("by", -1, 0) if table.has("by") else None
+        if kind is PropertyKind.LEVEL:
+            level = _read_level(table)
+            table.asked += ["by"]
+            table.close()
+            found.append(PropertyConfiguration(name, kind, since=since, by=by, level=level))
+            continue
         pattern = _read_pattern(table, owned)
         inner = table.table("then", "[property.then]", needed=kind in _NEEDS_THEN)
         then = _read_pattern(inner, owned) if inner.values else None
         inner.close()
-        since, by = table.whole("from", 0, 0), table.whole("by", -1, 0) if table.has("by") else None
         ticks = table.whole("ticks", 0, 1) if table.has("ticks") or kind is PropertyKind.WITHIN else 0
         if kind is PropertyKind.WITHIN and not table.has("ticks"):
             span = table.text.key_span(table.path)
@@ -57,6 +71,14 @@ def _read_pattern(table: Table, owned: tuple[str, ...]) -> TokenPattern:
             where = ""
     parameters = tuple((key, _wanted(given, key, given.values)) for key in given.values)
     return TokenPattern(timeline, table.string("predicate", ""), parameters, where)
+
+
+def _read_level(table: Table) -> LevelPattern:
+    if not table.has("level") and not table.has("margin"):
+        span = table.text.key_span(table.path)
+        table.text.diagnostics.append(MISSING_KEY.at(span, table=table.caption, key="level"))
+    bounds = table.bounds("level") or (-math.inf, math.inf)
+    return LevelPattern(table.string("resource"), table.string("reactor", ""), bounds, table.number("margin", 0.0, 0.0))
 
 
 def _wanted(table: Table, key: str, values: Mapping[str, object]) -> Value | Bounds:

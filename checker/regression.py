@@ -1,4 +1,9 @@
-"""Regression cases: shrunk missions that once failed, as TOML beside the mission file, to be flown first."""
+"""Regression cases: missions that failed once, flown before all others.
+
+A case comes from one of two places and is flown, judged and told in one way. `nddlc check` keeps the first failures
+of each fault in its store, by seed: these are local, and nobody has to think of them. `nddlc promote` writes a shrunk
+one as TOML beside the mission file: it goes into version control, and must pass whatever failure rate is accepted.
+"""
 
 import tomllib
 from collections.abc import Sequence
@@ -6,7 +11,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from checker.batch.result import MissionResult
 from checker.conditions.space import fixed
+from checker.oracle import Verdict
+from checker.sampling.sampler import RANDOM_POINT, SamplePoint, with_point
 from runtime.executive.configuration import AgentConfiguration
 
 _NAME_ENDS = ".regressions.toml"
@@ -14,14 +22,36 @@ _NAME_ENDS = ".regressions.toml"
 
 @dataclass(frozen=True, slots=True)
 class RegressionCase:
-    """A mission that is to pass. `goals` are numbers of the mission file's goals, from 0; `was` says how it failed."""
+    """A mission that is to pass; `was` says how it failed. One with a name was promoted.
+
+    `goals` are numbers of the mission file's goals, from 0; None leaves goals and final tick as the mission has them.
+    """
 
     name: str
     seed: int
-    final_tick: int
-    goals: tuple[int, ...]
-    parameters: tuple[tuple[str, float], ...]
     was: str
+    point: SamplePoint = RANDOM_POINT
+    final_tick: int | None = None
+    goals: tuple[int, ...] | None = None
+    parameters: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def is_promoted(self) -> bool:
+        """Whether somebody has promoted it: then it must pass."""
+        return bool(self.name)
+
+
+@dataclass(frozen=True, slots=True)
+class FlownCase:
+    """A case and what became of it now."""
+
+    case: RegressionCase
+    result: MissionResult
+
+    @property
+    def passes(self) -> bool:
+        """Whether it does not fail any more."""
+        return self.result.verdict is Verdict.PASS
 
 
 class RegressionError(Exception):
@@ -58,7 +88,10 @@ def _case(path: Path, number: int, table: Any) -> RegressionCase:
         } if all(isinstance(one, int) for one in goals):
             if all(isinstance(value, int | float) for value in parameters.values()):
                 values = tuple((key, float(value)) for key, value in parameters.items())
-                return RegressionCase(name, seed, final_tick, tuple(goals), values, str(table.get("was", "")))
+                was = str(table.get("was", ""))
+                return RegressionCase(
+                    name or f"case {number}", seed, was, RANDOM_POINT, final_tick, tuple(goals), values
+                )
     raise RegressionError(f"`{path}`: case {number} needs name, seed, final_tick, goals and parameters")
 
 
@@ -66,9 +99,10 @@ def cases_text(cases: Sequence[RegressionCase]) -> str:
     """Cases as a file has them."""
     parts = ["# Missions that failed once and are to pass: written by `nddlc promote`, flown first by `nddlc check`.\n"]
     for case in cases:
+        goals = ", ".join(map(str, case.goals or ()))
         parts.append(
             f"\n[[case]]\nname = {_text(case.name)}\nwas = {_text(case.was)}\nseed = {case.seed}\n"
-            f"final_tick = {case.final_tick}\ngoals = [{', '.join(map(str, case.goals))}]\n[case.parameters]\n"
+            f"final_tick = {case.final_tick}\ngoals = [{goals}]\n[case.parameters]\n"
         )
         parts += [f"{_text(name)} = {value!r}\n" for name, value in case.parameters]
     return "".join(parts)
@@ -80,10 +114,12 @@ def agent_of(case: RegressionCase, agent: AgentConfiguration) -> AgentConfigurat
     missing = [name for name, _ in case.parameters if name not in known]
     if missing:
         raise RegressionError(f"case `{case.name}` gives `{missing[0]}`, which the models do not sample")
-    if any(not 0 <= number < len(agent.goals) for number in case.goals):
-        raise RegressionError(f"case `{case.name}` has a goal that the mission file lacks")
-    goals = tuple(agent.goals[number] for number in case.goals)
-    return replace(fixed(agent, dict(case.parameters)), goals=goals, final_tick=case.final_tick)
+    agent = with_point(fixed(agent, dict(case.parameters)) if case.parameters else agent, case.point)
+    if case.goals is not None:
+        if any(not 0 <= number < len(agent.goals) for number in case.goals):
+            raise RegressionError(f"case `{case.name}` has a goal that the mission file lacks")
+        agent = replace(agent, goals=tuple(agent.goals[number] for number in case.goals))
+    return agent if case.final_tick is None else replace(agent, final_tick=case.final_tick)
 
 
 def _text(value: str) -> str:

@@ -6,11 +6,12 @@ What happened in a mission is worded by `runtime.executive.rendering`.
 from collections.abc import Sequence
 from typing import assert_never
 
-from checker.findings import Fault
+from checker.conditions.condition import Condition
+from checker.conditions.rendering import literal_text
 from checker.losses import Exceeded, Limit
 from checker.oracle import CODE_NAMES, Judgement
+from checker.proofs.conflict import Confirmation, Finding
 from checker.sampling.rendering import describe, number
-from checker.smt.confirm import Finding
 from checker.story import Step, StepKind, Story
 from runtime.executive.outcome import (
     Abort,
@@ -113,17 +114,20 @@ def step_label(step: Step) -> str:
     return "   <== the line to blame" if step.kind is StepKind.FAULT else ""
 
 
-def confirmation_text(fault: Fault) -> str:
+def confirmation_text(found: Confirmation, condition: Condition | None = None) -> str:
     """What z3 says, as the end of a sentence that begins with its name."""
-    assert fault.confirmation is not None
-    match fault.confirmation.finding:
+    match found.finding:
         case Finding.CONFIRMED:
-            text = f"confirms the conflict: {len(fault.confirmation.core)} causes that cannot hold together"
+            text = f"confirms the conflict: these {len(found.core)} causes contradict each other"
+            text += ", each of them is needed" if found.is_minimal else ""
+            text += f" ({found.written} read from the model's text)" if found.written else ""
+            if condition is not None and condition.in_terms:
+                text += ", just where " + " and ".join(literal_text(one) for one in condition.in_terms)
         case Finding.REFUTED:
-            text = "does not confirm the conflict: by their terms alone the causes can hold together"
+            text = "does not confirm the conflict: by themselves the causes can hold together"
         case Finding.UNKNOWN:
             text = "could not decide whether the causes can hold together"
-    missing = fault.confirmation.untranslated
+    missing = found.untranslated
     return text + (f" (not told to it: {', '.join(missing)})" if missing else "")
 
 

@@ -1,4 +1,4 @@
-"""The missions of a run in the order in which they are flown: kept failures, then the sampler's generations.
+"""The missions of a run in the order in which they are flown: regression cases, then the sampler's generations.
 
 A generation depends on the results of all missions before it and on nothing else, so that a run is the same whatever
 the number of workers, and goes on where it ended.
@@ -6,12 +6,15 @@ the number of workers, and goes on where it ended.
 
 from collections.abc import Mapping, Sequence
 
-from checker.batch.result import KeptFailure, MissionResult
+from checker.batch.result import MissionResult
 from checker.batch.worker import Task
 from checker.oracle import Verdict
+from checker.regression import FlownCase, RegressionCase, agent_of
 from checker.sampling.sampler import MissionRole, SamplePoint, Sampler, Trial, with_point
 from checker.sampling.seeds import mission_seed
 from runtime.executive.configuration import AgentConfiguration
+
+_PROMOTED = 1_000_000  # numbers of promoted cases lie below minus this, out of the way of those that are stored
 
 
 def make_task(agent: AgentConfiguration, number: int, seed: int, point: SamplePoint) -> Task:
@@ -38,13 +41,14 @@ class Schedule:
         sampler: Sampler,
         seed: int,
         planned: int,
-        failures: Sequence[KeptFailure],
+        cases: Sequence[RegressionCase],
         results: Mapping[int, MissionResult],
     ) -> None:
         self._agent, self._sampler, self._seed, self.planned = agent, sampler, seed, planned
         self._results = results
         self.points: list[SamplePoint] = []
-        self.failures = tuple(failures)
+        self.cases: dict[int, RegressionCase] = {}  # those that are no missions of the run, by their numbers below 0
+        self._cases = sorted(cases, key=lambda one: one.is_promoted)  # so that those of the store keep their numbers
         self._is_begun = False
 
     @property
@@ -61,7 +65,7 @@ class Schedule:
             assert len(self.points) > first, "a sampler chooses at least one point"
             tasks = [self.task(number) for number in range(first + 1, len(self.points) + 1)]
             if not self._is_begun:
-                tasks = self._failures_first(tasks)
+                tasks = self._cases_first(tasks)
             tasks = [task for task in tasks if not self.is_flown(task)]
             if tasks:
                 return tasks
@@ -76,19 +80,31 @@ class Schedule:
         found = self._results.get(task.number)
         return found is not None and (found.seed, found.point) == (task.seed, task.point)
 
-    def _failures_first(self, tasks: list[Task]) -> list[Task]:
+    def flown_cases(self) -> tuple[FlownCase, ...]:
+        """The regression cases that have a result, promoted ones first."""
+        found = []
+        for number, case in self.cases.items():
+            result = self._results.get(number)
+            if result is not None and (result.seed, result.point) == (case.seed, case.point):
+                found.append(FlownCase(case, result))
+        return tuple(sorted(found, key=lambda one: not one.case.is_promoted))
+
+    def _cases_first(self, tasks: list[Task]) -> list[Task]:
         """What failed before comes first; what is no mission of this run has a number below 0."""
         self._is_begun = True
         known = {(task.seed, task.point): task for task in tasks}
         first: list[Task] = []
+        promoted: list[Task] = []
         strange = 0
-        for one in self.failures:
-            same = known.pop((one.seed, one.point), None)
+        for one in self._cases:
+            same = None if one.is_promoted else known.pop((one.seed, one.point), None)
             if same is None:
                 strange += 1
-                same = make_task(self._agent, -strange, one.seed, one.point)
-            first.append(same)
-        return [*first, *known.values()]
+                number = -strange - (_PROMOTED if one.is_promoted else 0)
+                self.cases[number] = one
+                same = Task(number, one.seed, agent_of(one, self._agent), one.point)
+            (promoted if one.is_promoted else first).append(same)
+        return [*promoted, *first, *known.values()]
 
 
 def counted(results: Sequence[MissionResult]) -> list[tuple[bool, SamplePoint]]:

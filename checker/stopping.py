@@ -4,8 +4,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from checker.betting import log_stake, log_wealth
 from checker.rate import rate_interval
-from checker.sampling.sampler import SamplePoint
+from checker.sampling.sampler import MissionRole, SamplePoint
 
 _RULE = re.compile(r"\s*p\s*([<>])\s*([0-9.]+(?:e-?[0-9]+)?)\s*(%?)\s*@\s*([0-9.]+)\s*%\s*", re.IGNORECASE)
 
@@ -21,6 +22,14 @@ class StopRule:
 
     def outcome(self, flown: Sequence[tuple[bool, SamplePoint]], most_weight: float) -> bool | None:
         """True: shown; False: the opposite is shown; None: still open."""
+        counted = [(failed, point) for failed, point in flown if point.role is not MissionRole.DESIGNED]
+        if any(point.role is MissionRole.WEIGHTED for _, point in counted):
+            values = [point.weight if failed else 0.0 for failed, point in counted]
+            above, below = log_wealth(values, max(most_weight, 1.0), self.rate)
+            needed = log_stake(self.confidence)
+            if below[-1] >= needed:
+                return self.is_below
+            return not self.is_below if above[-1] >= needed else None
         interval, _ = rate_interval(flown, self.confidence, most_weight=most_weight, is_sequential=True)
         if interval is None:
             return None

@@ -9,9 +9,12 @@ from checker.findings import Fault
 from checker.influence import Influence
 from checker.losses import Limit
 from checker.oracle import Judgement
+from checker.proofs.conflict import Confirmation, confirm, needed_elements
+from checker.proofs.places import ModelText
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.outcome import (
     Abort,
+    Conflict,
     ConflictElement,
     Deadlock,
     Draw,
@@ -56,7 +59,10 @@ class Step:
 
 @dataclass(frozen=True, slots=True)
 class Story:
-    """Why one mission failed; `fault` ties it to the others that failed alike."""
+    """Why one mission failed; `fault` ties it to the others that failed alike.
+
+    Of the conflict only what its contradiction needs is told.
+    """
 
     number: int
     seed: int
@@ -66,12 +72,21 @@ class Story:
     final_tick: int
     steps: tuple[Step, ...]
     fault: Fault | None
+    confirmation: Confirmation | None = None  # z3's word on the conflict of this mission
 
 
-def tell(result: MissionResult, agent: AgentConfiguration, influence: Influence, fault: Fault | None) -> Story:
-    """The story of a mission that failed and whose outcome is at hand."""
+def tell(
+    result: MissionResult,
+    agent: AgentConfiguration,
+    influence: Influence,
+    fault: Fault | None,
+    text: ModelText | None = None,
+) -> Story:
+    """The story of a mission that failed and whose outcome is at hand; z3 reads the meaning of lines from `text`."""
     outcome = result.outcome
     assert outcome is not None
+    conflict = failed_by(outcome).conflict
+    confirmation = confirm(conflict, text) if conflict is not None else None
     parameters = _suspects(outcome, fault)
     draws = _draws(outcome, agent, influence, parameters)
     shown = _tokens_of(outcome, influence, parameters)
@@ -85,7 +100,7 @@ def tell(result: MissionResult, agent: AgentConfiguration, influence: Influence,
     steps = [
         *draws,
         *(Step(StepKind.EVENT, event.tick, event) for event in way),
-        *_conflict(outcome),
+        *_conflict(conflict, confirmation),
         *_tried(outcome),
         Step(StepKind.ABORT, outcome.last_tick, abort),
     ]
@@ -98,6 +113,7 @@ def tell(result: MissionResult, agent: AgentConfiguration, influence: Influence,
         outcome.final_tick,
         tuple(_without_repeats(steps)),
         fault,
+        confirmation,
     )
 
 
@@ -157,18 +173,19 @@ def _sampled_at(outcome: Outcome, name: str) -> SourcePlace | None:
     return None
 
 
-def _conflict(outcome: Outcome) -> list[Step]:
-    """The elements of the conflict, from the draw outwards, the line to blame last."""
-    conflict = failed_by(outcome).conflict
-    if conflict is None:
+def _conflict(conflict: Conflict | None, confirmation: Confirmation | None) -> list[Step]:
+    """The elements of the conflict that its contradiction needs, from the draw outwards, the line to blame last."""
+    if conflict is None or confirmation is None:
         return []
     culprit = culprit_of(conflict)
+    needed = needed_elements(conflict, confirmation)
     steps = [
         Step(StepKind.CAUSE, None, element, element.place)
         for number, element in (
             (number, conflict.elements[number]) for number in in_telling_order(conflict, culprit.number)
         )
         if number != culprit.number
+        and number in needed
         and element.kind is not ElementKind.SAMPLE
         and (element.place is None or element.place not in culprit.limits)
     ]

@@ -12,10 +12,11 @@ from pathlib import Path
 
 from checker.batch.pool import Flyer
 from checker.batch.result import MissionResult
-from checker.counterfactual.examples import examples_of
-from checker.counterfactual.ranking import NO_CAUSES, Causes, RankedLine, rank
-from checker.counterfactual.search import Suspended, find_causes, sites_in
+from checker.buckets import group_failures
+from checker.counterfactual.ranking import NO_CAUSES, Causes, RankedLine
+from checker.counterfactual.search import CauseSearch, Suspended, sites_in
 from checker.counterfactual.trials import Bounds
+from checker.faults import faults_of
 from checker.flight import load
 from checker.mission import Mission
 from checker.models import ModelSet, load_models
@@ -43,7 +44,7 @@ class Fate(StrEnum):
 class MutantReport:
     """One mutant: `rank` is that of the changed line among the causes, `rule_rank` that of a line of its rule.
 
-    Both count from 1, and are 0 where there is none.
+    Both count from 1, and are 0 where there is none. Its failures are `faults` faults to a user, who should see one.
     """
 
     edit: SmallEdit
@@ -55,6 +56,7 @@ class MutantReport:
     message: str = ""
     rank: int = 0
     rule_rank: int = 0
+    faults: int = 0
     causes: Causes = NO_CAUSES
 
     @property
@@ -124,12 +126,11 @@ def _measured(
     failed = [result for result in results if result.verdict is Verdict.FAIL]
     if not failed:
         return MutantReport(mutant.edit, mutant.site.rule, Fate.SILENT, 0, len(results))
-    alike = [one for one in failed if one.judgement.code == failed[0].judgement.code]
     programs = [models.programs[each.model] for each in models.agent.reactors]
-    passed = [one for one in results if one.verdict is Verdict.PASS]
     world = Suspended(models.agent, programs, ground.mission.check.limits, flyer, overlay)
     root = Path(models.agent.root)
-    causes = rank(find_causes(examples_of(alike, passed), world, bounds), root)
+    faults = faults_of(group_failures(tuple(results)), results, CauseSearch(world, bounds))
+    fullest, causes = faults[0]
 
     def first(is_it: Callable[[str, int], bool]) -> int:
         return next((k for k, cause in enumerate(causes.ranked, 1) if is_it(*_at(cause, root))), 0)
@@ -140,9 +141,10 @@ def _measured(
         Fate.FAILS,
         len(failed),
         len(results),
-        failed[0].judgement.code,
+        fullest.code,
         rank=first(mutant.is_at),
         rule_rank=first(mutant.is_in_rule),
+        faults=len(faults),
         causes=causes,
     )
 

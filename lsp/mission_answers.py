@@ -28,11 +28,12 @@ from lsp.mission_texts import MissionPlace, OpenMission, place_at
 from lsp.project import Snapshot
 from lsp.roots import models_below
 from lsp.uris import uri_of
-from nddl_lang.semantics.natives import TIMELINE
+from nddl_lang.semantics.natives import SELF_ACTIVATING, TIMELINE
 from nddl_lang.semantics.schema import EnumValue, GlobalReference, Kind, Predicate, Variable
 from nddl_lang.text.source import Span
 
 _TIMELINES = ("internal", "external", "early", "late", "timeline")
+_OBJECTS = {**dict.fromkeys(_TIMELINES, (TIMELINE,)), "resource": tuple(sorted(SELF_ACTIVATING))}  # by key: of a class
 _HEAD = re.compile(r"^[ \t]*\[mission\]", re.MULTILINE)
 # Commands of the server.
 CHECK = "nddl.check"
@@ -126,7 +127,7 @@ def _named(documents: Documents, mission: OpenMission, place: MissionPlace) -> I
     for snapshot in _snapshots(documents, mission):
         schema = snapshot.analysis.schema
         thing: _Thing | None = None
-        if place.is_value and place.key in _TIMELINES:
+        if place.is_value and place.key in _OBJECTS:
             thing = schema.globals.get(place.word)
         elif place.is_value and place.key == "predicate":
             thing = _predicate(snapshot, _sibling(mission, place, "timeline"), place.word)
@@ -173,9 +174,10 @@ def _values(documents: Documents, mission: OpenMission, place: MissionPlace) -> 
         yield CompletionItem(str(choice), kind=CompletionItemKind.EnumMember)
     for snapshot in _snapshots(documents, mission):
         schema = snapshot.analysis.schema
-        if place.key in _TIMELINES:
+        if place.key in _OBJECTS:
             for variable in schema.globals.values():
-                if variable.type.kind is Kind.OBJECT and schema.is_subclass(variable.type.base, TIMELINE):
+                classes = _OBJECTS[place.key] if variable.type.kind is Kind.OBJECT else ()
+                if any(schema.is_subclass(variable.type.base, one) for one in classes):
                     yield CompletionItem(variable.name, kind=CompletionItemKind.Variable, detail=variable.type.name)
         elif place.key == "predicate":
             variable_ = schema.globals.get(_sibling(mission, place, "timeline"))

@@ -9,16 +9,18 @@ from pathlib import Path
 
 import click
 
-from checker.batch.pool import FlyTasks
+from checker.batch.pool import FlyBatch
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
 from checker.conditions.record import write_condition
+from checker.counterfactual.trials import MOST_FLIGHTS, Bounds
 from checker.coverage import coverage_of
 from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.flight import load
 from checker.mission import LARGEST_SEED, Mission, read_mission
 from checker.oracle import USER_CODE
+from checker.regression import RegressionCase, RegressionError, agent_of, read_cases, regressions_path
 from checker.report.coverage import coverage_text
 from checker.report.document import json_report
 from checker.report.github import github_report
@@ -38,18 +40,19 @@ from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of
 from nddlc.progress import Display
-from nddlc.regressions import regressions_hold
 from nddlc.samplers import find_sampler
 from nddlc.trust import trust_option
+from nddlc.watch import WatchedCommand
 
 _HOLDS, _FINDINGS, _UNUSABLE, _BUG = 0, 1, 2, 3
 _SIGNALLED = 128  # and the number of the signal: 130 for Ctrl-C, 143 for SIGTERM
 STORE = Path(".nddlc/runs.sqlite")
 _REPORT = Path("nddlc-report")
+_SECONDS_A_FAULT, _SECONDS = 30.0, 60.0  # that causes are sought, for one fault and for all of them
 _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 
 
-@click.command()
+@click.command(cls=WatchedCommand)
 @click.argument("path", metavar="[PATH]", required=False)
 @click.option("--missions", type=click.IntRange(1), help="How many missions to fly, whatever the file says.")
 @click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The batch seed, whatever the file says.")
@@ -66,6 +69,7 @@ _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 @click.option("--stop-when", metavar="RULE", help='End when the missions show or refute a rule such as "p<0.01@95%".')
 @click.option("--sampler", default="random", metavar="NAME", help="How missions are chosen (docs/mission.md).")
 @click.option("--coverage", is_flag=True, help="Tell which rules and branches no mission exercised.")
+@click.option("--flights", type=click.IntRange(0), default=MOST_FLIGHTS, help=f"Trials for causes ({MOST_FLIGHTS}).")
 @click.option("--cluster", metavar="ADDRESS", help="Fly on a Dask cluster, such as tcp://127.0.0.1:8786.")
 @click.option("--dry-run", is_flag=True, help="Only look whether mission file and models are in order.")
 @trust_option
@@ -89,6 +93,7 @@ def command(
     stop_when: str | None,
     sampler: str,
     coverage: bool,
+    flights: int,
     cluster: str | None,
     dry_run: bool,
 ) -> int:
@@ -119,34 +124,51 @@ def command(
         return _UNUSABLE
     campaign = replace(campaign, sampler_name=sampler, make_sampler=make_sampler)
     if cluster is not None:
-        campaign = replace(campaign, fly_tasks=_cluster_at(cluster))
+        campaign = replace(campaign, fly_batch=_cluster_at(cluster))
     if dry_run:
         if style == "text":
             click.echo(f"`{path}` and its models are in order; nothing was flown")
         return _HOLDS
-    regressed = not regressions_hold(campaign, file, is_told=style == "text")
+    promoted = _promoted(campaign, file)
     count, enough = workers or cores(), Enough(seconds, max_failures, rule)
     try:
         with ExitStack() as stack:
             store = None if no_store else stack.enter_context(open_store(store_path))
             show = stack.enter_context(Display(campaign.mission.check.confidence))
-            flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show)
+            flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show, promoted=promoted)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
-    findings = campaign.assess(flown.results, ending=flown.ending, sampling=flown.sampling)
+    findings = campaign.assess(
+        flown.results,
+        ending=flown.ending,
+        sampling=flown.sampling,
+        bounds=Bounds(flights, _SECONDS_A_FAULT) if flights else None,
+        seconds=_SECONDS,
+        cases=flown.cases,
+    )
+    findings = replace(findings, is_stored=not no_store)
     if not no_store:
         _keep(findings, store_path)
     code = _report(campaign, findings, style, output, coverage=coverage)
-    if regressed and code == _HOLDS:
-        code = _FINDINGS
-        if style == "text":
-            click.echo("a regression case fails again: see above")
     return code if flown.ended_by is None else _SIGNALLED + flown.ended_by
+
+
+def _promoted(campaign: Campaign, file: Path) -> tuple[RegressionCase, ...]:
+    """The regression cases beside the mission file, which must fit it."""
+    place = regressions_path(file)
+    try:
+        cases = read_cases(place)
+        for case in cases:
+            agent_of(case, campaign.models.agent)
+    except RegressionError as problem:
+        raise Unusable(str(problem), f"mend `{place}`, or remove the case") from None
+    return cases
 
 
 def _keep(findings: Findings, store_path: Path) -> None:
     """Have the store remember the conditions, so that `explain` need not fly for them; it can if that fails."""
     known = {fault.bucket.example: write_condition(fault.condition) for fault in findings.faults}
+    known |= {part: write_condition(one.bucket.example) for one in findings.faults for part in one.bucket.parts[1:]}
     with suppress(StoreError), open_store(store_path) as store:
         store.keep_conditions(findings.run_id, known)
 
@@ -203,11 +225,11 @@ def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
         click.echo(f"{errors} error{'' if errors == 1 else 's'}: nothing was flown")
 
 
-def _cluster_at(address: str) -> FlyTasks:
+def _cluster_at(address: str) -> FlyBatch:
     """What flies missions on a cluster; asked for late, as Dask is large."""
     if find_spec("distributed") is None:
         raise Unusable("a cluster needs the package `distributed`", "install `nddlc[cluster]`")
-    found: FlyTasks = named("checker.batch.cluster:Cluster")(address).fly_tasks
+    found: FlyBatch = named("checker.batch.cluster:Cluster")(address).fly
     return found
 
 
@@ -220,9 +242,11 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *,
     """Write every form of the report, print the one that was asked for, and say how it ended."""
     excerpts = Excerpts(Path(campaign.models.agent.root))
     covered = coverage_of(campaign.models, findings.results) if coverage else None
+    pairs = campaign.pairs(findings)
+    page = html_report(findings, excerpts, campaign.stories(findings), pairs, campaign.drawn(findings, pairs))
     reports = {
         "json": ("report.json", json_report(findings, excerpts, covered)),
-        "html": ("report.html", html_report(findings, excerpts, campaign.stories(findings), campaign.pairs(findings))),
+        "html": ("report.html", page),
         "junit": ("junit.xml", junit_report(findings, excerpts)),
         "sarif": ("report.sarif", sarif_report(findings, excerpts)),
         "markdown": ("report.md", markdown_report(findings, excerpts)),

@@ -15,7 +15,7 @@ from checker.contrast_rendering import contrast_data, contrast_lines
 from checker.counterfactual.trials import MOST_FLIGHTS, MOST_SECONDS, Bounds
 from checker.excerpts import Excerpts
 from checker.explain import MOST_CAUSES, result_data, result_text, story_data, story_text
-from checker.findings import Fault, Findings
+from checker.findings import Fault
 from checker.flight import load
 from checker.graph import causal_graph, focused
 from checker.graph_rendering import graph_data, graph_dot, graph_svg, graph_text
@@ -102,7 +102,7 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
         results, may_fly=is_same, focus=first, bounds=bounds if bounds.flights else None, conditions=conditions
     )
     findings = replace(findings, run_id=run.id)
-    result = _result(run, first, campaign, findings, is_same)
+    result = _result(run, first, campaign, results, is_same)
     fault = next((one for one in findings.faults if result.number in one.bucket.missions), None)
     return _Found(campaign, run.id, result, fault, is_same, results)
 
@@ -165,11 +165,13 @@ def campaign_of(run: Run, is_trusted: bool) -> tuple[Campaign, bool]:
     return campaign, campaign.run.id == run.id
 
 
-def _result(run: Run, number: int | None, campaign: Campaign, findings: Findings, is_same: bool) -> MissionResult:
+def _result(
+    run: Run, number: int | None, campaign: Campaign, results: tuple[MissionResult, ...], is_same: bool
+) -> MissionResult:
     """The mission asked for, flown again from its seed where its trace was not kept."""
     if number is None:
         raise Unusable(f"no mission of run {run.id} failed", f"{run.id}#N shows mission N all the same")
-    stored = next((result for result in (*findings.results, *findings.kept) if result.number == number), None)
+    stored = next((result for result in results if result.number == number), None)
     if stored is None and not 1 <= number <= run.missions:
         raise Unusable(f"run {run.id} has missions 1 to {run.missions}, not {number}")
     if stored is not None and (stored.has_trace or not is_same):

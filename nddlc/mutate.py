@@ -97,7 +97,10 @@ def _line(one: MutantReport, mission: Mission) -> str:
             rank = f"no cause is its {what}"
             if one.place:
                 rank = f"its {what} is cause {one.place} of {len(one.causes.ranked)}"
-            return f"{head}: {one.failed} of {one.flown} fail ({one.code}), {rank}, {one.causes.flights} trials"
+            faults = f"{one.faults} fault{'' if one.faults == 1 else 's'}"
+            return (
+                f"{head}: {one.failed} of {one.flown} fail ({one.code}), {faults}, {rank}, {one.causes.flights} trials"
+            )
 
 
 def _summary(found: Sequence[MutantReport]) -> list[str]:
@@ -112,6 +115,9 @@ def _summary(found: Sequence[MutantReport]) -> list[str]:
             names = {"first": "first", "top": f"in the top {TOP}", "any": "among the causes"}
             ranks = ", ".join(f"{name} {group[key]} ({group[key] / group['fails']:.0%})" for key, name in names.items())
             lines.append(f"  {group['fails']} {what}: {ranks}")
+    if counts["fails"]:
+        one = counts["one_fault"]
+        lines.append(f"  {one} ({one / counts['fails']:.0%}) are one fault to `nddlc check`, whatever they break")
     silent = Counter(one.edit.kind for one in found if one.fate is Fate.SILENT)
     if silent:
         lines.append("  silent: " + ", ".join(f"{count} {kind}" for kind, count in silent.most_common()))
@@ -121,6 +127,7 @@ def _summary(found: Sequence[MutantReport]) -> list[str]:
 def _counts(found: Sequence[MutantReport]) -> dict[str, Any]:
     fates = Counter(one.fate for one in found)
     counts: dict[str, Any] = {"mutants": len(found), **{fate.value: fates[fate] for fate in Fate}}
+    counts["one_fault"] = sum(one.faults == 1 for one in found)
     for name, is_drop in (("changed", False), ("dropped", True)):
         group = [one for one in found if one.fate is Fate.FAILS and one.is_drop is is_drop]
         counts[name] = {
@@ -154,6 +161,7 @@ def _data(found: Sequence[MutantReport], mission: Mission, seed: int, interrupte
                 "flown": one.flown,
                 "rank": one.rank,
                 "rule_rank": one.rule_rank,
+                "faults": one.faults,
                 "trials": one.causes.flights,
                 "causes": [cause_data(cause) for cause in one.causes.ranked],
             }

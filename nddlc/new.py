@@ -9,7 +9,10 @@ import click
 
 from nddlc.inputs import Unusable, write_text
 
-TEMPLATES = ("survey", "rover", "blank")
+TEMPLATES = (
+    *("survey", "rover", "blank"),
+    *("battery", "deadline", "retry", "window", "noise", "constraint", "lookout"),  # those of docs/cookbook.md
+)
 # What every project gets: the name of the template's file, and where it goes.
 _COMMON = {"nddlc.toml": "nddlc.toml", "gitignore": ".gitignore", "workflow.yml": ".github/workflows/missions.yml"}
 _NAME = re.compile(r"[A-Za-z][\w.-]*")
@@ -23,8 +26,8 @@ _NAME = re.compile(r"[A-Za-z][\w.-]*")
 def command(name: str, template: str | None) -> int:
     """Begin a project: a model, its simulator and a mission, in the new folder NAME.
 
-    survey has a fault on purpose, which the tutorial finds and mends; rover and blank hold. Nothing that exists is
-    written over.
+    survey has a fault on purpose, which the tutorial finds and mends; all others hold. From battery on they are the
+    recipes of the cookbook, one each. Nothing that exists is written over.
     """
     folder = Path(name)
     if _NAME.fullmatch(folder.name) is None:

@@ -29,7 +29,10 @@ def command(what: str, name: str | None, store_path: Path, is_trusted: bool) -> 
     shrunk = found.shrunk
     place = regressions_path(found.mission_file)
     title = name or re.sub(r"[^A-Za-z0-9]+", "-", found.was).strip("-")[:60]
-    case = RegressionCase(title, shrunk.result.seed, shrunk.final_tick, shrunk.goals, shrunk.values, found.was)
+    case = RegressionCase(
+        title, shrunk.result.seed, found.was,
+        final_tick=shrunk.final_tick, goals=shrunk.goals, parameters=shrunk.values,
+    )  # fmt: skip
     try:
         cases = [one for one in read_cases(place) if one.name != title]
         write_whole(place, cases_text([*cases, case]))

@@ -36,6 +36,7 @@ _FOLDER = Path(".nddlc/study")
 @click.option("--store", "store_path", type=click.Path(path_type=Path), default=STORE, help="Where missions are kept.")
 @click.option("--output", type=click.Path(path_type=Path), default=_OUTPUT, help="Where figure and table go.")
 @click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="What to print.")
+@click.option("--dry-run", is_flag=True, help="Only look whether the study, its missions and models are in order.")
 @trust_option
 def command(
     path: str,
@@ -47,6 +48,7 @@ def command(
     store_path: Path,
     output: Path,
     style: str,
+    dry_run: bool,
     is_trusted: bool,
 ) -> int:
     """Fly every variant of a study under every sampling, and say which sampling finds which mistake.
@@ -65,6 +67,11 @@ def command(
     chosen = [one for one in study.variants if not names or one.name in names]
     wanted = [one for one in study.samplings if not samplings or one in samplings]
     flight = _Study(study, is_trusted, workers or cores(), None if seconds is None else time.monotonic() + seconds)
+    if dry_run:
+        for variant in chosen:
+            flight.base(variant)
+        click.echo(_plan_text(chosen, wanted, missions))
+        return _DONE
     cells: list[StudyCell] = []
     ended_by = 0
     try:
@@ -87,6 +94,17 @@ def command(
         return _SIGNALLED + ended_by
     is_off = any(one.errors or one.is_expected(study.corridor) is False for one in cells)
     return _FINDINGS if is_off else _DONE
+
+
+def _plan_text(variants: list[Variant], samplings: list[str], missions: int | None) -> str:
+    """What would be flown."""
+    counts = [min(one.missions, missions or one.missions) * len(samplings) for one in variants]
+    names = ", ".join(one.name for one in variants)
+    cells = len(variants) * len(samplings)
+    return (
+        f"{cells} cell{'' if cells == 1 else 's'} ({names}; {', '.join(samplings)}), {sum(counts)} missions; "
+        "models are in order; nothing was flown"
+    )
 
 
 def _refuse_unknown(given: tuple[str, ...], known: list[str], what: str) -> None:

@@ -7,10 +7,13 @@ from typing import Any
 import click
 
 from checker.flight import load_programs
-from checker.judge.document import DocumentError, plan_of_trace, read_plan, read_record, record_data
+from checker.judge.document import record_data
 from checker.judge.judge import judge_mission, judge_plan
+from checker.judge.reading import read_json, read_plan, read_record
 from checker.judge.rendering import report_data, report_text
 from checker.judge.report import JudgeReport
+from checker.judge.trace_reading import plan_of_trace
+from checker.judge.written_values import DocumentError
 from checker.mission import read_mission
 from compiler.lower import compile_model
 from compiler.program import Program
@@ -51,10 +54,11 @@ def command(plan: Path, mission_path: Path | None, seed: int, target: Path | Non
             case _:
                 report = _documented(plan, mission_path, is_trusted)
     except DocumentError as problem:
-        raise Unusable(f"`{plan}`: {problem}", "docs/validate.md describes the form") from None
+        raise Unusable(f"`{plan}`: {problem}", problem.advice or "docs/validate.md describes the form") from None
     except UnusableModelError as problem:
         raise Unusable(str(problem)) from None
-    click.echo(report_text(report) if style == "text" else json.dumps(report_data(report), indent=1))
+    advises = plan.suffix != ".toml"
+    click.echo(report_text(report, advises=advises) if style == "text" else json.dumps(report_data(report), indent=1))
     return 0 if report.holds else 1
 
 
@@ -106,11 +110,11 @@ def _traced(path: Path, mission_path: Path, is_trusted: bool) -> JudgeReport:
 
 def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> JudgeReport:
     try:
-        data: Any = json.loads(path.read_text(encoding="utf-8"))
-    except (json.JSONDecodeError, UnicodeDecodeError) as problem:
-        raise DocumentError(f"it is no JSON: {problem}") from None
+        data: Any = read_json(path.read_text(encoding="utf-8"))
+    except UnicodeDecodeError as problem:
+        raise DocumentError(f"it is no text: {problem}") from None
     if not isinstance(data, dict):
-        raise DocumentError("it is no object")
+        raise DocumentError("it is no object of JSON")
     if "reactors" in data:
         return _recorded(path, data, mission_path, is_trusted)
     if not isinstance(data.get("model"), str):

@@ -9,12 +9,13 @@ import signal
 import threading
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from distributed import Client, wait
 from distributed.scheduler import KilledWorker
 
-from checker.batch.pool import More, Supervisor
+from checker.batch.pool import Batch, Supervisor
 from checker.batch.result import MissionResult
 from checker.batch.worker import Load, Task, error_result, fly_one
 from runtime.executive.configuration import AgentConfiguration
@@ -30,24 +31,15 @@ class Cluster:
     def __init__(self, address: str) -> None:
         self._address = address
 
-    def fly_tasks(
-        self,
-        load: Load,
-        agent: AgentConfiguration,
-        tasks: Sequence[Task],
-        workers: int,
-        time_limit: float,
-        supervisor: Supervisor,
-        more: More,
-    ) -> signal.Signals | None:
-        """Fly `tasks`, and what `more` has after them; `workers` is the cluster's own affair."""
+    def fly(self, batch: Batch, supervisor: Supervisor) -> signal.Signals | None:
+        """Fly a batch, with as many workers as the cluster has."""
         signals = _Signals()
         with Client(self._address, timeout="30s") as client, signals:
-            while tasks and not supervisor.is_enough():
-                _Round(client, load, agent, tasks, time_limit).fly(supervisor, signals)
+            while batch.tasks and not supervisor.is_enough():
+                _Round(client, batch).fly(supervisor, signals)
                 if signals.seen is not None:
                     return signals.seen
-                tasks = more()
+                batch = replace(batch, tasks=batch.more())
         return None
 
 
@@ -76,10 +68,8 @@ class _Signals:
 class _Round:
     """One generation of tasks on the cluster."""
 
-    def __init__(
-        self, client: Client, load: Load, agent: AgentConfiguration, tasks: Sequence[Task], time_limit: float
-    ) -> None:
-        self._client, self._load, self._agent, self._time_limit = client, load, agent, time_limit
+    def __init__(self, client: Client, batch: Batch) -> None:
+        self._client, self._batch, tasks = client, batch, batch.tasks
         lanes = max(1, sum(client.nthreads().values()))
         size = max(1, min(_LARGEST_CHUNK, len(tasks) // (lanes * 4)))
         self._futures: dict[Any, tuple[Task, ...]] = {}
@@ -87,7 +77,7 @@ class _Round:
             self._submit(tuple(tasks[first : first + size]))
 
     def _submit(self, chunk: tuple[Task, ...]) -> None:
-        future = self._client.submit(_fly_chunk, self._load, self._agent, chunk, pure=False, retries=0)
+        future = self._client.submit(_fly_chunk, self._batch.load, self._batch.agent, chunk, pure=False, retries=0)
         self._futures[future] = chunk
 
     def fly(self, supervisor: Supervisor, signals: _Signals) -> None:
@@ -101,12 +91,12 @@ class _Round:
             if not finished and time.monotonic() > deadline:
                 for chunk in self._futures.values():
                     for task in chunk:
-                        supervisor.take(error_result(task, f"took longer than {self._time_limit:g} s"))
+                        supervisor.take(error_result(task, f"took longer than {self._batch.time_limit:g} s"))
                 break
         self._client.cancel(list(self._futures), force=True)
 
     def _patience(self) -> float:
-        return self._time_limit * (_LARGEST_CHUNK + 1)
+        return self._batch.time_limit * (_LARGEST_CHUNK + 1)
 
     def _finished(self) -> list[Any]:
         try:

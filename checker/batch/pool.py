@@ -6,6 +6,7 @@ content does not.
 """
 
 import contextlib
+import math
 import multiprocessing
 import os
 import signal
@@ -13,6 +14,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from types import FrameType
@@ -42,39 +44,38 @@ class Supervisor(Protocol):
         """Asked after results, and several times a second: whether to end the batch now."""
 
 
-More = Callable[[], Sequence[Task]]
-FlyTasks = Callable[
-    [Load, AgentConfiguration, Sequence[Task], int, float, Supervisor, More], "signal.Signals | None"
-]  # what `fly_all` is, and what a cluster does
-
-
 def nothing_more() -> Sequence[Task]:
     """There is no further generation of tasks."""
     return ()
+
+
+@dataclass(frozen=True, slots=True)
+class Batch:
+    """Missions to fly with models that `load` loads, each within a limit of seconds; then what `more` has."""
+
+    load: Load
+    agent: AgentConfiguration
+    tasks: Sequence[Task]
+    workers: int  # a cluster has its own
+    time_limit: float
+    more: Callable[[], Sequence[Task]] = nothing_more
+
+
+FlyBatch = Callable[[Batch, Supervisor], "signal.Signals | None"]  # what `fly_all` is, and what a cluster does
 
 
 class WorkerError(Exception):
     """No worker can be started: a bug of the tool, or a machine that lets no process live."""
 
 
-def fly_all(
-    load: Load,
-    agent: AgentConfiguration,
-    tasks: Sequence[Task],
-    workers: int,
-    time_limit: float,
-    supervisor: Supervisor,
-    more: More = nothing_more,
-) -> signal.Signals | None:
-    """Fly `tasks` and give each result to `supervisor`; the signal that ended the batch before all were flown.
-
-    When all have been flown, `more` tells what to fly next.
-    """
-    if not tasks and not (tasks := more()):
+def fly_all(batch: Batch, supervisor: Supervisor) -> signal.Signals | None:
+    """Fly a batch and give each result to `supervisor`; the signal that ended it before all were flown."""
+    tasks = batch.tasks or batch.more()
+    if not tasks:
         return None
     with _signal_pipe() as signalled:
-        count = workers if more is not nothing_more else min(workers, len(tasks))
-        pool = _Pool(load, agent, tasks, count, time_limit, supervisor, more)
+        count = batch.workers if batch.more is not nothing_more else min(batch.workers, len(tasks))
+        pool = _Pool(replace(batch, tasks=tasks, workers=count), supervisor)
         try:
             return pool.run(signalled)
         finally:
@@ -103,11 +104,13 @@ class Flyer:
         load: Load | None = None,
         *,
         keeps_trace: bool = False,
+        most_seconds: float = math.inf,
     ) -> MissionResult:
         """The result of one mission; an ERROR where the process died or took too long.
 
         `load` loads the models where they are others than those that the process was started with.
         """
+        limit = min(self._time_limit, most_seconds)
         task = Task(number, seed, agent, keeps_trace=keeps_trace, load=load)
         if self._worker is None:
             self._worker = _Worker(self._load, self._agent)
@@ -118,9 +121,9 @@ class Flyer:
                 raise _unloaded(message)
             if message != READY:
                 return self._lost(task, "the process did not start")
-        self._worker.give([task], self._time_limit)
-        if not self._worker.connection.poll(self._time_limit):
-            return self._lost(task, f"took longer than {self._time_limit:g} s")
+        self._worker.give([task], limit)
+        if not self._worker.connection.poll(limit):
+            return self._lost(task, f"took longer than {limit:g} s")
         result = self._heard()
         if isinstance(result, LastWords):
             return self._lost(task, result.reason, USER_CODE)
@@ -167,23 +170,15 @@ class _Worker:
 
 
 class _Pool:
-    def __init__(
-        self,
-        load: Load,
-        agent: AgentConfiguration,
-        tasks: Sequence[Task],
-        workers: int,
-        time_limit: float,
-        supervisor: Supervisor,
-        more: More,
-    ) -> None:
-        self.load, self.agent, self.time_limit, self.supervisor = load, agent, time_limit, supervisor
-        self.more = more
-        self.waiting = deque(tasks)
-        self.missing = len(tasks)
-        self.chunk = max(1, min(_LARGEST_CHUNK, len(tasks) // (workers * 4)))
+    def __init__(self, batch: Batch, supervisor: Supervisor) -> None:
+        self.batch, self.supervisor = batch, supervisor
+        self.waiting = deque(batch.tasks)
+        self.missing = len(batch.tasks)
         self.failed_starts = 0
-        self.workers = [_Worker(load, agent) for _ in range(workers)]
+        self.workers = [self._begun() for _ in range(batch.workers)]
+
+    def _begun(self) -> _Worker:
+        return _Worker(self.batch.load, self.batch.agent)
 
     def run(self, signalled: int) -> signal.Signals | None:
         """Serve workers until every task has its result, or there are enough; a signal ends that at once."""
@@ -197,17 +192,16 @@ class _Pool:
                 if worker.connection in ready:
                     self._listen(worker)
                 elif time.monotonic() > worker.deadline and (worker.owed or not worker.is_ready):
-                    self._lose(worker, f"took longer than {self.time_limit:g} s")
+                    self._lose(worker, f"took longer than {self.batch.time_limit:g} s")
         return None
 
     def _refill(self) -> bool:
         """Take the next generation of tasks, if there is one, and have those fly it who are ready."""
-        tasks = self.more()
+        tasks = self.batch.more()
         self.waiting.extend(tasks)
         self.missing += len(tasks)
         if tasks and not self.workers:
-            self.workers.append(_Worker(self.load, self.agent))
-        self.chunk = max(1, min(_LARGEST_CHUNK, len(tasks) // (max(1, len(self.workers)) * 4)))
+            self.workers.append(self._begun())
         for worker in self.workers:
             if worker.is_ready and not worker.owed:
                 self._feed(worker)
@@ -221,33 +215,34 @@ class _Pool:
             worker.kill()
 
     def _listen(self, worker: _Worker) -> None:
-        """Take all that a worker has said."""
+        """Take one thing that a worker has said."""
         try:
-            while worker.connection.poll():
-                message = worker.connection.recv()
-                if isinstance(message, LoadFailure):
-                    raise _unloaded(message)
-                if isinstance(message, LastWords):
-                    self._lose(worker, message.reason, USER_CODE)
-                    return
-                if message == READY:
-                    worker.is_ready = True
-                    self.failed_starts = 0
-                else:
-                    worker.owed.popleft()
-                    self.missing -= 1
-                    self.supervisor.take(message)
-                worker.deadline = time.monotonic() + self.time_limit
-                if not worker.owed:
-                    self._feed(worker)
+            message = worker.connection.recv()
+            if isinstance(message, LoadFailure):
+                raise _unloaded(message)
+            if isinstance(message, LastWords):
+                self._lose(worker, message.reason, USER_CODE)
+                return
+            if message == READY:
+                worker.is_ready = True
+                self.failed_starts = 0
+            else:
+                worker.owed.popleft()
+                self.missing -= 1
+                self.supervisor.take(message)
+            worker.deadline = time.monotonic() + self.batch.time_limit
+            if not worker.owed:
+                self._feed(worker)
         except (EOFError, OSError):
             worker.process.join(1.0)
             self._lose(worker, f"the process died ({_fate(worker.process.exitcode)})")
 
     def _feed(self, worker: _Worker) -> None:
-        chunk = [self.waiting.popleft() for _ in range(min(self.chunk, len(self.waiting)))]
+        """Give a worker a chunk: the fewer missions are left, the smaller, so that all workers end together."""
+        size = max(1, min(_LARGEST_CHUNK, len(self.waiting) // (2 * len(self.workers))))
+        chunk = [self.waiting.popleft() for _ in range(min(size, len(self.waiting)))]
         if chunk:
-            worker.give(chunk, self.time_limit)
+            worker.give(chunk, self.batch.time_limit)
 
     def _lose(self, worker: _Worker, reason: str, code: str = "") -> None:
         """Give up a worker and the mission in flight, and start another one for the rest."""
@@ -262,7 +257,7 @@ class _Pool:
         self.waiting.extendleft(reversed(worker.owed))
         self.workers.remove(worker)
         if self.missing:
-            self.workers.append(_Worker(self.load, self.agent))
+            self.workers.append(self._begun())
 
 
 def _unloaded(failure: LoadFailure) -> Exception:

@@ -15,8 +15,9 @@ from pathlib import Path
 from typing import Any
 
 from checker.batch.lock import Locks
-from checker.batch.result import KeptFailure, MissionResult, read_point, read_result, write_point, write_result
+from checker.batch.result import MissionResult, read_point, read_result, write_point, write_result
 from checker.oracle import Verdict
+from checker.regression import RegressionCase
 
 LATEST = "latest"
 _FOLDER = ".nddlc"
@@ -187,11 +188,11 @@ class RunStore:
         """What `keep_conditions` kept."""
         return dict(self._rows("SELECT example, text FROM conditions WHERE run = ?", run_id))
 
-    def failures(self, run: Run) -> tuple[KeptFailure, ...]:
+    def failures(self, run: Run) -> tuple[RegressionCase, ...]:
         """The missions that failed in other runs of the same mission file, in the order in which they were kept."""
-        query = "SELECT seed, point, code, run FROM failures WHERE mission_file = ? AND run != ? ORDER BY turn"
+        query = "SELECT seed, code, point FROM failures WHERE mission_file = ? AND run != ? ORDER BY turn"
         rows = self._rows(query, run.mission_file, run.id)
-        return tuple(KeptFailure(seed, read_point(point), code, name) for seed, point, code, name in rows)
+        return tuple(RegressionCase("", seed, code, read_point(point)) for seed, code, point in rows)
 
     def close(self) -> None:
         """Write what is pending and let go of the file."""

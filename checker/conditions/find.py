@@ -34,10 +34,10 @@ def find_condition(
     space = Space(agent, results)
     if not space.parameters:
         return None
-    rows = _rows(space, results, example)
+    rows = _rows(space, results, bucket)
     if refly is None:
         return _from_samples(space, rows)
-    flights = Flights(example, space, refly, flight_budget(example))
+    flights = Flights(bucket, example, space, refly, flight_budget(example))
     fails = [space.point(row) for row, label in rows if label is Ended.FAILS]
     passes = [space.point(row) for row, label in rows if label is Ended.PASSES]
     own = space.row(example)
@@ -60,7 +60,7 @@ def find_condition(
         conjunctions = _induced(space, rows, find_edges(flights, crossings), flights.rows())
     if not conjunctions:
         return None
-    measured = measure(conjunctions, space, example, batch_seed, refly, fresh_budget(example))
+    measured = measure(conjunctions, space, bucket, batch_seed, refly, fresh_budget(example))
     found = _condition(conjunctions, measured, flights.count, space, has_flown=True)
     return None if found is None else replace(found, in_terms=_in_terms(found, example, space))
 
@@ -85,10 +85,10 @@ def _in_terms(condition: Condition, example: MissionResult, space: Space) -> tup
     return tuple(found)
 
 
-def _rows(space: Space, results: Sequence[MissionResult], example: MissionResult) -> list[tuple[Row, Ended]]:
+def _rows(space: Space, results: Sequence[MissionResult], bucket: Bucket) -> list[tuple[Row, Ended]]:
     rows: list[tuple[Row, Ended]] = []
     for result in results:
-        label, row = label_of(result, example), space.row(result)
+        label, row = label_of(result, bucket), space.row(result)
         if label is not None and row is not None:
             rows.append((row, label))
     return rows

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from enum import Enum
 
 from checker.batch.result import MissionResult
-from checker.buckets import bucket_key
+from checker.buckets import Bucket
 from checker.conditions.condition import Row
 from checker.conditions.space import Point, Space
 from checker.oracle import Verdict
@@ -39,20 +39,20 @@ def fresh_budget(example: MissionResult) -> int:
     return int(_TESTED * flight_budget(example))
 
 
-def label_of(result: MissionResult, example: MissionResult) -> Ended | None:
-    """How a mission ended, seen from the bucket of `example`; None where the tool failed."""
+def label_of(result: MissionResult, bucket: Bucket) -> Ended | None:
+    """How a mission ended, seen from a bucket; None where the tool failed."""
     if result.verdict is Verdict.ERROR:
         return None
     if result.verdict is Verdict.PASS:
         return Ended.PASSES
-    return Ended.FAILS if bucket_key(result) == bucket_key(example) else Ended.OTHER
+    return Ended.FAILS if bucket.holds(result) else Ended.OTHER
 
 
 class Flights:
     """Flies the example at other points and remembers how that ended."""
 
-    def __init__(self, example: MissionResult, space: Space, refly: Refly, budget: int) -> None:
-        self.example, self.space, self.refly, self.budget = example, space, refly, budget
+    def __init__(self, bucket: Bucket, example: MissionResult, space: Space, refly: Refly, budget: int) -> None:
+        self.bucket, self.example, self.space, self.refly, self.budget = bucket, example, space, refly, budget
         self.count = 0
         self.known: dict[Point, Ended] = {}
 
@@ -64,7 +64,7 @@ class Flights:
                 raise SpentError
             self.count += 1
             result = self.refly(self.space.agent_at(point), self.example.number, self.example.seed)
-            found = label_of(result, self.example)
+            found = label_of(result, self.bucket)
             if found is None:
                 self.budget = 0
                 raise SpentError

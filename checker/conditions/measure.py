@@ -9,7 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from checker.batch.result import MissionResult
+from checker.buckets import Bucket
 from checker.conditions.condition import Conjunction, Literal, Row, Share, holds
 from checker.conditions.flights import Ended, Refly, label_of
 from checker.conditions.space import Space
@@ -51,14 +51,14 @@ class _Stratum:
 def measure(
     conjunctions: Sequence[Conjunction],
     space: Space,
-    example: MissionResult,
+    bucket: Bucket,
     batch_seed: int,
     refly: Refly,
     flights: int,
 ) -> Quality | None:
     """Fly fresh missions; None where the tool failed in one, or none is to be had on a side."""
     if space.has_redrawn:
-        return _as_they_come(conjunctions, space, example, batch_seed, refly, flights)
+        return _as_they_come(conjunctions, space, bucket, batch_seed, refly, flights)
     strata = _strata(conjunctions, space, batch_seed)
     for is_inside in (True, False):
         near, far = strata[is_inside, True], strata[is_inside, False]
@@ -66,7 +66,7 @@ def measure(
         quota = each // 2
         for stratum, most in ((near, quota), (far, each - min(quota, len(near.seeds)))):
             for number, seed in stratum.seeds[:most]:
-                label = label_of(refly(space.agent, number, seed), example)
+                label = label_of(refly(space.agent, number, seed), bucket)
                 if label is None:
                     return None
                 stratum.flown += 1
@@ -96,7 +96,7 @@ def measured_on(rows: Sequence[tuple[Row, Ended]], conjunctions: Sequence[Conjun
 def _as_they_come(
     conjunctions: Sequence[Conjunction],
     space: Space,
-    example: MissionResult,
+    bucket: Bucket,
     batch_seed: int,
     refly: Refly,
     flights: int,
@@ -104,7 +104,7 @@ def _as_they_come(
     rows: list[tuple[Row, Ended]] = []
     for number in range(flights):
         result = refly(space.agent, _FIRST + number, mission_seed(batch_seed, _FIRST + number))
-        label, row = label_of(result, example), space.row(result)
+        label, row = label_of(result, bucket), space.row(result)
         if label is None or row is None:
             return None
         rows.append((row, label))

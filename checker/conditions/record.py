@@ -6,13 +6,14 @@ from typing import Any
 
 from checker.conditions.condition import Condition, Extreme, Feature, Literal, Share
 
-Conditions = Mapping[int, Condition | None]  # by the example of a bucket
+# By the example of a bucket its condition; or the example of the bucket that is of the same fault.
+Conditions = Mapping[int, "Condition | int | None"]
 
 
-def write_condition(condition: Condition | None) -> str:
+def write_condition(condition: Condition | int | None) -> str:
     """One line of JSON."""
-    if condition is None:
-        return "null"
+    if condition is None or isinstance(condition, int):
+        return json.dumps(condition)
     data = {
         "conjunctions": [[_literal(literal) for literal in one] for one in condition.conjunctions],
         "precision": [condition.precision.value, *condition.precision.interval],
@@ -25,11 +26,11 @@ def write_condition(condition: Condition | None) -> str:
     return json.dumps(data, separators=(",", ":"))
 
 
-def read_condition(text: str) -> Condition | None:
+def read_condition(text: str) -> Condition | int | None:
     """What `write_condition` wrote."""
     data = json.loads(text)
-    if data is None:
-        return None
+    if data is None or isinstance(data, int):
+        return data
     return Condition(
         tuple(tuple(_read(literal) for literal in one) for one in data["conjunctions"]),
         _share(data["precision"]),

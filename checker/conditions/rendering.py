@@ -13,31 +13,25 @@ def condition_text(condition: Condition) -> str:
 def condition_claim(condition: Condition) -> str:
     """A condition with its measured quality, as the end of a sentence that begins with `fails`."""
     partly = "in part when" if condition.is_partial else "when"
-    return f"{partly} {condition_text(condition)} ({'; '.join(condition_evidence(condition))})"
+    return f"{partly} {condition_text(condition)} ({condition_evidence(condition)})"
 
 
 def condition_lines(condition: Condition, indent: str = "") -> list[str]:
     """A condition for people: the claim, and below it how well it holds and how it was found."""
     partly = "in part when" if condition.is_partial else "when"
-    evidence = [f"{indent}  {line}" for line in condition_evidence(condition)]
-    return [f"{indent}fails {partly} {condition_text(condition)}", *evidence]
+    return [f"{indent}fails {partly} {condition_text(condition)}", f"{indent}  {condition_evidence(condition)}"]
 
 
-def condition_evidence(condition: Condition) -> list[str]:
-    """How good it is, on which missions, and how it was found, a line each."""
+def condition_evidence(condition: Condition) -> str:
+    """How good it is, on which missions, and how it was found."""
     if condition.near is None:
         sample = f"{condition.fresh} missions of the run that were held back; none was flown for it"
     else:
         near = f", {condition.near} of them near an edge" if condition.near else ""
         sample = f"{condition.fresh} fresh missions{near}"
     quality = f"precision {_share(condition.precision)}, recall {_share(condition.recall)} on {sample}"
-    lines = [f"partial: {quality}" if condition.is_partial else quality]
-    if condition.flights:
-        lines.append(f"edges found by {condition.flights} flights of the example with other values")
-    if condition.in_terms:
-        edges = " and ".join(literal_text(one) for one in condition.in_terms)
-        lines.append(f"z3: the terms of the example's conflict contradict each other just where {edges}")
-    return lines
+    found = f"; edges found by {condition.flights} flights of the example" if condition.flights else ""
+    return f"{'partial: ' if condition.is_partial else ''}{quality}{found}"
 
 
 def _conjunction_text(conjunction: Conjunction) -> str:

@@ -1,11 +1,13 @@
 """A failed mission in, the lines out that may be the mistaken one, the likeliest first.
 
-Three sources: the conflict that ended it (and those of what was tried and repaired before), what is said of tokens and
-goals that found no place, and, by the dependence graph, the lines that bear on these. Lines of rules whose predicate
-never held or was never asked for in the mission come after all others.
+Four sources: the conflict that ended it (and those of what was tried and repaired before), what is said of tokens and
+goals that found no place, rules and branches that passing missions do not reach, and, by the dependence graph, the
+lines that bear on these. Where a property was violated, or
+a reactor ended without a conflict, what was observed there stands for them. Lines of rules whose predicate never held,
+nor was asked for in the mission, come after all others.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -14,9 +16,11 @@ from checker.causes import culprit_of, failed_by
 from checker.counterfactual.dependence import Dependence
 from checker.mutation.edits import EditSite
 from nddl_lang.text.read import real_path
-from runtime.executive.outcome import Conflict, Deadlock, EventKind, Outcome, SourcePlace
+from nddl_lang.text.source import Span
+from runtime.executive.configuration import PropertyConfiguration
+from runtime.executive.outcome import Conflict, Deadlock, Event, EventKind, Outcome, SourcePlace
 
-_CULPRIT, _CONFLICT, _LOG, _EVENT, _NAMED = 0.0, 0.25, 0.5, 1.0, 1.5
+_CULPRIT, _CONFLICT, _LOG, _COVERED, _EVENT, _NAMED = 0.0, 0.25, 0.5, 0.75, 1.0, 1.5
 _UNSEEN = 4.0  # added for lines of a rule that nothing fired
 
 
@@ -26,6 +30,7 @@ class Suspicion(StrEnum):
     CONFLICT = "conflict"
     SEARCH = "failure log"
     TRACE = "trace"  # a repair, a refusal or a rejection on the way
+    COVERAGE = "coverage"  # passing missions do not reach it
     DEPENDENCE = "dependence"
 
 
@@ -38,8 +43,14 @@ class Candidate:
     source: Suspicion
 
 
-def candidates_of(outcome: Outcome, graph: Dependence, root: Path) -> list[Candidate]:
-    """All lines that can have a part in it, the nearest first."""
+def candidates_of(
+    outcome: Outcome,
+    graph: Dependence,
+    root: Path,
+    properties: Sequence[PropertyConfiguration] = (),
+    exercised: Sequence[Span] = (),
+) -> list[Candidate]:
+    """All lines that can have a part in it, the nearest first; `exercised` rules and branches passing missions lack."""
     roots: dict[int, tuple[float, Suspicion]] = {}
 
     def note(place: SourcePlace | None, far: float, source: Suspicion) -> None:
@@ -54,9 +65,16 @@ def candidates_of(outcome: Outcome, graph: Dependence, root: Path) -> list[Candi
         note(place, _CULPRIT, Suspicion.CONFLICT)
     for place, far, source in _named(outcome, conflict):
         note(place, far, source)
-    for predicate in _predicates(outcome):
+    predicates = _predicates(outcome) | _violated(outcome, properties)
+    if not roots and not predicates:
+        predicates = {event.predicate for event in _latest(outcome)}
+    for predicate in predicates:
         for number in graph.of_predicate(predicate):
             roots.setdefault(number, (_NAMED, Suspicion.TRACE))
+    for span in exercised:
+        for number in graph.within(span):
+            if number not in roots or roots[number][0] > _COVERED:
+                roots[number] = (_COVERED, Suspicion.COVERAGE)
     distances = graph.distances({number: far for number, (far, _) in roots.items()})
     seen = _held(outcome)
     found = []
@@ -106,6 +124,30 @@ def _predicates(outcome: Outcome) -> set[str]:
         found |= {reason.predicate, reason.token.predicate.rpartition(".")[2] if reason.token is not None else ""}
         reason = reason.because
     return found - {""}
+
+
+def _violated(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> set[str]:
+    """The predicates that the first violated property is about; of a timeline alone, what it held last."""
+    broken = next((one for one in outcome.properties if not one.is_kept), None)
+    found: set[str] = set()
+    for each in properties if outcome.abort is None and broken is not None else ():
+        assert broken is not None
+        for pattern in (each.pattern, each.then) if each.name == broken.name else ():
+            if pattern is not None:
+                held = (
+                    event.predicate for event in _latest(outcome, broken.tick) if event.timeline == pattern.timeline
+                )
+                found |= {pattern.predicate} if pattern.predicate else set(held)
+    return found
+
+
+def _latest(outcome: Outcome, tick: int | None = None) -> list[Event]:
+    """What was observed last on each timeline, until the end or a tick."""
+    last: dict[str, Event] = {}
+    for event in outcome.events:
+        if event.kind is EventKind.OBSERVATION and (tick is None or event.tick <= tick):
+            last[event.timeline] = event
+    return list(last.values())
 
 
 def _held(outcome: Outcome) -> set[str]:

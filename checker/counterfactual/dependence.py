@@ -84,6 +84,13 @@ class Dependence:
         """The sites at a line."""
         return self._at.get((file, line), ())
 
+    def within(self, span: Span) -> Iterator[int]:
+        """The sites in the lines of a rule or a branch."""
+        file, first = self._line(span)
+        last = span.source.locate(max(span.begin, span.finish - 1))[0]
+        for line in range(first, last + 1):
+            yield from self._at.get((file, line), ())
+
     def of_predicate(self, predicate: str) -> Iterable[int]:
         """The sites that bear on a token of a predicate, whatever its class."""
         for key in self._users:

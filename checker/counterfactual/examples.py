@@ -26,7 +26,17 @@ def examples_of(failed: Sequence[MissionResult], passed: Sequence[MissionResult]
         shares = (abs(drawn[name] - own[name]) / spread[name] for name in own if name in drawn and spread[name] > 0.0)
         return -sum(shares)
 
-    return Missions(failed[:_MOST_FAILED], sorted(passed, key=lambda one: (nearness(one), one.number))[:_MOST_PASSED])
+    chosen = sorted(passed, key=lambda one: (nearness(one), one.number))[:_MOST_PASSED]
+    return Missions(failed[:_MOST_FAILED], chosen, _only_exercised_by(failed, passed))
+
+
+def _only_exercised_by(failed: Sequence[MissionResult], passed: Sequence[MissionResult]) -> frozenset[int]:
+    """What all failed missions exercised and no other; nothing where no other is known."""
+    behaviours = [frozenset(one.outcome.behaviour) for one in failed if one.outcome is not None]
+    others = [frozenset(one.outcome.behaviour) for one in passed if one.outcome is not None]
+    if not others:
+        return frozenset()
+    return frozenset.intersection(*behaviours) - frozenset[int]().union(*others)
 
 
 def _drawn(result: MissionResult) -> dict[str, float]:

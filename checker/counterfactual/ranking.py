@@ -9,12 +9,12 @@ from enum import StrEnum
 from pathlib import Path
 
 from checker.counterfactual.candidates import Candidate
+from checker.counterfactual.smallness import is_loosening
 from checker.counterfactual.trials import HEAVY, LineTrial, Loose, Trials, TrialsEnd
-from checker.mutation.edits import EditKind
+from checker.mutation.edits import SmallEdit
 from checker.names import relative_name
 from runtime.executive.outcome import SourcePlace
 
-_LARGE = 2.5  # cost from which on an edit only takes a demand away
 _MOST_LOOSE = 2
 
 
@@ -29,15 +29,6 @@ class Claim(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class TriedChange:
-    """What a trial put in the place of what."""
-
-    kind: EditKind
-    old: str
-    new: str
-
-
-@dataclass(frozen=True, slots=True)
 class RankedLine:
     """One line with its claim: the smallest `change` that helped, on how many of how many failed missions.
 
@@ -48,7 +39,7 @@ class RankedLine:
     place: SourcePlace
     rule: str
     claim: Claim
-    change: TriedChange | None = None
+    change: SmallEdit | None = None
     helped: int = 0
     missions: int = 0
     spoilt: int = 0
@@ -63,6 +54,11 @@ class Causes:
     tried: int = 0
     flights: int = 0
     ended: TrialsEnd = TrialsEnd.COMPLETE
+
+    @property
+    def is_sought(self) -> bool:
+        """Whether anything was tried, or would have been with more time."""
+        return self.flights > 0 or self.ended is not TrialsEnd.COMPLETE
 
     @property
     def first(self) -> RankedLine | None:
@@ -92,14 +88,13 @@ def _claim(trial: LineTrial) -> Claim:
         return Claim.EVADES
     if trial.helped < trial.missions or trial.spoilt:
         return Claim.PARTLY
-    return Claim.MENDS if trial.cost < _LARGE else Claim.LOOSENS
+    return Claim.LOOSENS if is_loosening(trial.edit) else Claim.MENDS
 
 
 def _tried(trial: LineTrial, root: Path) -> RankedLine:
     site, edit = trial.candidate.site, trial.edit
-    change = TriedChange(edit.kind, edit.old, edit.new.strip())
     place = _place(trial.candidate, edit.line, root)
-    return RankedLine(place, site.rule, _claim(trial), change, trial.helped, trial.missions, trial.spoilt)
+    return RankedLine(place, site.rule, _claim(trial), edit, trial.helped, trial.missions, trial.spoilt)
 
 
 def _loose(loose: Loose, root: Path) -> RankedLine:

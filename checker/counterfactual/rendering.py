@@ -2,8 +2,9 @@
 
 from typing import Any, assert_never
 
-from checker.counterfactual.ranking import Causes, Claim, RankedLine, TriedChange
+from checker.counterfactual.ranking import Causes, Claim, RankedLine
 from checker.counterfactual.trials import TrialsEnd
+from checker.mutation.edits import SmallEdit
 
 _MOST_TEXT = 60
 
@@ -29,9 +30,16 @@ def claim_text(cause: RankedLine) -> str:
             assert_never(cause.claim)
 
 
-def _change_text(change: TriedChange) -> str:
+def cause_text(causes: Causes) -> str:
+    """The likeliest cause in one line, with what was tried for it."""
+    if causes.first is None:
+        return f"no change of one line makes it pass ({effort_text(causes)})"
+    return f"{claim_text(causes.first)} ({effort_text(causes)})"
+
+
+def _change_text(change: SmallEdit) -> str:
     """A change as what to do."""
-    if not change.new:
+    if not change.new.strip():
         return "without it"
     return f"with `{_short(change.new)}` for `{_short(change.old)}`"
 
@@ -63,12 +71,16 @@ def cause_data(cause: RankedLine) -> dict[str, Any]:
         "text": cause.place.text,
         "rule": cause.rule,
         "claim": cause.claim.value,
-        "change": None if change is None else {"kind": change.kind.value, "old": change.old, "new": change.new},
+        "change": _change_data(change),
         "variable": cause.variable,
         "helped": cause.helped,
         "missions": cause.missions,
         "spoilt": cause.spoilt,
     }
+
+
+def _change_data(change: SmallEdit | None) -> dict[str, str] | None:
+    return None if change is None else {"kind": change.kind.value, "old": change.old, "new": change.new.strip()}
 
 
 def causes_data(causes: Causes) -> dict[str, Any]:

@@ -1,5 +1,7 @@
 """A failed mission and its models in, ranked causes out: candidates, trials in memory, and where they stand."""
 
+import math
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -9,12 +11,14 @@ from checker.batch.pool import Flyer
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import Candidate, candidates_of
 from checker.counterfactual.dependence import Dependence
+from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
 from checker.counterfactual.smallness import usage_of
-from checker.counterfactual.trials import Bounds, Loose, Missions, Trials, try_out
+from checker.counterfactual.trials import HEAVY, Bounds, Loose, Missions, Trials, damage_of, try_out
+from checker.coverage import Universe
 from checker.losses import Limit
 from checker.mutation.edits import EditSite, SmallEdit, sites_of
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
-from checker.oracle import judge_losses
+from checker.oracle import Verdict, judge_losses
 from checker.sampling.sampler import with_point
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
@@ -31,6 +35,28 @@ class Suspended:
     limits: tuple[tuple[Limit, int], ...]
     flyer: Flyer
     overlay: Overlay = ()
+
+
+class CauseSearch:
+    """Finds the causes of several faults, each within `bounds`, all together within so many seconds."""
+
+    def __init__(self, world: Suspended, bounds: Bounds, seconds: float = math.inf) -> None:
+        self._world, self._bounds = world, bounds
+        self._deadline = time.monotonic() + seconds
+
+    def causes(self, missions: Missions) -> Causes:
+        """The causes of one fault."""
+        left = max(self._deadline - time.monotonic(), 0.0)
+        bounds = replace(self._bounds, seconds=min(self._bounds.seconds, left))
+        return rank(find_causes(missions, self._world, bounds), Path(self._world.agent.root))
+
+    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
+        """Whether the change of a cause makes another failed mission pass, with all goals; False where time is over."""
+        left = min(self._deadline - time.monotonic(), self._bounds.seconds)
+        if cause.change is None or cause.claim is Claim.EVADES or left <= 0.0 or self._bounds.flights == 0:
+            return False
+        result = _fly(self._world, cause.change, failed, left)
+        return result.verdict is Verdict.PASS and damage_of(result) < HEAVY
 
 
 def sites_in(agent: AgentConfiguration, overlay: Overlay = ()) -> list[EditSite]:
@@ -50,7 +76,9 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     sampled = {parameter.name for parameter in world.agent.parameters}
     sites = [site for site in sites_in(world.agent, world.overlay) if site.named not in sampled]
     graph = Dependence(world.programs, sites)
-    candidates = candidates_of(outcome, graph, Path(world.agent.root))
+    sites_reached = Universe(world.programs).sites
+    exercised = [site.span for number, site in enumerate(sites_reached) if number in missions.exercised]
+    candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised)
     trials = try_out(candidates, missions, usage_of(sites), partial(_fly, world), bounds)
     return replace(trials, loose=_loose(graph, candidates))
 
@@ -66,7 +94,8 @@ def _loose(graph: Dependence, candidates: Sequence[Candidate]) -> tuple[Loose, .
     return tuple(loose for _, _, loose in sorted(found, key=lambda one: one[:2]))
 
 
-def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult) -> MissionResult:
+def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult, most_seconds: float) -> MissionResult:
     load = partial(load_over, with_edit(world.overlay, edit))
-    result = world.flyer.fly(with_point(world.agent, mission.point), mission.number, mission.seed, load)
+    agent = with_point(world.agent, mission.point)
+    result = world.flyer.fly(agent, mission.number, mission.seed, load, most_seconds=most_seconds)
     return replace(result, judgement=judge_losses(result.judgement, result.losses, world.limits))

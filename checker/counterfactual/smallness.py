@@ -1,4 +1,8 @@
-"""How small an edit is as a repair, and how soon it is worth a trial, before anything is known of it."""
+"""How likely an edit is the repair of a fault, before anything is known of it: its cost, and how soon it is tried.
+
+Costs are negative logarithms of odds. An edit is the likelier the fewer lines and values there are for edits of its
+kind, the more usual what it writes is (in models, and in this one), and the less usual what it takes away.
+"""
 
 import math
 import re
@@ -9,66 +13,107 @@ from dataclasses import dataclass
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
+_SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
 _LOOSE = "any"  # the relation that demands nothing
-_EQUAL, _UNEQUAL = ("==", "eq"), ("!=", "neq")
-_COMMON = ("contains", "contained_by", "before", "meets", "met_by")
+_SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
+_UNEQUAL, _EQUAL = "!=", "=="
 _TIMES = ("start", "end", "duration")
-_DROP = 2.5
 _NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 _MOST_FOLLOW_UPS = 3
 _FEW = 3  # numbers so small that one more is much
-_LATE = 3.0  # what is tried when all likelier edits have been
-_RARITY = 0.3  # what a kind of fault costs that could stand at many lines, for each factor of e
+_LATE = 3.0  # later by so much: what is tried when all likelier edits have been
+_DROP = 3.0
+_KINDS = 0.5  # how much the number of lines counts at which an edit of the kind can be made
+_UNUSUAL = 0.5  # how much the odds count that a word is meant
+_OCTAVE = 0.15  # for each doubling of a constant
+_DIGIT = 0.1  # for each digit that a constant has more
+_IDLE = 2.5  # odds of a constant that nothing uses any more, or where the range of a draw is used as a number
+_SUBSUMED = 0.4  # what is lost where one edit stands for several
+
+# How often a word is meant, in lines of a sort, before any line of the model is read.
+_RELATIONS = {
+    False: {"contains": 4.0, "contained_by": 2.0, "meets": 1.5, "met_by": 1.5, "before": 0.7, "after": 0.7},
+    True: {"before": 3.0, "meets": 1.5, "contains": 1.5, "contained_by": 1.0, "after": 0.7, "met_by": 0.7},
+}
+_COMPARISONS = {
+    "value": {"==": 6.0, "<=": 1.0, ">=": 1.0, "!=": 0.1},
+    "time": {"==": 3.0, "<=": 3.0, ">=": 1.5, "!=": 0.05},
+    "condition": {"==": 3.0, "<=": 2.0, ">=": 2.0, "<": 2.0, ">": 2.0, "!=": 0.7},
+}
+_RARE = 0.3  # all other words
+_LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Usage:
-    """How often the lines of a model use each word; `named` are its global variables, `kinds` counts lines by edit."""
+    """How often the lines of a model use each word; `named` are its global variables, `kinds` counts lines by edit.
+
+    `meant` counts relations and comparisons by the sort of line that they stand in; `sampled` are the ranges of draws.
+    """
 
     counts: Counter[str]
     named: Container[str]
     kinds: Counter[EditKind]
+    meant: Counter[tuple[object, str]]
+    sampled: Container[str]
+
+    def is_swapped(self, edit: SmallEdit) -> bool:
+        """Whether a constant stands where another one is missed, or the range of a draw where a number is meant."""
+        return edit.new not in self.sampled and (self.is_idle(edit.new) or edit.old in self.sampled)
 
     def is_idle(self, name: str) -> bool:
         """Whether nothing uses a variable that somebody declared: another may have taken its place."""
         return name in self.named and not self.counts[name]
+
+    def odds(self, edit: SmallEdit, site: EditSite) -> float:
+        """Logarithm of how much likelier the old word of a relation or comparison is meant than the new one."""
+        sort, prior = _sort(edit, site)
+        old, new = _sign(edit.old), _sign(edit.new)
+        before = prior.get(old, _RARE) + self.meant[sort, old] - 1  # but for this very line
+        odds = math.log(before / (prior.get(new, _RARE) + self.meant[sort, new]))
+        return max(odds, _LEAST_ODDS) if sort == "condition" else odds
 
 
 def usage_of(sites: Sequence[EditSite]) -> Usage:
     """The usage of words in all lines; a line that sets a variable does not use it."""
     counts: Counter[str] = Counter()
     kinds: Counter[EditKind] = Counter()
+    meant: Counter[tuple[object, str]] = Counter()
     for site in sites:
         counts.update(word for word in _WORD.findall(site.text) if word != site.named)
         kinds.update({edit.kind for edit in site.edits})
-    return Usage(counts, {site.named for site in sites if site.named}, kinds)
+        words = {edit.begin: edit for edit in site.edits if edit.kind in (EditKind.RELATION, EditKind.COMPARISON)}
+        meant.update((_sort(edit, site)[0], _sign(edit.old)) for edit in words.values())
+    sampled = {name for site in sites for name in _SAMPLED.findall(site.text)}
+    return Usage(counts, {site.named for site in sites if site.named}, kinds, meant, sampled)
+
+
+def is_loosening(edit: SmallEdit) -> bool:
+    """Whether an edit takes a demand away altogether."""
+    return (
+        edit.kind in DROPPED
+        or (edit.kind is EditKind.RELATION and edit.new == _LOOSE)
+        or (edit.kind is EditKind.COMPARISON and _sign(edit.new) == _UNEQUAL)
+    )
 
 
 def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
-    """How much an edit changes: 1 is one word or sign, what takes a demand away altogether costs most."""
-    return _change(edit, site, usage) + _RARITY * math.log(max(usage.kinds[edit.kind], 1))
+    """How unlikely an edit is the repair; what takes a demand away altogether costs most."""
+    if is_loosening(edit):
+        return _DROP + _KINDS * math.log(max(usage.kinds[edit.kind], 1))
+    return _form(edit, site, usage) + _KINDS * math.log(max(usage.kinds[edit.kind], 1))
 
 
-def _change(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
+def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     match edit.kind:
-        case EditKind.OFF_BY_ONE | EditKind.SIGN | EditKind.ARGUMENTS:
-            return 0.8
+        case EditKind.RELATION | EditKind.COMPARISON:
+            return 1.0 + _UNUSUAL * usage.odds(edit, site)
         case EditKind.LIMIT:
-            return 0.4 if usage.is_idle(edit.new) else 1.5
-        case EditKind.COMPARISON:
-            if edit.old in _UNEQUAL:
-                return 0.8
-            if edit.new in _UNEQUAL:
-                return _DROP
-            if edit.new in _EQUAL or edit.old in _EQUAL:
-                return 1.0 if edit.new in _EQUAL or _is_about_time(site) else 1.5
-            return 1.2 if edit.old[0] != edit.new[0] else 1.0  # the other way round, or strictly
-        case EditKind.RELATION:
-            return _DROP if edit.new == _LOOSE else 1.2 + _rareness(edit.new, usage)
-        case EditKind.CONSTANT:
-            return 0.9 + 0.15 * _octaves(edit)
-        case EditKind.DROPPED_CONSTRAINT | EditKind.DROPPED_BRANCH:
-            return _DROP
+            return 1.5 - _IDLE * usage.is_swapped(edit)
+        case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
+            return 1.0 + _OCTAVE * _octaves(edit) + _DIGIT * (_digits(edit.new) - _digits(edit.old))
+        case _:
+            return 1.0
 
 
 def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
@@ -78,24 +123,19 @@ def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     """
     match edit.kind:
         case EditKind.LIMIT:
-            return -1.0 if usage.is_idle(edit.new) else None
+            return -1.0 if usage.is_swapped(edit) else _LATE
         case EditKind.SIGN | EditKind.ARGUMENTS:
             return 0.5
         case EditKind.DROPPED_CONSTRAINT:
-            return 0.6 if "==" in edit.old else 0.3
+            return _LATE if "==" in edit.old or edit.old.startswith("eq") else 0.3
         case EditKind.DROPPED_BRANCH:
             return 1.0
         case EditKind.RELATION:
-            return 0.3 if edit.new == _LOOSE else 1.1 + _rareness(edit.new, usage)
-        case EditKind.COMPARISON if not _is_demand(edit, site):
+            return 0.3 if edit.new == _LOOSE else 0.6 + _UNUSUAL * usage.odds(edit, site)
+        case EditKind.COMPARISON if _sign(edit.new) == _UNEQUAL:
             return _LATE
-        case EditKind.COMPARISON if edit.old in _UNEQUAL:
-            return -0.5
-        case EditKind.COMPARISON if edit.old in _EQUAL:
-            return 1.0 if edit.new not in _UNEQUAL else _LATE
         case EditKind.COMPARISON:
-            # What is no time is seldom bounded only: `x >= y` leaves it open where `x == y` was meant.
-            return _LATE if edit.new not in _EQUAL else 0.8 if _is_about_time(site) else -0.3
+            return 0.6 + _UNUSUAL * usage.odds(edit, site)
         case EditKind.CONSTANT:
             octaves = _octaves(edit)
             return None if octaves < 1.0 else 1.2 if octaves < 2.0 else -0.3
@@ -136,15 +176,20 @@ def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdi
     return [other for cost, _, other in sorted(others)[:_MOST_FOLLOW_UPS] if cost <= most]
 
 
-def _rareness(relation: str, usage: Usage) -> float:
-    """How seldom a relation is meant; a model that uses it often uses it once more."""
-    return max(0.0, (0.1 if relation in _COMMON else 0.4) - 0.05 * math.log1p(usage.counts[relation]))
-
-
-def _is_demand(edit: SmallEdit, site: EditSite) -> bool:
-    """Whether a comparison is what a line demands, and neither a condition nor a truth value that is computed."""
+def _sort(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
+    """The sort of line that a relation or comparison stands in, and how often words are meant in such lines."""
+    if edit.kind is EditKind.RELATION:
+        between = edit.begin > site.begin  # two named tokens; else the rule's own and another
+        return between, _RELATIONS[between]
     before = site.text[: edit.begin - site.begin]
-    return site.text.endswith(";") and before.count("(") == before.count(")")
+    is_demand = site.text.endswith(";") and before.count("(") == before.count(")")
+    sort = "condition" if not is_demand else "time" if _is_about_time(site) else "value"
+    return sort, _COMPARISONS[sort]
+
+
+def _sign(word: str) -> str:
+    """A comparison as a sign, also where a function is its name."""
+    return _SIGNS.get(word, word)
 
 
 def _is_about_time(site: EditSite) -> bool:
@@ -155,3 +200,8 @@ def _octaves(edit: SmallEdit) -> float:
     """By how many doublings a constant changes; one that changes its sign, or becomes 0, by many."""
     old, new = float(edit.old), float(edit.new)
     return abs(math.log2(new / old)) if old * new > 0.0 else 4.0
+
+
+def _digits(number: str) -> int:
+    """Significant digits: people choose round numbers."""
+    return len(number.lstrip("-").replace(".", "").strip("0")) if "." in number else len(number.lstrip("-").rstrip("0"))

@@ -23,11 +23,16 @@ MOST_SECONDS = 60.0
 _NEARNESS = 0.4  # of the distance, beside how late an edit is tried at its line
 _TURN = 0.3  # how much later each further edit of one line is tried
 _CONFIRMED = 3  # causes that are tried on other missions too
+_FAR = 0.1  # what the distance of a line counts beside the cost of its change
 HEAVY = 10.0  # damage of a mission that passes without a goal
 _CONSTANT = 0.5  # how much nearer a constant counts: a number that somebody chose, and one that is often wrong
+_SLOW = 8.0  # times the slowest flight before that passed or failed: a change may leave a search without an end
+_LEAST_SECONDS = 3.0  # that a flight may take
+_SHARE = 0.25  # of the time that is left, for one flight
 _FOLLOWED = 0.35  # how much likelier a change of a line is once another change of that line has helped
 
-Try = Callable[[SmallEdit, MissionResult], MissionResult]  # a change and a mission in, how it ends with that change out
+# A change, a mission and how many seconds it may take in; how the mission ends with that change out.
+Try = Callable[[SmallEdit, MissionResult, float], MissionResult]
 
 
 class TrialsEnd(StrEnum):
@@ -65,8 +70,9 @@ class LineTrial:
 
     @property
     def weight(self) -> tuple[float, float, float]:
-        """What causes are ranked by: missions that fail with it, what is lost and how much changes, then how far."""
-        return self.spoilt + 1.0 - self.helped / self.missions, self.damage + self.cost, self.candidate.far
+        """What causes are ranked by: missions that fail with it; what is lost, how likely it is, and how far off."""
+        change = self.damage + self.cost + _FAR * self.candidate.far
+        return self.spoilt + 1.0 - self.helped / self.missions, change, self.cost
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -91,10 +97,14 @@ class Trials:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Missions:
-    """Missions of one fault, of which the first is what trials are made on; and some that passed."""
+    """Missions of one fault, of which the first is what trials are made on; and some that passed.
+
+    `exercised` are the rules and branches (by number, see `checker.coverage`) that only missions of the fault reached.
+    """
 
     failed: Sequence[MissionResult]
     passed: Sequence[MissionResult] = ()
+    exercised: frozenset[int] = frozenset()
 
 
 def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, fly: Try, bounds: Bounds) -> Trials:
@@ -162,6 +172,7 @@ class _Trials:
         self.flights = 0
         self.ended: TrialsEnd | None = None
         self._begun = time.monotonic()
+        self._slowest: float | None = None
 
     def may_go_on(self, reserve: int = 0) -> bool:
         """Whether one more flight is allowed, with `reserve` flights left for others."""
@@ -177,7 +188,14 @@ class _Trials:
     def fly(self, edit: SmallEdit, mission: MissionResult) -> MissionResult:
         """One trial."""
         self.flights += 1
-        return self._fly(edit, mission)
+        begun = time.monotonic()
+        most = max(_SHARE * (self.bounds.seconds - (begun - self._begun)), _LEAST_SECONDS)
+        if self._slowest is not None:
+            most = min(most, max(_SLOW * self._slowest, _LEAST_SECONDS))
+        result = self._fly(edit, mission, most)
+        if result.verdict is not Verdict.ERROR:
+            self._slowest = max(self._slowest or 0.0, time.monotonic() - begun)
+        return result
 
     def confirmed(self, trial: LineTrial, usage: Usage) -> LineTrial:
         """The trial with what it does to the other failed missions; of its line, the edit that helps more of them."""

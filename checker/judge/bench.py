@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 import numpy as np
 
 from checker.judge.columns import Array
-from checker.judge.report import Disagreement, Kind
+from checker.judge.report import Disagreement, Kind, ResourceProfile
 from checker.judge.values import UNKNOWN, difference, hull, is_open
 from nddl_lang.text.source import Span
 from runtime.executive.columns import TokenColumns
@@ -50,8 +50,9 @@ class _Toks:
 
     def __init__(self, tokens: Sequence[TokenRecord]) -> None:
         self._tokens = tokens
-        keys = tokens.times.keys.tolist() if isinstance(tokens, TokenColumns) else [one.key for one in tokens]
-        self._places = {key: place for place, key in enumerate(keys)}
+        self._keys: Array | None = tokens.times.keys if isinstance(tokens, TokenColumns) else None  # in order
+        self._places = {} if self._keys is not None else {one.key: place for place, one in enumerate(tokens)}
+        self._on: dict[Value, list[TokenRecord]] | None = None  # by object
         self._made: dict[int, Tok] = {}
 
     def get(self, key: int) -> Tok | None:
@@ -63,12 +64,15 @@ class _Toks:
         return known
 
     def _record(self, key: int) -> TokenRecord | None:
-        place = self._places.get(key)
-        return None if place is None else self._tokens[place]
+        if self._keys is None:
+            place = self._places.get(key)
+            return None if place is None else self._tokens[place]
+        found = int(self._keys.searchsorted(key))
+        return self._tokens[found] if found < len(self._keys) and self._keys[found] == key else None
 
     def records(self) -> Iterator[TokenRecord]:
         """What is on record of all tokens; of several with one key the last."""
-        return map(self._tokens.__getitem__, self._places.values())
+        return iter(self._tokens) if self._keys is not None else map(self._tokens.__getitem__, self._places.values())
 
     def named(self, predicate: str) -> Iterator[TokenRecord]:
         """What is on record of the tokens of all predicates of a short name."""
@@ -80,7 +84,11 @@ class _Toks:
         """What is on record of the tokens of an object."""
         if isinstance(self._tokens, TokenColumns):
             return map(self._tokens.__getitem__, self._tokens.on(thing))
-        return (one for one in self.records() if one.object == thing)
+        if self._on is None:
+            self._on = {}
+            for one in self.records():
+                self._on.setdefault(one.object, []).append(one)
+        return iter(self._on.get(thing, ()))
 
     def of(self, records: Iterable[TokenRecord]) -> Iterator[Tok]:
         """Tokens of the record."""
@@ -125,6 +133,7 @@ class Bench:
         self.infers = False  # whether runs that are not on record are found out
         self.told: frozenset[str] | None = None  # the classes of whose objects all tokens are known; None: all
         self.found: list[Disagreement] = []
+        self.profiles: list[ResourceProfile] = []
         self.judged = 0
         self.open = 0
         self.skipped: dict[str, int] = {}

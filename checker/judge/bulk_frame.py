@@ -4,13 +4,12 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from checker.judge.alike import GuardRows, RunRows
+from checker.judge.alike import BranchRows, GuardRows, RunRows
 from checker.judge.bench import Bench
 from checker.judge.bulk_meanings import difference_of
-from checker.judge.columns import INT, TEXT, Array, Column, Mask, column_of, constant
+from checker.judge.columns import INT, TEXT, Array, Column, Mask, column_of, constant, distinct, unknown
 from checker.judge.operands import VariableNames, domain_value, member_of
 from checker.judge.tables import RowTokens, Tables
-from checker.judge.values import UNKNOWN
 from compiler.program import (
     DURATION,
     END,
@@ -38,9 +37,10 @@ class RowTally:
         self.count = count
         self.holds: Mask = np.ones(count, bool)
         self.judged = 0  # in each row
-        self.judged_more: Array = np.zeros(count, np.int64)
-        self.open: Array = np.zeros(count, np.int64)
+        self.more: list[Mask] = []  # judged in some rows
+        self.open: list[Mask] = []
         self.skipped: dict[str, int] = {}  # in each row
+        self.parts: list[tuple[Array, RowTally]] = []  # of some rows
 
     def need(self, holds: Mask) -> None:
         """Go on with the rows in which something holds."""
@@ -55,20 +55,28 @@ class RowTally:
         """Count something that is not judged."""
         self.skipped[reason] = self.skipped.get(reason, 0) + 1
 
-    def settle(self, bench: Bench) -> None:
+    def add(self, rows: Array, part: "RowTally") -> None:
+        """Add what was counted of some rows."""
+        self.parts.append((rows, part))
+        if not part.holds.all():
+            self.holds[rows] &= part.holds
+
+    def settle(self, bench: Bench, holds: Mask) -> None:
         """Add what was counted of the rows that hold."""
-        settled = int(np.count_nonzero(self.holds))
-        bench.judged += self.judged * settled + int(self.judged_more[self.holds].sum())
-        bench.open += int(self.open[self.holds].sum())
+        settled = int(np.count_nonzero(holds))
+        bench.judged += self.judged * settled + sum(int(np.count_nonzero(each & holds)) for each in self.more)
+        bench.open += sum(int(np.count_nonzero(each & holds)) for each in self.open)
         for reason, times in self.skipped.items():
             if settled:
                 bench.skip(reason, times * settled)
+        for rows, part in self.parts:
+            part.settle(bench, holds.take(rows))
 
 
 class RowFrame:
     """One run of a body for each row: values in slots, tokens, and what the record says of the runs."""
 
-    __slots__ = ("bench", "children", "guards", "locals", "slots", "tables", "tally", "tok", "tokens")
+    __slots__ = ("bench", "children", "guards", "locals", "rows", "slots", "tables", "tally", "tok", "tokens", "whole")
 
     def __init__(
         self, bench: Bench, tok: RowTokens, slots: list[Column | None], tokens: list[RowTokens | None]
@@ -79,6 +87,8 @@ class RowFrame:
         self.slots = slots
         self.tokens = tokens
         self.tally = RowTally(len(tok.rows))
+        self.whole: RowFrame | None = None  # the frame of which this one has some `rows`
+        self.rows: Array | None = None
         self.locals: Iterator[Column] = iter(())
         self.children: Iterator[Array] = iter(())
         self.guards: Iterator[GuardRows] = iter(())
@@ -89,17 +99,32 @@ class RowFrame:
         self.children = iter(run.children)
         self.guards = iter(run.guards)
 
-    def branch(self, run: RunRows) -> "RowFrame":
-        """The frame of a branch, with slots and tokens of its own."""
-        inner = RowFrame(self.bench, self.tok, list(self.slots), list(self.tokens))
-        inner.tally = self.tally
-        inner.follow(run)
+    def branch(self, part: BranchRows) -> "RowFrame":
+        """The frame of a branch in the rows that took it, with slots and tokens of its own."""
+        if part.rows is None:
+            inner = RowFrame(self.bench, self.tok, list(self.slots), list(self.tokens))
+            inner.tally, inner.whole, inner.rows = self.tally, self.whole, self.rows
+        else:
+            parts = [None if each is None else each.part(part.rows) for each in self.tokens]
+            assert parts[0] is not None
+            inner = RowFrame(self.bench, parts[0], [None] * len(self.slots), parts)
+            inner.whole, inner.rows = self, part.rows
+        if part.run is not None:
+            inner.follow(part.run)
         return inner
 
     def use(self, column: Column) -> Column:
         """A column that is read: rows that do not fit are left to others."""
         if column.bad is not None:
             self.tally.need(~column.bad)
+        return column
+
+    def slot(self, slot: int) -> Column | None:
+        """The values in a slot; None if nothing is known of them."""
+        column = self.slots[slot]
+        if column is None and self.whole is not None and self.rows is not None:
+            column = self.whole.slot(slot)
+            column = self.slots[slot] = None if column is None else column.take(self.rows)
         return column
 
 
@@ -112,11 +137,11 @@ def row_reader(operand: Operand, names: VariableNames) -> RowRead:
     match operand:
         case Constant(domain=domain):
             value = domain_value(domain)
-            return lambda frame: _constant(frame, value)
+            return lambda frame: constant(value, frame.tables.texts)
         case GlobalVariable(index=index):
             if index == names.clock:
                 return _clock
-            return lambda frame: _constant(frame, frame.bench.globals[index])
+            return lambda frame: constant(frame.bench.globals[index], frame.tables.texts)
         case LocalVariable(slot=slot):
             return lambda frame: _slot(frame, slot)
         case TokenVariable(token=token, variable=variable):
@@ -125,7 +150,7 @@ def row_reader(operand: Operand, names: VariableNames) -> RowRead:
             return lambda frame: _variable(frame, token, variable)
         case Field(base=base, members=members):
             if base is None:
-                return lambda frame: _constant(frame, UNKNOWN)
+                return lambda frame: unknown()
             return _field_reader(row_reader(base, names), members, names)
         case UnionOf():
             return _refuse
@@ -133,10 +158,6 @@ def row_reader(operand: Operand, names: VariableNames) -> RowRead:
 
 def _refuse(frame: RowFrame) -> Column:
     raise UnplainError
-
-
-def _constant(frame: RowFrame, value: Value) -> Column:
-    return constant(value, frame.tables.texts, frame.tally.count)
 
 
 def _clock(frame: RowFrame) -> Column:
@@ -147,14 +168,14 @@ def _clock(frame: RowFrame) -> Column:
 
 
 def _slot(frame: RowFrame, slot: int) -> Column:
-    column = frame.slots[slot]
-    return _constant(frame, UNKNOWN) if column is None else column
+    column = frame.slot(slot)
+    return unknown() if column is None else column
 
 
 def _variable(frame: RowFrame, token: int, variable: int) -> Column:
     tokens = frame.tokens[token]
     if tokens is None:
-        return _constant(frame, UNKNOWN)
+        return unknown()
     if variable != DURATION:
         return tokens.column(variable)
     end, start = tokens.column(END), tokens.column(START)
@@ -171,12 +192,13 @@ def _variable(frame: RowFrame, token: int, variable: int) -> Column:
 def _field_reader(base: RowRead, members: tuple[str, ...], names: VariableNames) -> RowRead:
     def read(frame: RowFrame) -> Column:
         column = frame.use(base(frame))
-        if column.upper is not None:
+        if column.upper is not None or column.kind != TEXT:
             raise UnplainError
         texts = frame.tables.texts
-        things, places = np.unique(column.lower, return_inverse=True)
+        things, places = distinct(column.lower)
         found: list[Value] = []
-        for value in column_values(things, column, texts.names):
+        for number in things:
+            value: Value = texts.names[number]
             for name in members:
                 value = member_of(frame.bench, names, value, name)
             found.append(value)
@@ -185,17 +207,10 @@ def _field_reader(base: RowRead, members: tuple[str, ...], names: VariableNames)
     return read
 
 
-def column_values(numbers: Array, column: Column, names: Sequence[str]) -> list[Value]:
-    """What the numbers of a column stand for."""
-    if column.kind == TEXT:
-        return [names[each] for each in numbers.tolist()]
-    return list(numbers.tolist())
-
-
-def closed(columns: Sequence[Column]) -> Mask | None:
+def closed(columns: Sequence[Column], count: int) -> Mask | None:
     """The rows in which all values were fixed; None if in all."""
     found: Mask | None = None
     for each in columns:
         if (is_open := each.open) is not None:
             found = ~is_open if found is None else found & ~is_open
-    return found
+    return None if found is None else np.broadcast_to(found, count)

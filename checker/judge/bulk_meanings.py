@@ -5,6 +5,7 @@ is told nothing about: the judge of single tokens looks at it.
 """
 
 from collections.abc import Callable, Sequence
+from functools import reduce
 
 import numpy as np
 
@@ -20,10 +21,11 @@ def near(a: Column, b: Column) -> Mask:
     if a.kind == TEXT or b.kind == TEXT:
         return (a.lower == b.lower) if a.kind == b.kind else np.zeros(len(a.lower), bool)
     x, y = a.lower, b.lower
-    if a.kind == INT and b.kind == INT:
-        return np.asarray(x == y)
+    same = np.asarray(x == y)
+    if (a.kind == INT and b.kind == INT) or same.all():
+        return same
     margin = TOLERANCE + RELATIVE * np.maximum(np.abs(x), np.abs(y))
-    return np.asarray((x == y) | (np.abs(x - y) <= margin))
+    return np.asarray(same | ((np.abs(x - y) <= margin) & np.isfinite(margin)))
 
 
 def _differ(a: Column, b: Column) -> tuple[Mask, Mask]:
@@ -47,6 +49,11 @@ def _below(a: Column, b: Column) -> tuple[Mask, Mask]:
     return holds, ~holds & (np.asarray(a.lower == b.lower) | ~near(a, b)) & numbers
 
 
+def _is_below(a: Column, b: Column) -> tuple[Mask, Mask]:
+    holds, fails = _below(a, b)
+    return holds & ~near(a, b), fails
+
+
 def _are_numbers(*columns: Column) -> bool:
     return all(each.kind != TEXT for each in columns)
 
@@ -64,7 +71,7 @@ def _both(a: Column, b: Column) -> tuple[Mask, Mask]:
 
 def _either(*columns: Column) -> tuple[Mask, Mask]:
     found = [truth(each) for each in columns]
-    return np.logical_or.reduce([x for x, _ in found]), np.logical_and.reduce([y for _, y in found])
+    return reduce(np.logical_or, [x for x, _ in found]), reduce(np.logical_and, [y for _, y in found])
 
 
 def _negation(a: Column) -> tuple[Mask, Mask]:
@@ -76,7 +83,7 @@ TRUTHS: dict[str, Truths] = {
     "testEq": _equal,
     "testNeq": _differ,
     "testLeq": _at_most,
-    "testLessThan": _below,
+    "testLessThan": _is_below,
     "testAnd": _both,
     "testOr": _either,
     "testNot": _negation,
@@ -101,11 +108,11 @@ def _product(*columns: Column) -> Array:
 
 
 def _least(*columns: Column) -> Array:
-    return np.asarray(np.minimum.reduce([each.lower for each in columns]))
+    return np.asarray(reduce(np.minimum, [each.lower for each in columns]))
 
 
 def _greatest(*columns: Column) -> Array:
-    return np.asarray(np.maximum.reduce([each.lower for each in columns]))
+    return np.asarray(reduce(np.maximum, [each.lower for each in columns]))
 
 
 def _root(x: Column) -> Array:
@@ -196,12 +203,12 @@ def conforms(result: Column, expected: Column) -> Mask:
 
 
 def _all_equal(*columns: Column) -> Mask:
-    return np.asarray(np.logical_and.reduce([near(columns[0], each) for each in columns[1:]]))
+    return np.asarray(reduce(np.logical_and, [near(columns[0], each) for each in columns[1:]]))
 
 
 def _all_differ(*columns: Column) -> Mask:
     pairs = [_differ(a, b)[0] for k, a in enumerate(columns) for b in columns[k + 1 :]]
-    return np.asarray(np.logical_and.reduce(pairs))
+    return np.asarray(reduce(np.logical_and, pairs))
 
 
 HOLDS: dict[str, Holds] = {
@@ -215,3 +222,16 @@ HOLDS: dict[str, Holds] = {
     "allDiff": _all_differ,
     "or": lambda *columns: _either(*columns)[0],
 }
+
+
+def points(*columns: Column) -> Mask:
+    """Where (ux, uy) plainly is the unit vector from (x, y) to (tx, ty), as `meanings` has it."""
+    if not _are_numbers(*columns):
+        return np.zeros(1, bool)
+    ux, uy, x, y, tx, ty = (each.lower for each in columns)
+    east, north = tx - x, ty - y
+    way = np.hypot(east, north)
+    size = reduce(np.maximum, [np.abs(each) for each in (x, y, tx, ty)])
+    turned = 4 * (TOLERANCE + RELATIVE * size) / way
+    margin = TOLERANCE + turned
+    return np.asarray((turned < 1) & (np.abs(ux - east / way) <= margin) & (np.abs(uy - north / way) <= margin))

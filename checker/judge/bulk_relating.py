@@ -63,7 +63,7 @@ def _is_of(tables: Tables, rows: np.ndarray, child: Child, names: VariableNames)
         kind, _, last = name.rpartition(".")
         is_heir = child.object == "own" and last == suffix and names.is_kind_of(kind, wanted)
         fitting.append(name == child.predicate or is_heir)
-    return np.asarray(np.array(fitting, bool)[tables.predicate[rows]])
+    return np.asarray(np.array(fitting, bool).take(tables.predicate.take(rows)))
 
 
 def _relate(frame: RowFrame, pairs: tuple[Demand, ...], origin: RowTokens, target: RowTokens) -> None:
@@ -84,8 +84,8 @@ def _relate(frame: RowFrame, pairs: tuple[Demand, ...], origin: RowTokens, targe
         if lower == upper:
             holds &= ~is_open | ~planned | ((least_a != most_a) & (least_b != most_b))
         tally.need(holds)
-        tally.judged_more += ~is_open
-        tally.open += is_open
+        tally.more.append(~is_open)
+        tally.open.append(is_open)
 
 
 def _ends(times: Column) -> tuple[np.ndarray, np.ndarray]:

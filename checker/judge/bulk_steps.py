@@ -1,76 +1,30 @@
-"""Compile the bodies of rules and predicates into steps that judge the runs of many tokens at once."""
+"""Steps that judge the runs of a body for many tokens at once."""
 
 from collections.abc import Callable, Sequence
-from typing import assert_never
 
 import numpy as np
 
-from checker.judge.bulk_frame import RowFrame, RowRead, RowStep, UnplainError, closed, column_values, row_reader
-from checker.judge.bulk_meanings import HOLDS, TRUTHS, conforms, difference_of, near, truth, value_of
+from checker.judge.alike import BranchRows
+from checker.judge.bodies import StepMaker, Written, compile_body
+from checker.judge.bulk_frame import RowFrame, RowRead, RowStep, UnplainError, closed, row_reader
+from checker.judge.bulk_meanings import HOLDS, TRUTHS, conforms, difference_of, near, points, truth, value_of
 from checker.judge.bulk_relating import row_child, row_relate
-from checker.judge.columns import FLOAT, INT, TEXT, Array, Column, Mask, column_of, unknown
+from checker.judge.columns import FLOAT, INT, TEXT, Array, Column, Mask, column_of, distinct, unknown
 from checker.judge.functions import COMPUTED
-from checker.judge.meanings import MEANINGS, SILENT, Meaning
-from checker.judge.operands import VariableNames, domain_value, is_range
+from checker.judge.meanings import Meaning
+from checker.judge.operands import VariableNames, domain_value
 from checker.judge.solving import solver
-from checker.judge.steps import Domain, Written, domain_test
+from checker.judge.steps import Domain, domain_test
 from checker.judge.values import may_be_equal
-from compiler.program import (
-    START,
-    Assign,
-    Call,
-    Child,
-    Constant,
-    Guard,
-    Instruction,
-    LocalVariable,
-    NewGlobal,
-    NewObject,
-    NewToken,
-    NewVariable,
-    ObjectLoop,
-    Post,
-    Relate,
-    Sample,
-    UnionOf,
-)
+from compiler.program import START, Assign, Constant, Guard, Instruction, NewObject, NewVariable, Post, Sample, UnionOf
 from runtime.executive.record import OpenValues, Value, ValueRange
 
 
-def compile_rows(
-    body: tuple[Instruction, ...], names: VariableNames, written: Written, undefined: set[int] | None = None
-) -> list[RowStep]:
-    """The steps of a body; `undefined` are slots of expressions that nothing has defined yet."""
-    undefined = set() if undefined is None else undefined
-    steps: list[RowStep] = []
-    for instruction in body:
-        match instruction:
-            case NewVariable():
-                steps += _variable(instruction, names, undefined)
-            case Post():
-                steps += _post(instruction, names, written, undefined)
-            case Sample():
-                steps.append(_sample(instruction, names, undefined))
-            case Child():
-                names.tokens[instruction.slot] = (instruction.label or "", instruction.predicate)
-                steps.append(row_child(instruction, names))
-            case Relate():
-                steps.append(row_relate(instruction))
-            case Guard():
-                steps.append(_guard(instruction, names, written, undefined))
-            case Assign():
-                steps.append(_assign(instruction, names))
-            case ObjectLoop() | NewObject():
-                steps.append(_unplain)
-            case NewGlobal() | NewToken() | Call():
-                pass
-            case _:
-                assert_never(instruction)
-    return steps
+def _unplain(*_: object) -> RowStep:
+    def step(frame: RowFrame) -> None:
+        raise UnplainError
 
-
-def _unplain(frame: RowFrame) -> None:
-    raise UnplainError
+    return step
 
 
 def _define_slot(slot: int, make: RowRead) -> RowStep:
@@ -87,15 +41,15 @@ def allowed(test: Domain, column: Column, frame: RowFrame) -> Mask:
     """Where a declaration plainly allows the values of a column."""
     frame.use(column)
     if column.kind == TEXT:
-        kinds, places = np.unique(column.lower, return_inverse=True)
-        values = column_values(kinds, column, frame.tables.texts.names)
-        return np.array([test(frame.bench, each) is True for each in values], bool)[places]
+        numbers, places = distinct(column.lower)
+        names = frame.tables.texts.names
+        return np.array([test(frame.bench, names[each]) is True for each in numbers], bool)[places]
     holds = np.ones(len(column.lower), bool)
     for limit in test.limits:
         holds &= _lies_in(limit, column)
     if test.class_name:
         raise UnplainError
-    fixed = closed([column])
+    fixed = closed([column], frame.tally.count)
     return holds if fixed is None else holds & fixed
 
 
@@ -106,12 +60,8 @@ def _lies_in(limit: Value, column: Column) -> Mask:
     return np.isin(column.lower, [each for each in numbers if not isinstance(each, str)])
 
 
-def _variable(new: NewVariable, names: VariableNames, undefined: set[int]) -> list[RowStep]:
-    slot, name = new.slot, new.name
-    if name is None:
-        undefined.add(slot)
-        return []
-    names.locals[slot] = name
+def _variable(new: NewVariable, names: VariableNames) -> RowStep:
+    slot = new.slot
     test = domain_test(new.type, new.domain, names)
     copied = None if new.copy_of is None else row_reader(new.copy_of, names)
 
@@ -125,20 +75,21 @@ def _variable(new: NewVariable, names: VariableNames, undefined: set[int]) -> li
         if copied is not None:
             _count_equal(frame, column, copied(frame))
 
-    return [step]
+    return step
 
 
 def _count_equal(frame: RowFrame, a: Column, b: Column) -> None:
     """Count the rows in which two values are, or may be, the same."""
     frame.use(a), frame.use(b)
     same = near(a, b)
-    fixed = closed([a, b])
+    fixed = closed([a, b], frame.tally.count)
     if fixed is not None:
         texts = frame.tables.texts
         rows = np.flatnonzero(~fixed)
+        same = np.array(np.broadcast_to(same, frame.tally.count))
         pairs = zip(a.values(texts, rows), b.values(texts, rows), strict=True)
         same[rows] = [may_be_equal(x, y) for x, y in pairs]
-    frame.tally.judged_more += same
+    frame.tally.more.append(same)
 
 
 def _assign(given: Assign, names: VariableNames) -> RowStep:
@@ -151,12 +102,12 @@ def _assign(given: Assign, names: VariableNames) -> RowStep:
         column = frame.use(target(frame))
         if limit is not None:
             if column.kind == TEXT:
-                kinds, places = np.unique(column.lower, return_inverse=True)
-                values = column_values(kinds, column, frame.tables.texts.names)
-                holds = np.array([may_be_equal(each, limit) for each in values], bool)[places]
+                numbers, places = distinct(column.lower)
+                names = frame.tables.texts.names
+                holds = np.array([may_be_equal(names[each], limit) for each in numbers], bool)[places]
             else:
                 holds = _lies_in(limit, column)
-            fixed = closed([column])
+            fixed = closed([column], frame.tally.count)
             frame.tally.judge(holds if fixed is None else holds & fixed)
         if read is not None:
             _count_equal(frame, column, read(frame))
@@ -164,11 +115,8 @@ def _assign(given: Assign, names: VariableNames) -> RowStep:
     return step
 
 
-def _sample(sample: Sample, names: VariableNames, undefined: set[int]) -> RowStep:
+def _sample(sample: Sample, slot: int | None, names: VariableNames) -> RowStep:
     parameter, target = sample.parameter, sample.target
-    slot = target.slot if isinstance(target, LocalVariable) and target.slot in undefined else None
-    if slot is not None:
-        undefined.discard(slot)
     read = row_reader(target, names)
 
     def step(frame: RowFrame) -> None:
@@ -176,12 +124,12 @@ def _sample(sample: Sample, names: VariableNames, undefined: set[int]) -> RowSte
         if starts.kind != INT or starts.upper is not None:
             raise UnplainError
         values = frame.bench.draws(parameter, starts.lower)
-        drawn = unknown(frame.tally.count) if values is None else Column(FLOAT, values)
+        drawn = unknown() if values is None else Column(FLOAT, values)
         if slot is not None:
             frame.slots[slot] = drawn
             return
         value = frame.use(read(frame))
-        fixed = closed([value, drawn])
+        fixed = closed([value, drawn], frame.tally.count)
         holds = near(value, frame.use(drawn))
         frame.tally.judge(holds if fixed is None else holds & fixed)
 
@@ -191,48 +139,35 @@ def _sample(sample: Sample, names: VariableNames, undefined: set[int]) -> RowSte
 # ---- constraints ----
 
 
-def _post(post: Post, names: VariableNames, written: Written, undefined: set[int]) -> list[RowStep]:
-    name = post.name
-    if name in SILENT:
-        return []
-    if name == "uses":
-        return [_unplain]
+def _pass_over(name: str) -> RowStep:
+    return lambda frame: frame.tally.skip(f"constraint `{name}`")
+
+
+def _check(post: Post, meaning: Meaning, names: VariableNames) -> RowStep:
     reads = [row_reader(each, names) for each in post.operands]
-    places = [k for k, each in enumerate(post.operands) if isinstance(each, LocalVariable) and each.slot in undefined]
-    if places:
-        return [_define(post, places[0], reads, undefined)]
-    meaning = MEANINGS.get(name) or written.get(name)
-    if meaning is None:
-        return [lambda frame: frame.tally.skip(f"constraint `{name}`")]
-    is_loose = any(is_range(each) for each in post.operands)
-    if is_loose:
-        return [_loose(post, meaning, reads)]
-    return [_check(name, meaning, reads)]
-
-
-def _check(name: str, meaning: Meaning, reads: list[RowRead]) -> RowStep:
-    plain = _plain(name)
+    plain = _plain(post.name)
 
     def step(frame: RowFrame) -> None:
         columns = [frame.use(read(frame)) for read in reads]
         holds = None if plain is None else plain(columns)
+        count = frame.tally.count
         if holds is None:
-            holds = _one_by_one(meaning, columns, frame, np.arange(frame.tally.count))
+            holds = _one_by_one(meaning, columns, frame, np.arange(count))
         else:
-            fixed = closed(columns)
+            fixed = closed(columns, count)
             if fixed is not None:
                 rows = np.flatnonzero(~fixed)
-                holds = holds.copy()
+                holds = np.array(np.broadcast_to(holds, count))
                 holds[rows] = _one_by_one(meaning, columns, frame, rows)
         frame.tally.judge(holds)
 
     return step
 
 
-def _loose(post: Post, meaning: Meaning, reads: list[RowRead]) -> RowStep:
-    """A constraint with a range in its text, any value of which will do."""
+def _check_loose(post: Post, meaning: Meaning, names: VariableNames) -> RowStep:
     if any(isinstance(operand, UnionOf) for operand in post.operands):
-        return _unplain
+        return _unplain()
+    reads = [row_reader(each, names) for each in post.operands]
     ranges = [domain_value(one.domain) if isinstance(one, Constant) else None for one in post.operands]
 
     def step(frame: RowFrame) -> None:
@@ -242,7 +177,7 @@ def _loose(post: Post, meaning: Meaning, reads: list[RowRead]) -> RowStep:
         parts = iter([column.values(texts, rows) for column in columns])
         given = [next(parts) if one is None else [one] * tally.count for one in ranges]
         holds = np.array([meaning(*values) is not False for values in zip(*given, strict=True)], bool)
-        fixed = closed(columns)
+        fixed = closed(columns, tally.count)
         tally.judge(holds if fixed is None else holds & fixed)
 
     return step
@@ -283,6 +218,8 @@ def _plain(name: str) -> Callable[[list[Column]], Mask | None] | None:
         return computed
     if name == "temporalDistance":
         return lambda columns: _distance(*columns)
+    if name == "towards":
+        return lambda columns: points(*columns)
     return None
 
 
@@ -291,21 +228,17 @@ def _distance(earlier: Column, gap: Column, later: Column) -> Mask | None:
     return None if expected is None or expected.bad is not None else conforms(later, expected)
 
 
-def _define(post: Post, place: int, reads: list[RowRead], undefined: set[int]) -> RowStep:
+def _define(post: Post, place: int, slot: int, names: VariableNames) -> RowStep:
     """Compute a part of an expression from the constraint that defines it."""
-    target = post.operands[place]
-    assert isinstance(target, LocalVariable)
-    slot = target.slot
-    undefined.discard(slot)
-    solve = solver(post.name, place, len(reads))
-    others = [read for k, read in enumerate(reads) if k != place]
+    solve = solver(post.name, place, len(post.operands))
+    others = [row_reader(each, names) for k, each in enumerate(post.operands) if k != place]
     if solve is None:
-        return _define_slot(slot, lambda frame: unknown(frame.tally.count))
-    quick = _solved(post.name, place, len(reads))
+        return _define_slot(slot, lambda frame: unknown())
+    quick = _solved(post.name, place, len(post.operands))
 
     def make(frame: RowFrame) -> Column:
         columns = [frame.use(read(frame)) for read in others]
-        found = quick(columns, frame) if quick is not None and closed(columns) is None else None
+        found = quick(columns, frame) if quick is not None and closed(columns, frame.tally.count) is None else None
         if found is not None:
             return found
         texts = frame.tables.texts
@@ -341,33 +274,65 @@ def _solved(name: str, place: int, count: int) -> Callable[[list[Column], RowFra
 # ---- branches ----
 
 
-def _guard(guard: Guard, names: VariableNames, written: Written, undefined: set[int]) -> RowStep:
+def _guard(guard: Guard, then: list[RowStep], otherwise: list[RowStep], names: VariableNames) -> RowStep:
     condition = row_reader(guard.condition, names)
-    then = compile_rows(guard.then, names, written, set(undefined))
-    otherwise = compile_rows(guard.otherwise, names, written, set(undefined))
 
     def step(frame: RowFrame) -> None:
         reached = next(frame.guards, None)
         if reached is None:
             raise UnplainError
-        branch = reached.branch
-        if branch == "waiting":
-            if reached.is_decided:
-                raise UnplainError
-            frame.tally.open += 1
-            return
-        column = frame.use(condition(frame))
-        if column.kind == TEXT:
-            holds = np.full(frame.tally.count, branch == "then")
-        else:
-            yes, no = truth(column)
-            holds = yes if branch == "then" else no
-            fixed = closed([column])
-            holds = holds if fixed is None else holds & fixed
-        frame.tally.judge(holds)
-        if reached.run is not None:
-            inner = frame.branch(reached.run)
-            for each in then if branch == "then" else otherwise:
-                each(inner)
+        for part in reached:
+            inner = frame.branch(part)
+            try:
+                _take(inner, part, condition, then if part.branch == "then" else otherwise)
+            except UnplainError:
+                if part.rows is None:
+                    raise
+                inner.tally.holds[:] = False
+            if part.rows is not None:
+                frame.tally.add(part.rows, inner.tally)
 
     return step
+
+
+def _take(frame: RowFrame, part: BranchRows, condition: RowRead, steps: list[RowStep]) -> None:
+    """Judge a branch in the rows that took it."""
+    if part.branch == "waiting":
+        if part.is_decided:
+            raise UnplainError
+        frame.tally.open.append(np.ones(frame.tally.count, bool))
+        return
+    column = frame.use(condition(frame))
+    if column.kind == TEXT:
+        holds = np.full(frame.tally.count, part.branch == "then")
+    else:
+        yes, no = truth(column)
+        holds = yes if part.branch == "then" else no
+        fixed = closed([column], frame.tally.count)
+        holds = holds if fixed is None else holds & fixed
+    frame.tally.judge(holds)
+    if part.run is not None:
+        for each in steps:
+            each(frame)
+
+
+_ROWS = StepMaker(
+    _variable,
+    _unplain,
+    _assign,
+    _sample,
+    row_child,
+    row_relate,
+    _unplain,
+    _define,
+    _pass_over,
+    _check,
+    _check_loose,
+    _guard,
+    _unplain,
+)
+
+
+def compile_rows(body: tuple[Instruction, ...], names: VariableNames, written: Written) -> list[RowStep]:
+    """The steps of a body for many runs."""
+    return compile_body(body, names, written, _ROWS)

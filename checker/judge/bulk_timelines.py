@@ -7,10 +7,10 @@ import numpy as np
 
 from checker.judge.alike import SymbolNumbers
 from checker.judge.bench import Bench
-from checker.judge.columns import TEXT, Array, Column
+from checker.judge.columns import TEXT, Array, Column, distinct
 from checker.judge.tables import Tables
 from compiler.program import END, OBJECT, START, PredicateCode
-from runtime.executive.columns import PublishedColumns
+from runtime.executive.columns import PublishedColumns, TokenColumns
 from runtime.executive.events import EventColumns
 from runtime.executive.outcome import Event
 from runtime.executive.record import TokenRecord
@@ -62,13 +62,19 @@ class BulkTimelines:
             begun &= ~thing.bad
         self.things = thing.lower
         rows = np.flatnonzero(begun | (tables.is_active & self.bad))
-        order = np.lexsort((tables.keys[rows], self.most[rows], self.starts[rows], self.things[rows]))
-        rows = rows[order]
-        numbers, firsts = np.unique(self.things[rows], return_index=True)
-        for number, part in zip(numbers.tolist(), np.split(rows, firsts[1:]), strict=False):
+        things = self.things[rows]
+        for number in np.flatnonzero(np.bincount(things)).tolist():
             name = tables.texts.names[number]
             if bench.members.get(name, ("",))[0] in timelines:
-                self.rows[name] = part
+                self.rows[name] = self._in_order(rows[things == number])
+
+    def _in_order(self, rows: Array) -> Array:
+        """Tokens of one timeline in the order of their starts, which mostly is that of the record."""
+        starts, most = self.starts[rows], self.most[rows]
+        is_later = (starts[1:] > starts[:-1]) | ((starts[1:] == starts[:-1]) & (most[1:] >= most[:-1]))
+        if self.tables.is_ordered and is_later.all():
+            return rows
+        return np.asarray(rows[np.lexsort((self.tables.keys[rows], most, starts))])
 
     def _is_plain(self, rows: Array) -> bool:
         return self.tables.is_ordered and not (self.tables.is_cut[rows] | self.bad[rows]).any()
@@ -112,10 +118,10 @@ class BulkTimelines:
         """The same where publications are kept as columns."""
         tables, last, count = self.tables, self.bench.last_tick, 0
         kinds = tables.predicate[rows]
-        shorts = {kind: tables.predicates[kind].rpartition(".")[2] for kind in np.unique(kinds).tolist()}
+        shorts = {tables.predicates[kind].rpartition(".")[2]: kind for kind in distinct(kinds)[0]}
         for each in columns:
             told = np.flatnonzero(each.ticks <= last)
-            kind = next((kind for kind, short in shorts.items() if short == each.predicate), None)
+            kind = shorts.get(each.predicate)
             if kind is None and len(told):
                 return -1
             if kind is None:
@@ -123,24 +129,38 @@ class BulkTimelines:
             own = rows[kinds == kind]
             if not np.array_equal(self.starts[own], each.ticks[told]):
                 return -1
-            parameters = codes[tables.predicates[kind]].parameters
-            if [name for name, _ in each.arguments] != [parameter.name for parameter in parameters]:
+            if each.parameters != tuple([one.name for one in codes[tables.predicates[kind]].parameters]):
                 return -1
-            table, numbers = tables.table(kind), SymbolNumbers(each.symbols, tables.texts)
-            for place, (_, column) in enumerate(each.arguments):
-                mine = table.column(place).take(tables.places[own])
-                if not _are_same(mine, numbers.column(column).take(told)):
-                    return -1
+            if not self._are_told(kind, own, each, told):
+                return -1
             count += len(told)
         return count if count == len(rows) else -1
+
+    def _are_told(self, kind: int, rows: Array, published: PublishedColumns, told: Array) -> bool:
+        """Whether tokens plainly have the arguments that were published."""
+        tables, given = self.tables, published.arguments
+        arguments = tables.arguments
+        if isinstance(tables.tokens, TokenColumns) and _is_same_store(tables.tokens.store, given.store):
+            if np.array_equal(tables.tokens.times.values.take(rows), given.first.take(told)):
+                return True  # they are the same numbers
+        numbers, own = SymbolNumbers(published.symbols, tables.texts), arguments.of(kind, rows)
+        columns = enumerate(given._replace(first=given.first.take(told)).columns())
+        return all(_are_same(own.column(place), numbers.column(column)) for place, column in columns)
+
+
+def _is_same_store(one: Array, other: Array) -> bool:
+    """Whether two arrays are of the same memory."""
+    return bool(one.__array_interface__["data"] == other.__array_interface__["data"])
 
 
 def _are_same(mine: Column, theirs: Column) -> bool:
     """Whether two columns plainly have the same values; one that is open agrees with what was left open."""
     if mine.kind != theirs.kind or mine.bad is not None or theirs.bad is not None:
         return False
+    if not (mine.lower == theirs.lower).all():
+        return False
     upper, other = (each.lower if each.upper is None else each.upper for each in (mine, theirs))
-    return bool(((mine.lower == theirs.lower) & (upper == other)).all())
+    return (mine.upper is None and theirs.upper is None) or bool((upper == other).all())
 
 
 def _agrees(held: TokenRecord, one: Event, codes: Mapping[str, PredicateCode]) -> bool:

@@ -1,4 +1,4 @@
-"""Judge tokens that are alike at once: of one predicate, with the same rules fired and the same branches taken.
+"""Judge tokens that are alike at once: of one predicate, with the same rules fired.
 
 What plainly holds is settled here. All other tokens are left to the judge of single tokens, whose answer is the same
 and who finds the words; it is asked for few tokens where a mission is right.
@@ -11,13 +11,14 @@ import numpy as np
 
 from checker.judge.alike import AlikeTokens, alike_tokens
 from checker.judge.bench import Bench
+from checker.judge.bodies import Written
 from checker.judge.bulk_frame import RowFrame, RowStep, RowTally, UnplainError
 from checker.judge.bulk_steps import allowed, compile_rows
 from checker.judge.columns import INT, Array, Mask
 from checker.judge.operands import VariableNames
-from checker.judge.steps import Domain, Written, domain_test
+from checker.judge.steps import Domain, domain_test
 from checker.judge.tables import RowTokens, Tables
-from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
+from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
 from runtime.executive.columns import TokenColumns
 from runtime.executive.record import TokenRecord
 
@@ -83,6 +84,9 @@ def judge_in_bulk(judge: BulkJudge, bench: Bench, tables: Tables) -> Iterator[To
         _settle_merged(bench, tables, settled)
         with np.errstate(all="ignore"):
             wanted = ~settled & tables.is_active & ~tables.is_cut
+            for each in (starts, tables.times[END]):
+                if each.open is not None:
+                    wanted &= ~each.open
             for group in alike_tokens(tables.tokens, tables.texts, wanted, _FEWEST):
                 holds = _judge_group(judge, bench, tables, group)
                 settled[group.rows[holds]] = True
@@ -139,21 +143,26 @@ def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, group: AlikeTok
                     return nothing
     except UnplainError:
         return nothing
-    tally.settle(bench)
+    tally.settle(bench, tally.holds)
     return tally.holds
 
 
 def _judge_own(known: _PredicateRows, frame: RowFrame, tables: Tables, rows: Array) -> None:
     """The times, the parameters and the object of tokens."""
     tally = frame.tally
-    start, end, duration = (frame.use(tables.times[each].take(rows)) for each in (START, END, DURATION))
-    if not start.kind == end.kind == duration.kind == INT:
-        raise UnplainError
+    start, end = (frame.use(frame.tok.column(each)) for each in (START, END))
+    duration = tables.duration(rows)
+    if duration is None:
+        length = end.lower - start.lower
+    else:
+        length = frame.use(duration).lower
+        tally.need(length == end.lower - start.lower)
     for each in (start, end, duration):
-        if each.open is not None:
+        if each is not None and each.kind != INT:
+            raise UnplainError
+        if each is not None and each.open is not None:
             tally.need(~each.open)
-    least = 0 if known.code.is_event else 1
-    tally.judge((duration.lower == end.lower - start.lower) & (duration.lower >= least))
+    tally.judge(length >= (0 if known.code.is_event else 1))
     for place, test in known.tests:
         tally.judge(allowed(test, frame.tok.column(place), frame))
     things = frame.use(frame.tok.column(OBJECT))

@@ -4,6 +4,7 @@ A plan written by hand, and a trace, say which tokens there were, not which of t
 tried among the tokens that fit by predicate, object and relation; the first choice under which all holds is taken.
 """
 
+from collections.abc import Iterator
 from math import inf
 
 from checker.judge.bench import Bench, Tok
@@ -57,19 +58,59 @@ def _candidates(
 ) -> list[int]:
     """The tokens of a plan that may be what a rule asks for."""
     origin = frame.tokens[child.origin]
+    return [
+        tok.key
+        for tok in _of_predicate(frame, child, names)
+        if holder is None or may_be_equal(tok.values[OBJECT], holder)
+        if origin is None or _is_related(pairs, origin, tok)
+    ]
+
+
+def _of_predicate(frame: BodyFrame, child: Child, names: VariableNames) -> Iterator[Tok]:
+    """The tokens of the predicate that a rule asks for."""
     wanted_class, _, suffix = child.predicate.rpartition(".")
-    found = []
     for record in frame.bench.tokens.records():
         class_name, _, name = record.predicate.rpartition(".")
-        if name != suffix or record.state != "active" or not names.is_kind_of(class_name, wanted_class):
-            continue
-        tok = frame.bench.tokens.get(record.key)
-        assert tok is not None
+        if name == suffix and record.state == "active" and names.is_kind_of(class_name, wanted_class):
+            tok = frame.bench.tokens.get(record.key)
+            assert tok is not None
+            yield tok
+
+
+def nearest_of(
+    frame: BodyFrame, child: Child, pairs: tuple[Demand, ...], holder: Value | None, names: VariableNames
+) -> tuple[tuple[Tok, ...], tuple[tuple[str, Value], ...]]:
+    """The token that comes nearest to what a rule asks for in vain, and the values in the way; nothing if none does."""
+    origin = frame.tokens[child.origin]
+    best: tuple[float, Tok, tuple[tuple[str, Value], ...]] | None = None
+    for tok in _of_predicate(frame, child, names):
         if holder is not None and not may_be_equal(tok.values[OBJECT], holder):
+            far = inf
+            values: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))
+        elif origin is not None:
+            far, values = _missed(pairs, origin, tok)
+        else:
             continue
-        if origin is None or _is_related(pairs, origin, tok):
-            found.append(tok.key)
-    return found
+        if best is None or far < best[0]:
+            best = (far, tok, values)
+    return ((), ()) if best is None else ((best[1],), best[2])
+
+
+def _missed(pairs: tuple[Demand, ...], origin: Tok, target: Tok) -> tuple[float, tuple[tuple[str, Value], ...]]:
+    """By how many ticks two tokens miss a relation, and the times of which that is so."""
+    times = [(tok, place) for tok in (origin, target) for place in (START, END)]
+    most = 0.0
+    found: tuple[tuple[str, Value], ...] = ()
+    for first, second, lower, upper in pairs:
+        (a, start), (b, end) = times[first], times[second]
+        gap = hull(difference(b.values[end], a.values[start])) or (-inf, inf)
+        far = max(gap[0] - upper, lower - gap[1])
+        if far > most:
+            points = {START: "start", END: "end"}
+            named = ((f"{a.name}.{points[start]}", a.values[start]), (f"{b.name}.{points[end]}", b.values[end]))
+            bound = ("distance at least", lower) if gap[1] < lower else ("distance at most", upper)
+            most, found = far, (*named, bound)
+    return most, found
 
 
 def _is_related(pairs: tuple[Demand, ...], origin: Tok, target: Tok) -> bool:

@@ -38,7 +38,10 @@ class Texts:
 
 
 class Column:
-    """One value per row; `upper` is None where each is a single one, `bad` is None where each row fits."""
+    """One value per row; `upper` is None where each is a single one, `bad` is None where each row fits.
+
+    A column of length 1 has the same value in all rows, however many there are.
+    """
 
     __slots__ = ("bad", "kind", "lower", "upper")
 
@@ -55,16 +58,26 @@ class Column:
 
     def take(self, rows: Array) -> "Column":
         """The column of some rows."""
-        lower = self.lower[rows]
-        bad = None if self.bad is None else self.bad[rows]
+        if len(self.lower) == 1:
+            return self
+        bad = None if self.bad is None else self.bad.take(rows)
+        return self._made(self.lower.take(rows), None if self.upper is None else self.upper.take(rows), bad)
+
+    def _made(self, lower: Array, upper: Array | None, bad: Mask | None) -> "Column":
+        """A part of the column, plain where it can be."""
         if bad is not None and not bad.any():
             bad = None
-        if self.upper is None:
-            return Column(self.kind, lower, None, bad)
-        upper = self.upper[rows]
-        if (lower == upper).all():
+        if upper is not None and (lower == upper).all():
             return Column(self.kind, lower.astype(_TYPES[self.kind]), None, bad)
         return Column(self.kind, lower, upper, bad)
+
+    def part(self, first: int, last: int) -> "Column":
+        """The column of the rows from one on to before another."""
+        if len(self.lower) == 1 or last - first == len(self.lower):
+            return self
+        lower = self.lower[first:last]
+        upper, bad = (None if each is None else each[first:last] for each in (self.upper, self.bad))
+        return self._made(lower, upper, bad)
 
     def value(self, row: int, texts: Texts) -> Value:
         """The value of one row."""
@@ -77,6 +90,8 @@ class Column:
 
     def values(self, texts: Texts, rows: Array) -> list[Value]:
         """The values of some rows."""
+        if len(self.lower) == 1:
+            return [self.value(0, texts)] * len(rows)
         if self.upper is None:
             found = self.lower[rows].tolist()
             return [texts.names[each] for each in found] if self.kind == TEXT else found
@@ -140,15 +155,22 @@ def _mixed(kind: str, values: Sequence[Value], texts: Texts) -> Column:
     return Column(kind, lower, upper, bad)
 
 
-def constant(value: Value, texts: Texts, count: int) -> Column:
+def constant(value: Value, texts: Texts) -> Column:
     """The column that holds one value in each row."""
-    one = column_of([value], texts)
-    return one.take(np.zeros(count, np.intp))
+    return column_of([value], texts)
 
 
-def unknown(count: int) -> Column:
+def unknown() -> Column:
     """The column of values of which nothing is known."""
-    return Column(FLOAT, np.full(count, UNKNOWN.lower), np.full(count, UNKNOWN.upper))
+    return Column(FLOAT, np.array([UNKNOWN.lower]), np.array([UNKNOWN.upper]))
+
+
+def distinct(numbers: Array) -> tuple[list[int], Array]:
+    """The small numbers, not below 0, that occur, in order; and the place in that order of each."""
+    found = np.flatnonzero(np.bincount(numbers))
+    places = np.zeros(int(found[-1]) + 1 if len(found) else 0, np.int64)
+    places[found] = np.arange(len(found))
+    return found.tolist(), places[numbers]
 
 
 def joined(parts: Sequence[tuple[Mask, Column]], count: int) -> Column:

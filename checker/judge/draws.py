@@ -9,6 +9,7 @@ import math
 from collections.abc import Mapping
 from functools import lru_cache
 from statistics import NormalDist
+from types import CodeType
 from typing import Any
 
 import numpy as np
@@ -52,11 +53,15 @@ def _shares(seed: int, name: str, indices: Array) -> Array:
 
 def drawn(parameter: ParameterConfiguration, seed: int, ticks: Array) -> Array | None:
     """The values of a parameter for tokens that begin at `ticks`; None for a distribution that the judge lacks."""
-    if parameter.mode == "inter":
-        return _values(parameter, seed, np.zeros(len(ticks), np.int64))
-    indices, places = np.unique(np.maximum(ticks, 0) // parameter.update, return_inverse=True)
-    found = _values(parameter, seed, indices)
-    return None if found is None else found[places]
+    if parameter.mode == "inter" or not len(ticks):
+        found = _values(parameter, seed, np.zeros(1, np.int64))
+        return None if found is None else np.repeat(found, len(ticks))
+    indices = np.maximum(ticks, 0) // parameter.update
+    first, last = int(indices.min()), int(indices.max())
+    if last - first >= len(indices):
+        return _values(parameter, seed, indices)
+    found = _values(parameter, seed, np.arange(first, last + 1))
+    return None if found is None else found[indices - first]
 
 
 def _values(parameter: ParameterConfiguration, seed: int, indices: Array) -> Array | None:
@@ -109,6 +114,14 @@ def _picked(parameter: ParameterConfiguration, parts: Array) -> Array:
     return np.array(parameter.values, float)[np.minimum(places, len(weights) - 1)]
 
 
+@lru_cache(maxsize=256)
+def _expression(text: str) -> tuple[CodeType, tuple[str, ...]]:
+    """An expression ready to be evaluated, and the names in it; `checker.mission` has read it before."""
+    tree = ast.parse(text.strip(), mode="eval")
+    names = sorted({node.id for node in ast.walk(tree) if isinstance(node, ast.Name)})
+    return compile(tree, "<expression>", "eval"), tuple(names)
+
+
 class Chance:
     """What a mission draws; a parameter that is not configured is uniform over the range that a model gives it."""
 
@@ -140,12 +153,11 @@ class Chance:
             return None
         if not parameter.expression:
             return drawn(parameter, self.seed, ticks)
-        text = parameter.expression.strip()  # read by checker.mission before
-        names = {node.id for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Name)}
-        given = {other: self.draws(other, ticks) for other in sorted(names & self.parameters.keys())}
+        code, names = _expression(parameter.expression)
+        given = {other: self.draws(other, ticks) for other in names if other in self.parameters}
         rows = [values.tolist() for values in given.values() if values is not None]
         if len(rows) < len(given):
             return None
         scope = {"__builtins__": _CALLABLE}
-        found = [float(eval(text, scope, dict(zip(given, row, strict=True)))) for row in zip(*rows, strict=True)]
+        found = [float(eval(code, scope, dict(zip(given, row, strict=True)))) for row in zip(*rows, strict=True)]
         return _settled(parameter, np.array(found, float))

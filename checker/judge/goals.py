@@ -1,18 +1,21 @@
 """Judge goals: what counts as achieved was executed from beginning to end, as it was asked for."""
 
+from collections.abc import Sequence
+
 from checker.judge.bench import Bench, Tok
 from checker.judge.tokens import ProgramJudge
 from checker.judge.values import lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, START
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration
-from runtime.executive.events import single_events
-from runtime.executive.outcome import EventKind, Outcome
+from runtime.executive.outcome import Event, EventKind, Outcome
 from runtime.executive.record import Value, ValueRange
 
 
-def judge_goals(agent: AgentConfiguration, outcome: Outcome, desks: dict[str, tuple[ProgramJudge, Bench]]) -> None:
+def judge_goals(
+    agent: AgentConfiguration, outcome: Outcome, events: Sequence[Event], desks: dict[str, tuple[ProgramJudge, Bench]]
+) -> None:
     """Judge the mandatory goals that count as achieved: said to be, or not left open when the mission had its time."""
-    said = {event.request for event in single_events(outcome.events) if event.kind is EventKind.ACHIEVED}
+    said = {event.request for event in events if event.kind is EventKind.ACHIEVED}
     has_ended = outcome.abort is None and outcome.last_tick >= agent.final_tick
     left = [(goal.timeline, goal.predicate) for goal in outcome.open_goals]
     for number, goal in enumerate(agent.goals):

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from checker.judge.bench import Bench, Tok
+from checker.judge.bodies import Written
 from checker.judge.bulk_timelines import History, Publications
 from checker.judge.columns import Array
 from checker.judge.draws import Chance
@@ -15,7 +16,6 @@ from checker.judge.goals import judge_goals
 from checker.judge.operands import BodyFrame
 from checker.judge.report import JudgeReport
 from checker.judge.resources import judge_resources
-from checker.judge.steps import Written
 from checker.judge.tables import Tables
 from checker.judge.timelines import judge_timelines
 from checker.judge.tokens import ProgramJudge, compile_program, judge_tokens
@@ -24,10 +24,11 @@ from checker.judge.written import meanings_of
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.events import EventLog, single_events
-from runtime.executive.outcome import EventKind, Outcome, Phase, Reason, ReasonKind
+from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
 from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, Value
 from runtime.user.constraint import Constraint
 
+_FEWEST = 64  # tokens of a record for which tables are worth their cost
 _KNOWN: dict[int, tuple[Program, tuple[Constraint, ...], ProgramJudge]] = {}
 
 
@@ -53,22 +54,23 @@ def judge_mission(
     """Judge everything that the models say of an executed mission; programs are in the order of the reactors."""
     chance = Chance(agent, tuple(programs), outcome.seed, overrides or {})
     by_name = {each.reactor: each for each in record.reactors}
-    failed = {
-        event.reactor for event in single_events(outcome.events) if event.kind in (EventKind.KILL, EventKind.ABORT)
-    }
-    history = _Trace(outcome)
+    events = single_events(outcome.events)
+    failed = {event.reactor for event in events if event.kind in (EventKind.KILL, EventKind.ABORT)}
+    history = _Trace(outcome, events)
     desks: dict[str, tuple[ProgramJudge, Bench]] = {}
     for place, program in zip(agent.reactors, programs, strict=True):
         written = by_name.get(place.name)
         if written is None:
             continue
+        tables = Tables(written) if len(written.tokens) >= _FEWEST else None
+        if tables is None:
+            written = written._replace(tokens=tuple(written.tokens))
         judge = _judge_of(program, constraints)
         bench = Bench(written, agent.final_tick, chance.draws, place.name in failed)
         desks[place.name] = (judge, bench)
-        tables = Tables(written)
         _judge_model(judge, bench, tables)
         judge_timelines(judge, bench, tables, history.seen_by(place.name), place.internal, place.external)
-    judge_goals(agent, outcome, desks)
+    judge_goals(agent, outcome, events, desks)
     return _summary([bench for _, bench in desks.values()])
 
 
@@ -95,9 +97,8 @@ def judge_plan(
     bench = Bench(record, record.last_tick, _undrawn)
     bench.infers = True
     bench.told = told
-    tables = Tables(record)
-    _judge_model(judge, bench, tables)
-    judge_timelines(judge, bench, tables, {}, (), ())
+    _judge_model(judge, bench, None)
+    judge_timelines(judge, bench, None, {}, (), ())
     return _summary([bench])
 
 
@@ -105,7 +106,7 @@ def _undrawn(parameter: str, ticks: Array) -> None:
     """No draws are known."""
 
 
-def _judge_model(judge: ProgramJudge, bench: Bench, tables: Tables) -> None:
+def _judge_model(judge: ProgramJudge, bench: Bench, tables: Tables | None) -> None:
     """Judge the script, the tokens with their rules, and the resources of one reactor."""
     _judge_script(judge, bench)
     judge_tokens(judge, bench, tables)
@@ -130,10 +131,10 @@ def _judge_script(judge: ProgramJudge, bench: Bench) -> None:
 class _Trace:
     """What was published in a mission, as each reactor came to see it."""
 
-    def __init__(self, outcome: Outcome) -> None:
-        self.events = [event for event in single_events(outcome.events) if event.kind is EventKind.OBSERVATION]
+    def __init__(self, outcome: Outcome, events: Sequence[Event]) -> None:
+        self.events = [event for event in events if event.kind is EventKind.OBSERVATION]
         self.columns = outcome.events.published() if isinstance(outcome.events, EventLog) else []
-        self.deaths = {(e.tick, e.reactor) for e in single_events(outcome.events) if e.kind is EventKind.KILL}
+        self.deaths = {(event.tick, event.reactor) for event in events if event.kind is EventKind.KILL}
         self.common = self._told("") if not self.deaths else None
 
     def seen_by(self, reactor: str) -> History:
@@ -166,4 +167,5 @@ def _summary(benches: Sequence[Bench]) -> JudgeReport:
         sum(bench.judged for bench in benches),
         sum(bench.open for bench in benches),
         tuple(sorted(skipped.items())),
+        tuple(one for bench in benches for one in bench.profiles),
     )

@@ -32,13 +32,14 @@ _ENDLESS = 2**51
 class BodyFrame:
     """One run of a body: the values in its slots, its tokens, and what the record says of the run."""
 
-    __slots__ = ("bench", "children", "choosing", "guards", "locals", "slots", "tok", "tokens")
+    __slots__ = ("bench", "children", "choosing", "guards", "locals", "slots", "tok", "tokens", "within")
 
     def __init__(self, bench: Bench, tok: Tok | None, slots: list[Value], tokens: list[Tok | None]) -> None:
         self.bench = bench
         self.tok = tok
         self.slots = slots
         self.tokens = tokens
+        self.within = ""  # the branch that is run
         self.choosing: Any = None  # finds children and branches where no run is on record
         self.locals: Iterator[Value] = iter(())
         self.children: Iterator[int] = iter(())

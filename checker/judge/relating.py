@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from checker.judge.bench import Bench, Tok
-from checker.judge.choosing import may_be_outside
+from checker.judge.choosing import may_be_outside, nearest_of
 from checker.judge.meanings import equal
 from checker.judge.operands import BodyFrame, VariableNames, reader
 from checker.judge.relations import OE, OS, TE, demands
@@ -34,7 +34,9 @@ def child_step(child: Child, names: VariableNames) -> Step:
                 bench.skip("a child that lies outside of what is told")
                 return
             if key == NOBODY:
-                bench.report("child", label, (parent,), (), "asked for", "no token of the plan fits", child.span)
+                near, missed = nearest_of(frame, child, pairs, holder, names)
+                what = "no token of the plan fits"
+                bench.report("child", label, (parent, *near), missed, "asked for", what, child.span)
                 return
         else:
             key = next(frame.children, NOBODY)
@@ -56,8 +58,8 @@ def child_step(child: Child, names: VariableNames) -> Step:
         frame.tokens[slot] = tok
         holder = parent.values[OBJECT] if child.object == "own" else None if given is None else given(frame)
         if holder is not None and not bench.weigh(equal(tok.values[OBJECT], holder)):
-            values: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))
-            bench.report("child", label, (parent, tok), values, "on its object", "on another", child.span)
+            objects: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))
+            bench.report("child", label, (parent, tok), objects, "on its object", "on another", child.span)
         first = frame.tokens[origin]
         if first is None:
             return

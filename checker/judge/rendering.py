@@ -45,12 +45,19 @@ def disagreement_text(one: Disagreement) -> str:
     """One disagreement in one line."""
     where = f"{_place_text(one.span)}: " if one.span is not None else ""
     who = f" ({', '.join(one.tokens)})" if one.tokens else ""
-    values = ", ".join(f"{name} = {_value_text(value)}" if name else _value_text(value) for name, value in one.values)
-    return f"{one.reactor}: {where}{_claim(one)}{who}{f': {values}' if values else ''}"
+    return f"{one.reactor}: {where}{_claim(one)}{who}{_values_text(one)}"
+
+
+def _values_text(one: Disagreement) -> str:
+    """The values that were judged; constants and parts of expressions stand in the text of the model."""
+    has_names = any(name for name, _ in one.values)
+    shown = [(name, value) for name, value in one.values if name or not has_names]
+    texts = [f"{name} = {_value_text(value)}" if name else _value_text(value) for name, value in shown]
+    return f": {', '.join(texts)}" if texts else ""
 
 
 def _claim(one: Disagreement) -> str:
-    line = f"`{_first_line(one.span.text)}`" if one.span is not None else f"`{one.name}`"
+    line = f"`{_statement(one.span)}`" if one.span is not None else f"`{one.name}`"
     match one.kind:
         case "constraint" | "relation":
             left_open = "fixes a value that was left open"
@@ -61,10 +68,44 @@ def _claim(one: Disagreement) -> str:
             return f"`{one.name}` is {one.found}"
         case "draw":
             return f"{line}: `{one.name}` is not what is drawn for the tick at which the token begins"
-        case "overlap" | "gap" | "observation" | "level" | "goal":
+        case "child":
+            return f"{line}: {one.held}, but {one.found}"
+        case "duration":
+            return "the duration is not the time from start to end, or is too short"
+        case "overlap":
+            return f"overlap on `{one.name}`: {one.found}, where one token follows the other"
+        case "level":
+            return f"the {one.held} of `{one.name}` is {one.found}"
+        case "gap" | "observation" | "goal":
             return f"{one.kind} on `{one.name}`: {one.held}, but {one.found}"
         case _:
             return f"{one.kind} `{one.name}`: {one.held}, but {one.found}"
+
+
+def _statement(span: Span) -> str:
+    """The statement of a model that a stretch of it belongs to, on one line; of a block its head."""
+    text, begin, finish = span.source.text, span.begin, span.finish
+    line = text.rfind("\n", 0, begin) + 1
+    begin = max(line, *[text.rfind(mark, line, begin) + 1 for mark in ";{}"])
+    ends = [at for mark in ";{}\n" if (at := text.find(mark, finish)) >= 0]
+    if not text[:finish].rstrip().endswith((";", "}")):
+        finish = min(ends, default=len(text))
+    return text[begin:finish].partition("\n")[0].partition("//")[0].rstrip("{; ").strip()
+
+
+# What to do about a plan that somebody wrote.
+_ADVICE: dict[str, str] = {
+    "child": "a rule asks for tokens: add the one that is missing, or end the plan before it is due (`last_tick`)",
+    "relation": "move one of the tokens until the relation holds, or leave a time open",
+    "constraint": "change a value until the constraint holds, or leave it out: it is open then",
+    "guard": "leave `runs` out, and the branches are found out",
+    "domain": "the declaration in the model says which values there are",
+    "duration": "leave `duration` out: it follows from `start` and `end`",
+    "overlap": "on a timeline a token ends before the next one starts",
+    "gap": "on a timeline that reactors share something holds at every tick",
+    "level": "move or shrink what takes from the resource at that tick",
+    "merge": "a merged token has the values of the one that stands for it",
+}
 
 
 def _disagreement_data(one: Disagreement) -> dict[str, Any]:
@@ -94,14 +135,17 @@ def report_data(report: JudgeReport) -> dict[str, Any]:
     }
 
 
-def _first_line(text: str) -> str:
-    """The first line of a piece of a model, without its block."""
-    return text.partition("\n")[0].rstrip("{ ").strip()
-
-
-def report_text(report: JudgeReport) -> str:
-    """A judgement in lines: disagreements, then how much was judged."""
-    lines = [disagreement_text(one) for one in report.disagreements]
-    lines.append(f"{report.judged} judged, {report.open} left open, {len(report.disagreements)} disagreements")
+def report_text(report: JudgeReport, *, advises: bool = False) -> str:
+    """A judgement in lines: disagreements, then how much was judged; on request what to do about each kind."""
+    found = report.disagreements
+    lines = [disagreement_text(one) for one in found]
+    if advises and found:
+        lines += [f"help: {_ADVICE[kind]}" for kind in dict.fromkeys(one.kind for one in found) if kind in _ADVICE]
+        named = next((name for one in found for name in one.tokens), None)
+        if named is not None:
+            key = named.rpartition("#")[2]
+            lines.append(f"help: `{named}` is the token with the key {key}: its place in the list if it has no `key`")
+    count = f"{len(found)} disagreement{'' if len(found) == 1 else 's'}"
+    lines.append(f"{report.judged} judged, {report.open} left open, {count}")
     lines += [f"not judged: {count} x {reason}" for reason, count in report.skipped]
     return "\n".join(lines)

@@ -43,6 +43,17 @@ class Disagreement:
 
 
 @dataclass(frozen=True, slots=True)
+class ResourceProfile:
+    """The level of a resource over a mission, from each tick on until the next; `least` and `most` are its limits."""
+
+    reactor: str
+    resource: str
+    least: float
+    most: float
+    levels: tuple[tuple[int, float], ...]
+
+
+@dataclass(frozen=True, slots=True)
 class JudgeReport:
     """The judgement of one mission: `judged` checks were decided, `open` ones left by values that were never fixed.
 
@@ -53,6 +64,7 @@ class JudgeReport:
     judged: int
     open: int
     skipped: tuple[tuple[str, int], ...]
+    profiles: tuple[ResourceProfile, ...] = ()
 
     @property
     def holds(self) -> bool:

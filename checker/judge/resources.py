@@ -1,13 +1,14 @@
 """Judge resources: the level over time from the uses that were executed, at every instant up to the last tick."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import inf
 
 from checker.judge.bench import Bench, Tok
+from checker.judge.report import ResourceProfile
 from checker.judge.tokens import ProgramJudge
 from checker.judge.values import TOLERANCE
-from compiler.program import END, FIRST_PARAMETER, START, Call
+from compiler.program import END, FIRST_PARAMETER, START, Call, Program
 from nddl_lang.text.source import Span
 from runtime.executive.record import Value, ValueRange
 
@@ -36,6 +37,12 @@ class _ResourceLimits:
     consumption: float = inf
     production_rate: float = inf
     production: float = inf
+
+
+def resources_of(program: Program) -> list[str]:
+    """The names of the resources that are global variables of a model."""
+    kinds = {code.name for code in program.classes if code.native in _RESOURCES}
+    return [name for name, code in program.globals if code.kind == "object" and code.type_name in kinds]
 
 
 def judge_resources(judge: ProgramJudge, bench: Bench) -> None:
@@ -115,11 +122,10 @@ def _judge_level(bench: Bench, resource: str, limits: _ResourceLimits, uses: lis
         flow[use.start] = flow.get(use.start, 0.0) + abs(use.amount)
         if use.end is not None:
             changes[use.end] = changes.get(use.end, 0.0) - use.amount
-    level = limits.initial
-    for tick in sorted(changes):
-        level += changes[tick]
-        if tick > bench.last_tick:
-            break
+    levels = _levels(limits.initial, changes, bench.last_tick)
+    first = () if levels and levels[0][0] <= 0 else ((0, limits.initial),)
+    bench.profiles.append(ResourceProfile(bench.reactor, resource, limits.least, limits.most, (*first, *levels)))
+    for tick, level in levels:
         bench.judged += 1
         if not limits.least - TOLERANCE <= level <= limits.most + TOLERANCE:
             _exceeded(bench, resource, "level", level, limits.least, limits.most, tick, uses)
@@ -136,6 +142,15 @@ def _judge_level(bench: Bench, resource: str, limits: _ResourceLimits, uses: lis
             _exceeded(bench, resource, f"{name} altogether", sum(flow.values()), 0.0, total, bench.last_tick, uses)
 
 
+def _levels(level: float, changes: Mapping[int, float], last_tick: int) -> list[tuple[int, float]]:
+    """The level after each change, from the one before all."""
+    levels = []
+    for tick in sorted(tick for tick in changes if tick <= last_tick):
+        level += changes[tick]
+        levels.append((tick, level))
+    return levels
+
+
 def _exceeded(
     bench: Bench,
     resource: str,
@@ -148,5 +163,6 @@ def _exceeded(
 ) -> None:
     users = tuple(use.tok for use in uses if use.tok is not None and use.start <= tick)[-4:]
     span = next((use.span for use in reversed(uses) if use.span is not None and use.start <= tick), None)
-    values: tuple[tuple[str, Value], ...] = ((what, amount), ("least", least), ("most", most), ("tick", tick))
-    bench.report("level", resource, users, values, "within its limits", "beyond them", span)
+    values: tuple[tuple[str, Value], ...] = ((what, amount), ("tick", tick))
+    found = f"above {most:g}" if amount > most else f"below {least:g}"
+    bench.report("level", resource, users, values, what, found, span)

@@ -1,11 +1,12 @@
-"""Compile the bodies of rules, predicates and the script into steps that judge one run against the record."""
+"""Steps that judge one run of a body against the record."""
 
 from dataclasses import dataclass
-from typing import assert_never
 
 from checker.judge.bench import Bench
+from checker.judge.bodies import StepMaker, Written, compile_body
 from checker.judge.determined import Determined
-from checker.judge.meanings import MEANINGS, SILENT, Meaning, equal, is_true
+from checker.judge.functions import COMPUTED
+from checker.judge.meanings import Meaning, equal, is_true
 from checker.judge.operands import BodyFrame, Read, VariableNames, domain_value, is_range, reader
 from checker.judge.relating import LEFT_OPEN, Step, child_step, relate_step
 from checker.judge.solving import solver
@@ -13,61 +14,18 @@ from checker.judge.values import UNKNOWN, is_open, lies_within, may_be_equal
 from compiler.program import (
     START,
     Assign,
-    Call,
-    Child,
     DomainConstant,
     Guard,
     Instruction,
-    LocalVariable,
-    NewGlobal,
     NewObject,
-    NewToken,
     NewVariable,
     ObjectLoop,
     Post,
-    Relate,
     Sample,
     TypeCode,
 )
 from nddl_lang.text.source import Span
 from runtime.executive.record import OpenValues, Value, ValueRange
-
-Written = dict[str, Meaning]  # constraints of the project, by name
-
-
-def compile_body(
-    body: tuple[Instruction, ...], names: VariableNames, written: Written, undefined: set[int] | None = None
-) -> list[Step]:
-    """The steps of a body; `undefined` are slots of expressions that nothing has defined yet."""
-    undefined = set() if undefined is None else undefined
-    steps: list[Step] = []
-    for instruction in body:
-        match instruction:
-            case NewVariable():
-                steps += _variable(instruction, names, undefined)
-            case Post():
-                steps += _post(instruction, names, written, undefined)
-            case Sample():
-                steps.append(_sample(instruction, names, undefined))
-            case Child():
-                names.tokens[instruction.slot] = (instruction.label or "", instruction.predicate)
-                steps.append(child_step(instruction, names))
-            case Relate():
-                steps.append(relate_step(instruction))
-            case Guard():
-                steps.append(_guard(instruction, names, written, undefined))
-            case ObjectLoop():
-                steps.append(_loop(instruction, names, written, undefined))
-            case Assign():
-                steps.append(_assign(instruction, names))
-            case NewObject(slot=slot):
-                if slot is not None:
-                    steps.append(_blank(slot))
-            case NewGlobal() | NewToken() | Call():
-                pass  # of the script, which `script` reads
-            case _:
-                assert_never(instruction)
-    return steps
 
 
 def _blank(slot: int) -> Step:
@@ -123,12 +81,8 @@ def _is_of_class(bench: Bench, value: Value, class_name: str, names: VariableNam
     return None if known is None else names.is_kind_of(known[0], class_name)
 
 
-def _variable(new: NewVariable, names: VariableNames, undefined: set[int]) -> list[Step]:
-    slot, name = new.slot, new.name
-    if name is None:
-        undefined.add(slot)
-        return []
-    names.locals[slot] = name
+def _variable(new: NewVariable, names: VariableNames) -> Step:
+    slot, name = new.slot, new.name or ""
     test = domain_test(new.type, new.domain, names)
     copied = None if new.copy_of is None else reader(new.copy_of, names)
 
@@ -150,7 +104,7 @@ def _variable(new: NewVariable, names: VariableNames, undefined: set[int]) -> li
         if copied is not None and may_be_equal(value, copied(frame)):
             bench.judged += 1
 
-    return [step]
+    return step
 
 
 def _note(
@@ -176,11 +130,8 @@ def _assign(given: Assign, names: VariableNames) -> Step:
     return step
 
 
-def _sample(sample: Sample, names: VariableNames, undefined: set[int]) -> Step:
+def _sample(sample: Sample, slot: int | None, names: VariableNames) -> Step:
     parameter, target = sample.parameter, sample.target
-    slot = target.slot if isinstance(target, LocalVariable) and target.slot in undefined else None
-    if slot is not None:
-        undefined.discard(slot)
     read = reader(target, names)
     name = names.of(target)
 
@@ -201,27 +152,12 @@ def _sample(sample: Sample, names: VariableNames, undefined: set[int]) -> Step:
 # ---- constraints ----
 
 
-def _post(post: Post, names: VariableNames, written: Written, undefined: set[int]) -> list[Step]:
-    name = post.name
-    if name in SILENT:
-        return []
-    reads = [reader(each, names) for each in post.operands]
-    if name == "uses":
-        return [_use(post, reads)]
-    unknown = [k for k, each in enumerate(post.operands) if isinstance(each, LocalVariable) and each.slot in undefined]
-    if unknown:
-        return [_define(post, unknown[0], reads, undefined)]
-    meaning = MEANINGS.get(name) or written.get(name)
-    if meaning is None:
-        return [lambda frame: frame.bench.skip(f"constraint `{name}`")]
-    is_loose = any(is_range(each) for each in post.operands)
-    if len(reads) == 2 and not is_loose:
-        return [_two(post, meaning, reads, names)]
-    return [_many(post, meaning, reads, is_loose, names)]
+def _reads(post: Post, names: VariableNames) -> list[Read]:
+    return [reader(each, names) for each in post.operands]
 
 
-def _use(post: Post, reads: list[Read]) -> Step:
-    holder, quantity, start, end = reads
+def _use(post: Post, names: VariableNames) -> Step:
+    holder, quantity, start, end = _reads(post, names)
 
     def step(frame: BodyFrame) -> None:
         use = (holder(frame), quantity(frame), start(frame), end(frame), frame.tok, post.span)
@@ -230,14 +166,10 @@ def _use(post: Post, reads: list[Read]) -> Step:
     return step
 
 
-def _define(post: Post, place: int, reads: list[Read], undefined: set[int]) -> Step:
+def _define(post: Post, place: int, slot: int, names: VariableNames) -> Step:
     """Compute a part of an expression from the constraint that defines it."""
-    target = post.operands[place]
-    assert isinstance(target, LocalVariable)
-    slot = target.slot
-    undefined.discard(slot)
-    solve = solver(post.name, place, len(reads))
-    others = [read for k, read in enumerate(reads) if k != place]
+    solve = solver(post.name, place, len(post.operands))
+    others = [reader(each, names) for k, each in enumerate(post.operands) if k != place]
     if solve is None:
         return _blank(slot)
 
@@ -247,8 +179,16 @@ def _define(post: Post, place: int, reads: list[Read], undefined: set[int]) -> S
     return step
 
 
-def _two(post: Post, meaning: Meaning, reads: list[Read], names: VariableNames) -> Step:
-    first, second = reads
+def _pass_over(name: str) -> Step:
+    return lambda frame: frame.bench.skip(f"constraint `{name}`")
+
+
+def _check(post: Post, meaning: Meaning, names: VariableNames) -> Step:
+    return (_two if len(post.operands) == 2 else _many)(post, meaning, names)
+
+
+def _two(post: Post, meaning: Meaning, names: VariableNames) -> Step:
+    first, second = _reads(post, names)
     determined = Determined(post, names)
 
     def step(frame: BodyFrame) -> None:
@@ -269,27 +209,45 @@ def _two(post: Post, meaning: Meaning, reads: list[Read], names: VariableNames) 
     return step
 
 
-def _many(post: Post, meaning: Meaning, reads: list[Read], is_loose: bool, names: VariableNames) -> Step:
+def _many(post: Post, meaning: Meaning, names: VariableNames) -> Step:
+    reads = _reads(post, names)
     determined = Determined(post, names)
-    # An anonymous range in the text stands for any of its values.
-    fixed = [k for k, operand in enumerate(post.operands) if not is_range(operand)]
 
     def step(frame: BodyFrame) -> None:
         values = [read(frame) for read in reads]
         bench = frame.bench
         answer = meaning(*values)
-        if answer is None and is_loose:
-            answer = None if any(is_open(values[k]) for k in fixed) else True
         if answer:
             bench.judged += 1
         elif answer is None:
             bench.open += 1
             if frame.choosing is not None:
                 determined.infer(frame, values)
-            elif not is_loose and determined.is_left_open(frame, values):
+            elif determined.is_left_open(frame, values):
                 _refuse(frame, post, values, names, LEFT_OPEN)
         else:
             _refuse(frame, post, values, names)
+
+    return step
+
+
+def _check_loose(post: Post, meaning: Meaning, names: VariableNames) -> Step:
+    reads = _reads(post, names)
+    fixed = [k for k, operand in enumerate(post.operands) if not is_range(operand)]
+    determined = Determined(post, names)
+
+    def step(frame: BodyFrame) -> None:
+        values = [read(frame) for read in reads]
+        bench = frame.bench
+        answer = meaning(*values)
+        if answer is False:
+            _refuse(frame, post, values, names)
+        elif answer or not any(is_open(values[k]) for k in fixed):
+            bench.judged += 1
+        else:
+            bench.open += 1
+            if frame.choosing is not None:
+                determined.infer(frame, values)
 
     return step
 
@@ -301,18 +259,23 @@ def _refuse(
     names: VariableNames,
     said: tuple[str, str] = ("it holds", "it does not"),
 ) -> None:
-    named = tuple((names.of(operand), value) for operand, value in zip(post.operands, values, strict=True))
+    named = [(names.of(operand), value) for operand, value in zip(post.operands, values, strict=True)]
     frame.bench.judged += 1
-    _note(frame, "constraint", post.name, named, *said, post.span)
+    if post.name in COMPUTED:
+        place = 0 if COMPUTED[post.name][0] == 0 else len(values) - 1
+        solve = solver(post.name, place, len(values))
+        if solve is not None:
+            named.append(("computed", solve(*values[:place], *values[place + 1 :])))
+    if frame.within:
+        named.append(("within", frame.within))
+    _note(frame, "constraint", post.name, tuple(named), *said, post.span)
 
 
 # ---- branches ----
 
 
-def _guard(guard: Guard, names: VariableNames, written: Written, undefined: set[int]) -> Step:
+def _guard(guard: Guard, then: list[Step], otherwise: list[Step], names: VariableNames) -> Step:
     condition = reader(guard.condition, names)
-    then = compile_body(guard.then, names, written, set(undefined))
-    otherwise = compile_body(guard.otherwise, names, written, set(undefined))
     text = guard.span.text.partition("{")[0].strip()
 
     def step(frame: BodyFrame) -> None:
@@ -326,6 +289,7 @@ def _guard(guard: Guard, names: VariableNames, written: Written, undefined: set[
                 return
             inner = BodyFrame(bench, frame.tok, list(frame.slots), list(frame.tokens))
             inner.choosing = frame.choosing
+            inner.within = text if truth else f"else of {text}"
             for each in then if truth else otherwise:
                 each(inner)
             return
@@ -347,15 +311,15 @@ def _guard(guard: Guard, names: VariableNames, written: Written, undefined: set[
         if reached.run is not None:
             inner = BodyFrame(bench, frame.tok, list(frame.slots), list(frame.tokens))
             inner.follow(reached.run)
+            inner.within = text if reached.branch == "then" else f"else of {text}"
             for each in then if reached.branch == "then" else otherwise:
                 each(inner)
 
     return step
 
 
-def _loop(loop: ObjectLoop, names: VariableNames, written: Written, undefined: set[int]) -> Step:
+def _loop(loop: ObjectLoop, body: list[Step], names: VariableNames) -> Step:
     collection = reader(loop.collection, names)
-    body = compile_body(loop.body, names, written, set(undefined))
 
     def step(frame: BodyFrame) -> None:
         things = collection(frame)
@@ -374,3 +338,25 @@ def _in_order(bench: Bench, things: Value) -> list[str]:
     """Objects in the order of their making."""
     wanted = {str(each) for each in things.values} if isinstance(things, OpenValues) else {str(things)}
     return [name for name in bench.members if name in wanted]
+
+
+_STEPS = StepMaker(
+    _variable,
+    _blank,
+    _assign,
+    _sample,
+    child_step,
+    relate_step,
+    _use,
+    _define,
+    _pass_over,
+    _check,
+    _check_loose,
+    _guard,
+    _loop,
+)
+
+
+def compile_steps(body: tuple[Instruction, ...], names: VariableNames, written: Written) -> tuple[Step, ...]:
+    """The steps of a body for one run."""
+    return tuple(compile_body(body, names, written, _STEPS))

@@ -1,21 +1,78 @@
-"""The record of a reactor as tables: times and keys of all tokens in arrays, arguments in one column per parameter.
+"""Tables of a record: keys, times and arguments of all tokens of a reactor as columns, read row by row of a group.
 
-Here and in `checker.judge.alike` many tokens of a record are read at once; what else the judge asks of a record it asks
-token by token.
+They are read for what is judged of many tokens at once; what else the judge asks of a record it asks token by token.
 """
 
 from collections.abc import Sequence
 
 import numpy as np
 
-from checker.judge.alike import ArgumentTable
-from checker.judge.columns import INT, TEXT, Array, Column, Mask, Texts, column_of, joined
+from checker.judge.alike import SymbolNumbers
+from checker.judge.columns import INT, TEXT, Array, Column, Mask, Texts, column_of, distinct, joined
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START
-from runtime.executive.columns import ORIGINS, TokenColumns
+from runtime.executive.columns import ORIGINS, StoredValues, TokenColumns
 from runtime.executive.record import NOBODY, ReactorRecord, TokenRecord
 
+_SPARSE = 4
 _DEEPEST = 64  # merged into what is merged into ...
 _ACTIVE, _MERGED = 0, 1
+
+
+class _Arguments:
+    """The arguments of all tokens that stand for themselves: of each predicate a table, read when first asked for."""
+
+    def __init__(self, tokens: Sequence[TokenRecord], predicates: Array, texts: Texts) -> None:
+        self.tokens = tokens
+        self.predicates = predicates  # NOBODY of those for which others stand
+        self.texts = texts
+        self.places: Array = np.zeros(len(tokens), np.int64)  # of each token in the table of its predicate
+        self.read: dict[int, list[Column]] = {}
+
+    def of(self, predicate: int, rows: Array) -> "_Picked":
+        """The arguments of tokens of one predicate."""
+        known = self.read.get(predicate)
+        if known is None:
+            own = np.flatnonzero(self.predicates == predicate)
+            self.places[own] = np.arange(len(own))
+            known = self.read[predicate] = self._stored(predicate, own) or self._listed(own)
+        return _Picked(known, self.places.take(rows))
+
+    def _listed(self, rows: Array) -> list[Column]:
+        """Arguments that are on record token by token."""
+        given = [self.tokens[row].arguments for row in rows.tolist()]
+        return [column_of(each, self.texts) for each in zip(*given, strict=False)]
+
+    def _stored(self, predicate: int, rows: Array) -> list[Column]:
+        """Arguments that the record keeps in a store; what has not begun has none."""
+        if not isinstance(self.tokens, TokenColumns):
+            return []
+        first = self.tokens.times.values.take(rows)
+        missing = first < 0
+        stored = StoredValues(self.tokens.store, np.maximum(first, 0), self.tokens.kinds[predicate])
+        numbers = SymbolNumbers(self.tokens.symbols, self.texts)
+        columns = [numbers.column(each) for each in stored.columns()]
+        if missing.any():
+            for each in columns:
+                each.bad = missing if each.bad is None else missing | each.bad
+        return columns
+
+
+class _Picked:
+    """Rows of some columns, mostly such as stand one after the other."""
+
+    def __init__(self, columns: list[Column], places: Array) -> None:
+        self.columns = columns
+        self.places = places
+        is_run = len(places) > 1 and bool((np.diff(places) == 1).all())
+        self.first = int(places[0]) if is_run else NOBODY
+
+    def column(self, number: int) -> Column:
+        """An argument, by the number of its parameter; bad where there is none."""
+        count = len(self.places)
+        if not 0 <= number < len(self.columns):
+            return Column(TEXT, np.zeros(count, np.int64), None, np.ones(count, bool))
+        column = self.columns[number]
+        return column.take(self.places) if self.first == NOBODY else column.part(self.first, self.first + count)
 
 
 class Tables:
@@ -30,15 +87,13 @@ class Tables:
             self._read(record.tokens)
         self.count = len(self.keys)
         self.is_ordered = bool((self.keys[1:] > self.keys[:-1]).all())
-        self._is_gapless = self.is_ordered and self.count > 0 and self.keys[0] == 0 and self.keys[-1] == self.count - 1
-        self.standing = self._standing() if self.is_ordered else np.arange(self.count)
+        self._rows: Array | None = None  # by key, where there are not many more keys than tokens
+        if self.is_ordered and self.count and self.keys[0] >= 0 and self.keys[-1] < _SPARSE * self.count:
+            self._rows = np.full(int(self.keys[-1]) + 1, NOBODY)
+            self._rows[self.keys] = np.arange(self.count)
+        self.standing = self._standing()
         own = np.where(self.standing == np.arange(self.count), self.predicate, NOBODY)
-        order = np.argsort(own, kind="stable")
-        ordered = own[order]
-        self._kinds = own
-        self.places = np.empty(self.count, np.int64)  # of each row in the table of its predicate
-        self.places[order] = np.arange(self.count) - np.searchsorted(ordered, ordered)
-        self._tables: dict[int, ArgumentTable] = {}
+        self.arguments = _Arguments(record.tokens, own, self.texts)
 
     def _read(self, tokens: Sequence[TokenRecord]) -> None:
         """Read tokens one by one."""
@@ -69,88 +124,88 @@ class Tables:
         self.is_active, self.is_merged = times.states == _ACTIVE, times.states == _MERGED
         self.is_cut = np.zeros(len(self.keys), bool)
         self.is_observed = times.origins == ORIGINS.index("observation")
-        is_open = times.ends != times.latest
         begun = self.is_active | self.is_merged
-        starts = Column(INT, times.starts)
-        if not begun.all():
-            starts = Column(INT, times.starts.astype(float), np.where(begun, times.starts, np.inf))
-        ends, durations = Column(INT, times.ends), Column(INT, times.ends - times.starts)
-        if is_open.any():
-            least = np.where(begun, times.ends - times.starts, 1).astype(float)
-            ends = Column(INT, times.ends.astype(float), times.latest)
-            durations = Column(INT, least, np.where(begun, times.latest - times.starts, np.inf))
         self.times = {
-            OBJECT: Column(TEXT, names[times.objects]),
-            DURATION: durations,
-            START: starts,
-            END: ends,
+            OBJECT: Column(TEXT, names.take(times.objects)),
+            START: Column(INT, times.starts, None if begun.all() else np.where(begun, times.starts, np.inf)),
+            END: Column(INT, times.ends, None if (times.ends == times.latest).all() else times.latest),
         }
+
+    def duration(self, rows: Array) -> Column | None:
+        """How long tokens last as it is on record; None where a record has no durations of its own."""
+        return self.times[DURATION].take(rows) if DURATION in self.times else None
 
     def rows_of(self, keys: Array) -> Array:
         """The rows of tokens by their keys; NOBODY where there is none."""
         if not self.count:
             return np.full(len(keys), NOBODY)
-        found = np.minimum(keys if self._is_gapless else np.searchsorted(self.keys, keys), self.count - 1)
+        if self._rows is None:
+            return self._found(keys)
+        is_known = (keys >= 0) & (keys < len(self._rows))
+        found = self._rows.take(keys, mode="clip")
+        return found if is_known.all() else np.where(is_known, found, NOBODY)
+
+    def _found(self, keys: Array) -> Array:
+        found = np.minimum(np.searchsorted(self.keys, keys), self.count - 1)
         return np.where(self.keys[found] == keys, found, NOBODY)
 
     def _standing(self) -> Array:
         """The row of the token that stands for each."""
         found = np.arange(self.count)
+        left = np.flatnonzero(self.merged_into != NOBODY) if self.is_ordered else found[:0]
         for _ in range(_DEEPEST):
-            into = self.merged_into[found]
-            others = np.where(into == NOBODY, found, self.rows_of(into))
-            others = np.where(others == NOBODY, found, others)
-            if (others == found).all():
+            if not len(left):
                 break
-            found = others
+            into = self.rows_of(self.merged_into[found[left]])
+            left, into = left[into != NOBODY], into[into != NOBODY]
+            found[left] = into
+            left = left[self.merged_into[into] != NOBODY]
         return found
-
-    def table(self, predicate: int) -> ArgumentTable:
-        """The tokens of one predicate."""
-        known = self._tables.get(predicate)
-        if known is None:
-            rows = np.flatnonzero(self._kinds == predicate)
-            known = ArgumentTable(self.tokens, self.predicates[predicate], rows, self.texts)
-            self._tables[predicate] = known
-        return known
 
 
 class RowTokens:
     """One token per row of a group: `rows` are their places in the record."""
 
-    __slots__ = ("_columns", "rows", "standing", "tables")
+    __slots__ = ("_arguments", "_columns", "_part", "_whole", "rows", "standing", "tables")
 
     def __init__(self, tables: Tables, rows: Array) -> None:
         self.tables = tables
         self.rows = rows
-        self.standing = tables.standing[rows]
+        self.standing = tables.standing.take(rows)
         self._columns: dict[int, Column] = {}
+        self._arguments: list[tuple[Mask, _Picked]] | None = None
+        self._whole: RowTokens | None = None  # the tokens of which these are the part in some rows
+        self._part = rows
+
+    def part(self, rows: Array) -> "RowTokens":
+        """The tokens of some rows of the group."""
+        found = RowTokens(self.tables, self.rows.take(rows))
+        found._whole, found._part = self, rows
+        return found
 
     def column(self, variable: int) -> Column:
         """A variable of these tokens, of those that stand for them where they are merged."""
         known = self._columns.get(variable)
         if known is None:
-            known = self._columns[variable] = self._read(variable)
+            known = self._read(variable) if self._whole is None else self._whole.column(variable).take(self._part)
+            self._columns[variable] = known
         return known
 
     def _read(self, variable: int) -> Column:
-        tables = self.tables
-        if variable in (OBJECT, START, END):
-            return tables.times[variable].take(self.standing)
+        if variable in (OBJECT, START, END, DURATION):
+            return self.tables.times[variable].take(self.standing)
+        if self._arguments is None:
+            self._arguments = self._sort()
         number = variable - FIRST_PARAMETER
-        predicates = tables.predicate[self.standing]
-        places = tables.places[self.standing]
-        if len(predicates) and (predicates == predicates[0]).all():
-            return self._part(int(predicates[0]), number, places)
-        kinds = np.unique(predicates)
-        parts: list[tuple[Mask, Column]] = []
-        for kind in kinds.tolist():
-            rows = predicates == kind
-            parts.append((rows, self._part(kind, number, places[rows])))
-        return joined(parts, len(places))
+        if len(self._arguments) == 1:
+            return self._arguments[0][1].column(number)
+        return joined([(rows, each.column(number)) for rows, each in self._arguments], len(self.rows))
 
-    def _part(self, predicate: int, number: int, places: Array) -> Column:
-        table = self.tables.table(predicate)
-        if not 0 <= number < table.width:
-            return Column(TEXT, np.zeros(len(places), np.int64), None, np.ones(len(places), bool))
-        return table.column(number).take(places)
+    def _sort(self) -> list[tuple[Mask, _Picked]]:
+        """The arguments by predicate, with the rows of each."""
+        kinds, places = distinct(self.tables.predicate.take(self.standing))
+        found = []
+        for k, kind in enumerate(kinds):
+            rows = places == k
+            found.append((rows, self.tables.arguments.of(kind, self.standing[rows])))
+        return found

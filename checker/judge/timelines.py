@@ -47,18 +47,20 @@ def _place(tok: Tok) -> tuple[int, float, int]:
 def judge_timelines(
     judge: ProgramJudge,
     bench: Bench,
-    tables: Tables,
+    tables: Tables | None,
     history: History,
     internal: tuple[str, ...],
     external: tuple[str, ...],
 ) -> None:
-    """Judge all timelines of a reactor."""
-    bulk = BulkTimelines(bench, tables, judge.timelines)
+    """Judge all timelines of a reactor; those that plainly are right at once, if there are tables."""
     shared = (*internal, *external)
-    in_order = {timeline for timeline in bulk.rows if bulk.is_in_order(timeline, timeline in shared)}
     past = {line: history.get(line, Publications()) for line in shared}
-    told = {line for line in shared if bulk.is_told(line, past[line], judge.codes, line in internal)}
-    left = {*(set(bulk.rows) - in_order), *(set(shared) - told)}
+    in_order, told, left = set[str](), set[str](), {*bench.members, *shared}
+    if tables is not None:
+        bulk = BulkTimelines(bench, tables, judge.timelines)
+        in_order = {timeline for timeline in bulk.rows if bulk.is_in_order(timeline, timeline in shared)}
+        told = {line for line in shared if bulk.is_told(line, past[line], judge.codes, line in internal)}
+        left = {*(set(bulk.rows) - in_order), *(set(shared) - told)}
     if not left:
         return
     found = _sequences(judge, bench, left)

@@ -4,12 +4,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from checker.judge.bench import Bench, Tok, lasting
+from checker.judge.bodies import Written
 from checker.judge.bulk_tokens import BulkJudge, judge_in_bulk
 from checker.judge.choosing import MOST_TRIES, Choosing
 from checker.judge.operands import BUILT_IN, BodyFrame, VariableNames
 from checker.judge.relating import Step
 from checker.judge.report import Disagreement
-from checker.judge.steps import Domain, Written, compile_body, domain_test
+from checker.judge.steps import Domain, compile_steps, domain_test
 from checker.judge.tables import Tables
 from checker.judge.values import UNKNOWN, ends_of, is_open, lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, OBJECT, START, PredicateCode, Program, RuleCode
@@ -64,7 +65,7 @@ def compile_program(program: Program, written: Written) -> ProgramJudge:
     names = VariableNames(program)
     predicates = {code.name: _predicate(code, program, written) for code in program.predicates}
     rules = tuple(_rule(rule, program, written) for rule in program.rules)
-    script = tuple(compile_body(program.script, names, written))
+    script = compile_steps(program.script, names, written)
     worlds = []
     for k, (name, type_) in enumerate(program.globals):
         test = domain_test(type_, None, names)
@@ -83,20 +84,20 @@ def _predicate(code: PredicateCode, program: Program, written: Written) -> Predi
         test = domain_test(parameter.type, parameter.domain, names)
         if test is not None:
             tests.append((FIRST_PARAMETER + k, parameter.name, test))
-    body = tuple(compile_body(code.body, names, written))
+    body = compile_steps(code.body, names, written)
     return PredicateJudge(code, tuple(tests), body, code.rules, 0 if code.is_event else 1)
 
 
 def _rule(rule: RuleCode, program: Program, written: Written) -> RuleJudge:
     names = VariableNames(program)
     names.tokens[0] = ("", rule.predicate)
-    return RuleJudge(tuple(compile_body(rule.body, names, written)), rule.slots, rule.tokens, rule.span)
+    return RuleJudge(compile_steps(rule.body, names, written), rule.slots, rule.tokens, rule.span)
 
 
-def judge_tokens(judge: ProgramJudge, bench: Bench, tables: Tables) -> None:
-    """Judge every token that has begun."""
+def judge_tokens(judge: ProgramJudge, bench: Bench, tables: Tables | None) -> None:
+    """Judge every token that has begun; those that are alike at once, if there are tables."""
     last = bench.last_tick
-    left = bench.record.tokens if bench.infers else judge_in_bulk(judge.bulk, bench, tables)
+    left = bench.record.tokens if tables is None else judge_in_bulk(judge.bulk, bench, tables)
     for tok in bench.tokens.of(left):
         record = tok.record
         state = record.state

@@ -27,7 +27,7 @@ def is_near(a: float, b: float) -> bool:
         return True
     if type(a) is not float and type(b) is not float:
         return False
-    return abs(a - b) <= slack(a if abs(a) > abs(b) else b)
+    return not isinf(a) and not isinf(b) and abs(a - b) <= slack(a if abs(a) > abs(b) else b)
 
 
 def is_open(value: Value) -> bool:

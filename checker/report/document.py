@@ -9,11 +9,13 @@ from typing import Any
 
 from checker.batch.result import MissionResult
 from checker.conditions.rendering import condition_data
+from checker.counterfactual.rendering import causes_data
 from checker.coverage import Coverage
 from checker.excerpts import Excerpts
 from checker.explain import confirmation_data, place_data
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES, Verdict
+from checker.regression import FlownCase
 from checker.rendering import failure_text
 from checker.report.coverage import coverage_data
 from checker.report.losses import mission_losses, tally_data
@@ -65,7 +67,7 @@ def _report_data(findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
             {"parameter": one.parameter, "distance": one.distance, "interval": list(one.interval)}
             for one in findings.sensitivities
         ],
-        "kept": [_mission(result, findings.tally) for result in findings.kept],
+        "cases": [_case(one, findings.tally) for one in findings.cases],
         "losses": tally_data(findings.tally, excerpts),
         "limits": {limit.value: most for limit, most in findings.mission.check.limits},
         "parameters": [_parameter(parameter) for parameter in agent.parameters],
@@ -104,9 +106,14 @@ def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
         "example": bucket.example,
         "missions": list(bucket.missions),
         "ticks": [bucket.first_tick, bucket.last_tick],
+        "causes": causes_data(fault.causes),
         "condition": condition_data(fault.condition),
-        "z3": confirmation_data(fault),
+        "z3": confirmation_data(fault.confirmation),
     }
+
+
+def _case(one: FlownCase, tally: Tally) -> dict[str, Any]:
+    return {"name": one.case.name or None, "was": one.case.was, "passes": one.passes, **_mission(one.result, tally)}
 
 
 def _mission(result: MissionResult, tally: Tally) -> dict[str, Any]:

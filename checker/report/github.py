@@ -5,7 +5,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.rendering import failure_text
 from checker.report.losses import damage_words, goal_text, repair_text
-from checker.report.sentences import decision, fault_title, headline
+from checker.report.sentences import case_lines, decision, explained_by, fault_title, headline
 from nddl_lang.text.github import command_line
 from runtime.executive.outcome import SourcePlace
 
@@ -20,8 +20,8 @@ def github_report(findings: Findings, excerpts: Excerpts) -> str:
         bucket = fault.bucket
         text = [failure_text(bucket.judgement, bucket.open_goals)]
         text += [f"fails {condition_claim(fault.condition)}"] if fault.condition is not None else []
-        text.append(f"nddlc explain {findings.run_id}#{bucket.example}")
-        where = bucket.culprit.place or SourcePlace(findings.mission.source.name, 1, 1, "")
+        text.append(explained_by(findings, bucket.example))
+        where = next(iter(fault.places), SourcePlace(findings.mission.source.name, 1, 1, ""))
         command = "error" if rate.exceeds else "warning"
         lines.append(command_line(command, _place(where, fault_title(findings, index), excerpts), "\n".join(text)))
     for error in findings.errors[:_MOST_MARKS]:
@@ -34,8 +34,14 @@ def github_report(findings: Findings, excerpts: Excerpts) -> str:
         assert repair.place is not None
         text_of = repair_text(repair, excerpts)
         lines.append(command_line("notice", _place(repair.place, "plan repaired", excerpts), text_of))
+    cases = case_lines(findings)
     cost = damage_words(findings.tally)
-    whole = [decision(findings), *([f"cost: {cost}"] if cost else []), f"run {findings.run_id}, seed {findings.seed}"]
+    whole = [
+        decision(findings),
+        *cases,
+        *([f"cost: {cost}"] if cost else []),
+        f"run {findings.run_id}, seed {findings.seed}",
+    ]
     lines.append(command_line("notice", {"title": headline(findings)}, "\n".join(whole)))
     return "\n".join(lines) + "\n"
 

@@ -7,16 +7,19 @@ from importlib.resources import files
 
 from checker.batch.result import MissionResult
 from checker.conditions.rendering import condition_evidence, condition_text
+from checker.drawn import Drawn
 from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.losses import Limit, amount
 from checker.oracle import CODE_NAMES, Verdict
 from checker.rendering import confirmation_text, failure_text, step_text
 from checker.report.losses import damage_words, goal_line, goal_text, repair_text, request_line, unmet_text
+from checker.report.paths import plan_figure, section_figure, space_figure
 from checker.report.sentences import (
     blamed,
+    case_lines,
     decision,
-    kept_line,
+    explained_by,
     missions,
     percent,
     rate_line,
@@ -39,7 +42,11 @@ _COLOURS = 6
 
 
 def html_report(
-    findings: Findings, excerpts: Excerpts, stories: Sequence[Story | None], pairs: Sequence[Pair | None] = ()
+    findings: Findings,
+    excerpts: Excerpts,
+    stories: Sequence[Story | None],
+    pairs: Sequence[Pair | None] = (),
+    drawn: Drawn | None = None,
 ) -> str:
     """The page; `stories` and `pairs` have the story of each fault's example, and a passing mission beside it."""
     style = files("checker.report").joinpath("page.css").read_text(encoding="utf-8")
@@ -54,6 +61,7 @@ def html_report(
         *_head(findings),
         *_losses(findings.tally, excerpts),
         *_faults(findings, excerpts, stories, pairs),
+        *_paths(drawn),
         *_parameters(findings),
         *_table(findings),
         f"<footer>nddlc, run {findings.run_id}, seed {findings.seed}. The same run gives the same page.</footer>",
@@ -76,7 +84,7 @@ def _head(findings: Findings) -> list[str]:
     tiles.append((percent(rate.limit), "accepted"))
     if findings.errors:
         tiles.append((str(len(findings.errors)), f"errors {blamed(findings)}"))
-    further = (stop_line(findings), kept_line(findings), sensitivity_line(findings))
+    further = (stop_line(findings), *case_lines(findings), sensitivity_line(findings))
     return [
         f'<span class="verdict {word}">{word}</span>',
         f"<h1>{escape(findings.agent.name)}</h1>",
@@ -131,16 +139,16 @@ def _fault(
         f"<h3>{missions(len(bucket.missions))} ({percent(bucket.share)}): {why}</h3>",
         f'<p class="soft">{bucket.code}, {meaning}; {escape(bucket.reactor)} gives up {when}</p>',
     ]
-    places = [place for place in (bucket.culprit.place, *bucket.culprit.limits) if place is not None]
+    places = fault.places
     if places:
         parts.append("<pre>" + "\n".join(_excerpt(place, excerpts, marked=True) for place in places) + "</pre>")
     if fault.condition is not None:
-        items = "".join(f"<li>{escape(item)}</li>" for item in condition_evidence(fault.condition))
         when = "in part when" if fault.condition.is_partial else "when"
         text = escape(condition_text(fault.condition))
-        parts.append(f'<p class="when">fails {when} <b>{text}</b></p><ul class="evidence">{items}</ul>')
+        evidence = escape(condition_evidence(fault.condition))
+        parts.append(f'<p class="when">fails {when} <b>{text}</b></p><p class="soft">{evidence}.</p>')
     if fault.confirmation is not None:
-        parts.append(f'<p class="soft">z3 {escape(confirmation_text(fault))}.</p>')
+        parts.append(f'<p class="soft">z3 {escape(confirmation_text(fault.confirmation, fault.condition))}.</p>')
     if story is not None and pair is not None:
         parts.append(pair_plot(pair, story))
         parts.append('<p class="soft">Numbers are steps of the chain below; dashed lines their ticks.</p>')
@@ -149,7 +157,7 @@ def _fault(
         parts.append('<ol class="chain">')
         parts += [_step(step, story, excerpts) for step in story.steps]
         parts.append("</ol></details>")
-    parts.append(f"<p><code>nddlc explain {findings.run_id}#{bucket.example}</code></p></section>")
+    parts.append(f"<p><code>{escape(explained_by(findings, bucket.example))}</code></p></section>")
     return parts
 
 
@@ -171,6 +179,26 @@ def _excerpt(place: SourcePlace, excerpts: Excerpts, *, marked: bool) -> str:
         end = start + len(first)
         text = f"{escape(line[:start])}<mark>{escape(line[start:end])}</mark>{escape(line[end:])}"
     return f'<span class="at">{escape(excerpts.path(place))}</span>\n<span class="no">{place.line} | </span>{text}'
+
+
+def _paths(drawn: Drawn | None) -> list[str]:
+    """Where the vehicle went, as the mission file asks for."""
+    if drawn is None:
+        return []
+    parts = [
+        "<h2>Where it went</h2>",
+        '<p class="soft">From above: missions that pass in grey, failing ones in colour; the black (or white) line '
+        "is the one with every parameter in the middle of its range.</p>",
+    ]
+    parts.append(_wide(plan_figure(drawn.paths)))
+    for caption, track in drawn.closer:
+        parts += [f"<h3>{escape(caption)}</h3>", _wide(space_figure(track)), _wide(section_figure(track, drawn.cell))]
+    return parts
+
+
+def _wide(figure: str) -> str:
+    """A figure that is scrolled on a narrow screen rather than made too small to read."""
+    return f'<div class="scroll figure" tabindex="0">{figure}</div>'
 
 
 def _parameters(findings: Findings) -> list[str]:

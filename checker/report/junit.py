@@ -7,6 +7,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.oracle import Verdict
 from checker.rendering import failure_text
+from checker.report.sentences import explained_by
 from nddl_lang.text.junit import junit_text, printable
 
 
@@ -33,8 +34,8 @@ def junit_report(findings: Findings, excerpts: Excerpts) -> str:
                 case, "failure", {"type": result.judgement.code, "message": printable(message)}
             )
             lines = [f"fails {condition_claim(fault.condition)}"] if fault.condition is not None else []
-            if (place := fault.bucket.culprit.place) is not None:
+            for place in fault.places[:1]:
                 lines.insert(0, f"{excerpts.path(place)}: {excerpts.line(place).strip()}")
-            lines.append(f"nddlc explain {findings.run_id}#{result.number}")
+            lines.append(explained_by(findings, result.number))
             failure.text = printable("\n".join(lines))
     return junit_text(suites)

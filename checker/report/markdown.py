@@ -5,7 +5,17 @@ from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.rendering import failure_text
 from checker.report.losses import goal_line, goal_text, repair_text, request_line, unmet_text
-from checker.report.sentences import blamed, decision, fault_title, headline, percent, rate_line, verdict_word
+from checker.report.sentences import (
+    blamed,
+    case_lines,
+    decision,
+    explained_by,
+    fault_title,
+    headline,
+    percent,
+    rate_line,
+    verdict_word,
+)
 from checker.sampling.rendering import describe
 
 _MARKS = str.maketrans({**{mark: f"\\{mark}" for mark in "\\*_|[]#"}, "<": "&lt;", ">": "&gt;"})
@@ -23,6 +33,8 @@ def markdown_report(findings: Findings, excerpts: Excerpts) -> str:
         f"| {len(findings.results)} | {rate.failures} | {percent(rate.observed)} | {percent(rate.limit)} "
         f"| {len(findings.errors)} |"
     )
+    if cases := case_lines(findings):
+        lines += ["", f"{_plain(cases[0])}.", "", *(f"* {_plain(line)}" for line in cases[1:])]
     for index, fault in enumerate(findings.faults[:_MOST_FAULTS]):
         lines += ["", f"### {_plain(fault_title(findings, index))}", "", *_fault(fault, findings, excerpts)]
     if len(findings.faults) > _MOST_FAULTS:
@@ -41,12 +53,12 @@ def markdown_report(findings: Findings, excerpts: Excerpts) -> str:
 def _fault(fault: Fault, findings: Findings, excerpts: Excerpts) -> list[str]:
     bucket = fault.bucket
     lines = [_plain(failure_text(bucket.judgement, bucket.open_goals)) + "."]
-    places = [place for place in (bucket.culprit.place, *bucket.culprit.limits) if place is not None]
+    places = fault.places
     if places:
         lines += ["", "```", *(f"{excerpts.path(place)}: {excerpts.line(place).strip()}" for place in places), "```"]
     if fault.condition is not None:
         lines += ["", f"Fails {_plain(condition_claim(fault.condition))}."]
-    return [*lines, "", f"`nddlc explain {findings.run_id}#{bucket.example}`"]
+    return [*lines, "", explained_by(findings, bucket.example, "`")]
 
 
 def _costs(findings: Findings, excerpts: Excerpts) -> list[str]:

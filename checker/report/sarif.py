@@ -7,7 +7,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES
 from checker.rendering import failure_text
-from checker.report.sentences import missions, percent
+from checker.report.sentences import explained_by, missions, percent
 from nddl_lang.text.sarif import sarif_log, uri_of
 from runtime.executive.outcome import SourcePlace
 
@@ -24,14 +24,14 @@ def _result(fault: Fault, findings: Findings, excerpts: Excerpts) -> dict[str, A
     why = failure_text(bucket.judgement, bucket.open_goals)
     parts = [f"{missions(len(bucket.missions))} ({percent(bucket.share)}) fail here: {why}."]
     parts += [f"Fails {condition_claim(fault.condition)}."] if fault.condition is not None else []
-    parts.append(f"Explained by `nddlc explain {findings.run_id}#{bucket.example}`.")
-    where = bucket.culprit.place or SourcePlace(findings.mission.source.name, 1, 1, "")
+    parts.append(f"Explained by {explained_by(findings, bucket.example, '`')}.")
+    where = next(iter(fault.places), SourcePlace(findings.mission.source.name, 1, 1, ""))
     return {
         "ruleId": bucket.code,
         "level": "error",
         "message": {"text": " ".join(parts)},
         "locations": [_location(where, excerpts)],
-        "relatedLocations": [_location(limit, excerpts) for limit in bucket.culprit.limits],
+        "relatedLocations": [_location(place, excerpts) for place in fault.places[1:]],
     }
 
 

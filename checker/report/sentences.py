@@ -1,8 +1,10 @@
 """The sentences that every form of the report shares."""
 
-from checker.findings import Ending, Findings
+from checker.findings import Ending, Findings, regressed
 from checker.oracle import CODE_NAMES, USER_CODE, Verdict
 from checker.rate import Method, Rate
+from checker.regression import FlownCase
+from checker.rendering import failure_text
 from checker.sampling.rendering import number
 from checker.statistics import Interval
 
@@ -13,6 +15,8 @@ _METHODS = {
     Method.WEIGHTED: "{level} % interval of weighted missions",
 }
 
+_MOST_CASES = 8
+
 
 def percent(share: float) -> str:
     """A share as people read it, such as `5.5 %`."""
@@ -22,6 +26,13 @@ def percent(share: float) -> str:
 def counted(count: int, word: str) -> str:
     """`1 goal`, `2 goals`."""
     return f"{count} {word}{'' if count == 1 else 's'}"
+
+
+def explained_by(findings: Findings, number: int, quote: str = "") -> str:
+    """The command that explains a mission, as it can be followed; `quote` stands on both sides of it."""
+    if findings.is_stored:
+        return f"{quote}nddlc explain {findings.run_id}#{number}{quote}"
+    return f"{quote}nddlc explain latest#{number}{quote} after a check without --no-store"
 
 
 def missions(count: int) -> str:
@@ -73,14 +84,25 @@ def stop_line(findings: Findings) -> str:
     return f"{sampling.rule}: {fate} after {missions(len(findings.results))}"
 
 
-def kept_line(findings: Findings) -> str:
-    """What became of the failures of earlier runs; empty without any."""
-    if not findings.kept:
-        return ""
-    failing = [result for result in findings.kept if result.verdict is Verdict.FAIL]
-    named = ", ".join(_mission_name(result.number) for result in failing[:8]) + (", ..." if len(failing) > 8 else "")
-    still = f"{len(failing)} still fail ({named})" if failing else "none of them fails any more"
-    return f"{counted(len(findings.kept), 'failure')} of earlier runs flown first: {still}"
+def case_lines(findings: Findings) -> list[str]:
+    """What became of the regression cases; none without any."""
+    cases = findings.cases
+    if not cases:
+        return []
+    failing = [one for one in cases if not one.passes]
+    still = f"{len(failing)} still fail" if failing else "none of them fails any more"
+    lines = [f"{counted(len(cases), 'regression case')} flown first: {still}"]
+    for one in failing[:_MOST_CASES]:
+        why = failure_text(one.result.judgement, one.result.open_goals)
+        lines.append(f"{_case_name(one)} ({one.case.was}): {one.result.judgement.code} {why}".rstrip())
+    return [*lines, *([f"{len(failing) - _MOST_CASES} more"] if len(failing) > _MOST_CASES else [])]
+
+
+def _case_name(one: FlownCase) -> str:
+    """A promoted case by its name; `k3` for the third of the failures that the store has kept."""
+    if one.case.is_promoted:
+        return f"case `{one.case.name}`"
+    return f"k{-one.result.number}" if one.result.number < 0 else f"mission {one.result.number}"
 
 
 def sensitivity_line(findings: Findings) -> str:
@@ -96,22 +118,15 @@ def sensitivity_line(findings: Findings) -> str:
     return f"failing depends on {', '.join(listed)} (distance of its draws from chance, 0 to 1)"
 
 
-def _mission_name(number: int) -> str:
-    """`12`, or `k3` for the third of the kept failures."""
-    return str(number) if number > 0 else f"k{-number}"
-
-
 def decision(findings: Findings) -> str:
     """Whether the limit is kept, and how sure that is."""
     rate = findings.rate
     limit = f"the accepted {percent(rate.limit)}"
     if rate.missions == 0:
         return "no mission was flown to its end: nothing is known"
-    still = sum(result.verdict is Verdict.FAIL for result in findings.kept)
-    if still and not rate.failures:
-        return (
-            f"FAILS: {counted(still, 'mission')} that failed in earlier runs still {'fails' if still == 1 else 'fail'}"
-        )
+    failing = regressed(findings.cases, rate.limit)
+    if failing and (rate.observed <= rate.limit):
+        return f"FAILS: {counted(len(failing), 'regression case')} still {'fails' if len(failing) == 1 else 'fail'}"
     is_outside = rate.interval is not None and not rate.interval[0] <= rate.limit <= rate.interval[1]
     if rate.exceeds and rate.is_certain and not is_outside:
         return f"FAILS: no mission may fail, and {rate.failures} of {missions(rate.missions)} did"

@@ -56,11 +56,11 @@ def strip_plot(name: str, dots: Sequence[Dot], box: Box, edges: Sequence[Literal
         parts.append(f'<rect class="beyond" x="{left:.1f}" y="8" width="{width:.1f}" height="{floor - 8:.1f}"/>')
         parts.append(f'<line class="edge" x1="{x:.1f}" x2="{x:.1f}" y1="4" y2="{floor:.1f}"/>')
         anchor, shift = ("end", -5.0) if x > _WIDTH / 2 else ("start", 5.0)
-        parts.append(_text("label", x + shift, 15.0, literal_text(literal), anchor))
+        parts.append(text("label", x + shift, 15.0, literal_text(literal), anchor))
     for dot in _drawn(dots):
         y = 22.0 + (dot.mission * _GOLDEN) % 1.0 * (floor - 30.0)
         parts.append(_circle(dot, axis.at(dot.value), y, number(dot.value)))
-    return _svg(f"values of {name}", height, parts)
+    return svg(f"values of {name}", height, parts)
 
 
 def scatter_plot(names: tuple[str, str], across: Sequence[Dot], up: Sequence[Dot], boxes: tuple[Box, Box]) -> str:
@@ -73,14 +73,14 @@ def scatter_plot(names: tuple[str, str], across: Sequence[Dot], up: Sequence[Dot
     for tick in rise.ticks():
         y = rise.at(tick)
         parts.append(f'<line class="grid" x1="{axis.begin:.1f}" x2="{axis.end:.1f}" y1="{y:.1f}" y2="{y:.1f}"/>')
-        parts.append(_text("tick", axis.begin - 6.0, y + 4.0, number(tick), "end"))
+        parts.append(text("tick", axis.begin - 6.0, y + 4.0, number(tick), "end"))
     values = {dot.mission: dot.value for dot in up}
     for dot in _drawn([dot for dot in across if dot.mission in values]):
         label = f"{number(dot.value)}, {number(values[dot.mission])}"
         parts.append(_circle(dot, axis.at(dot.value), rise.at(values[dot.mission]), label))
-    parts.append(_text("name", (axis.begin + axis.end) / 2.0, height - 6.0, names[0]))
-    parts.append(_text("name", 14.0, height / 2.0, names[1], turned=True))
-    return _svg(f"{names[0]} against {names[1]}", height, parts)
+    parts.append(text("name", (axis.begin + axis.end) / 2.0, height - 6.0, names[0]))
+    parts.append(text("name", 14.0, height / 2.0, names[1], turned=True))
+    return svg(f"{names[0]} against {names[1]}", height, parts)
 
 
 def rate_plot(rate: Rate) -> str:
@@ -96,9 +96,9 @@ def rate_plot(rate: Rate) -> str:
         f'<line class="interval {word}" x1="{lower:.1f}" x2="{upper:.1f}" y1="28" y2="28"/>',
         f'<circle class="seen {word}" cx="{seen:.1f}" cy="28" r="6"/>',
         f'<line class="edge" x1="{limit:.1f}" x2="{limit:.1f}" y1="4" y2="44"/>',
-        _text("label", limit + shift, 13.0, "accepted", anchor),
+        text("label", limit + shift, 13.0, "accepted", anchor),
     ]
-    return _svg("failure rate with its interval", 70.0, parts)
+    return svg("failure rate with its interval", 70.0, parts)
 
 
 def _axis(values: Sequence[float], box: Box, begin: float = _MARGIN) -> Axis:
@@ -113,7 +113,7 @@ def _horizontal(axis: Axis, floor: float, unit: str = "") -> Iterator[str]:
         x = axis.at(tick)
         yield f'<line class="axis" x1="{x:.1f}" x2="{x:.1f}" y1="{floor:.1f}" y2="{floor + 4:.1f}"/>'
         anchor = "end" if x > _WIDTH - 24.0 else "start" if x < 16.0 else "middle"
-        yield _text("tick", min(x, _WIDTH - 2.0), floor + 18.0, f"{number(tick)}{unit}", anchor)
+        yield text("tick", min(x, _WIDTH - 2.0), floor + 18.0, f"{number(tick)}{unit}", anchor)
 
 
 def _drawn(dots: Sequence[Dot]) -> list[Dot]:
@@ -130,11 +130,11 @@ def _circle(dot: Dot, x: float, y: float, value: str) -> str:
     return f'<circle class="dot {kind}" cx="{x:.1f}" cy="{y:.1f}" r="{radius}">{title}</circle>'
 
 
-def _text(kind: str, x: float, y: float, text: str, anchor: str = "middle", *, turned: bool = False) -> str:
+def text(kind: str, x: float, y: float, words: str, anchor: str = "middle", *, turned: bool = False) -> str:
     turn = f' transform="rotate(-90 {x:.1f} {y:.1f})"' if turned else ""
-    return f'<text class="{kind}" x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{turn}>{escape(text)}</text>'
+    return f'<text class="{kind}" x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{turn}>{escape(words)}</text>'
 
 
-def _svg(caption: str, height: float, parts: Sequence[str]) -> str:
+def svg(caption: str, height: float, parts: Sequence[str]) -> str:
     head = f'<svg viewBox="0 0 {_WIDTH:.0f} {height:.0f}" role="img" aria-label="{escape(caption)}">'
     return "\n".join([head, *parts, "</svg>"])

@@ -1,6 +1,7 @@
 """Findings in, the summary that a terminal or a CI log shows out: some 25 lines."""
 
 from checker.conditions.rendering import condition_lines
+from checker.counterfactual.rendering import cause_text
 from checker.excerpts import Excerpts
 from checker.explain import excerpt_lines
 from checker.findings import Findings
@@ -8,10 +9,11 @@ from checker.rendering import confirmation_text, failure_text
 from checker.report.losses import damage_words, loss_lines
 from checker.report.sentences import (
     blamed,
+    case_lines,
     decision,
+    explained_by,
     fault_title,
     headline,
-    kept_line,
     rate_line,
     sensitivity_line,
     stop_line,
@@ -25,11 +27,11 @@ _MOST_ERRORS = 3
 def text_report(findings: Findings, excerpts: Excerpts) -> str:
     """The summary: what was flown, what it means, each fault with line, condition and the command that explains it."""
     lost = damage_words(findings.tally)
-    lines = [headline(findings), f"  {decision(findings)}"]
+    lines = [f"{headline(findings)} (run {findings.run_id}, seed {findings.seed})", f"  {decision(findings)}"]
     if lost:
         lines.append(f"  cost: {lost}")
-    lines += [f"  {rate_line(findings.rate)}", f"  run {findings.run_id}, seed {findings.seed}"]
-    lines += [f"  {line}" for line in (stop_line(findings), kept_line(findings), sensitivity_line(findings)) if line]
+    lines.append(f"  {rate_line(findings.rate)}")
+    lines += [f"  {line}" for line in (stop_line(findings), *case_lines(findings), sensitivity_line(findings)) if line]
     lines += [f"  {line}" for line in loss_lines(findings.tally, excerpts)]
     lines += [f"  {parameter.name}: {describe(parameter)}" for parameter in findings.agent.parameters]
     for index, fault in enumerate(findings.faults[:_MOST_FAULTS]):
@@ -39,14 +41,13 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
             f"{index + 1}. {fault_title(findings, index)}",
             f"   {failure_text(bucket.judgement, bucket.open_goals)}",
         ]
-        if bucket.culprit.place is not None:
-            lines += excerpt_lines(bucket.culprit.place, excerpts, marked=True, indent="   ")
-        for limit in bucket.culprit.limits:
-            lines += excerpt_lines(limit, excerpts, marked=True, indent="   ")
+        lines += [f"   cause: {cause_text(fault.causes)}"] if fault.causes.is_sought else []
+        for number, place in enumerate(fault.places):
+            lines += excerpt_lines(place, excerpts, marked=number == 0, indent="   ")
         lines += condition_lines(fault.condition, "   ") if fault.condition is not None else []
         if fault.confirmation is not None:
-            lines.append(f"   z3 {confirmation_text(fault)}")
-        lines.append(f"   why: nddlc explain {findings.run_id}#{bucket.example}")
+            lines.append(f"   z3 {confirmation_text(fault.confirmation, fault.condition)}")
+        lines.append(f"   why: {explained_by(findings, bucket.example)}")
     if len(findings.faults) > _MOST_FAULTS:
         lines += ["", f"{len(findings.faults) - _MOST_FAULTS} more kinds of failure are in the report"]
     if findings.errors:

@@ -13,6 +13,7 @@ from runtime.view.axis import ticks
 _WIDTH, _LABEL, _ROW, _TOP, _FOOT = 420.0, 78.0, 19.0, 22.0, 22.0
 _MOST_BARS = 160  # of one timeline; denser ones are drawn as one band
 _MOST_TIMELINES = 16
+_BEYOND = 6  # share of the failing mission that is shown of the other after its end
 _LEAST_NAME = 7.0  # width of a letter
 
 
@@ -34,11 +35,15 @@ class _Stretch:
 
 
 def pair_plot(pair: Pair, story: Story) -> str:
-    """Both missions on one scale, the failing one first, with the steps of the chain as numbered marks."""
+    """Both missions on one scale, the failing one first, with the steps of the chain as numbered marks.
+
+    Of a passing mission that goes on for long only what is beside the failing one, and a little more.
+    """
     outcomes = [one.outcome for one in (pair.failing, pair.passing)]
     assert outcomes[0] is not None
     assert outcomes[1] is not None
-    last = max(outcome.last_tick for outcome in outcomes if outcome is not None)
+    failed_at = outcomes[0].last_tick
+    last = max(failed_at, min(outcomes[1].last_tick, failed_at + max(1, failed_at // _BEYOND)))
     names = _timelines(outcomes[0], outcomes[1])
     marks = [(at, step.tick) for at, step in enumerate(story.steps, 1) if step.tick is not None]
     touched = {step.subject.timeline for step in story.steps if isinstance(step.subject, Event)}
@@ -76,7 +81,7 @@ def _mission_plot(
     scale = (_WIDTH - _LABEL - 14.0) / max(last, 1)
     caption = "what held on each timeline"
     parts = [f'<svg viewBox="0 0 {_WIDTH:.0f} {height:.0f}" role="img" aria-label="{caption}">']
-    held = _stretches(outcome, names)
+    held = {name: _until(last, own) for name, own in _stretches(outcome, names).items()}
     colours: dict[str, int] = {}
     for row, name in enumerate(names):
         y = _TOP + row * _ROW
@@ -94,7 +99,7 @@ def _mission_plot(
         anchor = "end" if x > _WIDTH - 24 else "middle"
         parts.append(f'<line class="axis" x1="{x:.1f}" x2="{x:.1f}" y1="{_TOP:.0f}" y2="{foot + 4:.1f}"/>')
         parts.append(f'<text class="tick" x="{x:.1f}" y="{foot + 17:.1f}" text-anchor="{anchor}">{number(tick)}</text>')
-    if outcome.last_tick < outcome.final_tick or outcome.abort is not None:
+    if outcome.last_tick <= last and (outcome.last_tick < outcome.final_tick or outcome.abort is not None):
         x = _LABEL + outcome.last_tick * scale
         parts.append(f'<line class="abort" x1="{x:.1f}" x2="{x:.1f}" y1="{_TOP - 4:.0f}" y2="{foot:.1f}"/>')
     shown: dict[int, list[int]] = {}
@@ -128,6 +133,11 @@ def _stretches(outcome: Outcome, names: Sequence[str]) -> dict[str, list[_Stretc
         else:
             own.append(_Stretch(event.tick, outcome.last_tick, event.predicate))
     return found
+
+
+def _until(last: int, held: Sequence[_Stretch]) -> list[_Stretch]:
+    """What held up to tick `last`."""
+    return [_Stretch(one.start, min(one.end, last), one.predicate) for one in held if one.start <= last]
 
 
 def _bars(held: Sequence[_Stretch], y: float, scale: float, colours: dict[str, int]) -> list[str]:

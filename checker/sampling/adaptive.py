@@ -29,24 +29,23 @@ class _Kernels:
     centres: np.ndarray
     widths: np.ndarray
 
-    def draw(self, generator: np.random.Generator) -> np.ndarray:
-        centre = self.centres[generator.integers(len(self.centres))]
-        shares = centre + (2.0 * generator.random(len(centre)) - 1.0) * self.widths
-        shares = np.abs(shares)
+    def draw(self, generator: np.random.Generator, count: int) -> np.ndarray:
+        """Points, one per row."""
+        centres = self.centres[generator.integers(len(self.centres), size=count)]
+        shares = np.abs(centres + (2.0 * generator.random(centres.shape) - 1.0) * self.widths)
         return np.asarray(np.where(shares > 1.0, 2.0 - shares, shares))
 
-    def density(self, shares: np.ndarray) -> float:
-        """Of the folded boxes: a share is reached directly, and by reflection at 0 and at 1."""
-        total = np.zeros(self.centres.shape)
-        for image in (shares, -shares, 2.0 - shares):
-            total += np.abs(image[None, :] - self.centres) <= self.widths
-        return float((total / (2.0 * self.widths)).prod(axis=1).mean())
+    def density(self, rows: np.ndarray) -> np.ndarray:
+        """Of the folded boxes, at each row: a share is reached directly, and by reflection at 0 and at 1."""
+        total = np.zeros((len(rows), *self.centres.shape))
+        for image in (rows, -rows, 2.0 - rows):
+            total += np.abs(image[:, None, :] - self.centres) <= self.widths
+        return np.asarray((total / (2.0 * self.widths)).prod(axis=2).mean(axis=1))
 
 
 class Adaptive:
     """Samples where missions fail, or nearly do; see the head of this file."""
 
-    has_weights = True
     most_weight = 1.0 / _UNIFORM
 
     def __init__(self, setting: Setting) -> None:
@@ -65,35 +64,32 @@ class Adaptive:
         local = 0.0 if kernels is None else 1.0 - _UNIFORM - edges
         if kernels is None and edges:
             edges = 1.0 - _UNIFORM
-        points = []
-        for _ in range(count):
-            component = generator.random()
-            if kernels is not None and component < local:
-                shares = kernels.draw(generator)
-            elif component < local + edges:
-                shares = _draw_edges(generator, len(setting.axes))
-            else:
-                shares = generator.random(len(setting.axes))
-            density = 1.0 - local - edges
-            if edges:
-                density += edges * _edge_density(shares)
-            if kernels is not None:
-                density += local * kernels.density(shares)
-            points.append(setting.point(shares, MissionRole.WEIGHTED, 1.0 / density))
-        return points
+        component = generator.random(count)
+        rows = generator.random((count, len(setting.axes)))
+        near = _draw_edges(generator, count, len(setting.axes))
+        rows = np.where((component < local + edges)[:, None], near, rows)
+        if kernels is not None:
+            rows = np.where((component < local)[:, None], kernels.draw(generator, count), rows)
+        density = 1.0 - local - edges + edges * _edge_density(rows)
+        if kernels is not None:
+            density += local * kernels.density(rows)
+        return [
+            setting.point(row, MissionRole.WEIGHTED, 1.0 / float(at)) for row, at in zip(rows, density, strict=True)
+        ]
 
 
-def _draw_edges(generator: np.random.Generator, axes: int) -> np.ndarray:
-    """Each axis at one of its ends, log-uniform in the distance, or anywhere."""
-    distance = _FINEST * (0.5 / _FINEST) ** generator.random(axes)
-    near = np.where(generator.random(axes) < 0.5, distance, 1.0 - distance)
-    return np.asarray(np.where(generator.random(axes) < _BROAD, generator.random(axes), near))
+def _draw_edges(generator: np.random.Generator, count: int, axes: int) -> np.ndarray:
+    """Rows with each axis at one of its ends, log-uniform in the distance, or anywhere."""
+    broad, side, distance, which = generator.random((4, count, axes))
+    distance = _FINEST * (0.5 / _FINEST) ** distance
+    near = np.where(side < 0.5, distance, 1.0 - distance)
+    return np.asarray(np.where(which < _BROAD, broad, near))
 
 
-def _edge_density(shares: np.ndarray) -> float:
-    distance = np.minimum(shares, 1.0 - shares)
+def _edge_density(rows: np.ndarray) -> np.ndarray:
+    distance = np.minimum(rows, 1.0 - rows)
     near = np.where(distance >= _FINEST, 0.5 / (np.maximum(distance, _FINEST) * np.log(0.5 / _FINEST)), 0.0)
-    return float((_BROAD + (1.0 - _BROAD) * near).prod())
+    return np.asarray((_BROAD + (1.0 - _BROAD) * near).prod(axis=1))
 
 
 def _kernels_of(trials: Sequence[Trial], axes: int) -> _Kernels | None:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from checker.sampling.sampler import RANDOM_POINT, MissionRole, SamplePoint, Setting, Trial
+from checker.sampling.sampler import RANDOM_POINT, MissionRole, SamplePoint, Trial, Unweighted
 from checker.sampling.spread import is_kept_random
 
 _GENERATION = 20
@@ -18,14 +18,8 @@ _BEST = 12  # missions whose neighbourhood is looked at
 _WIDTHS = (0.02, 0.1, 0.3)
 
 
-class Guided:
+class Guided(Unweighted):
     """Follows behaviours that are rare so far."""
-
-    has_weights = False
-    most_weight = 1.0
-
-    def __init__(self, setting: Setting) -> None:
-        self._setting = setting
 
     def choose(self, trials: Sequence[Trial], count: int) -> list[SamplePoint]:
         """One generation; the first one spreads by chance."""

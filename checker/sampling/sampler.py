@@ -67,10 +67,6 @@ class Sampler(Protocol):
     """Chooses points. What it chooses may depend on all it was told, and on nothing else."""
 
     @property
-    def has_weights(self) -> bool:
-        """Whether the weights of its points give the failure rate."""
-
-    @property
     def most_weight(self) -> float:
         """No weight is greater."""
 
@@ -122,14 +118,17 @@ def _shared(parameter: ParameterConfiguration, shares: Mapping[str, float]) -> P
     return replace(parameter, share=share)
 
 
-class RandomSampler:
-    """Plain random missions: each is drawn from its own seed."""
+class Unweighted:
+    """What samplers without weights have in common."""
 
-    has_weights = False
     most_weight = 1.0
 
     def __init__(self, setting: Setting) -> None:
         self._setting = setting
+
+
+class RandomSampler(Unweighted):
+    """Plain random missions: each is drawn from its own seed."""
 
     def choose(self, trials: Sequence[Trial], count: int) -> list[SamplePoint]:
         """Missions without a choice."""

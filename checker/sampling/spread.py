@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from checker.sampling.sampler import RANDOM_POINT, MissionRole, SamplePoint, Setting, Trial
+from checker.sampling.sampler import RANDOM_POINT, MissionRole, SamplePoint, Setting, Trial, Unweighted
 
 _CANDIDATES = 10  # Chen, Leung, Mak 2004: more of them gain little
 _EVERY = 4
@@ -20,17 +20,14 @@ def is_kept_random(number: int) -> bool:
     return number % _EVERY == _EVERY - 1
 
 
-class Corners:
+class Corners(Unweighted):
     """The middle and the corners of the box first, then random missions.
 
     At most half of the missions are corners; of more corners an even selection by chance.
     """
 
-    has_weights = False
-    most_weight = 1.0
-
     def __init__(self, setting: Setting) -> None:
-        self._setting = setting
+        super().__init__(setting)
         self._corners = self._chosen()
 
     def choose(self, trials: Sequence[Trial], count: int) -> list[SamplePoint]:
@@ -54,14 +51,8 @@ class Corners:
         return [setting.point(row, MissionRole.DESIGNED) for row in rows[: max(1, setting.planned // 2)]]
 
 
-class AdaptiveRandom:
+class AdaptiveRandom(Unweighted):
     """Adaptive random testing by distance: of ten random candidates the one farthest from all missions so far."""
-
-    has_weights = False
-    most_weight = 1.0
-
-    def __init__(self, setting: Setting) -> None:
-        self._setting = setting
 
     def choose(self, trials: Sequence[Trial], count: int) -> list[SamplePoint]:
         """Depends on where was flown, not on what came of it."""
@@ -85,17 +76,11 @@ class AdaptiveRandom:
         return chosen
 
 
-class AdaptivePartition:
+class AdaptivePartition(Unweighted):
     """Adaptive random testing by bisection (Chen, Merkel, Wong, Eddy 2004): the box is halved, axis by axis.
 
     Each part that holds no mission gets one before any part is halved again.
     """
-
-    has_weights = False
-    most_weight = 1.0
-
-    def __init__(self, setting: Setting) -> None:
-        self._setting = setting
 
     def choose(self, trials: Sequence[Trial], count: int) -> list[SamplePoint]:
         """Depends on where was flown, not on what came of it; what was flown is gone through again."""

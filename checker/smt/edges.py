@@ -10,8 +10,8 @@ from fractions import Fraction
 
 import z3
 
+from checker.proofs.conflict import EFFORT
 from checker.simplest import simplest_between
-from checker.smt.confirm import EFFORT
 from checker.smt.terms import Terms, rational
 from runtime.executive.outcome import Conflict
 

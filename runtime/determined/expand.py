@@ -5,11 +5,10 @@ from math import inf
 
 import numpy as np
 
-from compiler.determined.code import BlockToken
 from compiler.program import PredicateCode
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.machine import Machine
-from runtime.determined.reading import BodyReading, TokenReading, values
+from runtime.determined.reading import BodyReading, GuardReading, values
 from runtime.determined.tags import FAR, LEAST, MOST, OF_RULE, ROW, SHOWN, SLOT, WISHED
 from runtime.determined.token_walk import TokenWalk
 from runtime.executive.columns import (
@@ -20,7 +19,7 @@ from runtime.executive.columns import (
     TokenColumns,
     TokenGroup,
     TokenTimes,
-    ValueColumn,
+    table_of,
     value_column,
 )
 from runtime.executive.record import NOBODY, BodyRun, ReactorRecord, TokenRecord, Value, ValueRange
@@ -97,6 +96,7 @@ class _Expansion:
             all_of(origins, np.full(len(into), OF_RULE), [OF_RULE] * many),
             all_of(is_over, is_over[into], [False] * many),
             all_of(np.where(is_over, ends, self.tick), np.where(is_over, ends, self.tick)[into], [self.tick] * many),
+            all_of(self.rows[:, 4], self.rows[into, 4], [NOBODY] * many),
         )
 
     def _bounds(self, row: int) -> tuple[int, float]:
@@ -221,7 +221,7 @@ class _Expansion:
     # ---- tokens that are alike ----
 
     def groups(self) -> tuple[TokenGroup, ...]:
-        """All tokens that have begun, by the block that began them and the branches that it took."""
+        """All tokens that have begun, by the block that began them."""
         roots = np.flatnonzero(np.asarray(self.walk.children)[: self.walk.count] >= 0)
         blocks = self.rows[roots, 3] & (WISHED - 1)
         found: list[TokenGroup] = []
@@ -231,89 +231,59 @@ class _Expansion:
 
     def _groups_of(self, block: int, roots: Array) -> Iterator[TokenGroup]:
         """The tokens of one block."""
-        readings, shown = self.program.readings(block), self.program.shown_places[block]
-        table = self.values[self.rows[roots, SHOWN][:, None] + np.arange(len(shown))]
         first = np.asarray(self.walk.children)[roots]
-        truths = np.zeros((len(roots), len(shown)), bool)
-        for reading in readings:
-            for body in reading.bodies:
-                _note_truths(body, table, shown, np.ones(len(roots), bool), truths)
-        kinds = np.zeros(len(roots), np.int64)
-        for guard in np.flatnonzero(truths.any(axis=0)).tolist():
-            kinds = _numbered(2 * kinds + truths[:, guard])
-        for kind in range(int(kinds.max()) + 1):
-            alike = np.flatnonzero(kinds == kind)
-            part = _Part(self, table[alike], first[alike], shown, readings)
-            for reading in readings:
-                rows = np.asarray(self.walk.child_rows)[first[alike] + reading.number]
-                if rows[0] >= 0:
-                    yield part.group(reading, rows)
-
-    def columns(self, code: PredicateCode, rows: Array) -> tuple[ValueColumn, ...]:
-        """The parameters of tokens of one predicate."""
-        at = self.rows[rows, 4]
-        return tuple(value_column(self.values[at + k], each.type.kind) for k, each in enumerate(code.parameters))
+        runs = _BlockRuns(self, block, first, self.rows[roots, SHOWN])
+        started = np.asarray(self.walk.child_rows)
+        for reading in self.program.readings(block):
+            rows = started[first + reading.number]
+            begun = np.flatnonzero(rows >= 0)
+            if len(begun):
+                which = None if len(begun) == len(rows) else begun
+                yield TokenGroup(
+                    reading.token.predicate.name,
+                    self.program.model.lines[reading.token.line].name,
+                    self.places[rows if which is None else rows[which]],
+                    tuple(runs.run(body, which) for body in reading.bodies),
+                )
 
 
-class _Part:
-    """Runs of one block that took the same branches."""
+class _BlockRuns:
+    """Runs of one block: the keys of the children of each, and a row of what each register shows."""
 
-    def __init__(
-        self,
-        expansion: _Expansion,
-        table: Array,
-        first: Array,
-        shown: dict[int, int],
-        readings: tuple[TokenReading, ...],
-    ) -> None:
-        self.expansion = expansion
-        self.table = table
-        self.shown = shown
-        keys = np.asarray(expansion.walk.child_keys)
-        self.children = {
-            (each.token.parent, each.token.rule, each.token.slot): keys[first + each.number] for each in readings
+    def __init__(self, expansion: _Expansion, block: int, first: Array, shown: Array) -> None:
+        self.keys = np.asarray(expansion.walk.child_keys)
+        self.first = first
+        self.places = expansion.program.shown_places[block]
+        self.table = table_of(expansion.values, shown, len(self.places))
+        self.numbers = {
+            (each.token.parent, each.token.rule, each.token.slot): each.number
+            for each in expansion.program.readings(block)
         }
 
-    def group(self, reading: TokenReading, rows: Array) -> TokenGroup:
-        """One token of the block in all its runs."""
-        token: BlockToken = reading.token
-        expansion = self.expansion
-        return TokenGroup(
-            token.predicate.name,
-            expansion.program.model.lines[token.line].name,
-            expansion.places[rows],
-            expansion.columns(token.predicate, rows),
-            tuple(self._run(body) for body in reading.bodies),
-        )
-
-    def _run(self, body: BodyReading) -> RunColumns:
-        guards = []
-        for guard in body.guards:
-            is_true = bool(self.table[0, self.shown[guard.register]] != 0.0)
-            branch = guard.then if is_true else guard.otherwise
-            guards.append(GuardColumns("then" if is_true else "else", None if branch is None else self._run(branch)))
+    def run(self, body: BodyReading, rows: Array | None) -> RunColumns:
+        """What one body did in some runs; in all if `rows` is None."""
+        first = self.first if rows is None else self.first.take(rows)
         return RunColumns(
             body.rule,
-            tuple(value_column(self.table[:, self.shown[register]], kind) for register, kind in body.named),
-            tuple(self.children[child] for child in body.children),
-            tuple(guards),
+            tuple([value_column(self._register(register, rows), kind) for register, kind in body.named]),
+            tuple([self.keys.take(first + self.numbers[child]) for child in body.children]),
+            tuple([self._guard(guard, rows) for guard in body.guards]),
         )
 
+    def _register(self, register: int, rows: Array | None) -> Array:
+        found: Array = self.table[self.places[register]]
+        return found if rows is None else found.take(rows)
 
-def _numbered(kinds: Array) -> Array:
-    """The same small numbers without gaps, in the same order."""
-    return (np.cumsum(np.bincount(kinds) > 0) - 1)[kinds]
+    def _guard(self, guard: GuardReading, rows: Array | None) -> GuardColumns:
+        is_true = self._register(guard.register, rows) != 0.0
+        branches = (guard.then, np.flatnonzero(is_true)), (guard.otherwise, np.flatnonzero(~is_true))
+        return GuardColumns(is_true, *[self._branch(body, rows, taken) for body, taken in branches])
 
-
-def _note_truths(body: BodyReading, table: Array, shown: dict[int, int], reached: Array, truths: Array) -> None:
-    """Note where the guards of a body are reached and true."""
-    for guard in body.guards:
-        place = shown[guard.register]
-        is_true = table[:, place] != 0.0
-        truths[:, place] |= reached & is_true
-        for branch, taken in ((guard.then, is_true), (guard.otherwise, ~is_true)):
-            if branch is not None:
-                _note_truths(branch, table, shown, reached & taken, truths)
+    def _branch(self, body: BodyReading | None, rows: Array | None, taken: Array) -> RunColumns | None:
+        """What a branch did in those of the runs that took it."""
+        if body is None or not len(taken):
+            return None
+        return self.run(body, taken if rows is None else rows.take(taken))
 
 
 def _rows_until(machine: Machine, tick: int) -> int:
@@ -327,8 +297,11 @@ def _rows_until(machine: Machine, tick: int) -> int:
 def expand(program: RegisterProgram, machine: Machine, tick: int) -> TokenColumns:
     """The tokens that a machine has executed up to `tick`, where it stands."""
     expansion = _Expansion(program, machine, tick)
-    names = [each.name for each in program.model.program.predicates] + [each.name for each in program.model.lines]
-    return TokenColumns(expansion.times(), names, program.all_names(), expansion.groups, expansion.token)
+    predicates = program.model.program.predicates
+    names = [each.name for each in predicates] + [each.name for each in program.model.lines]
+    kinds = [tuple([parameter.type.kind for parameter in each.parameters]) for each in predicates]
+    store, symbols = expansion.values, program.all_names()
+    return TokenColumns(expansion.times(), names, kinds, store, symbols, expansion.groups, expansion.token)
 
 
 def record_of(frame: ReactorRecord, name: str, tokens: TokenColumns, tick: int) -> ReactorRecord:

@@ -10,7 +10,7 @@ from runtime.determined.loading import RegisterProgram
 from runtime.determined.log import Log
 from runtime.determined.machine import Machine
 from runtime.determined.tags import FAR, ROW, WISHED
-from runtime.executive.columns import PublishedColumns, value_column
+from runtime.executive.columns import PublishedColumns, StoredValues
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Draw, Event, EventKind, Phase
 from runtime.executive.trace import Trace
@@ -80,21 +80,20 @@ class _Told:
     def published(self) -> tuple[PublishedColumns, ...]:
         """All observations that were told, by timeline and predicate."""
         log, program = self.log, self.program
-        told = np.asarray(log.told)[: log.told_count]
-        rows = np.asarray(log.rows)[: ROW * log.row_count].reshape(-1, ROW)[told]
+        rows = ROW * np.asarray(log.told)[: log.told_count]  # where each begins
+        log_rows = np.asarray(log.rows)
         values, symbols = np.asarray(log.values), program.all_names()
         found = []
-        kinds = rows[:, 1] * len(program.model.short_names) + rows[:, 2]
+        kinds = log_rows.take(rows + 1) * len(program.model.short_names) + log_rows.take(rows + 2)
         for kind in np.flatnonzero(np.bincount(kinds)).tolist():
             line, predicate = divmod(kind, len(program.model.short_names))
             places = np.flatnonzero(kinds == kind)
-            at = rows[places, 4]
             parameters = program.model.program.predicates[predicate].parameters
-            arguments = tuple(
-                (each.name, value_column(values[at + k], each.type.kind)) for k, each in enumerate(parameters)
-            )
+            at = rows.take(places)
+            arguments = StoredValues(values, log_rows.take(at + 4), tuple([each.type.kind for each in parameters]))
             name, short = program.model.lines[line].name, program.model.short_names[predicate]
-            found.append(PublishedColumns(name, short, rows[places, 0], arguments, places, symbols))
+            given = tuple([each.name for each in parameters])
+            found.append(PublishedColumns(name, short, log_rows.take(at), given, arguments, places, symbols))
         return tuple(found)
 
 

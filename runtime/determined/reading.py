@@ -21,7 +21,7 @@ class BodyReading:
     rule: int
     named: Named
     children: tuple[tuple[int, int, int], ...]  # number of the parent in its block, rule, slot
-    guards: tuple["_GuardReading", ...]
+    guards: tuple["GuardReading", ...]
 
     def registers(self) -> Iterator[int]:
         """All registers that are read, in whatever branch."""
@@ -44,7 +44,7 @@ class BodyReading:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _GuardReading:
+class GuardReading:
     """A guard: the register of its condition, and both branches, None where one is empty."""
 
     register: int
@@ -88,7 +88,7 @@ def _body(block: RegisterBlock, token: int, rule: int, body: tuple[Instruction, 
     registers = {each.span: each.register for each in block.guards if each.token == token and each.rule == rule}
     named: list[tuple[int, str]] = []
     children: list[tuple[int, int, int]] = []
-    guards: list[_GuardReading] = []
+    guards: list[GuardReading] = []
     for step in body:
         match step:
             case NewVariable(name=str(), slot=slot):
@@ -97,7 +97,7 @@ def _body(block: RegisterBlock, token: int, rule: int, body: tuple[Instruction, 
                 children.append((token, rule, slot))
             case Guard(then=then, otherwise=otherwise, span=span):
                 branches = [_body(block, token, rule, branch) if branch else None for branch in (then, otherwise)]
-                guards.append(_GuardReading(registers[span], *branches))
+                guards.append(GuardReading(registers[span], *branches))
             case _:
                 pass
     return BodyReading(rule, tuple(named), tuple(children), tuple(guards))

@@ -4,30 +4,57 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple, overload
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from runtime.executive.record import TokenRecord
 
 Array = NDArray[Any]
+_BLOCK = 1024
 ORIGINS = ("own", "rule", "request", "observation", "fact")  # by number
 
 
 class ValueColumn(NamedTuple):
-    """One value per row: reals as float64, NaN where one was never fixed; else int64, names by number."""
+    """One value per row: float64 if they are reals or one was never fixed (NaN); else int64, names by number."""
 
     kind: str  # int, float, bool or name
     numbers: Array
+    has_open: bool
+
+
+class StoredValues(NamedTuple):
+    """Values of rows in one store: row by row side by side, the first of each row at `first`."""
+
+    store: Array
+    first: Array
+    kinds: tuple[str, ...]
+
+    def columns(self) -> tuple[ValueColumn, ...]:
+        """The values of all rows."""
+        table = table_of(self.store, self.first, len(self.kinds))
+        return tuple([value_column(numbers, kind) for numbers, kind in zip(table, self.kinds, strict=True)])
+
+
+def table_of(store: Array, first: Array, width: int) -> Array:
+    """A row for each of `width` numbers that stand side by side in a store, at each place of `first`."""
+    table = np.empty((width, len(first)))
+    if width and len(first):
+        view = sliding_window_view(store, width)
+        for k in range(0, len(first), _BLOCK):  # a part that the cache holds
+            table[:, k : k + _BLOCK] = view[first[k : k + _BLOCK]].T
+    return table
 
 
 class GuardColumns(NamedTuple):
-    """A guard that was decided the same way in each row."""
+    """A guard that was decided in each row; `then` and `otherwise` have the rows in which it was, and was not, true."""
 
-    branch: str
-    run: "RunColumns | None"
+    is_true: Array
+    then: "RunColumns | None"
+    otherwise: "RunColumns | None"
 
 
 class RunColumns(NamedTuple):
-    """Runs of one rule, the same branches taken in each row; the keys of its children."""
+    """Runs of one rule; the keys of its children."""
 
     rule: int
     locals: tuple[ValueColumn, ...]
@@ -36,17 +63,16 @@ class RunColumns(NamedTuple):
 
 
 class TokenGroup(NamedTuple):
-    """Active tokens of one predicate on one timeline, by their places in the record; of open numbers NaN tells."""
+    """Active tokens of one predicate on one timeline, by their places in the record."""
 
     predicate: str
     object: str
     places: Array
-    arguments: tuple[ValueColumn, ...]
     runs: tuple[RunColumns, ...]
 
 
 class PublishedColumns(NamedTuple):
-    """Observations of one predicate on one timeline: ticks, and a column for each parameter by its name.
+    """Observations of one predicate on one timeline: ticks, and the arguments by the names of the parameters.
 
     `places` are those in the columns of the trace; names of values are numbers into `symbols`.
     """
@@ -54,7 +80,8 @@ class PublishedColumns(NamedTuple):
     timeline: str
     predicate: str
     ticks: Array
-    arguments: tuple[tuple[str, ValueColumn], ...]
+    parameters: tuple[str, ...]
+    arguments: StoredValues
     places: Array
     symbols: Sequence[str]
 
@@ -62,7 +89,9 @@ class PublishedColumns(NamedTuple):
 class TokenTimes(NamedTuple):
     """What every token of a record has, by place.
 
-    `states` are 0 active, 1 merged, 2 inactive; `latest` is the latest end, infinite if nothing bounds it.
+    `states` are 0 active, 1 merged, 2 inactive; `latest` is the latest end, infinite if nothing bounds it; `values`
+    tells where the store has the arguments of a token that has begun (of the other half, if it is merged), NOBODY of
+    the others.
     """
 
     keys: Array
@@ -76,6 +105,7 @@ class TokenTimes(NamedTuple):
     origins: Array
     is_over: Array
     ticks: Array
+    values: Array
 
 
 class TokenColumns(Sequence[TokenRecord]):
@@ -85,12 +115,16 @@ class TokenColumns(Sequence[TokenRecord]):
         self,
         times: TokenTimes,
         names: Sequence[str],
+        kinds: Sequence[tuple[str, ...]],
+        store: Array,
         symbols: Sequence[str],
         groups: Callable[[], tuple[TokenGroup, ...]],
         token: Callable[[int], TokenRecord],
     ) -> None:
         self.times = times
         self.names = names  # of predicates and timelines
+        self.kinds = kinds  # of the parameters of each predicate
+        self.store = store  # the arguments of all tokens; NaN where one was never fixed
         self.symbols = symbols  # names that values stand for
         self._token = token
         self._make_groups = groups
@@ -140,8 +174,6 @@ class TokenColumns(Sequence[TokenRecord]):
 
 def value_column(numbers: Array, kind: str) -> ValueColumn:
     """The column of numbers as registers hold them."""
-    if kind == "float":
-        return ValueColumn(kind, numbers + 0.0)  # no negative zero
-    if np.isnan(numbers).any():
-        return ValueColumn(kind if kind in ("int", "bool") else "name", numbers)
-    return ValueColumn(kind if kind in ("int", "bool") else "name", numbers.astype(np.int64))
+    has_open = bool(np.isnan(numbers.sum())) and bool(np.isnan(numbers).any())
+    name = kind if kind in ("int", "bool", "float") else "name"
+    return ValueColumn(name, numbers if has_open or kind == "float" else numbers.astype(np.int64), has_open)

@@ -4,6 +4,7 @@ Whoever starts a mission fills this in (the checker, from `mission.toml`); the a
 picklable, compares by content and names no machine: model files are named relative to `root`, with `/`.
 """
 
+import math
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Literal
@@ -100,6 +101,7 @@ class PropertyKind(StrEnum):
     NEVER = "never"  # none does
     WITHIN = "within"  # each matching token is followed by another in so many ticks
     UNTIL = "until"  # tokens match until another begins
+    LEVEL = "level"  # a resource keeps within bounds
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,16 +115,33 @@ class TokenPattern:
 
 
 @dataclass(frozen=True, slots=True)
+class LevelPattern:
+    """Levels of a resource: within `bounds`, and by `margin` within the limits that the resource has itself.
+
+    Without a `reactor` the resource is that of the first reactor which has one of the name.
+    """
+
+    resource: str
+    reactor: str = ""
+    bounds: Bounds = (-math.inf, math.inf)
+    margin: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class PropertyConfiguration:
-    """A property of a mission, judged when it is over; it holds from tick `since` to tick `by` (None: the last)."""
+    """A property of a mission, judged when it is over; it holds from tick `since` to tick `by` (None: the last).
+
+    It is about tokens that match `pattern`, or about a `level`.
+    """
 
     name: str
     kind: PropertyKind
-    pattern: TokenPattern
+    pattern: TokenPattern = TokenPattern("")
     then: TokenPattern | None = None
     since: int = 0
     by: int | None = None
     ticks: int = 0
+    level: LevelPattern | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -194,7 +194,7 @@ def loaded_bench(
 ) -> Workbench:
     """A plan database in which the script of a reactor's model has been run."""
     name = configuration.reactors[number].name
-    database = PlanDatabase(programs.programs[number], environment, programs.constraints)
+    database = PlanDatabase(programs.programs[number], environment, programs.constraints, narrows_functions=True)
     fault = database.run_script()
     if fault is not None:
         raise UnusableModelError(f"{fault.span.source.name}:{fault.span.line}: {fault.message}", name)

@@ -1,5 +1,7 @@
 """Turn a conflict of the engine, or the failure log of a search, into the outcome's typed data, with source places."""
 
+from math import inf
+
 from compiler.program import NewGlobal
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import (
@@ -40,6 +42,7 @@ _ORIGINS = {
     SPAN_REQUEST: ElementKind.REQUEST,
     SPAN_MISSION: ElementKind.DECLARATION,
 }
+_ENDLESS = 2**51  # bounds beyond count as infinite (docs/engine.md)
 
 
 def conflict_of(bench: Workbench) -> Conflict | None:
@@ -66,6 +69,8 @@ def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
         elements[element] = None
         if link.side == SIDE_UPPER:
             tight += _used_up(element)
+    if not tight and bench.engine.upper(v) >= _ENDLESS:  # nothing ends it: it outlasts every tick
+        tight.append(Term("bounds", (reader.name(v), _ENDLESS, inf)))
     token = bench.name_of(bench.database.plan.variable_owner[v])
     policy = ConflictElement(ElementKind.LONGEST, None, "", token, None, tuple(dict.fromkeys(tight)))
     chain = list(reversed(elements))

@@ -29,10 +29,18 @@ Environment = Callable[[str, int], float | None]  # a parameter's name, and the 
 
 
 class PlanDatabase:
-    """A loaded program and its plan; tokens, objects, variables and spans are named by integers."""
+    """A loaded program and its plan; tokens, objects, variables and spans are named by integers.
+
+    With `narrows_functions` those that EUROPA computes from known arguments (`abs`, `floor`, `ceil`, `max`, `min`)
+    narrow intervals: an argument without bounds is never decided, and its result must not be decided as if free.
+    """
 
     def __init__(
-        self, program: Program, environment: Environment | None = None, constraints: Sequence[Constraint] = ()
+        self,
+        program: Program,
+        environment: Environment | None = None,
+        constraints: Sequence[Constraint] = (),
+        narrows_functions: bool = False,
     ) -> None:
         self.program = program
         self.engine = Engine()
@@ -45,7 +53,8 @@ class PlanDatabase:
         load_members(self.plan, program, self.prototypes, self.names)
         self.written = UserConstraints(self.engine, self.prototypes, constraints)
         written = {constraint.name: number for number, constraint in enumerate(constraints)}
-        self.code = RuleBytecode(self.prototypes, self.names, predicates, relations, written)
+        self.narrows_functions = narrows_functions
+        self.code = RuleBytecode(self.prototypes, self.names, predicates, relations, written, narrows_functions)
         self.written.spans = self.code.spans
         load_prototypes(self.plan, program, self.prototypes)
         load_relations(self.plan)

@@ -2,44 +2,62 @@
 
     python -m tests.checker.sampling_study 10000
 
-The true rates are known: they are the volumes of the failing regions. Random missions are drawn by numpy alone.
+The true rates are known: they are the volumes of the failing regions. A batch ends with its last mission, when a rule
+to stop by has its answer, with its third failure, or when time is over, where missions that fail take a tenth of the
+time of others. Of samplers with plain random missions at settled places only these count: they are drawn as arrays.
 """
 
 import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from enum import StrEnum
+from functools import cache
 from math import pi, sqrt
 
 import numpy as np
 
+from checker.betting import log_stake, log_wealth
 from checker.rate import Method, judge_missions
-from checker.sampling.sampler import SamplePoint, Sampler, Setting, ShareAxis, Trial
+from checker.sampling.sampler import MissionRole, SamplePoint, Sampler, Setting, ShareAxis, Trial
+from checker.statistics import confidence_sequence
 from checker.stopping import parse_rule
 from nddlc.samplers import SAMPLERS, find_sampler
 
 AXES = tuple(ShareAxis(name, 0.0, 1.0 - 2.0**-53) for name in "ABCD")
 RULE = parse_rule("p<0.05@95%")
 CONFIDENCE = 0.95
+LIMIT = 0.01
+FAILURES = 3  # after which a batch ends
+FAST = 0.1  # time of a mission that fails, of that of one that passes
+
+
+class End(StrEnum):
+    """What ends a batch."""
+
+    MISSIONS = "all missions"
+    RULE = "a rule to stop by"
+    FAILURES = "third failure"
+    SECONDS = "time is over"
 
 
 @dataclass(frozen=True)
 class World:
-    """Where missions fail, as a function of their shares, and the volume of that."""
+    """Where missions fail, as a function of their shares (the last axis of an array), and the volume of that."""
 
-    fails: Callable[[np.ndarray], bool]
+    fails: Callable[[np.ndarray], np.ndarray]
     rate: float
 
 
 WORLDS = {
-    "edge": World(lambda u: bool(u[0] > 0.95), 0.05),
-    "both ends": World(lambda u: bool(abs(u[1] - 0.5) > 0.45), 0.1),
-    "four corners": World(lambda u: bool(abs(u[0] - 0.5) > 0.3 and abs(u[1] - 0.5) > 0.3), 0.16),
-    "rare corner": World(lambda u: bool(u[2] > 1 - sqrt(0.002) and u[3] < sqrt(0.002)), 0.002),
-    "rare edge": World(lambda u: bool(u[1] > 0.998), 0.002),
-    "disc": World(lambda u: bool((u[0] - 0.4) ** 2 + (u[1] - 0.6) ** 2 < 0.01), pi * 0.01),
-    "scattered": World(lambda u: bool((u[0] * 1e4) % 1.0 < 0.06), 0.06),
-    "half": World(lambda u: bool(u[0] + u[3] > 1.0), 0.5),
-    "never": World(lambda u: False, 0.0),
+    "edge": World(lambda u: u[..., 0] > 0.95, 0.05),
+    "both ends": World(lambda u: abs(u[..., 1] - 0.5) > 0.45, 0.1),
+    "four corners": World(lambda u: (abs(u[..., 0] - 0.5) > 0.3) & (abs(u[..., 1] - 0.5) > 0.3), 0.16),
+    "rare corner": World(lambda u: (u[..., 2] > 1 - sqrt(0.002)) & (u[..., 3] < sqrt(0.002)), 0.002),
+    "rare edge": World(lambda u: u[..., 1] > 0.998, 0.002),
+    "disc": World(lambda u: (u[..., 0] - 0.4) ** 2 + (u[..., 1] - 0.6) ** 2 < 0.01, pi * 0.01),
+    "scattered": World(lambda u: (u[..., 0] * 1e4) % 1.0 < 0.06, 0.06),
+    "half": World(lambda u: u[..., 0] + u[..., 3] > 1.0, 0.5),
+    "never": World(lambda u: u[..., 0] > 2.0, 0.0),
 }
 
 
@@ -58,7 +76,7 @@ def fly(sampler: Sampler, world: World, missions: int, dice: np.random.Generator
     while len(trials) < missions:
         for point in sampler.choose(trials, missions - len(trials))[: missions - len(trials)]:
             shares = np.array([share for _, share in point.shares]) if point.shares else dice.random(len(AXES))
-            failed = world.fails(shares)
+            failed = bool(world.fails(shares))
             trials.append(Trial(point, failed, behaviour=frozenset({int(8 * shares[0]), 100 + int(8 * shares[2])})))
             batch.flown.append((failed, point))
             batch.shares.append(shares)
@@ -75,7 +93,7 @@ def batches(name: str, world: World, missions: int, count: int) -> Iterator[tupl
 
 @dataclass(frozen=True)
 class Coverage:
-    """How many of how many intervals covered the rate, the mean of the estimates, and how often nothing was said."""
+    """How many of how many intervals covered the rate, and mean and deviation of the estimates."""
 
     method: Method
     covered: int
@@ -88,23 +106,113 @@ class Coverage:
         return self.covered >= self.count * CONFIDENCE - 4.0 * sqrt(self.count * CONFIDENCE * (1.0 - CONFIDENCE))
 
 
-def coverage(name: str, world: World, missions: int, count: int, *, is_sequential: bool = False) -> Coverage | None:
-    """The coverage of one sampler's interval in one world; None where it refuses to state one."""
-    covered, estimates, method = 0, [], Method.NONE
-    for batch, sampler in batches(name, world, missions, count):
-        flown = batch.flown
-        if is_sequential:
+def settled_roles(name: str, missions: int) -> list[MissionRole] | None:
+    """The roles of a batch's missions where these are the same whatever fails; None where weights are chosen."""
+    world, found = WORLDS["half"], set()
+    for batch, _ in batches(name, world, missions, 3):
+        found.add(tuple(point.role for _, point in batch.flown))
+    if len(found) != 1 or any(role is MissionRole.WEIGHTED for roles in found for role in roles):
+        return None
+    return list(found.pop())
+
+
+@cache
+def decision_table(most: int) -> np.ndarray:
+    """Whether the rule to stop by is decided, by missions that count and failures among them."""
+    assert RULE is not None
+    table = np.zeros((most + 1, most + 1), dtype=bool)
+    for missions in range(1, most + 1):
+        for failures in range(missions + 1):
+            lower, upper = confidence_sequence(failures, missions, RULE.confidence)
+            table[missions, failures] = upper <= RULE.rate or lower >= RULE.rate
+    return table
+
+
+def first(hits: np.ndarray) -> np.ndarray:
+    """Per row the number of missions at the first hit; all of them without one."""
+    return np.asarray(np.where(hits.any(axis=1), hits.argmax(axis=1) + 1, hits.shape[1]))
+
+
+def coverages(name: str, world: World, missions: int, count: int) -> dict[End, Coverage]:
+    """The coverage of one sampler's intervals, by what ends a batch; none where it refuses to state one."""
+    roles = settled_roles(name, missions)
+    if roles is None:
+        return _weighted_coverages(name, world, missions, count)
+    plain = sum(role is MissionRole.RANDOM for role in roles)
+    if not plain:
+        points = [(False, SamplePoint(role=role)) for role in roles]
+        assert judge_missions(points, LIMIT, CONFIDENCE).interval is None
+        return {}
+    failed = world.fails(np.random.default_rng([plain, 7]).random((count, plain, len(AXES))))
+    return {end: _random_coverage(failed, world, end, is_plain=plain == missions) for end in End}
+
+
+def _random_coverage(failed: np.ndarray, world: World, end: End, *, is_plain: bool) -> Coverage:
+    """Of plain random missions, a batch per row."""
+    (count, plain), sums = failed.shape, failed.cumsum(axis=1)
+    match end:
+        case End.MISSIONS:
+            ends = np.full(count, plain)
+        case End.RULE:
+            ends = first(decision_table(plain)[np.arange(1, plain + 1), sums])
+        case End.FAILURES:
+            ends = first(sums >= FAILURES)
+        case End.SECONDS:
+            ends = (np.where(failed, FAST, 1.0).cumsum(axis=1) <= plain / 4).sum(axis=1)
+    hits = np.where(ends > 0, sums[np.arange(count), ends - 1], 0)
+    # As in the campaign: the exact interval is for plain random missions that end with the last, or the k-th failure.
+    is_sequential = end in (End.RULE, End.SECONDS) or (end is End.FAILURES and not is_plain)
+
+    @cache
+    def judged(failures: int, flown: int) -> tuple[bool, float, Method]:
+        flights = [(True, SamplePoint())] * failures + [(False, SamplePoint())] * (flown - failures)
+        rate = judge_missions(flights, LIMIT, CONFIDENCE, is_sequential=is_sequential)
+        assert rate.interval is not None
+        return _covers(rate.interval, world), rate.observed, rate.method
+
+    found = [judged(int(failures), int(flown)) for failures, flown in zip(hits, ends, strict=True)]
+    seen = np.array([observed for _, observed, _ in found])
+    return Coverage(found[0][2], sum(hit for hit, _, _ in found), count, float(seen.mean()), float(seen.std()))
+
+
+def _covers(interval: tuple[float, float], world: World) -> bool:
+    return interval[0] <= world.rate + 1e-9 and world.rate - 1e-9 <= interval[1]
+
+
+def _weighted_coverages(name: str, world: World, missions: int, count: int) -> dict[End, Coverage]:
+    """Of a sampler that learns: each batch is chosen by the sampler itself."""
+    covered, estimates = dict.fromkeys(End, 0), {end: np.zeros(count) for end in End}
+    for number, (batch, sampler) in enumerate(batches(name, world, missions, count)):
+        for end in End:
+            flown = batch.flown[: _end_of(batch, sampler, end)]
+            is_sequential = end is not End.MISSIONS
+            rate = judge_missions(
+                flown, LIMIT, CONFIDENCE, most_weight=sampler.most_weight, is_sequential=is_sequential
+            )
+            assert rate.interval is not None
+            covered[end] += _covers(rate.interval, world)
+            estimates[end][number] = rate.observed
+    return {
+        end: Coverage(Method.WEIGHTED, covered[end], count, float(estimates[end].mean()), float(estimates[end].std()))
+        for end in End
+    }
+
+
+def _end_of(batch: Batch, sampler: Sampler, end: End) -> int:
+    """How many missions of a batch of weighted missions count."""
+    failed = np.array([[failed for failed, _ in batch.flown]])
+    match end:
+        case End.MISSIONS:
+            return len(batch.flown)
+        case End.RULE:
             assert RULE is not None
-            most = sampler.most_weight
-            ends = (n for n in range(10, missions + 1, 10) if RULE.outcome(flown[:n], most) is not None)
-            flown = flown[: next(ends, missions)]
-        rate = judge_missions(flown, 0.01, CONFIDENCE, most_weight=sampler.most_weight, is_sequential=is_sequential)
-        if rate.interval is None:
-            return None
-        method = rate.method
-        covered += rate.interval[0] <= world.rate + 1e-9 and world.rate - 1e-9 <= rate.interval[1]
-        estimates.append(rate.observed)
-    return Coverage(method, covered, count, float(np.mean(estimates)), float(np.std(estimates)))
+            values = [point.weight if failed else 0.0 for failed, point in batch.flown]
+            above, below = log_wealth(values, sampler.most_weight, RULE.rate)
+            return int(first((np.maximum(above, below) >= log_stake(RULE.confidence))[None, :])[0])
+        case End.FAILURES:
+            return int(first(failed.cumsum(axis=1) >= FAILURES)[0])
+        case End.SECONDS:
+            return int((np.where(failed, FAST, 1.0).cumsum(axis=1) <= len(batch.flown) / 4).sum())
 
 
 def main(count: int) -> int:
@@ -112,18 +220,18 @@ def main(count: int) -> int:
     short = 0
     for name in SAMPLERS:
         for caption, world in WORLDS.items():
-            for is_sequential in (False, True):
-                found = coverage(name, world, 200, count, is_sequential=is_sequential)
-                if found is None:
-                    print(f"{name:14} {caption:13} refuses an interval")
-                    break
-                good = found.is_nominal()
+            found = coverages(name, world, 200, count)
+            for end, one in found.items():
+                good = one.is_nominal()
                 short += not good
                 print(
-                    f"{name:14} {caption:13} {found.method.value:20} covers {100 * found.covered / count:6.2f} %"
-                    f"  rate {world.rate:.4f}, mean estimate {found.mean:.4f}{'' if good else '  TOO FEW'}",
+                    f"{name:14} {caption:13} {end.value:18} {one.method.value:20} covers "
+                    f"{100 * one.covered / count:6.2f} %  rate {world.rate:.4f}, mean estimate {one.mean:.4f}"
+                    f"{'' if good else '  TOO FEW'}",
                     flush=True,
                 )
+            if not found:
+                print(f"{name:14} {caption:13} refuses an interval")
     return short
 
 

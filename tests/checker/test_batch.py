@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.pool import Flyer, WorkerError, fly_all
+from checker.batch.pool import Batch, Flyer, WorkerError, fly_all
 from checker.batch.result import MissionResult, read_result, write_result
 from checker.batch.store import Run, StoreError, open_store
 from checker.batch.worker import Load, Task
@@ -66,7 +66,7 @@ class Taker:
 def fly(load: Load, seeds: range, workers: int, time_limit: float = 30.0) -> list[MissionResult]:
     taker = Taker()
     tasks = [Task(number, seed) for number, seed in enumerate(seeds, 1)]
-    assert fly_all(load, agent(), tasks, workers, time_limit, taker) is None
+    assert fly_all(Batch(load, agent(), tasks, workers, time_limit), taker) is None
     return sorted(taker.results, key=lambda result: result.number)
 
 
@@ -124,7 +124,7 @@ def test_an_interrupt_keeps_what_is_finished() -> None:
 
     threading.Thread(target=interrupt, daemon=True).start()
     tasks = [Task(number, number) for number in range(1, 2_001)]
-    assert fly_all(load_slow, agent(), tasks, 2, 30.0, taker) is signal.SIGINT
+    assert fly_all(Batch(load_slow, agent(), tasks, 2, 30.0), taker) is signal.SIGINT
     assert time.monotonic() - ended[0] < 1.0
     assert 5 <= len(results) < 2_000
 

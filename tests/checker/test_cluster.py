@@ -4,13 +4,15 @@ import os
 import signal
 import time
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
-from checker.batch.pool import nothing_more
+from checker.batch.pool import Batch
 from checker.batch.result import MissionResult, write_result
 from checker.batch.worker import Fly, Load, Task
 from checker.oracle import Verdict
+from nddlc.main import run
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import Outcome
 from tests.checker.fake_agent import load_linked
@@ -31,7 +33,7 @@ def fly_there(address: str, load: Load, seeds: range) -> list[MissionResult]:
     cluster = pytest.importorskip("checker.batch.cluster")
     taker = Taker()
     tasks = [Task(number, seed) for number, seed in enumerate(seeds, 1)]
-    ended = cluster.Cluster(address).fly_tasks(load, agent(), tasks, 2, 30.0, taker, nothing_more)
+    ended = cluster.Cluster(address).fly(Batch(load, agent(), tasks, 2, 30.0), taker)
     assert ended is None
     return sorted(taker.results, key=lambda result: result.number)
 
@@ -60,3 +62,18 @@ def test_a_dying_worker_costs_one_mission(address: str) -> None:
     results = fly_there(address, load_mortal, range(24))
     assert [result.number for result in results] == list(range(1, 25))
     assert [result.seed for result in results if result.verdict is Verdict.ERROR] == [7]
+
+
+@pytest.mark.slow
+def test_reports_are_the_same_however_many_fly(
+    address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    gps = str(Path("models/gps/mission.toml").resolve())
+    monkeypatch.chdir(tmp_path)
+    told = []
+    for how in (["--workers", "1"], ["--workers", "2"], ["--cluster", address]):
+        for sampler in ("random", "adaptive"):
+            arguments = ["check", gps, "--missions", "50", "--no-store", "--format", "json", "--sampler", sampler]
+            assert run([*arguments, *how]) == 1
+            told.append((sampler, capsys.readouterr().out))
+    assert len(set(told)) == 2

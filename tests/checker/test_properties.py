@@ -1,24 +1,29 @@
 """Properties are judged over what was executed: by hand-made records, and on the GPS mission."""
 
+import json
 import shutil
+from math import inf
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from checker.judge.report import ResourceProfile
 from checker.mission import Mission, parse_mission
 from checker.models import load_models
 from checker.properties import property_fates
+from compiler.program import DomainConstant
 from nddl_lang.text.source import Source
 from nddlc.main import run
 from runtime.executive.configuration import (
     AgentConfiguration,
+    LevelPattern,
     PropertyConfiguration,
     PropertyKind,
     ReactorConfiguration,
     TokenPattern,
 )
-from runtime.executive.outcome import PropertyFate
+from runtime.executive.outcome import Event, EventKind, Phase, PropertyFate
 from runtime.executive.record import MissionRecord, ReactorRecord, TokenRecord, Value, ValueRange
 
 GPS = Path("models/gps").resolve()
@@ -117,6 +122,113 @@ def test_a_property_has_its_fate(
     assert fate(kind, pattern, **given) == PropertyFate("p", kept, tick, margin)
 
 
+PROFILES = (
+    ResourceProfile("other", "tank", 0.0, 10.0, ((0, 5.0),)),
+    ResourceProfile("r", "battery", 0.0, 100.0, ((0, 90.0), (20, 40.0), (50, 15.0), (70, 60.0))),
+    ResourceProfile("s", "battery", 0.0, 50.0, ((0, 50.0),)),
+)
+
+
+@pytest.mark.parametrize(
+    ("level", "given", "kept", "tick", "margin"),
+    [
+        (LevelPattern("battery", bounds=(10.0, inf)), {}, True, None, 5.0),
+        (LevelPattern("battery", bounds=(20.0, inf)), {}, False, 50, -5.0),
+        (LevelPattern("battery", bounds=(20.0, inf)), {"by": 49}, True, None, 20.0),
+        (LevelPattern("battery", bounds=(20.0, inf)), {"since": 70}, True, None, 40.0),
+        (LevelPattern("battery", bounds=(20.0, inf)), {"since": 60}, False, 60, -5.0),
+        (LevelPattern("battery", bounds=(0.0, 85.0)), {}, False, 0, -5.0),
+        (LevelPattern("battery", bounds=(0.0, 85.0)), {"since": 20}, True, None, 15.0),
+        (LevelPattern("battery", margin=10.0), {}, True, None, 0.0),
+        (LevelPattern("battery", margin=12.0), {}, False, 0, -2.0),
+        (LevelPattern("battery", "s", margin=1.0), {}, False, 0, -1.0),
+        (LevelPattern("tank", margin=5.0), {}, True, None, 0.0),
+        (LevelPattern("tank", "r", margin=1.0), {}, False, 0, -inf),
+    ],
+)
+def test_a_level_is_kept_by_its_margin(
+    level: LevelPattern, given: dict[str, Any], kept: bool, tick: int | None, margin: float
+) -> None:
+    one = PropertyConfiguration("p", PropertyKind.LEVEL, level=level, **given)
+    agent = AgentConfiguration("a", "", 100, (), properties=(one,))
+    (found,) = property_fates(agent, {}, MissionRecord(()), 100, profiles=PROFILES)
+    assert (found.is_kept, found.tick) == (kept, tick)
+    assert found.margin == pytest.approx(margin, abs=1e-12)
+
+
+ROVER = """
+class Battery extends Reservoir { Battery(float charge) { super(charge, 0.0, 100.0); } }
+class Rover extends Timeline {
+    predicate Idle { duration >= 1; }
+    predicate Drive { duration == 5; }
+}
+float DRAIN = [10.0 40.0];
+Battery battery = new Battery(100.0);
+Rover rover = new Rover();
+close();
+Rover::Drive {
+    float used;
+    used == sampledParameter(DRAIN);
+    starts(battery.consume drain);
+    drain.quantity == used;
+}
+"""
+ROVER_MISSION = """
+[mission]
+name = "rover"
+final_tick = 40
+[[reactor]]
+name = "rover"
+model = "rover.nddl"
+lookahead = 40
+internal = ["rover"]
+[[goal]]
+timeline = "rover"
+predicate = "Drive"
+[[property]]
+name = "a reserve is left"
+kind = "level"
+resource = "battery"
+level = [75, inf]
+"""
+
+
+def test_missions_fail_by_the_level_that_they_leave(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "rover.nddl").write_text(ROVER)
+    (tmp_path / "mission.toml").write_text(ROVER_MISSION)
+    monkeypatch.chdir(tmp_path)
+    arguments = ["check", "mission.toml", "--missions", "30", "--max-failure-rate", "1", "--format", "json"]
+    assert run([*arguments, "--workers", "1"]) == 0
+    missions = json.loads(capsys.readouterr().out)["missions"]
+    assert {one["verdict"] for one in missions} == {"PASS", "FAIL"}
+    for one in missions:
+        fate = one["properties"]["a reserve is left"]
+        assert fate["margin"] == pytest.approx(25.0 - one["draws"][-1]["value"], abs=1e-6)
+        assert fate["kept"] == (one["verdict"] == "PASS") == (fate["margin"] >= 0.0)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"battery"', '"batery"', "no model has a resource `batery`"),
+        ('"battery"', '"rover"', "no model has a resource `rover`"),
+        ("level = [75, inf]", 'reactor = "rver"\nmargin = 3', "there is no reactor `rver`"),
+        ("level = [75, inf]", "", "[[property]] needs the key `level`"),
+        ("level = [75, inf]", "level = [40, 30]", "`level` runs backwards"),
+        ('resource = "battery"', 'timeline = "rover"', "[[property]] needs the key `resource`"),
+    ],
+)
+def test_a_mistake_about_a_level_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], old: str, new: str, message: str
+) -> None:
+    (tmp_path / "rover.nddl").write_text(ROVER)
+    (tmp_path / "mission.toml").write_text(ROVER_MISSION.replace(old, new))
+    assert run(["lint", str(tmp_path / "mission.toml")]) != 0
+    assert message in capsys.readouterr().out
+
+
 # ---- mission files ----
 
 PROPERTY = """
@@ -178,3 +290,30 @@ def test_missions_fail_by_a_property_that_they_break(gps: Path, capsys: pytest.C
     gps.write_text(text + PROPERTY)
     assert run(["check", "gps/mission.toml", "--missions", "6", "--seed", "3", "--max-failure-rate", "1"]) == 0
     assert "P1" not in capsys.readouterr().out
+
+
+def test_what_only_code_publishes_is_judged_by_its_events() -> None:
+    def seen(tick: int, predicate: str, *given: tuple[str, DomainConstant]) -> Event:
+        return Event(tick, Phase.OBSERVE, EventKind.OBSERVATION, "lookout", "whales", predicate, given)
+
+    near = ("distance", DomainConstant("int", "int", (40, 40), None))
+    events = (
+        seen(0, "Nothing"),
+        seen(20, "Seen", near),
+        seen(20, "Nothing"),
+        seen(30, "Seen", near),
+        seen(60, "Nothing"),
+    )
+    one = PropertyConfiguration(
+        "p", PropertyKind("within"), TokenPattern("whales", "Seen", ()), ticks=10, then=TokenPattern("dive", "Down", ())
+    )
+    reactors = (ReactorConfiguration("r", "m.nddl", internal=("dive", "radio")),)
+    record = MissionRecord((ReactorRecord("r", 100, (), (), (), TOKENS),))
+
+    def found(one: PropertyConfiguration) -> PropertyFate:
+        agent = AgentConfiguration("a", "", 100, reactors, properties=(one,))
+        return property_fates(agent, ARGUMENTS, record, 100, events)[0]
+
+    assert found(one) == PropertyFate("p", False, 30, -10.0)
+    far = TokenPattern("whales", "Seen", (), "distance >= 50 and duration >= 30")
+    assert found(PropertyConfiguration("p", PropertyKind("always"), far)) == PropertyFate("p", False, 30, -10.0)

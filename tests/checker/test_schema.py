@@ -11,6 +11,7 @@ import pytest
 
 from checker.mission import parse_mission
 from checker.mission_table import Table
+from checker.study.reading import read_study
 from nddl_lang.text.source import Source
 from runtime.executive.distributions import DISTRIBUTIONS
 
@@ -36,6 +37,13 @@ timeline = "nav"
 ticks = 3
 [property.then]
 timeline = "nav"
+[[property]]
+name = "q"
+kind = "level"
+resource = "battery"
+margin = 3
+[figures]
+path = "nav"
 [parameters.A]
 range = [0, 1]
 """
@@ -87,8 +95,9 @@ def test_the_schema_has_the_keys_that_the_reader_asks_for(monkeypatch: pytest.Mo
     assert asked["reactor", "1"] == listed["reactor", "1"]
     assert asked["goal", "0"] == listed["goal", "0"]
     assert asked["check",] == listed["check",]
-    assert asked["property", "0"] == listed["property", "0"]
+    assert asked["property", "0"] | asked["property", "1"] == listed["property", "0"]
     assert asked["property", "0", "then"] == listed["property", "0", "then"]
+    assert asked["figures",] == listed["figures",]
     assert asked["constraints",] == listed["constraints",]
     assert asked["parameters", "*"] | asked["parameters",] >= listed["parameters", "*"]
 
@@ -102,6 +111,8 @@ def test_the_schema_has_the_distributions() -> None:
     ("old", "new"),
     [
         ("final_tick = 600", "final_tick = 0"),
+        ('resource = "battery"', 'timeline = "nav"'),
+        ('timeline = "nav"\nticks', 'resource = "nav"\nticks'),
         ("final_tick = 600", 'final_tick = "late"'),
         ("final_tick = 600", "final_tick = 600\nfinal = 3"),
         ('model = "navigator.nddl"\n', ""),
@@ -114,3 +125,27 @@ def test_the_schema_refuses_what_the_reader_refuses(old: str, new: str) -> None:
     assert errors(FULL) == []
     assert errors(text)
     assert parse_mission(Source("m.toml", text), Path("models/gps"))[0] is None
+
+
+STUDY: dict[str, Any] = json.loads(Path("checker/study_schema.json").read_text(encoding="utf-8"))
+STUDY_FILE = Path("models/auv/study.toml")
+
+
+def test_the_schema_of_studies_has_the_keys_that_the_reader_asks_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: dict[tuple[str, ...], set[str]] = {}
+    close = Table.close
+
+    def note(table: Table) -> None:
+        asked.setdefault(tuple(str(each) for each in table.path), set()).update(table.asked)
+        close(table)
+
+    monkeypatch.setattr(Table, "close", note)
+    study, found = read_study(STUDY_FILE)
+    assert study is not None, [one.message for one in found]
+    jsonschema.Draft202012Validator.check_schema(STUDY)
+    assert not list(jsonschema.Draft202012Validator(STUDY).iter_errors(tomllib.loads(STUDY_FILE.read_text())))
+    listed = dict(tables(STUDY))
+    assert asked[()] == listed[()]
+    assert asked["study",] == listed["study",]
+    assert asked["variant", "0"] == listed["variant", "0"]
+    assert asked["variant", "0", "expected"] == listed["variant", "0", "expected"]

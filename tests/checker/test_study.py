@@ -110,6 +110,14 @@ def test_a_mistake_in_a_study_is_named(folder: Path, old: str, new: str, message
     assert any(message in one.message for one in found), [one.message for one in found]
 
 
+def test_a_dry_run_flies_nothing(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["study", "gps/study.toml", "--dry-run", "--missions", "20"]) == 0
+    assert "4 cells (base, short; uniform inter, normal inter), 64 missions" in capsys.readouterr().out
+    assert not Path("nddlc-study").exists()
+    (folder / "short.toml").write_text(SHORT.replace("30", "30 +"))
+    assert run(["study", "gps/study.toml", "--dry-run"]) == 2
+
+
 def test_an_edit_without_its_place_is_named(folder: Path) -> None:
     (folder / "short.toml").write_text(SHORT.replace("64", "65"))
     study, found = read_study(folder / "study.toml")

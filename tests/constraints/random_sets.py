@@ -103,10 +103,14 @@ def draw(chance: random.Random) -> Problem:
                 continue
         if op in ON_EARTH and any(abs(x) > 80 for v in arguments for x in problem.values[v]):
             continue  # near the poles all longitudes are near
-        if op in TURNING and any(0 < abs(x) < 20 for x in problem.values[arguments[1]]):
-            continue  # the sine of a small angle is near to the angle
         problem.posts.append((op, tuple(arguments)))
+    problem.posts = [each for each in problem.posts if not turns_little(problem, *each)]
     return problem
+
+
+def turns_little(problem: Problem, op: int, arguments: tuple[int, ...]) -> bool:
+    """Tell whether an angle is so small that its sine is near to it, its cosine to 1; what results added counts too."""
+    return op in TURNING and any(0 < abs(x) < 20 for x in problem.values[arguments[1]])
 
 
 def spread_result(chance: random.Random, problem: Problem, op: int, arguments: list[int], given: list[float]) -> None:

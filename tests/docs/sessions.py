@@ -12,10 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 DOCS = Path(__file__).parents[2] / "docs"
-PAGES = (DOCS / "tutorial.md",)
+PAGES = (DOCS / "tutorial.md", DOCS / "cookbook.md")
 _BLOCK = re.compile(r"(?<=^```console\n).*?(?=^```$)", re.DOTALL | re.MULTILINE)
 # What differs from machine to machine, time to time, and one version of nddlc to the next: ids of runs, and dates.
 _CHANGING = re.compile(r"\b(?=[0-9a-f]*\d)[0-9a-f]{8}\b|\d{4}-\d\d-\d\dT[\d:]+\+00:00")
+_PROGRAMS = {"nddlc": "-P -m nddlc.main", "python3": ""}  # what pages call, as this environment has it
 _LONGEST = 120  # seconds for one command
 
 
@@ -39,7 +40,8 @@ def carry_out(steps: list[Step], folder: Path) -> list[Step]:
     for step in steps:
         script = f"{step.command}\nprintf '\\0%s' \"$PWD\""
         environment = {**os.environ, "NO_COLOR": "1", "COLUMNS": "110", "PYTHONPATH": str(DOCS.parent)}
-        shell = ["bash", "-c", f'nddlc() {{ "{sys.executable}" -P -m nddlc.main "$@"; }}\n{script}']
+        defined = "".join(f'{name}() {{ "{sys.executable}" {what} "$@"; }}\n' for name, what in _PROGRAMS.items())
+        shell = ["bash", "-c", defined + script]
         ended = subprocess.run(shell, cwd=place, env=environment, capture_output=True, text=True, timeout=_LONGEST)
         printed, _, where = ended.stdout.rpartition("\0")
         place = Path(where)
@@ -85,8 +87,8 @@ def _ended(printed: str) -> str:
 
 
 def main() -> None:
-    """Write the pages anew."""
-    for page in PAGES:
+    """Write the pages that are named anew, or all."""
+    for page in [Path(name) for name in sys.argv[1:]] or PAGES:
         with tempfile.TemporaryDirectory() as folder:
             page.write_text(rewritten(page.read_text(encoding="utf-8"), Path(folder)), encoding="utf-8")
 

@@ -9,7 +9,7 @@ import pytest
 
 from checker.flight import programs_of
 from checker.mission import read_mission
-from runtime.executive.columns import GuardColumns, RunColumns, TokenColumns, ValueColumn
+from runtime.executive.columns import GuardColumns, RunColumns, StoredValues, TokenColumns, ValueColumn
 from runtime.executive.events import EventLog, single_events
 from runtime.executive.mission import record_mission
 from runtime.executive.outcome import EventKind, Outcome
@@ -45,7 +45,16 @@ def run_of(run: RunColumns, row: int, names: list[str]) -> BodyRun:
 
 
 def guard_of(guard: GuardColumns, row: int, names: list[str]) -> GuardRun:
-    return GuardRun(guard.branch, True, None if guard.run is None else run_of(guard.run, row, names))
+    is_true = bool(guard.is_true[row])
+    run = guard.then if is_true else guard.otherwise
+    place = int((guard.is_true[:row] == is_true).sum())  # among the rows that took the same branch
+    return GuardRun("then" if is_true else "else", True, None if run is None else run_of(run, place, names))
+
+
+def arguments_of(tokens: TokenColumns, place: int, names: list[str]) -> tuple[Value, ...]:
+    kinds = tokens.kinds[tokens.times.predicates[place]]
+    stored = StoredValues(tokens.store, tokens.times.values[place : place + 1], kinds)
+    return tuple(value(column, 0, names) for column in stored.columns())
 
 
 def compare(tokens: TokenColumns) -> int:
@@ -56,7 +65,7 @@ def compare(tokens: TokenColumns) -> int:
         for row, place in enumerate(group.places.tolist()):
             token = tokens[place]
             assert (token.predicate, token.object, token.state) == (group.predicate, group.object, "active")
-            assert token.arguments == tuple(value(each, row, names) for each in group.arguments)
+            assert token.arguments == arguments_of(tokens, place, names)
             assert token.runs == tuple(run_of(each, row, names) for each in group.runs)
             seen.add(place)
     active = {place for place, token in enumerate(tokens) if token.state == "active"}

@@ -11,8 +11,8 @@ import pytest
 
 from checker.mission import read_mission
 from checker.models import load_models
+from checker.proofs.conflict import Finding, confirm
 from checker.sampling.seeds import mission_seed
-from checker.smt.confirm import Finding, confirm
 from compiler.lower import compile_model
 from nddl_lang.analysis import analyse_file
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ParameterConfiguration

@@ -1,8 +1,13 @@
 """Goals and requests: taken, refused, rejected, recalled, asked for in time."""
 
+from math import inf
+
+import pytest
+
 from runtime.executive.configuration import GoalConfiguration
+from runtime.executive.outcome import EventKind
 from runtime.executive.rendering import reason_text
-from tests.executive.flying import Flyer, fly, history, lines, open_goals, planner, simulator
+from tests.executive.flying import Flyer, flown, fly, history, lines, open_goals, planner, simulator
 
 LAMP = """
 class Lamp extends AgentTimeline { predicate Off { } predicate On { int n; } Lamp(Mode m) { super(m, "Off"); } }
@@ -35,6 +40,19 @@ def test_a_goal_carries_its_parameters_to_the_owner_of_what_it_needs() -> None:
     assert open_goals(outcome) == []
     assert lines(outcome, "request") == ["0 request user Busy(k=3)", "0 request user lamp On(n=3)"]
     assert history(outcome, "lamp") == ["0 Off", "1 On(n=3)", "4 Off"]
+
+
+@pytest.mark.parametrize("compiles", [False, True])
+@pytest.mark.parametrize("parameters", ["int n; int need;", "int need; int n;"])
+def test_an_argument_without_an_upper_bound_is_what_its_consequences_say(parameters: str, compiles: bool) -> None:
+    text = LAMP.replace("int n;", parameters)
+    rule = "Lamp::On { float x; eq(x, n); need == max(ceil(1.5 * x), 1); duration == need; need <= 600; }"
+    owner = simulator("sim", f"{text}{rule} Lamp lamp = new Lamp(Internal); close();", "lamp")
+    goals = (GoalConfiguration("lamp", "On", parameters=(("n", (10.0, inf)),)),)
+    mission = flown(owner, until=40, goals=goals, compiles=compiles)
+    assert mission.report.holds and mission.report.open == 0
+    begun = next(e for e in mission.outcome.events if e.kind is EventKind.OBSERVATION and e.predicate == "On")
+    assert {name: domain.interval for name, domain in begun.arguments} == {"n": (10, 10), "need": (15, 15)}
 
 
 def test_a_goal_of_an_unknown_predicate_is_refused() -> None:

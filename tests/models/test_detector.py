@@ -12,8 +12,12 @@ INL = Path(__file__).parents[2] / "models" / "auv" / "inl"
 SETTINGS: dict[str, Value] = {"clusters": "clusters.csv", "prior": 0.05, "stay": 0.97, "enter": 0.9, "leave": 0.1}
 
 
-def heard(detector: Reactor, tick: int, cluster: int) -> list[str]:
-    now = Now(tick, {"water": Seen("Holds", {"id": cluster}, tick)}, frozenset({"water"}), frozenset())
+GOING = Seen("Run", {"kind": "YoYo"}, 0)
+
+
+def heard(detector: Reactor, tick: int, cluster: int, helm: Seen = GOING) -> list[str]:
+    seen = {"water": Seen("Holds", {"id": cluster}, tick), "helm": helm}
+    now = Now(tick, seen, frozenset({"water"}), frozenset())
     detector.tick(now)
     return [one.predicate for one in now.published]
 
@@ -37,6 +41,14 @@ def test_it_tells_of_changes_only() -> None:
         [["Outside"], ["Inside"], ["Outside"]],
         [["Outside", "Inside"], ["Outside"]],
     )
+
+
+def test_what_is_met_at_the_surface_tells_nothing() -> None:
+    detector = load_reactor(INL, "detector.py", "Detector")(SETTINGS)
+    waiting = [Seen("Inactive", {}, 0), Seen("Run", {"kind": "GetFix"}, 0), Seen("Run", {"kind": "Ascend"}, 0)]
+    told = [heard(detector, 10 * k, 38, waiting[k % 3]) for k in range(12)]
+    assert [said for said in told if said] == [["Outside"]]
+    assert heard(detector, 120, 38) == [] and heard(detector, 130, 38) == ["Inside"]
 
 
 def test_a_probability_of_none_or_all_is_no_row_of_the_table(tmp_path: Path) -> None:

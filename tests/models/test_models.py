@@ -1,6 +1,8 @@
 """The models that come with the project: formatted, without a finding of lint, and flying."""
 
+from dataclasses import replace
 from pathlib import Path
+from typing import Literal
 
 import pytest
 
@@ -90,6 +92,25 @@ def test_shore_sends_another_track() -> None:
 def test_the_survey_copes_with_what_is_drawn(seed: int) -> None:
     outcome = fly("auv/inl/mission.toml", seed)
     assert outcome.abort is None and not outcome.open_goals
+
+
+@pytest.mark.parametrize("shape", ["uniform", "normal"])
+@pytest.mark.parametrize("mode", ["inter", "intra"])
+@pytest.mark.parametrize("seed", [1635799601, 3553905289])
+def test_the_survey_needs_no_repair_whatever_is_drawn(seed: int, mode: Literal["inter", "intra"], shape: str) -> None:
+    mission, _ = read_mission(MODELS / "auv/inl/mission.toml")
+    assert mission is not None
+    agent = load_models(mission).agent
+    drawn = tuple(replace(each, mode=mode, distribution=shape) for each in agent.parameters)
+    outcome = run_mission(replace(agent, parameters=drawn), programs_of(agent), seed)
+    kinds = {event.kind for event in outcome.events}
+    assert outcome.abort is None and not outcome.open_goals
+    assert not kinds & {EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE}
+    ready = [e for e in outcome.events if e.kind is EventKind.OBSERVATION and e.timeline == "gulper"]
+    left = [dict(each.arguments)["left"].interval for each in ready]
+    assert all(bounds is not None and bounds[0] >= 0 for bounds in left), "a sampler was fired twice"
+    closer = [e for e in outcome.events if e.kind is EventKind.REQUEST and e.predicate == "HighRes"]
+    assert len(closer) == 5 if mode == "intra" else len(closer) <= 5
 
 
 @pytest.mark.parametrize("name", sorted(file.name for file in (MODELS / "classic").glob("*.nddl")))

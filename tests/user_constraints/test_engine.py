@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.smt.confirm import Finding, confirm
+from checker.proofs.conflict import Finding, confirm
 from runtime.constraints.explanation.cause import CauseKind
 from runtime.constraints.minimisation.minimise import minimise
 from runtime.executive.rendering import element_text

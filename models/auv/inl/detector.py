@@ -6,11 +6,14 @@ from pathlib import Path
 
 from runtime.user.reactor import Now, Reactor, Value
 
+UNDER_WAY = ("YoYo", "Straight")  # behaviours that lead through the water
+
 
 class Detector(Reactor):
     """Hidden Markov model of two states, Outside and Inside, over the clusters that the water is found to belong to.
 
-    It owns `feature` and uses `water`. The table says of each cluster how probable Inside is where it is met; the
+    It owns `feature` and uses `water`, and `helm`: what is met while the vehicle is not under way tells nothing new, it
+    stays where it is or is at the surface. The table says of each cluster how probable Inside is where it is met; the
     estimate enters as a likelihood ratio. Two thresholds keep it from going back and forth.
     """
 
@@ -30,6 +33,8 @@ class Detector(Reactor):
             now.publish("feature", "Outside")
         if "water" not in now.news or now.seen["water"].predicate != "Holds":
             return
+        if now.seen["helm"].arguments.get("kind") not in UNDER_WAY:
+            return
         cluster = now.seen["water"].arguments["id"]
         if not isinstance(cluster, int):
             return
@@ -43,23 +48,28 @@ class Detector(Reactor):
 
 
 class Surveyor(Reactor):
-    """Asks for a denser survey around the place where the feature was entered, as long as there are samplers left.
+    """Asks for a denser survey around the place where the feature was entered, as long as there are samplers for it.
 
     It stands between `feature` and `survey`, so that who finds the feature does not depend on who plans surveys.
     """
 
+    def __init__(self, settings: Mapping[str, Value]) -> None:
+        super().__init__(settings)
+        self.pairs = int(settings["samplers"]) // 2
+        self.asked: set[int] = set()  # numbers of the surveys that were asked for and not refused
+
     def tick(self, now: Now) -> None:
         """Ask for a box around the present estimate whenever the feature is entered."""
+        self.asked -= now.refused
         if "feature" not in now.news or now.seen["feature"].predicate != "Inside":
             return
-        left = now.seen["gulper"].arguments["left"]
-        if not isinstance(left, int) or left < 2:
+        if len(self.asked) >= self.pairs:
             return
         here = now.seen["vehicle"].arguments
         x, y = here["x"], here["y"]
         assert isinstance(x, float) and isinstance(y, float)
         width, spacing, lines = float(self.settings["width"]), float(self.settings["spacing"]), self.settings["lines"]
-        now.ask(
+        number = now.ask(
             "survey",
             "HighRes",
             x0=x - width / 2.0,
@@ -71,6 +81,7 @@ class Surveyor(Reactor):
             top=float(self.settings["top"]),
             bottom=float(self.settings["bottom"]),
         )
+        self.asked.add(number)
 
 
 def cluster_table(text: str) -> dict[int, float]:

@@ -255,6 +255,8 @@ BY_NAME: dict[str, Propagator] = {name: row for row in _ROWS for name in row.nam
 BY_OP: dict[int, Propagator] = {row.op: row for row in _ROWS if row.op != op.OP_NOTHING}
 # The name of a constraint in messages, where it has one.
 NAMES: dict[int, str] = {row.op: row.name for row in BY_OP.values() if row.name}
+# Functions that stand for their twins to the last bit where all arguments are known.
+EXACT_TWINS = {code: BY_OP[code].twin for code in (op.OP_ABS, op.OP_FLOOR, op.OP_CEIL, op.OP_MAX, op.OP_MIN)}
 
 
 def _table(column: Callable[[Propagator], int], otherwise: int = 0) -> "array[int]":

@@ -6,13 +6,15 @@ from math import inf
 from compiler.program import TOKEN_VARIABLES
 from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, KIND_INT
 from runtime.constraints.explanation.cause import Cause, CauseKind
-from runtime.constraints.propagators.registry import NAMES
+from runtime.constraints.propagators.registry import EXACT_TWINS, NAMES
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.plan.resources.violation import Violation
 from runtime.plan.store.domain_texts import domain_text, set_text
 from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
 from runtime.user.written import Written
+
+_WAITING = {twin: code for code, twin in EXACT_TWINS.items()}
 
 
 class TermReader:
@@ -96,6 +98,8 @@ class TermReader:
         if isinstance(external, Violation):
             return self._violation(external)
         code = engine.op[c]
+        if self.database.narrows_functions:
+            code = _WAITING.get(code, code)
         name = external.name if isinstance(external, Written) else NAMES.get(code, f"constraint {code}")
         return Term(name, tuple(self.argument(v) for v in engine.arguments(c)))
 

@@ -33,7 +33,7 @@ from compiler.program import (
 )
 from nddl_lang.text.source import Span
 from runtime.constraints.propagators.opcodes import OP_NOTHING
-from runtime.constraints.propagators.registry import BY_NAME
+from runtime.constraints.propagators.registry import BY_NAME, EXACT_TWINS
 from runtime.plan.store.names import Names
 from runtime.plan.store.prototypes import Prototypes
 from runtime.plan.tags import (
@@ -80,12 +80,14 @@ class RuleBytecode:
         predicates: dict[str, int],
         relations: dict[str, int],
         written: dict[str, int],
+        narrows_functions: bool = False,
     ) -> None:
         self.prototypes = prototypes
         self.names = names
         self.predicates = predicates
         self.relations = relations
-        self.operations = {name: row.op for name, row in BY_NAME.items()}
+        twins = EXACT_TWINS if narrows_functions else {}
+        self.operations = {name: twins.get(row.op, row.op) for name, row in BY_NAME.items()}
         self.operations |= {name: FIRST_WRITTEN + number for name, number in written.items()}
         self.cells: list[int] = []
         self.block_start: list[int] = []

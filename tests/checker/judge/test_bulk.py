@@ -1,17 +1,17 @@
 """What is judged of many tokens at once is what the judge of single tokens says of each."""
 
 from collections.abc import Sequence
-from math import inf
+from math import hypot, inf
 from random import Random
 from typing import Any
 
 import numpy as np
 import pytest
 
-from checker.judge import bulk_tokens
-from checker.judge.bulk_meanings import FUNCTIONS, HOLDS, TRUTHS, conforms, value_of
-from checker.judge.bulk_timelines import BulkTimelines
-from checker.judge.columns import Texts, column_of
+from checker.judge import bulk_tokens, judge
+from checker.judge.bulk_frame import closed
+from checker.judge.bulk_meanings import FUNCTIONS, HOLDS, TRUTHS, conforms, near, points, value_of
+from checker.judge.columns import Texts, column_of, constant, distinct, unknown
 from checker.judge.functions import COMPUTED
 from checker.judge.functions import conforms as conforms_one
 from checker.judge.judge import judge_mission
@@ -28,14 +28,13 @@ from tests.executive.flying import Flown
 def one_by_one(mission: Flown) -> JudgeReport:
     """The report of the judge of single tokens alone."""
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(bulk_tokens, "_FEWEST", 10**9)
-        patched.setattr(BulkTimelines, "is_in_order", lambda *_: False)
-        patched.setattr(BulkTimelines, "is_told", lambda *_: False)
+        patched.setattr(judge, "_FEWEST", 10**9)
         return again(mission)
 
 
 @pytest.mark.parametrize("name", MISSIONS)
 def test_reports_are_those_of_the_judge_of_single_tokens(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(judge, "_FEWEST", 1)
     monkeypatch.setattr(bulk_tokens, "_FEWEST", 1)
     for seed in (0, 1, 2):
         mission = MISSIONS[name](seed)
@@ -50,14 +49,15 @@ def test_reports_are_those_of_the_judge_of_single_tokens(name: str, monkeypatch:
 def test_most_of_a_mission_is_judged_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     mission = MISSIONS["surveying"](3)
     singles: list[TokenRecord] = []
-    judge = bulk_tokens.judge_in_bulk
+    in_bulk = bulk_tokens.judge_in_bulk
 
     def counting(*given: Any) -> Sequence[TokenRecord]:
-        left = list(judge(*given))
+        left = list(in_bulk(*given))
         singles.extend(left)
         return left
 
     monkeypatch.setattr("checker.judge.tokens.judge_in_bulk", counting)
+    monkeypatch.setattr(judge, "_FEWEST", 1)
     monkeypatch.setattr(bulk_tokens, "_FEWEST", 1)
     assert again(mission).holds
     assert all(isinstance(one.end, ValueRange) for one in singles)  # those that go on when the mission ends
@@ -115,6 +115,25 @@ def test_what_plainly_holds_holds(name: str) -> None:
     assert {True, False} <= seen
 
 
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_unit_vectors_are_those_of_single_tokens() -> None:
+    dice, texts = Random(11), Texts()
+    seen = set()
+    for _ in range(40):
+        rows = []
+        for _ in range(12):
+            x, y, tx, ty = (dice.choice((0.0, 1.0, -3.5, 200.25)) for _ in range(4))
+            way = hypot(tx - x, ty - y) or 1.0
+            slip = dice.choice((0.0, 0.0, 3e-6, 0.01))
+            rows.append(((tx - x) / way + slip, (ty - y) / way, x, y, tx, ty))
+        plain = points(*[column_of(each, texts) for each in zip(*rows, strict=True)]).tolist()
+        wanted = [MEANINGS["towards"](*row) for row in rows]
+        assert all(right is True for told, right in zip(plain, wanted, strict=True) if told)
+        assert all(told for told, right, row in zip(plain, wanted, rows, strict=True) if right and row[2:4] != row[4:])
+        seen |= set(wanted)
+    assert {True, False} <= seen
+
+
 ALONE = {"absVal", "abs", "absf", "neg", "sqrt", "sqrtf", "floor", "floorf", "ceil", "ceilf", "sin", "sinf"}
 ALONE |= {"cosf", "deg_to_rad"}
 
@@ -143,6 +162,25 @@ def test_what_plainly_conforms_conforms(name: str) -> None:
             told += 1
             assert conforms_one(results[k], function, inputs, monotone) is True, (results[k], inputs)
     assert told > 50
+
+
+def test_a_single_value_stands_for_all_rows() -> None:
+    texts = Texts()
+    one, many = constant(2.5, texts), column_of([2.5, 7.0, 2.5], texts)
+    rows = np.arange(3)
+    assert near(one, many).tolist() == near(many, one).tolist() == [True, False, True]
+    assert one.take(rows).values(texts, rows) == [2.5, 2.5, 2.5] and one.part(1, 3) is one
+    assert many.part(1, 3).values(texts, rows[:2]) == [7.0, 2.5]
+    found = value_of("eqMaximum", [one, many])
+    assert found is not None and found.lower.tolist() == [2.5, 7.0, 2.5]
+    closed_rows = closed([unknown(), many], 3)
+    assert closed_rows is not None and closed_rows.tolist() == [False, False, False]
+
+
+def test_distinct_numbers_are_those_that_occur() -> None:
+    numbers, places = distinct(np.array([7, 2, 7, 0]))
+    assert numbers == [0, 2, 7] and places.tolist() == [2, 1, 2, 0]
+    assert distinct(np.array([], np.int64))[0] == []
 
 
 def test_a_column_gives_back_its_values() -> None:

@@ -48,7 +48,7 @@ def test_a_plan_by_hand_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]
 @pytest.mark.parametrize(
     ("plan", "line"),
     [
-        (changed(5, start=120), "`up before fix;` does not hold"),
+        (changed(5, start=120), "`up before fix` does not hold"),
         (changed(5, arguments={"minHits": 9}), "`fix.minHits == minHits` does not hold"),
         (changed(3, end=99), "`run.end == end` does not hold"),
         (changed(0, end=6), "overlap on `nav`"),
@@ -64,6 +64,88 @@ def test_a_broken_plan_is_told_by_its_line(
     assert line in capsys.readouterr().out
 
 
+OVEN = """
+Reusable power = new Reusable(3.0, 0.0);
+enum Tone { low, high }
+class Oven extends Timeline { predicate Heat { int level; float warmth; Tone tone; } }
+class Table extends Timeline { predicate Served { } }
+Oven::Heat {
+  duration >= 5;
+  warmth == 20.0 + level * 10.5;
+  if (level >= 4) { tone == high; } else { tone == low; }
+  before [1 3] (Table.Served s);
+  equals(power.uses load);
+  load.quantity == 2.0;
+}
+Oven oven = new Oven();
+Oven other = new Oven();
+Table table = new Table();
+close();
+"""
+
+
+def heat(**fields: Any) -> dict[str, Any]:
+    """A plan for the oven; `fields` are of its first token, its arguments among them."""
+    arguments = {"level": 5, "warmth": 72.5, "tone": "high"} | fields.pop("arguments", {})
+    return {
+        "model": "oven.nddl",
+        "tokens": [
+            {"predicate": "Oven.Heat", "object": "oven", "start": 0, "end": 10, "arguments": arguments} | fields,
+            {"predicate": "Table.Served", "object": "table", "start": 12, "end": 20},
+            {"predicate": "Reusable.uses", "object": "power", "start": 0, "end": 10, "arguments": {"quantity": 2.0}},
+        ],
+    }
+
+
+def twice(tokens: list[int]) -> dict[str, Any]:
+    """The plan for the oven, with some tokens once more, on other objects."""
+    plan = heat()
+    plan["tokens"] += [plan["tokens"][k] | ({"object": "other"} if not k else {}) for k in tokens]
+    return plan
+
+
+@pytest.mark.parametrize(
+    ("plan", "said"),
+    [
+        (
+            heat(arguments={"warmth": 70.0}),
+            "`warmth == 20.0 + level * 10.5` does not hold (Oven.Heat#0): warmth = 70.0, computed = 72.5",
+        ),
+        (
+            heat(arguments={"tone": "low"}),
+            "`tone == high` does not hold (Oven.Heat#0): tone = low, within = if (level >= 4)",
+        ),
+        (
+            heat(arguments={"level": 2, "warmth": 41.0}),
+            "`tone == low` does not hold (Oven.Heat#0): tone = high, within = else of if (level >= 4)",
+        ),
+        (heat(end=6), "Oven.Heat#0.end = 6, Table.Served#1.start = 12, distance at most = 3"),
+        (heat(duration=9), "the duration is not the time from start to end"),
+        (twice([0, 2]), "the level of `power` is below 0 (Reusable.uses#2, Reusable.uses#4): level = -1.0, tick = 0"),
+        (
+            twice([1]),
+            "overlap on `table`: both at once, where one token follows the other (Table.Served#1, Table.Served#3)",
+        ),
+    ],
+)
+def test_a_broken_plan_is_told_with_what_is_in_the_way(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], plan: dict[str, Any], said: str
+) -> None:
+    (tmp_path / "oven.nddl").write_text(OVEN, encoding="utf-8")
+    assert run(["validate", written(tmp_path, plan)]) == 1
+    out = capsys.readouterr().out
+    assert said in out and "help: " in out and "#" in out.partition("is the token with the key")[0]
+
+
+def test_right_plans_for_the_oven_hold(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "oven.nddl").write_text(OVEN, encoding="utf-8")
+    open_ended = heat(end={"between": [9, 11]}, arguments={"tone": {"one_of": ["low", "high"]}})
+    open_ended["tokens"][2]["end"] = {"between": [9, 11]}
+    for plan in (heat(), open_ended, twice([]), heat(arguments={"level": 2, "warmth": 41.0, "tone": "low"})):
+        assert run(["validate", written(tmp_path, plan)]) == 0
+        assert ", 0 disagreements" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("plan", "complaint"),
     [
@@ -71,7 +153,25 @@ def test_a_broken_plan_is_told_by_its_line(
         ({**PLAN, "model": "nowhere.nddl"}, "there is no model"),
         (changed(0, predicate="Nav.Fly"), "no predicate `Nav.Fly`"),
         (changed(1, arguments={"speed": 1.0}), "no parameter `speed`"),
-        (changed(1, start=[1, 2]), "is no value"),
+        (changed(1, start=[1, 2]), "`start`: [1, 2] is not a whole number"),
+        (changed(1, start="5"), '`start`: "5" is not a whole number'),
+        (changed(1, start=100, end=5), "ends at 5, before it starts at 100"),
+        (changed(1, begin=5), "has a key `begin`, which says nothing"),
+        (changed(1, arguments={"distance": "far"}), '`distance`: "far" is not a number'),
+        (changed(2, arguments={"minHits": 9.5}), "`minHits`: 9.5 is not a whole number"),
+        (changed(2, arguments={"minHits": {"between": [9, 8]}}), "nothing lies between 9 and 8"),
+        (changed(2, arguments={"minHits": {"one_of": []}}), "is no range"),
+        (changed(1, arguments={"distance": float("nan")}), "`NaN` is no number of JSON"),
+        (changed(1, arguments={"distance": float("inf")}), "`Infinity` is no number of JSON"),
+        (changed(1, predicate="Transit"), "write `Nav.Transit`"),
+        (changed(1, predicate="Nav.Transid"), "did you mean `Nav.Transit`?"),
+        (changed(1, object="nab"), "did you mean `nav`?"),
+        (changed(1, object="helm"), "`helm` is of the class `Helm`, not `Nav`"),
+        (changed(1, state="merged"), "lacks `merged_into`"),
+        (changed(1, state="merged", merged_into=77), "there is no token 77"),
+        (changed(1, key=0), "two tokens have the key 0"),
+        (changed(1, runs=[{"rule": "Transit"}]), "`rule` is a number from 0"),
+        ({**PLAN, "members": {"navy": []}}, "the model has no object `navy`"),
         (changed(1, state="asleep"), "`state` is one of"),
         ({**PLAN, "globals": {"SURFACE": 1}}, "no global variable `SURFACE`"),
     ],

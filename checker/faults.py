@@ -1,0 +1,64 @@
+"""Buckets of failures in, faults out: those that the same change mends are one fault, with the causes tried for it."""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+from checker.batch.result import MissionResult
+from checker.buckets import Bucket, joined
+from checker.counterfactual.examples import examples_of
+from checker.counterfactual.ranking import NO_CAUSES, Causes, RankedLine
+from checker.counterfactual.trials import Missions
+from checker.oracle import Verdict
+
+MOST_SOUGHT = 8  # buckets whose causes and conditions are sought by flights
+
+
+class Seeker(Protocol):
+    """What finds causes by trials."""
+
+    def causes(self, missions: Missions) -> Causes:
+        """The causes of one fault."""
+
+    def mends(self, cause: RankedLine, failed: MissionResult) -> bool:
+        """Whether the change of a cause makes another failed mission pass, with all goals."""
+
+
+def faults_of(
+    buckets: Sequence[Bucket], results: Sequence[MissionResult], seeker: Seeker
+) -> list[tuple[Bucket, Causes]]:
+    """The faults behind buckets, each with its causes: what the first cause of one mends, or the same line, is one."""
+    by_number = {result.number: result for result in results}
+    found: list[tuple[Bucket, Causes]] = []
+    for position, bucket in enumerate(buckets):
+        causes = NO_CAUSES
+        same = _mended(found, by_number[bucket.example], seeker)
+        if same is None and position < MOST_SOUGHT:
+            causes = seeker.causes(missions_of(bucket, results))
+            same = _at_one_line(found, causes)
+        if same is None:
+            found.append((bucket, causes))
+        else:
+            found[same] = (joined((found[same][0], bucket)), found[same][1])
+    return found
+
+
+def missions_of(bucket: Bucket, results: Sequence[MissionResult], first: int | None = None) -> Missions:
+    """The missions of a bucket on which changes are tried, mission `first` before others."""
+    members = [result for result in results if result.number in bucket.missions]
+    members.sort(key=lambda result: (result.number != first, result.number))
+    return examples_of(members, [result for result in results if result.verdict is Verdict.PASS])
+
+
+def _mended(found: Sequence[tuple[Bucket, Causes]], failed: MissionResult, seeker: Seeker) -> int | None:
+    for number, (_, causes) in enumerate(found):
+        if causes.first is not None and seeker.mends(causes.first, failed):
+            return number
+    return None
+
+
+def _at_one_line(found: Sequence[tuple[Bucket, Causes]], causes: Causes) -> int | None:
+    if causes.first is None:
+        return None
+    line = (causes.first.place.file, causes.first.place.line)
+    firsts = [one.first for _, one in found]
+    return next((k for k, one in enumerate(firsts) if one and (one.place.file, one.place.line) == line), None)

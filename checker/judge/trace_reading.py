@@ -1,0 +1,52 @@
+"""Traces as plans: what observations of a mission tell of each timeline."""
+
+from typing import Any
+
+from checker.judge.reading import read_json, read_token
+from checker.judge.written_values import DocumentError, TypedValues
+from compiler.program import Program
+from runtime.executive.record import ReactorRecord, TokenRecord
+
+
+def plan_of_trace(lines: list[str], timelines: tuple[str, ...], base: ReactorRecord, program: Program) -> ReactorRecord:
+    """What a trace tells of some timelines: each observation holds until the next of its timeline."""
+    events = [_event(text, number) for number, text in enumerate(lines, 1) if text.strip()]
+    last = max((event["tick"] for event in events), default=0)
+    classes = {each.name: each.class_name for each in base.objects}
+    types = TypedValues(program, base.objects)
+    tokens: list[TokenRecord] = []
+    for timeline in timelines:
+        seen = {event["tick"]: event for event in events if _is_observation(event, timeline)}
+        ticks = sorted(seen)
+        for tick, following in zip(ticks, [*ticks[1:], None], strict=True):
+            event = seen[tick]
+            end = {"between": [last + 1, None]} if following is None else following
+            written = {name: _argument(value) for name, value in event.get("arguments", {}).items()}
+            data = {"predicate": f"{classes[timeline]}.{event['predicate']}", "object": timeline, "start": tick}
+            data |= {"end": end, "origin": "observation", "tick": last}
+            known = next((each for each in program.predicates if each.name == data["predicate"]), None)
+            names = [parameter.name for parameter in known.parameters] if known is not None else []
+            data["arguments"] = {name: value for name, value in written.items() if name in names}
+            tokens.append(read_token(data, len(tokens), program, types))
+    return base._replace(last_tick=last, script_tokens=(), tokens=tuple(tokens))
+
+
+def _event(text: str, number: int) -> dict[str, Any]:
+    event = read_json(text, f"line {number}")
+    if not isinstance(event, dict) or not isinstance(event.get("tick"), int):
+        raise DocumentError(
+            f"line {number} has no `tick`", "one event a line, each with tick, kind, timeline, predicate"
+        )
+    return event
+
+
+def _is_observation(event: dict[str, Any], timeline: str) -> bool:
+    return event.get("kind") == "observation" and event.get("timeline") == timeline
+
+
+def _argument(value: Any) -> Any:
+    """An argument of a trace: a value, `[lower, upper]` of numbers, or a list of names."""
+    if not isinstance(value, list):
+        return value
+    is_range = len(value) == 2 and all(isinstance(each, (int, float)) or each is None for each in value)
+    return {"between": value} if is_range else {"one_of": value}

@@ -1,0 +1,342 @@
+"""Certify a mission over its whole box: a proof that no value breaks it, or a point at which it is flown and fails.
+
+Counterexample-guided: a flight gives a structure, and its conditions on the sampled values (checker/proofs/dating.py).
+z3 looks for a point of the box that breaks the conditions of every structure seen so far. There is none: certified.
+There is one: it is flown. If it fails, that is the refutation; if not, the mission went another way, which is one more
+structure. Nothing is refuted without a flight.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+from itertools import combinations
+
+import z3
+
+from checker.proofs.box import Box, Point, box_of
+from checker.proofs.claims import Claim, Number
+from checker.proofs.dating import Dated, Requirement, dated
+from checker.proofs.intervals import Ranges
+from checker.proofs.operands import rational
+from checker.proofs.solving import fraction
+from checker.proofs.structure import Structure, structure_of
+from compiler.program import Program
+from nddl_lang.semantics.constraints import CONSTRAINTS
+from nddl_lang.text.source import Span
+from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.outcome import Outcome
+from runtime.executive.record import MissionRecord
+
+_Fly = Callable[[Point], tuple[Outcome, MissionRecord, bool]]  # the last one: the mission passes
+_EFFORT = 40_000_000  # of one question, in z3's own unit; some seconds
+_MOST_STRUCTURES = 24
+_MOST_CORNERS = 64
+_NUDGES = 3
+_MOST_DRAWN = 8
+
+
+class Certainty(Enum):
+    """What was found."""
+
+    CERTIFIED = "certified"
+    REFUTED = "refuted"
+    UNKNOWN = "unknown"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Certificate:
+    """The answer, with what it rests on.
+
+    `point` fails when flown, by `outcome`; `lines` are those that z3 finds broken there, `subset` the smallest set of
+    parameters that has to leave `base`, a point that passes, for that (`is_smallest`: proved for the structures).
+    """
+
+    certainty: Certainty
+    structures: int
+    conditions: int
+    flights: int
+    point: Point | None = None
+    outcome: Outcome | None = None
+    lines: tuple[Span, ...] = ()
+    subset: tuple[str, ...] = ()
+    is_smallest: bool = False
+    base: Point | None = None
+    why: str = ""  # it is unknown
+    open: int = 0
+    untold: tuple[tuple[str, int], ...] = ()
+
+
+class Certifier:
+    """One mission, and the structures of its flights so far."""
+
+    def __init__(
+        self, agent: AgentConfiguration, programs: Sequence[Program], fly: _Fly, effort: int = _EFFORT
+    ) -> None:
+        self.agent = agent
+        self.programs = programs
+        self.fly = fly
+        self.effort = effort
+        self.box: Box = box_of(agent)
+        self.structures: list[Structure] = []
+        self.dated: list[Dated] = []
+        self.base: Point | None = None
+        self.flights = 0
+
+    # ---- the whole box ----
+
+    def certify(self, corners: bool = True) -> Certificate:
+        """Prove or refute that the mission passes in the whole box."""
+        if self.box.computed:
+            return self._unknown(f"`{self.box.computed[0]}` is computed from other parameters")
+        if self.agent.coded:
+            return self._unknown(f"`{self.agent.coded[0].name}` is written in Python")
+        for point in self._first_points(corners):
+            failed = self._flown(point)
+            if failed is not None:
+                return self._refuted(point, failed)
+        seen: list[Point] = []
+        while len(self.structures) <= _MOST_STRUCTURES:
+            answer = self.broken(self.box.sides, avoiding=seen)
+            if answer is None:
+                return self._unknown("z3 gave up within its limit")
+            if not answer:
+                return self._held(bool(seen))
+            point = answer[0]
+            if len(answer) > 1:
+                return self._unknown("only draws that differ within a mission break a condition; these cannot be given")
+            known = len(self.structures)
+            failed = self._flown(point)
+            if failed is not None:
+                return self._refuted(point, failed)
+            if self._is_still_broken(point) or len(self.structures) == known:
+                seen.append(point)
+                if len(seen) > _NUDGES:
+                    return self._unknown(
+                        "missions pass at points that break a condition: it is no more than sufficient"
+                    )
+        return self._unknown(f"after {len(self.structures)} structures there are more")
+
+    def _held(self, has_gaps: bool) -> Certificate:
+        """Every condition holds; is that all that is asked?"""
+        if self.agent.properties:
+            return self._unknown("the rules hold, but the mission file's properties are not part of the proof")
+        silent = sorted({name for structure in self.structures for name in structure.untold if name in CONSTRAINTS})
+        if silent:
+            return self._unknown(f"z3 cannot be told what `{silent[0]}` means")
+        return self._answer(Certainty.CERTIFIED, why=_UNSEEN if has_gaps else "")
+
+    def _first_points(self, corners: bool) -> Iterator[Point]:
+        yield self.box.middle()
+        if corners and 2 ** len(self.box.sides) <= _MOST_CORNERS:
+            yield from self.box.corners()
+        if corners:
+            yield from self.box.drawn(_MOST_DRAWN, 0)
+
+    def _flown(self, point: Point) -> Outcome | None:
+        """_Fly a point; the outcome if it fails. What passes gives a structure."""
+        outcome, record, passes = self.fly(point)
+        self.flights += 1
+        if not passes:
+            return outcome
+        if self.base is None:
+            self.base = point
+        if self.structures and not self._is_still_broken(point):
+            return None
+        structure = structure_of(self.agent, self.programs, record)
+        for name, variables in structure.draws.items():
+            structure.values.update(dict.fromkeys(variables, point[name]))
+        found = dated(structure)
+        if not any(_same(found, other) for other in self.dated):
+            self.structures.append(structure)
+            self.dated.append(found)
+        return None
+
+    def _is_still_broken(self, point: Point) -> bool:
+        """Whether a point breaks a condition of each structure, in exact arithmetic."""
+        return all(
+            any(not self._holds(condition, structure, point) for condition in found.conditions)
+            for structure, found in zip(self.structures, self.dated, strict=True)
+        )
+
+    def _holds(self, condition: Requirement, structure: Structure, point: Point) -> bool:
+        pairs = [
+            (z3.Real(name), rational(point[parameter]))
+            for parameter, names in structure.draws.items()
+            for name in names
+        ]
+        return bool(z3.is_true(z3.simplify(z3.substitute(condition.claim, *pairs))))
+
+    def broken(
+        self,
+        free: Mapping[str, object],
+        *,
+        avoiding: Sequence[Point] = (),
+        conditions: Sequence[Sequence[Claim]] | None = None,
+    ) -> tuple[Point, ...] | None:
+        """A point that breaks each structure while only `free` leaves the base; () if there is none, None: unknown.
+
+        Two points where only different draws of one parameter within a mission do. `conditions` stand in place of
+        those of the structures.
+        """
+        claims = conditions or [[each.claim for each in found.conditions] for found in self.dated]
+        ranges = self._ranges(free)
+        draws: dict[str, dict[str, Number]] = {name: {} for name in self.box.sides}
+        solver = z3.Solver()
+        solver.set("rlimit", self.effort)
+        for structure, found in zip(self.structures, claims, strict=True):
+            doubtful = self._doubtful(found, ranges)
+            if not doubtful:
+                return ()
+            solver.add(z3.Or(*[z3.Not(each) for each in doubtful]))
+            for name, drawn in structure.draws.items():
+                draws[name].update((each, z3.Real(each)) for each in drawn)
+        equalities = []
+        for name, numbers in draws.items():
+            whole = z3.Real(f"sampled {name}")
+            for each in numbers.values():
+                solver.add(self.box.claim(name, each))
+                equalities.append(each == whole)
+            solver.add(self.box.claim(name, whole))
+            if name not in free and self.base is not None:
+                solver.add(whole == rational(self.base[name]))
+        for point in avoiding:
+            solver.add(z3.Or(*[self._apart(name, value) for name, value in point.items()]))
+        apart = solver.check()
+        if apart == z3.unsat:
+            return ()
+        solver.add(*equalities)
+        ends = [self.box.ends(name, z3.Real(f"sampled {name}")) for name in free]
+        for extra in ([*ends], []):
+            answer = solver.check(*extra)
+            if answer == z3.sat:
+                return (self._point(solver.model()),)
+        return None if z3.unknown in (answer, apart) else ({}, {})
+
+    def _ranges(self, free: Mapping[str, object]) -> Ranges:
+        """The ranges of the sampled values while only some parameters are free."""
+        sides = {}
+        for structure in self.structures:
+            for name, drawn in structure.draws.items():
+                fixed = None if name in free or self.base is None else Fraction(self.base[name])
+                sides.update(dict.fromkeys(drawn, self.box.range(name) if fixed is None else (fixed, fixed)))
+        return Ranges(sides)
+
+    def _doubtful(self, claims: Sequence[Claim], ranges: Ranges) -> list[Claim]:
+        """The claims that do not hold in the whole box, as far as intervals and, one by one, z3 can tell."""
+        return [each for each in claims if not ranges.holds(each)]
+
+    def _apart(self, name: str, value: float) -> Claim:
+        side = self.box.sides[name]
+        margin = max(side.upper - side.lower, 1.0) * 1e-9
+        number = z3.Real(f"sampled {name}")
+        return z3.Or(
+            number < z3.Q(*float(value - margin).as_integer_ratio()),
+            number > z3.Q(*float(value + margin).as_integer_ratio()),
+        )
+
+    def _point(self, model: z3.ModelRef) -> Point:
+        found: Point = {}
+        for name in self.box.sides:
+            value = model.eval(z3.Real(f"sampled {name}"), model_completion=True)
+            exact = fraction(value) if not z3.is_algebraic_value(value) else value.approx(20).as_fraction()
+            assert exact is not None
+            found[name] = self.box.nearest(name, exact)
+        return found
+
+    # ---- the answer ----
+
+    def _refuted(self, point: Point, outcome: Outcome) -> Certificate:
+        if self.base is None:
+            for each in self.box.drawn(_MOST_CORNERS, 0):
+                if self._flown(each) is None:
+                    break
+        subset, is_smallest, failing, failed = self._smallest(point, outcome)
+        lines = self._lines(failing)
+        return self._answer(
+            Certainty.REFUTED,
+            point=failing,
+            outcome=failed,
+            lines=lines,
+            subset=subset,
+            is_smallest=is_smallest,
+        )
+
+    def _smallest(self, point: Point, outcome: Outcome) -> tuple[tuple[str, ...], bool, Point, Outcome]:
+        """The smallest set of parameters whose values make it fail, the others as in a mission that passes."""
+        names = tuple(self.box.sides)
+        if self.base is None or not self.structures:
+            return names, False, point, outcome
+        is_proved = True
+        for size in range(1, len(names)):
+            for subset in combinations(names, size):
+                answer = self.broken(dict.fromkeys(subset))
+                if answer == ():
+                    continue
+                if answer is None or len(answer) > 1:
+                    is_proved = False
+                    continue
+                known = len(self.structures)
+                failed = self._flown(answer[0])
+                if failed is not None:
+                    return subset, is_proved, answer[0], failed
+                is_proved = False if len(self.structures) == known else is_proved
+        return names, is_proved, point, outcome
+
+    def _lines(self, point: Point) -> tuple[Span, ...]:
+        """The lines that a point breaks, in the structure that it breaks least."""
+        best: list[Span] | None = None
+        for structure, found in zip(self.structures, self.dated, strict=True):
+            broken = [
+                each.demand.span
+                for each in found.conditions
+                if each.demand.span is not None
+                and not each.demand.is_structure
+                and not self._holds(each, structure, point)
+            ]
+            if best is None or len(broken) < len(best):
+                best = broken
+        return tuple(dict.fromkeys(best or ()))
+
+    def _unknown(self, why: str) -> Certificate:
+        return self._answer(Certainty.UNKNOWN, why=why)
+
+    def _answer(
+        self,
+        certainty: Certainty,
+        *,
+        point: Point | None = None,
+        outcome: Outcome | None = None,
+        lines: tuple[Span, ...] = (),
+        subset: tuple[str, ...] = (),
+        is_smallest: bool = False,
+        why: str = "",
+    ) -> Certificate:
+        untold: dict[str, int] = {}
+        for structure in self.structures:
+            untold |= structure.untold
+        return Certificate(
+            certainty,
+            len(self.structures),
+            sum(len(found.conditions) for found in self.dated),
+            self.flights,
+            point,
+            outcome,
+            lines,
+            subset,
+            is_smallest,
+            self.base,
+            why,
+            sum(found.open for found in self.dated),
+            tuple(sorted(untold.items())),
+        )
+
+
+_UNSEEN = "but for points within a billionth of a limit, where doubles round"
+
+
+def _same(one: Dated, other: Dated) -> bool:
+    """Whether two structures have the same conditions."""
+    return len(one.conditions) == len(other.conditions) and all(
+        a.claim.eq(b.claim) for a, b in zip(one.conditions, other.conditions, strict=True)
+    )

@@ -1,0 +1,348 @@
+"""A conflict in, z3's word on it out: do its lines contradict each other, and is each of them needed.
+
+What a line demands is read off the text of the model. Of the engine's account only two things are taken: to which
+tokens a line applied, and what no line says (observations, requests, the clock, decisions).
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+import z3
+
+from checker.proofs.claims import Claim, Number, claim_of
+from checker.proofs.instructions import assign_claim, domain_claim, object_claim, post_claim, relation_claim
+from checker.proofs.operands import BodyLayout, ProgramNames, Symbols, variable_name
+from checker.proofs.places import ModelText, WrittenLine
+from compiler.program import (
+    DURATION,
+    END,
+    START,
+    Assign,
+    Child,
+    LocalVariable,
+    NewGlobal,
+    NewVariable,
+    Operand,
+    Post,
+    Relate,
+    Sample,
+    TokenVariable,
+)
+from runtime.executive.outcome import Conflict, ConflictElement, ElementKind
+from runtime.plan.readout.names import TokenName, VariableName
+from runtime.plan.readout.statements import Argument, Term
+
+# Work in z3's own unit, not in seconds, so that the answer does not depend on the machine; about two seconds here.
+EFFORT = 20_000_000
+_ENGINE_INFINITY = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
+_NAMED = ("symbol", "object", "string")  # kinds whose values are names
+
+
+class Finding(Enum):
+    """What z3 says of a conflict."""
+
+    CONFIRMED = "confirmed"  # the lines cannot hold together
+    REFUTED = "not confirmed"  # they can: the engine saw more than they say, or is wrong
+    UNKNOWN = "undecided"  # z3 gave up
+
+
+@dataclass(frozen=True, slots=True)
+class Confirmation:
+    """z3's answer. `core` numbers the elements of a set that contradicts itself and of which each is needed.
+
+    That start + duration = end is what a token is, and in no core.
+    `is_minimal`: each was shown to be needed; not so where z3 gave up. `written` counts the elements of the core whose
+    meaning was read off the model's text. `untranslated` names what z3 was not told.
+    """
+
+    finding: Finding
+    core: tuple[int, ...]
+    untranslated: tuple[str, ...]
+    is_minimal: bool = True
+    written: int = 0
+
+
+def confirm(conflict: Conflict, text: ModelText | None = None, effort: int = EFFORT) -> Confirmation:
+    """Ask z3 whether the elements of `conflict` can hold together (the engine said they cannot)."""
+    reader = _Reader(text)
+    solver = z3.Solver()
+    solver.set("rlimit", effort)
+    marks = [z3.Bool(f"element {number}") for number in range(len(conflict.elements))]
+    untranslated: list[str] = []
+    needed: list[int] = []
+    written: set[int] = set()
+    for number, element in enumerate(conflict.elements):
+        if _is_duration(element):
+            continue  # what a token is
+        claim = reader.written(element)
+        if claim is not None:
+            written.add(number)
+        claims = reader.told(element, untranslated) if claim is None else [(claim, None)]
+        for each, limit in claims:
+            # That a token lasts as long as a line lets it says nothing without that line.
+            sources = [marks[k] for k, other in enumerate(conflict.elements) if limit in other.terms]
+            if limit is None or sources:
+                solver.add(z3.Implies(z3.And(marks[number], *sources), each))
+        if claims:
+            needed.append(number)
+    solver.add(*reader.definitions(conflict))
+    missing = tuple(dict.fromkeys(untranslated))
+    answer = solver.check(*[marks[number] for number in needed])
+    if answer != z3.unsat:
+        return Confirmation(Finding.REFUTED if answer == z3.sat else Finding.UNKNOWN, (), missing)
+    core, is_minimal = minimal_core(solver, marks, needed)
+    return Confirmation(Finding.CONFIRMED, core, missing, is_minimal, len(written.intersection(core)))
+
+
+def needed_elements(conflict: Conflict, found: Confirmation) -> tuple[int, ...]:
+    """The numbers of the elements that the contradiction needs, all of them where z3 has not confirmed it."""
+    if found.finding is not Finding.CONFIRMED or found.untranslated:
+        return tuple(range(len(conflict.elements)))
+    return found.core
+
+
+def minimal_core(solver: z3.Solver, marks: Sequence[z3.BoolRef], needed: Sequence[int]) -> tuple[tuple[int, ...], bool]:
+    """Drop one after the other, the first first, while the rest still contradicts itself (deletion-based MUS).
+
+    `solver` has just found that all marks together cannot hold. The second value tells whether each of what is left
+    was shown to be needed.
+    """
+    core = {str(mark) for mark in solver.unsat_core()}
+    kept = [number for number in needed if str(marks[number]) in core]
+    is_minimal = True
+    for number in list(kept):
+        rest = [other for other in kept if other != number]
+        answer = solver.check(*[marks[other] for other in rest])
+        if answer == z3.unsat:
+            kept = rest
+        elif answer == z3.unknown:
+            is_minimal = False
+    return tuple(kept), is_minimal
+
+
+class _Reader:
+    """Elements as claims; the variables of a token are named after it, so that lines meet in them."""
+
+    def __init__(self, text: ModelText | None) -> None:
+        self.text = text
+        self.symbols = Symbols()
+
+    # ---- what the text says ----
+
+    def written(self, element: ConflictElement) -> Claim | None:
+        """What the line of an element demands; None where no line says it, or it is not clear of which tokens."""
+        variables = [one for term in element.terms for one in term.arguments if isinstance(one, VariableName)]
+        reactor = next((one.reactor for one in variables), "")
+        if self.text is None or element.place is None or len(element.terms) != 1:
+            return None
+        term = element.terms[0]
+        found = [
+            claim
+            for line in self.text.at(reactor, element.place, element.token.predicate if element.token else "")
+            if (claim := self._claim(line, term, variables, element.token, reactor)) is not None
+        ]
+        return found[0] if len(found) == 1 else None
+
+    def _lasts(self, reactor: str, token: TokenName | None) -> Claim:
+        start, length, end = (
+            self.symbols.variable(f"{reactor}:{token}.{name}", "int") for name in ("start", "duration", "end")
+        )
+        return start + length == end
+
+    def _claim(
+        self, line: WrittenLine, term: Term, variables: list[VariableName], own: TokenName | None, reactor: str
+    ) -> Claim | None:
+        instruction = line.instruction
+        binding = _TermBinding(line, self.symbols, variables, own, reactor)
+        match instruction:
+            case Child() | Relate() if term.name == "precedence":
+                return relation_claim(instruction, binding)
+            case Child():
+                return object_claim(instruction, binding)
+            case Post(operands=operands):
+                if not _is_of(instruction, term, binding.align(operands, term)):
+                    return None
+                return post_claim(instruction, binding)
+            case Assign() if term.name == "bounds":
+                return assign_claim(instruction, binding)
+            case Sample(target=target) if term.name == "sampledParameter":
+                binding.align((target,), Term("", term.arguments[:1]))
+                post = Post("eq", (target, target), None, instruction.span)
+                value = self.symbols.constant(_number(term.arguments[2]), variables[0].kind)
+                return None if post_claim(post, binding) is None else binding.last == value
+            case NewGlobal(domain=domain) if term.name == "bounds" and domain is not None:
+                return self.symbols.within(self.number(term.arguments[0]), domain)
+            case NewVariable(name=str()) if term.name == "bounds":
+                local = binding.local(instruction.slot)
+                return None if local is None else domain_claim(instruction, local, binding)
+            case _:
+                return None
+
+    # ---- what the flight says ----
+
+    def told(self, element: ConflictElement, untranslated: list[str]) -> list[tuple[Claim, Term | None]]:
+        """What an element says by itself, where no line does; each with the limit that it uses up, if it does."""
+        found = []
+        for number, term in enumerate(element.terms):
+            claim = self._term(term)
+            if claim is None:
+                untranslated.append(term.name)
+            else:
+                limit = _limit_of(element.terms, number) if element.kind is ElementKind.LONGEST else None
+                found.append((claim, limit))
+        return found
+
+    def _term(self, term: Term) -> Claim | None:
+        if term.name == "bounds":
+            return self._bounds(term)
+        if term.name == "sampledParameter":
+            return self.number(term.arguments[0]) == self.number(term.arguments[2])
+        if any(isinstance(one, float) and not math.isfinite(one) for one in term.arguments):
+            return None
+        numbers = [self.number(one) for one in term.arguments]
+        if term.name == "precedence":
+            return numbers[1] - numbers[0] <= numbers[2]
+        return claim_of(term.name, numbers)
+
+    def _bounds(self, term: Term) -> Claim:
+        variable, lower, upper = term.arguments
+        target = self.number(variable)
+        if term.values and isinstance(variable, VariableName) and variable.kind in _NAMED:
+            return z3.Or(*[target == self.number(value) for value in term.values])
+        parts = []
+        if not (isinstance(lower, int | float) and lower <= -_ENGINE_INFINITY):
+            parts.append(target >= self.number(lower))
+        if not (isinstance(upper, int | float) and upper >= _ENGINE_INFINITY):
+            parts.append(target <= self.number(upper))
+        return z3.And(*parts)
+
+    def number(self, operand: Argument) -> Number:
+        """A variable, a number, or the number of a name."""
+        if isinstance(operand, VariableName):
+            return self.symbols.variable(f"{operand.reactor}:{operand}", operand.kind)
+        return self.symbols.constant(operand, "float" if isinstance(operand, float) else "int")
+
+    def definitions(self, conflict: Conflict) -> list[Claim]:
+        """What variables are: truth values are 0 or 1, a token ends its duration after its start."""
+        operands = [one for element in conflict.elements for term in element.terms for one in term.arguments]
+        named = dict.fromkeys(one for one in operands if isinstance(one, VariableName))
+        found = [z3.And(self.number(one) >= 0, self.number(one) <= 1) for one in named if one.kind == "bool"]
+        owners = dict.fromkeys((one.reactor, one.token) for one in named if one.token is not None)
+        return found + [self._lasts(reactor, token) for reactor, token in owners]
+
+
+def _is_duration(element: ConflictElement) -> bool:
+    """Whether an element says that start + duration = end of one token."""
+    match element.terms:
+        case (
+            Term(name="temporalDistance", arguments=(VariableName() as a, VariableName() as b, VariableName() as c)),
+        ):
+            return (a.name, b.name, c.name) == ("start", "duration", "end") and a.token == b.token == c.token
+        case _:
+            return False
+
+
+def _limit_of(terms: Sequence[Term], number: int) -> Term | None:
+    """The term that is used up where a term holds; `a <= b` is in a pair of terms (runtime/executive/story.py)."""
+    match terms[number].name, terms[number].arguments:
+        case "precedence", (target, source, int(weight)):
+            return Term("precedence", (source, target, -weight))
+        case "lt", (most, _) if number:
+            return Term("leq", (terms[number - 1].arguments[0], most))
+        case _:
+            return None
+
+
+def _number(value: Argument) -> float | int:
+    assert isinstance(value, int | float)
+    return value
+
+
+def _is_of(post: Post, term: Term, is_aligned: bool) -> bool:
+    """Whether a term may be what the engine made of a constraint: the same one, or an edge between two times."""
+    return is_aligned or (term.name == "precedence" and _is_temporal(post))
+
+
+def _is_temporal(post: Post) -> bool:
+    points = (START, END, DURATION)
+    return any(isinstance(each, TokenVariable) and each.variable in points for each in post.operands)
+
+
+class _TermBinding:
+    """What the slots of a body stand for, from the variables that the engine names in the line's term."""
+
+    def __init__(
+        self, line: WrittenLine, symbols: Symbols, variables: list[VariableName], own: TokenName | None, reactor: str
+    ) -> None:
+        self.names: ProgramNames = line.names
+        self.symbols = symbols
+        self.layout: BodyLayout = line.layout
+        self.variables = variables
+        self.own = own
+        self.reactor = reactor
+        self.tokens: dict[int, TokenName] = {} if own is None else {0: own}
+        self.slots: dict[int, VariableName] = {}
+        self.fields: dict[int, VariableName] = {}
+        self.last: Number | None = None
+
+    def align(self, operands: Sequence[Operand], term: Term) -> bool:
+        """Take the variables of a term that has the operands' order for them; False where it has not."""
+        if len(operands) != len(term.arguments):
+            return False
+        for operand, named in zip(operands, term.arguments, strict=True):
+            if not isinstance(named, VariableName):
+                continue
+            match operand:
+                case TokenVariable(token=slot, variable=variable) if named.token is not None and not named.is_local:
+                    asked = self.layout.predicates.get(slot, "")
+                    if not self.names.fits(named.token.predicate, asked):
+                        return False
+                    if named.name != variable_name(asked, variable, self.names):
+                        return False
+                    if self.tokens.setdefault(slot, named.token) != named.token:
+                        return False
+                case LocalVariable(slot=slot):
+                    self.slots[slot] = named
+                case _:
+                    pass
+        return True
+
+    def token(self, slot: int) -> tuple[str, str] | None:
+        """The only token that the engine names and that fits the slot."""
+        known = self.tokens.get(slot)
+        if known is None:
+            asked = self.layout.predicates.get(slot)
+            named = {one.token for one in self.variables if one.token is not None and not one.is_local}
+            fitting = [
+                one
+                for one in sorted(named, key=str)
+                if asked is not None and one not in self.tokens.values() and self.names.fits(one.predicate, asked)
+            ]
+            if len(fitting) != 1:
+                return None
+            known = self.tokens[slot] = fitting[0]
+        return f"{self.reactor}:{known}", known.predicate
+
+    def local(self, slot: int) -> Number | None:
+        """A local by the name that the engine gives it, or the text."""
+        named, name = self.slots.get(slot), self.layout.locals.get(slot)
+        if named is not None:
+            self.last = self.symbols.variable(f"{named.reactor}:{named}", named.kind)
+            return self.last
+        if name is None or self.own is None:
+            return None
+        self.last = self.symbols.variable(f"{self.reactor}:{self.own}::{name}", self.layout.types[slot].kind)
+        return self.last
+
+    def world(self, index: int) -> Number | None:
+        """A global variable by its name."""
+        name, code = self.names.program.globals[index]
+        return self.symbols.variable(f"{self.reactor}:{name}", code.kind)
+
+    def member(self, base: Operand | None, members: Sequence[str]) -> Number | None:
+        """A member, where the engine names one that is called so."""
+        ends = "." + members[-1] if members else "."
+        found = [one for one in self.variables if one.token is None and one.name.endswith(ends)]
+        return self.symbols.variable(f"{self.reactor}:{found[0]}", found[0].kind) if len(found) == 1 else None

@@ -1,0 +1,123 @@
+"""A certificate in, its words and its plain data out: what is proved, for what, and what is not."""
+
+from pathlib import Path
+from typing import Any
+
+from checker.excerpts import Excerpts
+from checker.explain import excerpt_lines, place_data
+from checker.names import relative_name
+from checker.oracle import judge
+from checker.proofs.box import Box, Point
+from checker.proofs.certify import Certainty, Certificate
+from checker.proofs.constants import SafeConstant
+from checker.rendering import failure_text
+from checker.sampling.rendering import number
+from nddl_lang.text.source import Span
+from runtime.executive.outcome import SourcePlace
+
+
+def certificate_lines(name: str, found: Certificate, box: Box, excerpts: Excerpts) -> list[str]:
+    """The answer as `nddlc certify` prints it."""
+    sides = ", ".join(_side(box, each) for each in box.sides) or "no sampled parameters"
+    match found.certainty:
+        case Certainty.CERTIFIED:
+            lines = [f"{name}: certified: no value in the box breaks it"]
+        case Certainty.REFUTED:
+            lines = [f"{name}: refuted: {_point(found.point)} fails when flown"]
+        case _:
+            lines = [f"{name}: unknown: {found.why}"]
+    lines.append(f"  box: {sides}")
+    if found.certainty is Certainty.REFUTED and found.outcome is not None:
+        judgement = judge(found.outcome)
+        lines.append(f"  {judgement.code} at tick {found.outcome.last_tick}: {_failure(found)}")
+        for span in found.lines:
+            lines += excerpt_lines(place_of(span, excerpts.root), excerpts, indent="  ")
+        lines += _subset_lines(found)
+    lines += _basis_lines(found)
+    return lines
+
+
+def _failure(found: Certificate) -> str:
+    assert found.outcome is not None
+    return failure_text(judge(found.outcome), found.outcome.open_goals)
+
+
+def _subset_lines(found: Certificate) -> list[str]:
+    if found.base is None or not found.subset:
+        return []
+    names = ", ".join(found.subset)
+    proved = "; no smaller set does, for these structures" if found.is_smallest else "; smaller sets are not ruled out"
+    return [f"  it is enough to change {names} in the mission that passes with {_point(found.base)}{proved}"]
+
+
+def _basis_lines(found: Certificate) -> list[str]:
+    """What the answer rests on."""
+    flown = f"{found.flights} mission{'s' if found.flights != 1 else ''} flown"
+    if not found.structures:
+        return [f"  {flown}"]
+    many = f"{found.structures} structure{'s' if found.structures != 1 else ''}"
+    lines = [f"  {flown}, {many} (tokens, order, relations, branches, and how long each request takes)"]
+    if found.certainty is Certainty.CERTIFIED:
+        lines += [
+            f"  proved by z3: at every point of the box all {found.conditions} conditions of one of them hold",
+            "  the reading is strong: with the times that the executive chooses, not with some that would do",
+        ]
+        if found.why:
+            lines.append(f"  {found.why}")
+    if found.open:
+        lines.append(f"  {found.open} demands are on what the missions left undecided; nothing is said of them")
+    return lines
+
+
+def constant_lines(
+    safe: SafeConstant, places: tuple[Span, ...], again: Certificate | None, excerpts: Excerpts
+) -> list[str]:
+    """The safe value of a constant, offered only if it was certified again."""
+    sign = ">=" if safe.is_least else "<="
+    if again is None or again.certainty is not Certainty.CERTIFIED:
+        why = again.why or again.certainty.value if again is not None else "its value is not written as a number"
+        return [f"{safe.name} {sign} {safe.value} would do for these structures, but is not certified: {why}"]
+    beyond = safe.value - 1 if safe.is_least else safe.value + 1
+    lines = [
+        f"{safe.name} {sign} {safe.value}: certified with {safe.value}; {beyond} is not enough for these structures"
+    ]
+    for span in places:
+        lines += excerpt_lines(place_of(span, excerpts.root), excerpts, indent="  ")
+    return lines
+
+
+def certificate_data(found: Certificate, box: Box, excerpts: Excerpts) -> dict[str, Any]:
+    """The same as data."""
+    return {
+        "answer": found.certainty.value,
+        "why": found.why,
+        "box": {name: [side.lower, side.upper] for name, side in box.sides.items()},
+        "point": found.point,
+        "code": judge(found.outcome).code if found.outcome is not None else None,
+        "lines": [place_data(place_of(span, excerpts.root), excerpts) for span in found.lines],
+        "subset": list(found.subset),
+        "subset_is_smallest": found.is_smallest,
+        "base": found.base,
+        "structures": found.structures,
+        "conditions": found.conditions,
+        "flights": found.flights,
+        "open": found.open,
+        "untold": dict(found.untold),
+    }
+
+
+def place_of(span: Span, root: Path) -> SourcePlace:
+    """A span as outcomes name it."""
+    line, column = span.source.locate(span.begin)
+    return SourcePlace(relative_name(span.source.name, root), line, column, " ".join(span.text.split()))
+
+
+def _side(box: Box, name: str) -> str:
+    side = box.sides[name]
+    if side.distribution in ("discrete", "fixed"):
+        return f"{name} one of {', '.join(number(each) for each in side.values)}"
+    return f"{name} {number(side.lower)} to {number(side.upper)}"
+
+
+def _point(point: Point | None) -> str:
+    return ", ".join(f"{name} = {number(value)}" for name, value in (point or {}).items()) or "the mission"

@@ -1,0 +1,117 @@
+"""Certificates hold for flights nobody has seen, refutations fail when flown, and safe constants are the least ones."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from checker.flight import fly_recorded, programs_of
+from checker.mission import read_mission
+from checker.models import load_models
+from checker.mutation.variant import open_over
+from checker.oracle import Verdict, judge
+from checker.proofs.box import Point
+from checker.proofs.certify import Certainty, Certifier
+from checker.proofs.constants import places_of, safe_constant, with_value
+from runtime.executive.outcome import Outcome
+from runtime.executive.record import MissionRecord
+
+MODELS = Path(__file__).parents[2] / "models"
+# The 10^5 missions of the goal: NDDLC_PROOFS=100000.
+MOST = int(os.environ.get("NDDLC_PROOFS", "100"))
+LEGS = 12
+
+
+def certifier(path: Path, overlay: tuple[tuple[str, str], ...] = ()) -> Certifier:
+    mission, _ = read_mission(path)
+    assert mission is not None
+    models = load_models(mission, open_over(overlay))
+    assert not models.has_errors
+    agent = models.agent
+    if overlay:
+        programs = programs_of(agent)
+        programs = programs.__class__(
+            tuple(models.programs[each.model] for each in agent.reactors), programs.solvers, programs.constraints
+        )
+    else:
+        programs = programs_of(agent)
+
+    def fly(point: Point) -> tuple[Outcome, MissionRecord, bool]:
+        outcome, record = fly_recorded(agent, programs, 1, point)
+        return outcome, record, judge(outcome).verdict is Verdict.PASS
+
+    return Certifier(agent, programs.programs, fly)
+
+
+def survey(folder: Path, text: str) -> Path:
+    """A survey of twelve legs with the models of gps; `text` is the mission file of one with two."""
+    for each in (MODELS / "gps").glob("*.nddl"):
+        (folder / each.name).write_text(each.read_text())
+    goals = "".join(
+        f'[[goal]]\ntimeline = "nav"\npredicate = "Transit"\nstart = [{5 + 280 * k}, {65 + 280 * k}]\n'
+        f"[goal.parameters]\ndistance = {150.0 + 5 * k}\n\n"
+        for k in range(LEGS)
+    )
+    head, tail = text[: text.index("[[goal]]")], text[text.index("[parameters.") :]
+    path = folder / "mission.toml"
+    path.write_text(head.replace("900", "4000") + goals + tail)
+    return path
+
+
+def test_a_refutation_fails_when_flown_and_names_line_and_parameters() -> None:
+    found = (proof := certifier(MODELS / "gps" / "mission.toml")).certify()
+    assert found.certainty is Certainty.REFUTED
+    assert found.subset == ("GPS_HIT_RATE",)
+    assert found.is_smallest
+    assert [span.text for span in found.lines] == ["duration <= SURFACE_MAX"]
+    assert found.point is not None
+    assert not proof.fly(found.point)[2]
+    # The other parameter is that of a mission that passes.
+    assert found.base is not None
+    assert proof.fly(found.base)[2]
+    assert found.point["CURRENT"] == found.base["CURRENT"]
+
+
+def test_z3_alone_finds_the_point_where_no_corner_is_flown() -> None:
+    found = certifier(MODELS / "gps" / "mission.toml").certify(corners=False)
+    assert found.certainty is Certainty.REFUTED
+    assert found.flights <= 3
+
+
+def test_a_certificate_survives_corners_and_random_missions() -> None:
+    proof = certifier(MODELS / "gps" / "mended.toml")
+    assert proof.certify(corners=False).certainty is Certainty.CERTIFIED
+    for point in (*proof.box.corners(), *proof.box.drawn(MOST, 99)):
+        assert proof.fly(point)[2], point
+
+
+def test_a_survey_of_twelve_legs_is_certified(tmp_path: Path) -> None:
+    path = survey(tmp_path, (MODELS / "gps" / "mended.toml").read_text())
+    proof = certifier(path)
+    found = proof.certify(corners=False)
+    assert found.certainty is Certainty.CERTIFIED
+    assert found.conditions > LEGS * 8
+    for point in (*proof.box.corners(), *proof.box.drawn(MOST // 10, 7)):
+        assert proof.fly(point)[2], point
+
+
+@pytest.mark.parametrize(("name", "least"), [("SURFACE_MAX", 67), ("GO_WORST", 200)])
+def test_a_safe_constant_is_the_least_one(name: str, least: int, tmp_path: Path) -> None:
+    """27 ticks until the receiver is on and 40 for the fix; 240 m at 1.2 m/s."""
+    path = MODELS / "gps" / ("mission.toml" if name == "SURFACE_MAX" else "mended.toml")
+    proof = certifier(path)
+    proof.certify(corners=False)
+    safe = safe_constant(proof, name)
+    assert safe is not None
+    assert (safe.value, safe.is_least) == (least, True)
+    (place,) = places_of(name, proof.programs)
+    for value, certainty in ((least, Certainty.CERTIFIED), (least - 1, Certainty.REFUTED)):
+        overlay = with_value(place, value)
+        assert overlay is not None
+        assert certifier(path, overlay).certify().certainty is certainty
+
+
+def test_what_code_does_is_not_proved() -> None:
+    found = certifier(MODELS / "auv" / "inl" / "mission.toml").certify()
+    assert found.certainty is Certainty.UNKNOWN
+    assert "Python" in found.why
