@@ -18,7 +18,7 @@ Captured = pytest.CaptureFixture[str]
 
 @dataclass(frozen=True)
 class Mistake:
-    """`right` stands once in a file and is typed as `wrong`; the message is in the line with `told`, and says `help`."""
+    """`right` stands once in a file, typed as `wrong`; the message is in the line of `told`, and says `help`."""
 
     file: str
     right: str
