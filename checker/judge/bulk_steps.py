@@ -7,7 +7,7 @@ import numpy as np
 from checker.judge.alike import BranchRows
 from checker.judge.bodies import StepMaker, Written, compile_body
 from checker.judge.bulk_frame import RowFrame, RowRead, RowStep, UnplainError, closed, row_reader
-from checker.judge.bulk_meanings import HOLDS, TRUTHS, conforms, difference_of, near, truth, value_of
+from checker.judge.bulk_meanings import HOLDS, TRUTHS, conforms, difference_of, near, points, truth, value_of
 from checker.judge.bulk_relating import row_child, row_relate
 from checker.judge.columns import FLOAT, INT, TEXT, Array, Column, Mask, column_of, distinct, unknown
 from checker.judge.functions import COMPUTED
@@ -218,6 +218,8 @@ def _plain(name: str) -> Callable[[list[Column]], Mask | None] | None:
         return computed
     if name == "temporalDistance":
         return lambda columns: _distance(*columns)
+    if name == "towards":
+        return lambda columns: points(*columns)
     return None
 
 

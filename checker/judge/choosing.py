@@ -83,10 +83,10 @@ def nearest_of(
     """The token that comes nearest to what a rule asks for in vain, and the values in the way; nothing if none does."""
     origin = frame.tokens[child.origin]
     best: tuple[float, Tok, tuple[tuple[str, Value], ...]] | None = None
-    values: tuple[tuple[str, Value], ...]
     for tok in _of_predicate(frame, child, names):
         if holder is not None and not may_be_equal(tok.values[OBJECT], holder):
-            far, values = inf, (("object", tok.values[OBJECT]), ("asked", holder))
+            far = inf
+            values: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))
         elif origin is not None:
             far, values = _missed(pairs, origin, tok)
         else:

@@ -18,7 +18,7 @@ Captured = pytest.CaptureFixture[str]
 
 @dataclass(frozen=True)
 class Mistake:
-    """`right` stands once in a file, typed as `wrong`; the message is in the line of `told`, and says `help`."""
+    """`right`, once in a file, is typed as `wrong`; the message is in the line with `told`, and says `help`."""
 
     file: str
     right: str
