@@ -130,6 +130,7 @@ class Bench:
             self.members[thing.name] = (thing.class_name, thing.members)
         self.tokens = _Toks(record.tokens)
         self.uses: list[tuple[Value, Value, Value, Value, Tok | None, Span]] = []  # resource, quantity, start, end
+        self.last_repair = -1  # the tick of the last one
         self.infers = False  # whether runs that are not on record are found out
         self.runs: dict[int, list[BodyRun]] = {}  # those that were
         self.told: frozenset[str] | None = None  # the classes of whose objects all tokens are known; None: all

@@ -56,6 +56,7 @@ def judge_mission(
     by_name = {each.reactor: each for each in record.reactors}
     events = single_events(outcome.events)
     failed = {event.reactor for event in events if event.kind in (EventKind.KILL, EventKind.ABORT)}
+    repaired = {event.reactor: event.tick for event in events if event.kind is EventKind.RELAX}
     history = _Trace(outcome, events)
     desks: dict[str, tuple[ProgramJudge, Bench]] = {}
     for place, program in zip(agent.reactors, programs, strict=True):
@@ -67,6 +68,7 @@ def judge_mission(
             written = written._replace(tokens=tuple(written.tokens))
         judge = _judge_of(program, constraints)
         bench = Bench(written, agent.final_tick, chance.draws, place.name in failed)
+        bench.last_repair = repaired.get(place.name, -1)
         desks[place.name] = (judge, bench)
         _judge_model(judge, bench, tables)
         judge_timelines(judge, bench, tables, history.seen_by(place.name), place.internal, place.external)

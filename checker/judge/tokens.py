@@ -231,9 +231,12 @@ def _judge_merged(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
     if mine.start == theirs.start and mine.end == theirs.end and mine.arguments == theirs.arguments:
         return
     is_strict = mine.tick == theirs.tick and mine.fate == theirs.fate
+    is_early = mine.tick < theirs.tick and mine.tick <= bench.last_repair  # bounds of then may have been given up
     ours: tuple[tuple[int, Any], ...] = ((OBJECT, mine.object), (START, mine.start), (END, mine.end))
     ours += tuple((FIRST_PARAMETER + k, value) for k, value in enumerate(mine.arguments))
     for place, value in ours:
+        if is_early and is_open(value):
+            continue
         if place < len(other.values) and not _are_one(value, other.values[place], is_strict):
             name = BUILT_IN.get(place) or judge.predicates[mine.predicate].code.parameters[place - FIRST_PARAMETER].name
             pair: tuple[tuple[str, Value], ...] = (
