@@ -2,6 +2,7 @@
 
 import sys
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
@@ -16,7 +17,7 @@ from nddlc.inputs import Unusable, mission_here
 from nddlc.one_mission import prepare, values_of
 from nddlc.trust import trust_option
 from runtime.executive.events import single_events
-from runtime.executive.outcome import EventKind
+from runtime.executive.outcome import Event, EventKind, OpenGoal
 from runtime.executive.rendering import event_text, goal_text, reason_text
 
 _PASS, _FAIL = 0, 1
@@ -81,8 +82,25 @@ def _report(name: str, flight: Flight) -> str:
         f"rejected {counts[EventKind.REJECT]}, refused {counts[EventKind.REFUSE]}, "
         f"recalled {counts[EventKind.RECALL]}; repairs {counts[EventKind.RELAX]}\n"
     )
-    lines += [f"  open: {goal_text(goal)}\n" for goal in outcome.open_goals]
+    lines += [f"  open: {goal_text(goal)}{_so_far(goal, events)}\n" for goal in outcome.open_goals]
     if judgement.verdict is not Verdict.PASS:
         places = [element.place for element in lines_that_rule_out(failed_by(outcome))[:_MOST_LINES]]
         lines += [f"  ruled out by {one.file}:{one.line}:{one.column}: {one.text}\n" for one in places if one]
     return "".join(lines)
+
+
+def _so_far(goal: OpenGoal, events: Sequence[Event]) -> str:
+    """Of a goal that nothing became of: whether it was sent and had begun when the mission ended."""
+    if goal.reason is not None:
+        return ""
+    if goal.event < 0:
+        return ": its time to be sent had not come"
+    began = next(
+        (
+            event.tick
+            for event in events
+            if event.kind is EventKind.OBSERVATION and event.timeline == goal.timeline and goal.event in event.causes
+        ),
+        None,
+    )
+    return ": it had not begun" if began is None else f": it began at tick {began}, and nothing has ended it"

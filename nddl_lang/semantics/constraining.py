@@ -1,5 +1,7 @@
 """Check constraint statements: named ones against the table, expressions for having a truth value."""
 
+from dataclasses import replace
+
 from nddl_lang.semantics.arguments import check_count, check_types
 from nddl_lang.semantics.codes import FORMER_CONSTRAINT, NOT_IN_NDDL3, UNKNOWN_CONSTRAINT
 from nddl_lang.semantics.constraints import FORMER_CONSTRAINTS, ConstraintRow, Origin
@@ -58,4 +60,6 @@ def _complain_unknown(context: Context, node: CallConstraint) -> None:
             node.name.span, help="write it as an expression, such as `a + b <= c`", name=name
         )
     statements = () if node.arguments else ("close",)
-    context.complain(suggest_name(complaint, node.name, (*context.callables.constraints, *statements)))
+    complaint = suggest_name(complaint, node.name, (*context.callables.constraints, *statements))
+    own = "one of your own is in a file that `modules` of `[constraints]` names, in nddlc.toml and the mission file"
+    context.complain(complaint if complaint.help is not None else replace(complaint, help=own))

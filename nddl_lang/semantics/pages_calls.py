@@ -26,7 +26,9 @@ CALL_PAGES = (
     RulePage(
         UNKNOWN_CONSTRAINT,
         "No constraint has this name.",
-        "A name followed by arguments is, as a statement, one of the named constraints.",
+        "A name followed by arguments is, as a statement, one of the named constraints. One of your own is in a Python "
+        "file that `modules` of `[constraints]` names: in nddlc.toml for what reads models, in the mission file for "
+        "what flies them.",
         "int a;\nadEq(a, 3, 5);\n",
         "int a;\naddEq(a, 3, 5);\n",
     ),

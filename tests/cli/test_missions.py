@@ -77,3 +77,22 @@ def test_what_was_accepted_is_compared(mission: Path, capsys: pytest.CaptureFixt
     assert code == 1
     assert "the models have changed since Ada accepted them" in shown
     assert "tick 35, nav\n  - observation Hold by nav" in shown
+
+
+def test_a_goal_that_nothing_ends_is_told_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert run(["new", "retry"]) == 0
+    planner = tmp_path / "retry" / "planner.nddl"
+    planner.write_text(planner.read_text().replace("    held.end == end;\n", ""))
+    mission = tmp_path / "retry" / "mission.toml"
+    more = '[[goal]]\ntimeline = "task"\npredicate = "Fetch"\nmandatory = true\n'
+    mission.write_text(
+        mission.read_text().replace("[parameters.LUCK]", f"{more}start = 150\n\n{more}at = 250\n\n[parameters.LUCK]")
+    )
+    capsys.readouterr()
+    assert run(["run", "retry/mission.toml"]) == 1
+    said = capsys.readouterr().out
+    assert "open: Fetch: it began at tick 150, and nothing has ended it\n" in said
+    assert "open: Fetch: its time to be sent had not come\n" in said

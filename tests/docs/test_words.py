@@ -34,7 +34,7 @@ def options(command: click.Command) -> set[str]:
 
 @pytest.mark.parametrize(("page", "line"), lines("nddlc"))
 def test_commands_have_the_options_that_are_told(page: str, line: str) -> None:
-    words = re.sub(r"[\[\]|]|\.\.\.", " ", line.split(" && ")[0]).split()[1:]
+    words = re.sub(r"[\[\]|]|\.\.\.", " ", re.split(r" && | \| ", line)[0]).split()[1:]
     known = options(nddlc)
     while words and words[0] not in COMMANDS:
         word = words.pop(0)
