@@ -78,8 +78,9 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     graph = Dependence(world.programs, sites)
     sites_reached = Universe(world.programs).sites
     exercised = [site.span for number, site in enumerate(sites_reached) if number in missions.exercised]
+    usage = usage_of(sites, some_pass=bool(missions.passed))
     candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised)
-    trials = try_out(candidates, missions, usage_of(sites), partial(_fly, world), bounds)
+    trials = try_out(candidates, missions, usage, partial(_fly, world), bounds)
     return replace(trials, loose=_loose(graph, candidates))
 
 

@@ -21,6 +21,7 @@ _TIMES = ("start", "end", "duration")
 _NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 _MOST_FOLLOW_UPS = 3
 _FEW = 3  # numbers so small that one more is much
+_LATER = 0.5  # what is no number, where some missions pass
 _LATE = 3.0  # later by so much: what is tried when all likelier edits have been
 _DROP = 3.0
 _KINDS = 0.5  # how much the number of lines counts at which an edit of the kind can be made
@@ -28,7 +29,7 @@ _UNUSUAL = 0.5  # how much the odds count that a word is meant
 _OCTAVE = 0.15  # for each doubling of a constant
 _DIGIT = 0.1  # for each digit that a constant has more
 _IDLE = 2.5  # odds of a constant that nothing uses any more, or where the range of a draw is used as a number
-_SUBSUMED = 0.4  # what is lost where one edit stands for several
+_EDGE = 1.5  # odds that only some missions fail for a number, not for what is wrong in all of them
 
 # How often a word is meant, in lines of a sort, before any line of the model is read.
 _RELATIONS = {
@@ -49,6 +50,7 @@ class Usage:
     """How often the lines of a model use each word; `named` are its global variables, `kinds` counts lines by edit.
 
     `meant` counts relations and comparisons by the sort of line that they stand in; `sampled` are the ranges of draws.
+    `some_pass`: not all missions of these models fail.
     """
 
     counts: Counter[str]
@@ -56,6 +58,7 @@ class Usage:
     kinds: Counter[EditKind]
     meant: Counter[tuple[object, str]]
     sampled: Container[str]
+    some_pass: bool = False
 
     def is_swapped(self, edit: SmallEdit) -> bool:
         """Whether a constant stands where another one is missed, or the range of a draw where a number is meant."""
@@ -74,7 +77,7 @@ class Usage:
         return max(odds, _LEAST_ODDS) if sort == "condition" else odds
 
 
-def usage_of(sites: Sequence[EditSite]) -> Usage:
+def usage_of(sites: Sequence[EditSite], *, some_pass: bool = False) -> Usage:
     """The usage of words in all lines; a line that sets a variable does not use it."""
     counts: Counter[str] = Counter()
     kinds: Counter[EditKind] = Counter()
@@ -85,7 +88,7 @@ def usage_of(sites: Sequence[EditSite]) -> Usage:
         words = {edit.begin: edit for edit in site.edits if edit.kind in (EditKind.RELATION, EditKind.COMPARISON)}
         meant.update((_sort(edit, site)[0], _sign(edit.old)) for edit in words.values())
     sampled = {name for site in sites for name in _SAMPLED.findall(site.text)}
-    return Usage(counts, {site.named for site in sites if site.named}, kinds, meant, sampled)
+    return Usage(counts, {site.named for site in sites if site.named}, kinds, meant, sampled, some_pass)
 
 
 def is_loosening(edit: SmallEdit) -> bool:
@@ -99,9 +102,13 @@ def is_loosening(edit: SmallEdit) -> bool:
 
 def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     """How unlikely an edit is the repair; what takes a demand away altogether costs most."""
-    if is_loosening(edit):
-        return _DROP + _KINDS * math.log(max(usage.kinds[edit.kind], 1))
-    return _form(edit, site, usage) + _KINDS * math.log(max(usage.kinds[edit.kind], 1))
+    form = _DROP if is_loosening(edit) else _form(edit, site, usage) + _structural(edit, usage)
+    return form + _KINDS * math.log(max(usage.kinds[edit.kind], 1))
+
+
+def _structural(edit: SmallEdit, usage: Usage) -> float:
+    """What a relation, a sign or a comparison costs where missions pass that it is a part of, too."""
+    return _EDGE if usage.some_pass and edit.kind not in (*_NUMERIC, EditKind.LIMIT) else 0.0
 
 
 def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
@@ -125,17 +132,19 @@ def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.LIMIT:
             return -1.0 if usage.is_swapped(edit) else _LATE
         case EditKind.SIGN | EditKind.ARGUMENTS:
-            return 0.5
+            return 0.5 + _LATER * usage.some_pass
         case EditKind.DROPPED_CONSTRAINT:
             return _LATE if "==" in edit.old or edit.old.startswith("eq") else 0.3
         case EditKind.DROPPED_BRANCH:
             return 1.0
         case EditKind.RELATION:
-            return 0.3 if edit.new == _LOOSE else 0.6 + _UNUSUAL * usage.odds(edit, site)
+            if edit.new == _LOOSE:
+                return 0.3
+            return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.some_pass
         case EditKind.COMPARISON if _sign(edit.new) == _UNEQUAL:
             return _LATE
         case EditKind.COMPARISON:
-            return 0.6 + _UNUSUAL * usage.odds(edit, site)
+            return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.some_pass
         case EditKind.CONSTANT:
             octaves = _octaves(edit)
             return None if octaves < 1.0 else 1.2 if octaves < 2.0 else -0.3
