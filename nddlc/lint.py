@@ -23,6 +23,7 @@ from nddl_lang.text.source import Span
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, parts_in, write_text
 from nddlc.known import known_callables
 from nddlc.main import named
+from nddlc.watch import WatchedCommand
 
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
 _LEVELS = [severity.value for severity in Severity]
@@ -30,7 +31,7 @@ _STYLES = ["text", "json", "sarif", "github", "junit"]
 _MISSION = ".toml"
 
 
-@click.command()
+@click.command(cls=WatchedCommand)
 @model_paths
 @click.option("--select", multiple=True, metavar="CODES", help="Report only these: codes, or how they begin.")
 @click.option("--ignore", multiple=True, metavar="CODES", help="Do not report these: codes, or how they begin.")

@@ -34,12 +34,13 @@ class Structure:
     earliest: dict[str, int] = field(default_factory=dict)  # starts that the mission file asks for
     draws: dict[str, list[str]] = field(default_factory=dict)  # variables of each sampled parameter
     untold: dict[str, int] = field(default_factory=dict)
+    symbols: Symbols = field(default_factory=Symbols)
 
 
 def structure_of(agent: AgentConfiguration, programs: Sequence[Program], record: MissionRecord) -> Structure:
     """The structure of a flown mission."""
     found = Structure()
-    symbols = Symbols()
+    symbols = found.symbols
     redrawn = frozenset(each.name for each in agent.parameters if each.mode == "intra")
     readers = []
     by_name = {each.reactor: each for each in record.reactors}

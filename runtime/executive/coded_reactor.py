@@ -18,6 +18,7 @@ from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen,
 _INFINITY = 4503599627370495
 _NEVER = 2**62
 _MOST_CAUSES = 3
+_NOBODY: frozenset[int] = frozenset()
 _Kinds = Callable[[str, str], "Mapping[str, tuple[str, str]] | None"]  # timeline, predicate: parameters; None: unknown
 
 
@@ -83,9 +84,11 @@ class CodedReactor:
             arguments = {name: _shown(domain) for name, domain in observation.arguments}
             self.seen[timeline] = Seen(observation.predicate, arguments, observation.tick)
             self.events[timeline] = observation.event
-        now = Now(tick, dict(self.seen), frozenset(self.news), frozenset(self.refused_numbers), self.count)
+        refused = frozenset(self.refused_numbers) if self.refused_numbers else _NOBODY
+        now = Now(tick, dict(self.seen), frozenset(self.news), refused, self.count)
         self.news.clear()
-        self.refused_numbers = []
+        if self.refused_numbers:
+            self.refused_numbers = []
         self.wakes_at = _NEVER
         try:
             self._call(now)
@@ -131,19 +134,21 @@ class CodedReactor:
             self._arguments(asked.timeline, asked.predicate, asked.arguments)
             _bounds(asked.start), _bounds(asked.end), _bounds(asked.duration)
         for number in now.recalled:
-            if number not in self.numbers and number not in [asked.number for asked in now.asked]:
+            if not 0 <= number < self.count + len(now.asked):
                 raise ValueError(f"it took back request {number!r}, which it never made")
         if now.wakes_at is not None:
             if not isinstance(now.wakes_at, int) or now.wakes_at <= now.tick:
                 raise ValueError(f"it wants to be woken at {now.wakes_at!r}, which is not later than {now.tick}")
             self.wakes_at = now.wakes_at
         self.published, self.recalled = now.published, now.recalled
-        self.asked = now.asked
+        self.asked = [asked for asked in now.asked if asked.number not in now.recalled]
         self.count += len(now.asked)
 
     def observations(self, tick: int) -> list[Observation]:
         """What the code has published."""
-        found = []
+        found: list[Observation] = []
+        if not self.published:
+            return found
         causes = tuple(sorted(sorted(set(self.events.values()), reverse=True)[:_MOST_CAUSES]))
         for one in {each.timeline: each for each in self.published}.values():
             arguments = self._arguments(one.timeline, one.predicate, one.arguments)

@@ -1,5 +1,6 @@
 """Read a plan database under execution in tokens, ticks and names."""
 
+from collections.abc import Mapping
 from math import inf
 
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, DomainConstant
@@ -62,6 +63,7 @@ class PlanView:
         self.globals = {name: number for number, (name, _) in enumerate(database.program.globals)}
         self.requested: dict[int, int] = {}  # token -> key
         self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
+        self.asked: Mapping[int, object] = {}  # what owners were asked for, by the key of its token
         self.external_objects: set[int] = set()
         self.recorder = Recorder(database, name)
         self.internal_objects: set[int] = set()
@@ -124,15 +126,15 @@ class PlanView:
 
     def start(self, t: int) -> int:
         """The variable that holds when `t` starts."""
-        return int(self.rows.var0[t]) + START
+        return self.rows.var0[t] + START
 
     def end(self, t: int) -> int:
         """The variable that holds when `t` ends."""
-        return int(self.rows.var0[t]) + END
+        return self.rows.var0[t] + END
 
     def duration(self, t: int) -> int:
         """The variable that holds how long `t` lasts."""
-        return int(self.rows.var0[t]) + DURATION
+        return self.rows.var0[t] + DURATION
 
     def lower(self, v: int) -> float:
         """The earliest or least that is still possible."""
@@ -178,7 +180,7 @@ class PlanView:
 
     def key(self, t: int) -> int:
         """A number that names this token for ever, while `t` may name another one later."""
-        return int(self.rows.key[t])
+        return self.rows.key[t]
 
     def is_alive(self, t: int, key: int) -> bool:
         """Whether `t` still is the token that had `key`."""
@@ -241,29 +243,29 @@ class PlanView:
 
     def remember_request(self, t: int) -> None:
         """Note that somebody asked for `t`."""
-        self.requested[t] = int(self.rows.key[t])
+        self.requested[t] = self.rows.key[t]
 
     def parent(self, t: int) -> int:
         """The token whose rule asked for `t`; NONE where there is none."""
-        return int(self.rows.parent[t])
+        return self.rows.parent[t]
 
     def stands_for(self, t: int) -> int:
         """The token of the plan that `t` is, or is merged into."""
-        return int(self.rows.merged_into[t] if self.rows.status[t] == MERGED else t)
+        return self.rows.merged_into[t] if self.rows.status[t] == MERGED else t
 
     def predicate_of(self, t: int) -> int:
         """The predicate of a token."""
-        return int(self.rows.predicate[t])
+        return self.rows.predicate[t]
 
     def next_of(self, o: int, current: int) -> int:
         """The token behind the current one in the sequence of a timeline; the first one if there is no current."""
         if current < 0:
-            return int(self.rows.head_first[self.plan.object_head[o]])
-        return int(self.rows.link_after[LISTS * current + LIST_ORDER])
+            return self.rows.head_first[self.plan.object_head[o]]
+        return self.rows.link_after[LISTS * current + LIST_ORDER]
 
     def following(self, t: int) -> int:
         """The token behind another one in the sequence of their timeline; NONE behind the last."""
-        return int(self.rows.link_after[LISTS * t + LIST_ORDER])
+        return self.rows.link_after[LISTS * t + LIST_ORDER]
 
     def all_tokens(self) -> list[int]:
         """All tokens, oldest first."""
@@ -288,10 +290,10 @@ class PlanView:
     def _listed(self, head: int, kind: int) -> list[int]:
         """The tokens of one list."""
         found = []
-        t = int(self.rows.head_first[head])
+        t = self.rows.head_first[head]
         while t >= 0:
             found.append(t)
-            t = int(self.rows.link_after[LISTS * t + kind])
+            t = self.rows.link_after[LISTS * t + kind]
         return found
 
     def is_blocked(self, t: int, current: int, tick: int) -> bool:
@@ -312,7 +314,7 @@ class PlanView:
             while e >= 0:
                 v = engine.edge_target[e]
                 if engine.edge_weight[e] <= 0 and v not in seen and engine.upper(v) > tick:
-                    if self._is_awaited(v, t, current, tick):
+                    if self._is_awaited(v, t, current, tick) and not self._ends_with(v, t):
                         return True
                     seen.add(v)
                     stack.append(v)
@@ -340,14 +342,32 @@ class PlanView:
         if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != END or self.engine.upper(v) <= tick:
             return False
         other = self.stands_for(plan.variable_owner[v])
-        if other == self.stands_for(t) or other == current:
+        return other not in (self.stands_for(t), current) and self.object_of(other) in self.external_objects
+
+    def _ends_with(self, v: int, t: int) -> bool:
+        """Whether `v` ends what was not asked for, when what is planned next there begins, which `t` cannot outwait."""
+        ended = self.stands_for(self.plan.variable_owner[v])
+        after = self.following(ended)
+        if after < 0 or self.key(ended) in self.asked:
             return False
-        return self.object_of(other) in self.external_objects
+        engine, seen = self.engine, {self.start(after)}
+        stack = list(seen)
+        while stack:
+            e = engine.out_head[stack.pop()]
+            while e >= 0:
+                v = engine.edge_target[e]
+                if engine.edge_weight[e] <= 0 and v not in seen:
+                    seen.add(v)
+                    stack.append(v)
+                e = engine.out_next[e]
+        return self.start(t) in seen
 
     def object_of(self, t: int) -> int:
         """The object that a token is on; NONE while that is open."""
         v = self.rows.var0[t] + OBJECT
-        return int(self.engine.lower(v)) if self.engine.is_singleton(v) else NONE
+        if not self.engine.is_singleton(v):
+            return NONE
+        return int(self.engine.lower(v))
 
     def is_due_to_request(self, t: int) -> bool:
         """Whether the token, or one that it follows from, is one that somebody asked for."""
@@ -368,13 +388,13 @@ class PlanView:
 
     def waits_for_own(self, t: int, tick: int) -> bool:
         """Whether the token is to follow one of this reactor that has not begun, and that nobody asked for."""
-        t = int(self.rows.parent[t])
+        t = self.rows.parent[t]
         while t >= 0:
             if self.is_requested(t) or self.is_started(t, tick):
                 return False
             if self.object_of(t) in self.late_objects:
                 return True
-            t = int(self.rows.parent[t])
+            t = self.rows.parent[t]
         return False
 
     def undecided(self) -> list[int]:
