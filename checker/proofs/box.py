@@ -9,7 +9,7 @@ import numpy as np
 import z3
 
 from checker.proofs.claims import Claim, Number
-from checker.proofs.operands import rational
+from checker.proofs.operands import decimal, rational
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 
 Point = dict[str, float]
@@ -58,7 +58,7 @@ class Box:
 
     def range(self, name: str) -> tuple[Fraction, Fraction]:
         """The least and the greatest value of a parameter."""
-        return Fraction(self._at(self.sides[name], 0.0)), Fraction(self._at(self.sides[name], 1.0))
+        return decimal(self._at(self.sides[name], 0.0)), decimal(self._at(self.sides[name], 1.0))
 
     def ends(self, name: str, value: Number) -> Claim:
         """That a value is at one of the two ends."""

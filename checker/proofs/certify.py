@@ -9,7 +9,6 @@ structure. Nothing is refuted without a flight.
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from fractions import Fraction
 from itertools import combinations
 
 import z3
@@ -18,7 +17,7 @@ from checker.proofs.box import Box, Point, box_of
 from checker.proofs.claims import Claim, Number
 from checker.proofs.dating import Dated, Requirement, dated
 from checker.proofs.intervals import Ranges
-from checker.proofs.operands import rational
+from checker.proofs.operands import decimal, rational
 from checker.proofs.solving import fraction
 from checker.proofs.structure import Structure, structure_of
 from compiler.program import Program
@@ -34,7 +33,6 @@ _MOST_STRUCTURES = 24
 _MOST_CORNERS = 64
 _NUDGES = 3
 _MOST_DRAWN = 8
-_ROUNDING = Fraction(1, 10**9)
 
 
 class Certainty(Enum):
@@ -220,15 +218,13 @@ class Certifier:
         return None if z3.unknown in (answer, apart) else ({}, {})
 
     def ranges(self, free: Mapping[str, object] | None = None) -> Ranges:
-        """The ranges of the sampled values while only some parameters are free; None: all, and a bit beyond."""
+        """The ranges of the sampled values while only some parameters (None: all) are free."""
         sides = {}
         for structure in self.structures:
             for name, drawn in structure.draws.items():
                 lower, upper = self.box.range(name)
-                if free is None:  # as far as doubles may round
-                    lower, upper = lower - _ROUNDING, upper + _ROUNDING
-                elif name not in free and self.base is not None:
-                    lower = upper = Fraction(self.base[name])
+                if free is not None and name not in free and self.base is not None:
+                    lower = upper = decimal(self.base[name])
                 sides.update(dict.fromkeys(drawn, (lower, upper)))
         return Ranges(sides)
 

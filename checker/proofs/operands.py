@@ -1,6 +1,6 @@
 """Operands of a program as numbers of z3; whoever has a body at hand says which tokens, locals and members they are.
 
-Whole numbers are Int, floats Real with the rational value of the double; truth values are 0 and 1, names of values and
+Whole numbers are Int, floats Real with the decimal value that is written; truth values are 0 and 1, names of values and
 objects are whole numbers, one per name.
 """
 
@@ -83,9 +83,14 @@ class Symbols:
         return z3.And(*bounds)
 
 
+def decimal(value: float | Fraction) -> Fraction:
+    """The shortest decimal number that is read as a double."""
+    return Fraction(repr(value)) if isinstance(value, float) else Fraction(value)
+
+
 def rational(value: float | Fraction) -> Number:
-    """An exact real."""
-    exact = Fraction(value)
+    """An exact real: of a double the shortest decimal number that it is read from."""
+    exact = decimal(value)
     return z3.Q(exact.numerator, exact.denominator)
 
 
