@@ -17,17 +17,18 @@ def goal_model(agent: AgentConfiguration, reactor: ReactorConfiguration) -> str:
     lines = [f'#include "{reactor.model}"\n']
     own = [goal for goal in agent.goals if goal.timeline in reactor.internal]
     for number, goal in enumerate(own, 1):
-        lines += _goal(f"goal{number}", goal)
+        lines += _goal(f"goal{number}", goal, float(agent.final_tick))
     return "".join(lines)
 
 
-def _goal(name: str, goal: GoalConfiguration) -> Iterator[str]:
+def _goal(name: str, goal: GoalConfiguration, final: float) -> Iterator[str]:
     yield f"{'goal' if goal.mandatory else 'rejectable'}({goal.timeline}.{goal.predicate} {name});\n"
     first = float(goal.at) if goal.start is None else max(float(goal.at), goal.start[0])
     yield from _bounds(f"{name}.start", (first, inf if goal.start is None else goal.start[1]), is_whole=True)
-    for variable, bounds in (("end", goal.end), ("duration", goal.duration)):
-        if bounds is not None:
-            yield from _bounds(f"{name}.{variable}", bounds, is_whole=True)
+    least, most = (-inf, inf) if goal.end is None else goal.end
+    yield from _bounds(f"{name}.end", (least, min(most, final)), is_whole=True)
+    if goal.duration is not None:
+        yield from _bounds(f"{name}.duration", goal.duration, is_whole=True)
     for parameter, value in goal.parameters:
         if isinstance(value, tuple):
             yield from _bounds(f"{name}.{parameter}", value, is_whole=all(isinstance(each, int) for each in value))

@@ -5,6 +5,7 @@ file (reference of T-REX, 3.1 and 5.5).
 """
 
 import tomllib
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import cast
@@ -253,6 +254,7 @@ def _read_goals(
 ) -> tuple[GoalConfiguration, ...]:
     owners = {timeline: reactor for reactor in reactors for timeline in reactor.internal}
     goals: list[GoalConfiguration] = []
+    missing: dict[str, list[Span]] = {}
     for table in tables:
         parameters = table.table("parameters", "[goal.parameters]")
         goal = GoalConfiguration(
@@ -273,11 +275,28 @@ def _read_goals(
         span = text.value_span((*table.path, "timeline"))
         owner = owners.get(goal.timeline)
         if owner is None and goal.timeline:
-            advice = _suggest(goal.timeline, [*owners])
-            text.diagnostics.append(NO_OWNER.at(span, timeline=goal.timeline, help=advice))
+            missing.setdefault(goal.timeline, []).append(span)
         elif owner is not None and owner.lookahead == 0:
             text.diagnostics.append(NO_GOALS.at(span, timeline=goal.timeline, reactor=owner.name))
+    for timeline, spans in missing.items():
+        text.diagnostics.append(_without_owner(text, timeline, spans, [*owners], {one.timeline for one in goals}))
     return tuple(goals)
+
+
+def _without_owner(
+    text: MissionText, timeline: str, spans: list[Span], owned: list[str], wanted: Collection[str]
+) -> Diagnostic:
+    """One complaint of all goals on a timeline that nobody owns; where they agree, it is the owner who misspelt it."""
+    close = nearest(timeline, owned)
+    if len(spans) > 1 and close is not None and close not in wanted:
+        for path in text.places:
+            if len(path) == 4 and path[0] == "reactor" and path[2] == "internal":
+                span = text.value_span(path)
+                if span.text.strip("\"'") == close:
+                    notes = tuple(Note("a goal is on it", each) for each in spans)
+                    return NO_OWNER.at(span, timeline=timeline, help=f"did you mean `{timeline}`?", notes=notes)
+    notes = tuple(Note("and so is this goal", each) for each in spans[1:])
+    return NO_OWNER.at(spans[0], timeline=timeline, help=_suggest(timeline, owned), notes=notes)
 
 
 def _goal_value(table: Table, key: str) -> Value | Bounds:

@@ -111,7 +111,8 @@ class Table:
             if lower <= value <= upper:
                 return float(value)
             wanted = f"from {lower:g} to {upper:g}" if upper < math.inf else f"at least {lower:g}"
-            self.complain_of_value(key, value, wanted)
+            is_percent = (lower, upper) == (0.0, 1.0) and 1.0 < value <= 100.0
+            self.complain_of_value(key, value, wanted, f"{value:g} % is {value / 100:g}" if is_percent else None)
         else:
             self._complain_of_type(key, value, "a number")
         return default
@@ -195,10 +196,10 @@ class Table:
         """Whether the key is written."""
         return key in self.values
 
-    def complain_of_value(self, key: str, found: object, wanted: str) -> None:
+    def complain_of_value(self, key: str, found: object, wanted: str, advice: str | None = None) -> None:
         """Report a value of the right type that cannot be."""
         span = self.text.value_span((*self.path, key))
-        self.text.diagnostics.append(OUT_OF_RANGE.at(span, key=key, wanted=wanted, found=found))
+        self.text.diagnostics.append(OUT_OF_RANGE.at(span, key=key, wanted=wanted, found=found, help=advice))
 
     def _take(self, key: str, *, needed: bool = False) -> object:
         self.asked.append(key)

@@ -51,7 +51,9 @@ def find_role_misfits(
             mode = bench.mode(names.index(timeline))
             is_listed = timeline in (*reactor.internal, *reactor.external)
             if mode in _KEYS and not is_listed and _is_global(programs[reactor.model], timeline):
-                span = mission.text.key_span(("reactor", number))
+                key_path = ("reactor", number, _KEYS[mode])
+                is_there = key_path in mission.text.places
+                span = mission.text.value_span(key_path) if is_there else mission.text.key_span(key_path[:2])
                 yield UNLISTED.at(
                     span,
                     timeline=timeline,

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import runtime.build_form
 from checker.mission_pages import MISSION_PAGES
+from checker.proofs.pages import PROOF_PAGES
 from compiler.determined.pages import DETERMINED_PAGES
 from nddl_lang.rulebook import PAGES as LANGUAGE_PAGES
 from nddl_lang.rulebook import index, markdown
@@ -13,7 +14,9 @@ from nddl_lang.text.page import RulePage
 from runtime.plan.script.pages import SCRIPT_PAGES
 from runtime.solver.configuration.pages import SOLVER_PAGES
 
-_OTHERS = sorted((*DETERMINED_PAGES, *SCRIPT_PAGES, *MISSION_PAGES, *SOLVER_PAGES), key=lambda page: page.code.id)
+_OTHERS = sorted(
+    (*DETERMINED_PAGES, *SCRIPT_PAGES, *MISSION_PAGES, *SOLVER_PAGES, *PROOF_PAGES), key=lambda page: page.code.id
+)
 PAGES: dict[str, RulePage] = LANGUAGE_PAGES | {page.code.id: page for page in _OTHERS}
 
 

@@ -1,14 +1,14 @@
 """A file beside the text that declares what is unknown in it: one message names it, in place of one for each name."""
 
 import stat
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
 from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_TYPE
 from nddl_lang.syntax.dialect import Dialect
-from nddl_lang.syntax.includes import LoadedModules
+from nddl_lang.syntax.includes import LIBRARY, LoadedModules
 from nddl_lang.syntax.nodes import Identifier, Include, Statement
 from nddl_lang.syntax.parser import parse
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix
@@ -26,25 +26,60 @@ _LARGEST = 2**20  # bytes
 def name_missing_include(
     loaded: LoadedModules, found: Sequence[Diagnostic], declared: Declared
 ) -> tuple[Diagnostic, ...]:
-    """`found`, where unknown names that one file beside declares are told once, with an include of it as the fix."""
+    """`found`, where unknown names that one file would bring are told once, with an include of it as the fix.
+
+    What that include would bring to the texts after it is not told again.
+    """
     told = tuple(found)
+    brought: frozenset[str] = frozenset()
     for source in dict.fromkeys(each.span.source for each in told if each.code in _UNKNOWN):
-        unknown = list(
-            dict.fromkeys(each.span.text for each in told if each.code in _UNKNOWN and each.span.source is source)
-        )
-        beside = _declaring(loaded, source, unknown, declared) if len(unknown) >= _FEWEST else None
-        if beside is not None:
-            told = tuple(_told_once(loaded, source, told, beside, unknown))
+        told = tuple(each for each in told if not _is_unknown(each, source) or each.span.text not in brought)
+        unknown = list(dict.fromkeys(each.span.text for each in told if _is_unknown(each, source)))
+        bringing = _bringing(loaded, source, unknown, declared) if len(unknown) >= _FEWEST else None
+        if bringing is not None:
+            name, names = bringing
+            brought |= names
+            told = tuple(_told_once(loaded, source, told, name, unknown))
     return told
 
 
-def _declaring(loaded: LoadedModules, source: Source, unknown: Iterable[str], declared: Declared) -> str | None:
-    """The first file in the folder of a text that declares all the unknown names; None if none does."""
+def _is_unknown(found: Diagnostic, source: Source) -> bool:
+    return found.code in _UNKNOWN and found.span.source is source
+
+
+def _bringing(
+    loaded: LoadedModules, source: Source, unknown: list[str], declared: Declared
+) -> tuple[str, frozenset[str]] | None:
+    """The file that an include would bring all the unknown names from, and all that it brings.
+
+    One beside the text goes before one of the library, one that declares them itself before one that includes them,
+    then the one that brings least.
+    """
     read = {real_path(path) for path in loaded.paths.values()}
-    for path in _models(loaded.paths[source].parent):
-        if real_path(path) not in read and _names(path, loaded.dialect, declared).issuperset(unknown):
-            return path.name
-    return None
+    best: tuple[tuple[bool, bool, int], str, frozenset[str]] | None = None
+    for folder in (loaded.paths[source].parent, LIBRARY):
+        for path in _models(folder):
+            if real_path(path) in read:
+                continue
+            own, _ = _declarations(path, loaded.dialect, declared)
+            brought = frozenset(_with_includes(path, loaded.dialect, declared, set()))
+            rank = (folder is LIBRARY, not own.issuperset(unknown), len(brought))
+            if brought.issuperset(unknown) and (best is None or rank < best[0]):
+                best = rank, path.name, brought
+    return None if best is None else best[1:]
+
+
+def _with_includes(path: Path, dialect: Dialect, declared: Declared, seen: set[Path]) -> Iterator[str]:
+    """What a file declares, and what the files declare that it includes."""
+    seen.add(real_path(path))
+    own, includes = _declarations(path, dialect, declared)
+    yield from own
+    for name in includes:
+        for other in (path.parent / name, LIBRARY / name):
+            if other.is_file():
+                if real_path(other) not in seen:
+                    yield from _with_includes(other, dialect, declared, seen)
+                break
 
 
 def _models(folder: Path) -> list[Path]:
@@ -56,27 +91,30 @@ def _models(folder: Path) -> list[Path]:
     return found if len(found) <= _MOST_FILES else []
 
 
-def _names(path: Path, dialect: Dialect, declared: Declared) -> frozenset[str]:
+def _declarations(path: Path, dialect: Dialect, declared: Declared) -> tuple[frozenset[str], tuple[str, ...]]:
     try:
         kind = path.stat()
     except OSError:
-        return frozenset()
+        return frozenset(), ()
     if not stat.S_ISREG(kind.st_mode) or kind.st_size > _LARGEST:
-        return frozenset()
-    return _names_at(path, dialect, declared, kind.st_mtime_ns, kind.st_size)
+        return frozenset(), ()
+    return _declarations_at(path, dialect, declared, kind.st_mtime_ns, kind.st_size)
 
 
 @lru_cache(maxsize=256)
-def _names_at(path: Path, dialect: Dialect, declared: Declared, _changed: int, _size: int) -> frozenset[str]:
-    """What a file declares itself, read anew when it has changed."""
+def _declarations_at(
+    path: Path, dialect: Dialect, declared: Declared, _changed: int, _size: int
+) -> tuple[frozenset[str], tuple[str, ...]]:
+    """What a file declares itself, and what it includes; read anew when it has changed."""
     try:
         text = read_text(path)
     except OSError:
-        return frozenset()
+        return frozenset(), ()
     if text is None:
-        return frozenset()
-    module = parse(Source(str(path), text), dialect).module
-    return frozenset(each.name for statement in module.statements for each in declared(statement))
+        return frozenset(), ()
+    statements = parse(Source(str(path), text), dialect).module.statements
+    names = frozenset(each.name for statement in statements for each in declared(statement))
+    return names, tuple(each.path.value for each in statements if isinstance(each, Include))
 
 
 def _told_once(
@@ -84,7 +122,7 @@ def _told_once(
 ) -> Iterable[Diagnostic]:
     is_first = True
     for each in found:
-        if each.code not in _UNKNOWN or each.span.source is not source or each.span.text not in names:
+        if not _is_unknown(each, source) or each.span.text not in names:
             yield each
         elif is_first:
             is_first = False

@@ -42,6 +42,7 @@ from nddlc.mission_trust import models_of
 from nddlc.progress import Display
 from nddlc.samplers import find_sampler
 from nddlc.trust import trust_option
+from nddlc.watch import WatchedCommand
 
 _HOLDS, _FINDINGS, _UNUSABLE, _BUG = 0, 1, 2, 3
 _SIGNALLED = 128  # and the number of the signal: 130 for Ctrl-C, 143 for SIGTERM
@@ -51,7 +52,7 @@ _SECONDS_A_FAULT, _SECONDS = 30.0, 60.0  # that causes are sought, for one fault
 _STYLES = ("text", "json", "html", "junit", "sarif", "github", "markdown")
 
 
-@click.command()
+@click.command(cls=WatchedCommand)
 @click.argument("path", metavar="[PATH]", required=False)
 @click.option("--missions", type=click.IntRange(1), help="How many missions to fly, whatever the file says.")
 @click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="The batch seed, whatever the file says.")

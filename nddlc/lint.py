@@ -13,14 +13,17 @@ import click
 from nddl_lang.lint.check import Checker
 from nddl_lang.lint.configuration import NAME, PROJECT, is_code, read_configuration
 from nddl_lang.lint.settings import Settings, at_least
+from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
 from nddl_lang.text.junit import junit_of
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.sarif import sarif_of
+from nddl_lang.text.source import Span
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, parts_in, write_text
 from nddlc.known import known_callables
 from nddlc.main import named
+from nddlc.watch import WatchedCommand
 
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
 _LEVELS = [severity.value for severity in Severity]
@@ -28,7 +31,7 @@ _STYLES = ["text", "json", "sarif", "github", "junit"]
 _MISSION = ".toml"
 
 
-@click.command()
+@click.command(cls=WatchedCommand)
 @model_paths
 @click.option("--select", multiple=True, metavar="CODES", help="Report only these: codes, or how they begin.")
 @click.option("--ignore", multiple=True, metavar="CODES", help="Do not report these: codes, or how they begin.")
@@ -37,6 +40,7 @@ _MISSION = ".toml"
 @click.option("--diff", "only_show", is_flag=True, help="Show what --fix would change; change nothing.")
 @click.option("--level", type=click.Choice(_LEVELS), default="info", help="The least that is reported (info).")
 @click.option("--fail-on", type=click.Choice([*_LEVELS, "never"]), help="The least that makes it end with 1 (warning).")
+@click.option("--prove", "is_proved", is_flag=True, help="Let z3 look for rules and branches that are impossible.")
 @click.option("--statistics", is_flag=True, help="Tell how often each code was found.")
 @click.option("--format", "style", type=click.Choice(_STYLES), default="text", help="How to print findings.")
 @click.option("--trust", "is_trusted", is_flag=True, help="Run the project's modules instead of reading them.")
@@ -53,6 +57,7 @@ def command(
     only_show: bool,
     level: str,
     fail_on: str | None,
+    is_proved: bool,
     statistics: bool,
     style: str,
     is_trusted: bool,
@@ -83,7 +88,11 @@ def command(
             mended += _mend(checker, path, settings, only_show=only_show, unsafe=unsafe_fixes, is_text=style == "text")
             if only_show:
                 continue
-        checked.append((settings, (*settings.choose(gaps), *_check(checker, path, settings))))
+        findings = _check(checker, path, settings)
+        if is_proved and path.suffix != _MISSION:
+            directories_of = (*(Path(each) for each in directories), *settings.directories)
+            findings += _proved(path, settings, directories_of, chosen_dialect(ctx, dialect), findings)
+        checked.append((settings, (*settings.choose(gaps), *findings)))
     for settings, findings in checked:
         for each in findings:
             key = (each.span.source.name, each.span.begin, each.code.id, each.message)
@@ -106,6 +115,30 @@ def _check(checker: Checker, path: Path, settings: Settings) -> tuple[Diagnostic
         return tuple(read_configuration(path)[1])
     found: tuple[Diagnostic, ...] = named("checker.models:examine")(path)
     return tuple(settings.choose(found))
+
+
+def _proved(
+    path: Path,
+    settings: Settings,
+    directories: tuple[Path, ...],
+    dialect: Dialect | None,
+    known: tuple[Diagnostic, ...],
+) -> tuple[Diagnostic, ...]:
+    """What z3 proves to be impossible, but for what is known already."""
+    found = named("checker.proofs.lint:prove_model")(path, directories, dialect or settings.dialect, settings.callables)
+    told = [each.span for each in known]
+    return tuple(
+        each
+        for each in settings.choose(found)
+        if not any(_overlap(span, other) for span in (each.span, *(note.span for note in each.notes)) for other in told)
+    )
+
+
+def _overlap(one: Span | None, other: Span) -> bool:
+    """Whether two spans share a character."""
+    if one is None or one.source.name != other.source.name:
+        return False
+    return one.begin < other.begin + len(other.text) and other.begin < one.begin + len(one.text)
 
 
 def _codes(given: tuple[str, ...], option: str) -> Iterator[str]:

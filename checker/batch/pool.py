@@ -215,25 +215,24 @@ class _Pool:
             worker.kill()
 
     def _listen(self, worker: _Worker) -> None:
-        """Take all that a worker has said."""
+        """Take one thing that a worker has said."""
         try:
-            while worker.connection.poll():
-                message = worker.connection.recv()
-                if isinstance(message, LoadFailure):
-                    raise _unloaded(message)
-                if isinstance(message, LastWords):
-                    self._lose(worker, message.reason, USER_CODE)
-                    return
-                if message == READY:
-                    worker.is_ready = True
-                    self.failed_starts = 0
-                else:
-                    worker.owed.popleft()
-                    self.missing -= 1
-                    self.supervisor.take(message)
-                worker.deadline = time.monotonic() + self.batch.time_limit
-                if not worker.owed:
-                    self._feed(worker)
+            message = worker.connection.recv()
+            if isinstance(message, LoadFailure):
+                raise _unloaded(message)
+            if isinstance(message, LastWords):
+                self._lose(worker, message.reason, USER_CODE)
+                return
+            if message == READY:
+                worker.is_ready = True
+                self.failed_starts = 0
+            else:
+                worker.owed.popleft()
+                self.missing -= 1
+                self.supervisor.take(message)
+            worker.deadline = time.monotonic() + self.batch.time_limit
+            if not worker.owed:
+                self._feed(worker)
         except (EOFError, OSError):
             worker.process.join(1.0)
             self._lose(worker, f"the process died ({_fate(worker.process.exitcode)})")

@@ -15,6 +15,8 @@ from checker.sampling.sampler import RANDOM_POINT, SamplePoint
 from runtime.executive.events import EventLog
 from runtime.executive.outcome import Draw, OpenGoal, Outcome
 
+_ATOMS = frozenset({str, int, float, bool, type(None)})  # that JSON says as they are
+
 
 @dataclass(frozen=True, slots=True)
 class MissionResult:
@@ -86,9 +88,16 @@ def read_point(text: str) -> SamplePoint:
 
 def _plain(value: Any) -> Any:
     """A value as JSON can say it: a dataclass as the fields that differ from their defaults, an enum by its value."""
-    if is_dataclass(value):
-        named = ((one, getattr(value, one.name)) for one in fields(value))
-        return {one.name: _plain(item) for one, item in named if one.default is MISSING or one.default != item}
+    kind: Any = type(value)
+    if kind in _ATOMS:
+        return value
+    if _is_record(kind):
+        found = {}
+        for name, default in _defaults(kind):
+            item = getattr(value, name)
+            if default is MISSING or default != item:
+                found[name] = _plain(item)
+        return found
     if isinstance(value, tuple | EventLog):
         return [_plain(item) for item in value]
     return value.value if isinstance(value, Enum) else value
@@ -125,11 +134,18 @@ def _fits(kind: Any, value: Any) -> bool:
             return False
 
 
+@cache
+def _defaults(kind: Any) -> tuple[tuple[str, Any], ...]:
+    """The fields with their defaults, which may be MISSING."""
+    return tuple((one.name, one.default) for one in fields(kind))
+
+
 def _needed(kind: Any) -> set[str]:
     """The fields without a default."""
     return {one.name for one in fields(kind) if one.default is MISSING}
 
 
+@cache
 def _is_record(kind: Any) -> bool:
     return is_dataclass(kind)
 

@@ -49,6 +49,11 @@ def _below(a: Column, b: Column) -> tuple[Mask, Mask]:
     return holds, ~holds & (np.asarray(a.lower == b.lower) | ~near(a, b)) & numbers
 
 
+def _is_below(a: Column, b: Column) -> tuple[Mask, Mask]:
+    holds, fails = _below(a, b)
+    return holds & ~near(a, b), fails
+
+
 def _are_numbers(*columns: Column) -> bool:
     return all(each.kind != TEXT for each in columns)
 
@@ -78,7 +83,7 @@ TRUTHS: dict[str, Truths] = {
     "testEq": _equal,
     "testNeq": _differ,
     "testLeq": _at_most,
-    "testLessThan": _below,
+    "testLessThan": _is_below,
     "testAnd": _both,
     "testOr": _either,
     "testNot": _negation,
@@ -217,3 +222,16 @@ HOLDS: dict[str, Holds] = {
     "allDiff": _all_differ,
     "or": lambda *columns: _either(*columns)[0],
 }
+
+
+def points(*columns: Column) -> Mask:
+    """Where (ux, uy) plainly is the unit vector from (x, y) to (tx, ty), as `meanings` has it."""
+    if not _are_numbers(*columns):
+        return np.zeros(1, bool)
+    ux, uy, x, y, tx, ty = (each.lower for each in columns)
+    east, north = tx - x, ty - y
+    way = np.hypot(east, north)
+    size = reduce(np.maximum, [np.abs(each) for each in (x, y, tx, ty)])
+    turned = 4 * (TOLERANCE + RELATIVE * size) / way
+    margin = TOLERANCE + turned
+    return np.asarray((turned < 1) & (np.abs(ux - east / way) <= margin) & (np.abs(uy - north / way) <= margin))

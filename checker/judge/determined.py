@@ -8,6 +8,7 @@ from compiler.program import Constant, GlobalVariable, LocalVariable, Operand, P
 from runtime.executive.record import Value
 
 _OWN, _CHILD, _OTHER = range(3)
+_ENDLESS = 2**51  # bounds from here on are none
 _EQUALITIES = ("eq", "concurrent")
 
 
@@ -45,6 +46,8 @@ class Determined:
         unfixed = [k for k, value in enumerate(values) if is_open(value)]
         if len(unfixed) != 1 or (unfixed[0] != self.place and not self.is_equality):
             return False
+        if any(isinstance(value, (int, float)) and abs(value) >= _ENDLESS for value in values):
+            return False  # what lies beyond the bounds of numbers is never fixed
         k = unfixed[0]
         if self.owners[k] == _CHILD:
             tok = frame.tokens[self.tokens[k]]

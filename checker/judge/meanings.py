@@ -5,9 +5,10 @@ A function of reals conforms if its result lies in the range that it has while e
 """
 
 from collections.abc import Callable
+from math import hypot
 
 from checker.judge.functions import COMPUTED, conforms, product_of, sum_of
-from checker.judge.values import hull, is_near, is_open, lies_within, may_be_equal
+from checker.judge.values import TOLERANCE, hull, is_near, is_open, lies_within, may_be_equal, slack
 from runtime.executive.record import Value, ValueRange
 
 Meaning = Callable[..., bool | None]
@@ -64,6 +65,13 @@ def _below(a: Value, b: Value) -> bool | None:
     if ours[0] >= theirs[1]:
         return False
     return True if ours[1] < theirs[0] else None
+
+
+def _is_below(a: Value, b: Value) -> bool | None:
+    """The truth of `a < b`; of reals that are near either may be said."""
+    if isinstance(a, (int, float)) and isinstance(b, (int, float)) and a < b and is_near(a, b):
+        return None
+    return _below(a, b)
 
 
 def is_true(value: Value) -> bool | None:
@@ -192,6 +200,24 @@ def _sane(latitude: Value, longitude: Value, *_: Value) -> bool | None:
     return lies_within(latitude, -90, 90) and lies_within(longitude, -360, 360)
 
 
+def _points(*values: Value) -> bool | None:
+    """Whether (ux, uy) is the unit vector from (x, y) to (tx, ty), (0, 0) where they coincide.
+
+    Points that are moved within the tolerance turn it, the more the nearer they are to each other.
+    """
+    if any(not isinstance(each, (int, float)) for each in values):
+        return None
+    ux, uy, x, y, tx, ty = (float(each) for each in values)  # type: ignore[arg-type]
+    way = hypot(tx - x, ty - y)
+    if way == 0:
+        return is_near(ux, 0.0) and is_near(uy, 0.0)
+    turned = 4 * slack(max(abs(x), abs(y), abs(tx), abs(ty))) / way
+    if turned >= 1:
+        return None
+    margin = TOLERANCE + turned
+    return abs(ux - (tx - x) / way) <= margin and abs(uy - (ty - y) / way) <= margin
+
+
 MEANINGS: dict[str, Meaning] = {
     **{name: _computed(*row) for name, row in COMPUTED.items()},
     "eq": _equals,
@@ -199,6 +225,7 @@ MEANINGS: dict[str, Meaning] = {
     "neq": _differ,
     "leq": _at_most,
     "precedes": _at_most,
+    "towards": _points,
     "lt": _below,
     "strictlyPrecedes": _below,
     "temporalDistance": _distance,
@@ -213,7 +240,7 @@ MEANINGS: dict[str, Meaning] = {
     "testEq": _reified(equal),
     "testNeq": _reified(_differ),
     "testLeq": _reified(_at_most),
-    "testLessThan": _reified(_below),
+    "testLessThan": _reified(_is_below),
     "testAnd": _reified(_both),
     "testOr": _reified(_disjunction),
     "testNot": _reified(negation),
@@ -229,7 +256,7 @@ TESTS: dict[str, Meaning] = {
     "testEq": equal,
     "testNeq": _differ,
     "testLeq": _at_most,
-    "testLessThan": _below,
+    "testLessThan": _is_below,
     "testAnd": _both,
     "testOr": _disjunction,
     "testNot": negation,

@@ -34,9 +34,9 @@ def child_step(child: Child, names: VariableNames) -> Step:
                 bench.skip("a child that lies outside of what is told")
                 return
             if key == NOBODY:
-                near, values = nearest_of(frame, child, pairs, holder, names)
+                near, missed = nearest_of(frame, child, pairs, holder, names)
                 what = "no token of the plan fits"
-                bench.report("child", label, (parent, *near), values, "asked for", what, child.span)
+                bench.report("child", label, (parent, *near), missed, "asked for", what, child.span)
                 return
         else:
             key = next(frame.children, NOBODY)

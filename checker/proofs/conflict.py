@@ -92,7 +92,7 @@ def confirm(conflict: Conflict, text: ModelText | None = None, effort: int = EFF
     answer = solver.check(*[marks[number] for number in needed])
     if answer != z3.unsat:
         return Confirmation(Finding.REFUTED if answer == z3.sat else Finding.UNKNOWN, (), missing)
-    core, is_minimal = _minimal_core(solver, marks, needed)
+    core, is_minimal = minimal_core(solver, marks, needed)
     return Confirmation(Finding.CONFIRMED, core, missing, is_minimal, len(written.intersection(core)))
 
 
@@ -103,9 +103,7 @@ def needed_elements(conflict: Conflict, found: Confirmation) -> tuple[int, ...]:
     return found.core
 
 
-def _minimal_core(
-    solver: z3.Solver, marks: Sequence[z3.BoolRef], needed: Sequence[int]
-) -> tuple[tuple[int, ...], bool]:
+def minimal_core(solver: z3.Solver, marks: Sequence[z3.BoolRef], needed: Sequence[int]) -> tuple[tuple[int, ...], bool]:
     """Drop one after the other, the first first, while the rest still contradicts itself (deletion-based MUS).
 
     `solver` has just found that all marks together cannot hold. The second value tells whether each of what is left

@@ -59,6 +59,7 @@ from nddl_lang.syntax.nodes import (
     UnaryExpr,
 )
 from nddl_lang.text.diagnostic import Edit, Fix
+from nddl_lang.text.source import Span
 
 NO_ENVIRONMENT = "give the value from outside: compare with a number, or with a global variable that the script assigns"
 
@@ -296,6 +297,13 @@ def _call_type(context: Context, scope: Scope, call: CallExpr) -> Type | None:
         if name in context.callables.constraints:
             help_ = f"`{name}` is a constraint: write it as a statement, `{name}(...);`"
             complaint = UNKNOWN_FUNCTION.at(call.function.span, help=help_, name=name)
+        if context.symbols.find_class(name) is not None:
+            at = call.function.span
+            fix = Fix(f"write `new {name}`", (Edit(Span(at.anchor, at.start, at.start), "new "),), False)
+            help_ = f"`{name}` is a class: an object of it is made by `new {name}(...)`"
+            context.symbols.put_faulty("new")
+            context.complain(UNKNOWN_FUNCTION.at(at, help=help_, fixes=(fix,), name=name))
+            return None
         context.complain(suggest_name(complaint, call.function, context.callables.functions))
         return None
     _check_dialect(context, call, row)

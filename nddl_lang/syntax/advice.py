@@ -11,8 +11,8 @@ from nddl_lang.text.nearest import nearest
 _NEXT_WORD = re.compile(r"(?:[ \t\r\n\f]+|//[^\n]*|/\*.*?\*/)*(#?\w++|[^\n])?", re.DOTALL)  # as in the formatter
 
 _OPERATORS = {
-    "and": "write one constraint per statement, one `if` inside the other, or `testAnd(truth, x, y);`",
-    "or": "write `or(x, y);` over truth values, or `testOr(truth, x, y);`",
+    "and": "write `&&`, or one constraint per statement",
+    "or": "write `||`",
     "not": "turn the comparison round, as in `x <= 5`, or write `x == false`",
     "then": "what follows a condition stands in braces: `if (x > 5) { }`",
     "elif": "write `else { if (...) { } }`",

@@ -31,7 +31,9 @@ def open_head(piece: Piece, brackets: Brackets, base: int, head: int, kind: str)
     first = kinds[at] if at < len(kinds) else kind
     match kinds[head]:
         case "class":
-            is_missing = first in _MEMBERS
+            is_constructor = kind == "(" and piece.texts[at:] == [piece.texts[head + 1]]
+            is_member = kind == ";" and kinds[at : at + 2] == ["IDENT", "IDENT"]
+            is_missing = first in _MEMBERS or is_constructor or is_member
         case "enum":
             is_missing = first == "IDENT" and kind == "}"
         case _:

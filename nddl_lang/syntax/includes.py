@@ -9,7 +9,8 @@ from nddl_lang.syntax.codes import INCLUDE_AGAIN, INCLUDE_CYCLE, MISSING_FILE, N
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.syntax.nodes import ClassDecl, Include, Module, Statement
 from nddl_lang.syntax.parser import Parse, parse, parse_members
-from nddl_lang.text.diagnostic import Diagnostic, Note
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import decode, is_text, read_named, read_text, real_path
 from nddl_lang.text.source import Anchor, Source, Span
 
@@ -158,7 +159,12 @@ class _Loader:
         if found is None:
             places = ["beside this file", *(f"in {directory}" for directory in self._directories)]
             remark = Note(f"looked {', '.join(places)}, in the current directory and in the library")
-            self._report(MISSING_FILE.at(include.span, path=name, notes=(remark,)))
+            meant = self._meant(name)
+            fixes: tuple[Fix, ...] = ()
+            if meant is not None:
+                fixes = (Fix(f"write `{meant}`", (Edit(include.path.span, f'"{meant}"'),), False),)
+            advice = None if meant is None else f"did you mean `{meant}`?"
+            self._report(MISSING_FILE.at(include.span, path=name, help=advice, notes=(remark,), fixes=fixes))
             return []
         path, text = found
         resolved = real_path(path)
@@ -185,6 +191,13 @@ class _Loader:
                 return path, text
         return None
 
+    def _meant(self, name: str) -> str | None:
+        """The model beside the including text, or of the library, that a name was meant to be."""
+        folder = self.paths[self._read[self._chain[-1][0]]].parent / Path(name).parent
+        found = [*_models_in(folder), *(_models_in(LIBRARY) if Path(name).name == name else ())]
+        meant = nearest(Path(name).stem, [path.stem for path in found])
+        return None if meant is None else str(Path(name).with_name(f"{meant}.nddl"))
+
     def _report(self, diagnostic: Diagnostic) -> None:
         self.diagnostics += self._with_chain((diagnostic,))
 
@@ -194,3 +207,11 @@ class _Loader:
         if not notes:
             return list(diagnostics)
         return [replace(diagnostic, notes=diagnostic.notes + notes) for diagnostic in diagnostics]
+
+
+def _models_in(folder: Path) -> list[Path]:
+    """The models in a folder, in the order of their names; none where it cannot be read."""
+    try:
+        return sorted(path for path in folder.iterdir() if path.suffix == ".nddl")
+    except (OSError, ValueError):
+        return []

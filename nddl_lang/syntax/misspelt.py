@@ -37,6 +37,9 @@ def _meant(name: str, words: list[str]) -> str | None:
     """The one of `words` that `name` stands for."""
     if ELSEWHERE.get(name) in words:
         return ELSEWHERE[name]
+    begun = [word for word in words if word.startswith(f"{name}_")]
+    if len(begun) == 1:  # `contained(...)`: the other half was forgotten
+        return begun[0]
     word = nearest(name, words)
     if word is None or (len(name) <= _SHORT and sorted(name.casefold()) != sorted(word)):
         return None

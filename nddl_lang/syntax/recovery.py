@@ -38,6 +38,7 @@ _STATEMENT_WORDS = frozenset(
     ("BASETYPE", "class", "enum", "typedef", "GOAL", "predicate", "action", "if", "foreach", "#include", "filter")
 )
 _PUNCTUATION = frozenset("=,:.)]+-*/<>!") | {"==", "!=", "<=", ">=", "&&", "||", "::"}
+_TURNED = {("=", ">"): ">=", ("=", "<"): "<=", ("<", ">"): "!=", ("=", "!"): "!="}
 _OPENERS = {")": "(", "]": "[", "}": "SET"}
 _OPEN = frozenset(("(", "[", "{", "SET"))
 # A lexeme that was already complained about explains whatever follows in its statement.
@@ -152,20 +153,16 @@ class Recovery:
         return False
 
     def _turn_comparison(self, first: int, index: int) -> bool:
-        """Read `=>` and `=<` as the comparisons that they were meant to be."""
+        """Read `=>`, `=<`, `<>` and `=!` as the comparisons that they were meant to be."""
         b, kinds = self._b, self._kinds
-        if (
-            index <= first
-            or kinds[index - 1] != "="
-            or kinds[index] not in "<>"
-            or b.ends[index - 1] != b.starts[index]
-        ):
+        sign = _TURNED.get((kinds[index - 1], kinds[index])) if index > first else None
+        if sign is None or b.ends[index - 1] != b.starts[index]:
             return False
-        sign = f"{kinds[index]}="
+        written = f"{kinds[index - 1]}{kinds[index]}"
         span = b.span(index - 1, index)
         if not self._is_quiet:
             fix = Fix(f"write `{sign}`", (Edit(span, sign),))
-            b.report(SUPERFLUOUS, span, text=f"={kinds[index]}", help=f"write `{sign}`", fixes=(fix,))
+            b.report(SUPERFLUOUS, span, text=written, help=f"write `{sign}`", fixes=(fix,))
         kinds[index] = b.texts[index] = sign
         b.starts[index] = b.starts[index - 1]
         b.remove(index - 1, index)

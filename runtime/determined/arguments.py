@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from compiler.determined.reasons import UndeterminedError
-from compiler.program import DomainConstant, PredicateCode
-from runtime.determined.loading import RegisterProgram, is_open, number_of
+from compiler.program import DomainConstant, ParameterCode, PredicateCode
+from runtime.determined.loading import ParameterShape, RegisterProgram, is_open, number_of
 from runtime.determined.machine import Machine
 from runtime.executive.messages import Arguments
 
@@ -50,21 +50,26 @@ def _values_of(program: RegisterProgram, predicate: PredicateCode, arguments: Ar
 
 def arguments_of(program: RegisterProgram, predicate: PredicateCode, values: Sequence[float]) -> Arguments:
     """Parameters as others read them."""
+    shapes = program.shapes.get(predicate.name)
+    if shapes is None:
+        shapes = program.shapes[predicate.name] = [_shape_of(program, each) for each in predicate.parameters]
     told = []
-    known = program.told
-    for parameter, value in zip(predicate.parameters, values, strict=True):
-        kind, type_name = parameter.type.kind, parameter.type.type_name
-        if kind == "float":
+    for k, (name, kind, type_name, known) in enumerate(shapes):
+        value = values[k]
+        domain = None if known is None else known.get(value)
+        if domain is None:
             domain = _domain_of(program, kind, type_name, value)
-        else:
-            found = known.get((kind, type_name, value))
-            if found is None:
-                found = _domain_of(program, kind, type_name, value)
-                if value == value:
-                    known[kind, type_name, value] = found
-            domain = found
-        told.append((parameter.name, domain))
+            if known is not None and value == value:
+                known[value] = domain
+        told.append((name, domain))
     return tuple(told)
+
+
+def _shape_of(program: RegisterProgram, parameter: ParameterCode) -> ParameterShape:
+    """Name, kind and type of a parameter, and what others were told of its type; reals are too many to be kept."""
+    kind, type_name = parameter.type.kind, parameter.type.type_name
+    known = None if kind == "float" else program.told.setdefault((kind, type_name), {})
+    return parameter.name, kind, type_name, known
 
 
 def _domain_of(program: RegisterProgram, kind: str, type_name: str, value: float) -> DomainConstant:

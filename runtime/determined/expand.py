@@ -45,10 +45,12 @@ class _Expansion:
         self.awaited = [line for line in range(machine.lines) if self.walk.awaited[line] >= 0]
         awaited = np.array([self.walk.awaited[line] for line in self.awaited], np.int64)
         keys = np.concatenate([self.keys, self.merged[:, 0], awaited])
-        self.order = np.argsort(keys, kind="stable")  # the row of each place
-        self.places = np.empty(len(keys), np.int64)
-        self.places[self.order] = np.arange(len(keys))
-        self.all_keys = keys[self.order]
+        is_key = np.zeros(self.walk.next_key + 1, bool)
+        is_key[keys] = True
+        self.places = (np.cumsum(is_key) - 1)[keys]
+        self.order = np.empty(len(keys), np.int64)  # the row of each place
+        self.order[self.places] = np.arange(len(keys))
+        self.all_keys = np.flatnonzero(is_key)
         self.slots = self._slots()
 
     def _slots(self) -> Array:

@@ -20,6 +20,8 @@ from runtime.executive.workbench import Workbench
 from runtime.plan.tags import FLAG_FACT
 
 _FIRST_TICK = 0
+# Name, kind and type of a parameter; what others were told of values of its type, None for reals.
+ParameterShape = tuple[str, str, str, dict[float, DomainConstant] | None]
 _FOUND = {MERGED: IS_MERGED, PREVIOUS: IS_PREVIOUS, FOLLOWING: IS_FOLLOWING}
 
 
@@ -55,7 +57,8 @@ class RegisterProgram:
     shown: "array[int]" = field(default_factory=lambda: array("q"))  # registers, block after block
     shown_first: "array[int]" = field(default_factory=lambda: array("q", [0, 0]))
     shown_places: list[dict[int, int]] = field(default_factory=lambda: [{}])
-    told: dict[tuple[str, str, float], DomainConstant] = field(default_factory=dict)  # values that others were told
+    told: dict[tuple[str, str], dict[float, DomainConstant]] = field(default_factory=dict)  # by type: what others heard
+    shapes: dict[str, list[ParameterShape]] = field(default_factory=dict)  # the parameters of a predicate
 
     def block(self, line: int, predicate: PredicateCode, mask: int) -> int:
         """The number of a block, and of all that follow from it; raises `UndeterminedError`."""

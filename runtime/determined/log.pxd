@@ -1,5 +1,6 @@
 # The C types of `log.py`.
 
+cimport cython
 
 cdef long long CAUSE, EVENT, FAR, ROW, SHOWN
 
@@ -23,6 +24,9 @@ cdef class Log:
 
     cpdef long long next_tick(self) except? -1
 
+    @cython.locals(row="long long")
+    cpdef long long next_change(self, long long watched) except? -1
+
     @cython.locals(
         row="long long", drawn="long long", first="long long", tick="long long", changed="long long", last="long long",
         k="long long", line="long long"
@@ -31,6 +35,7 @@ cdef class Log:
 
     cpdef long long row_of(self, long long line, long long row) except? -1
 
+    @cython.locals(more="long long[::1]")
     cpdef int tell_row(self, long long row, long long event, long long cause) except -1
 
     @cython.locals(at="long long")
@@ -39,6 +44,8 @@ cdef class Log:
     @cython.locals(k="long long")
     cpdef list values_from(self, long long first, long long count)
 
+    @cython.locals(more="long long[::1]")
     cpdef int grow_rows(self) except -1
 
+    @cython.locals(more="double[::1]")
     cpdef int grow_values(self) except -1

@@ -1,25 +1,61 @@
 """Compact log of a determined reactor: tokens that started, with their parameters, and draws, oldest first."""
 
+import weakref
 from array import array
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from runtime.determined.tags import CAUSE, EVENT, FAR, ROW, SHOWN
+
+_MOST_KEPT = 3  # pieces of memory of each kind
+_Array = NDArray[Any]
+
+
+class _Stock:
+    """Memory of logs that nobody looks at any more, for logs to come: fresh pages cost more than what is written there.
+
+    Of each kind of numbers it keeps the largest few; a lease is a view whose last holder gives the memory back.
+    """
+
+    def __init__(self, kind: type) -> None:
+        self.kind = kind
+        self.owned: list[tuple[_Array, weakref.ref[_Array]]] = []  # the smallest first
+
+    def room(self, least: int) -> "memoryview[Any]":
+        """Room for `least` numbers or more, whatever they are."""
+        idle = [k for k, (memory, lease) in enumerate(self.owned) if lease() is None and len(memory) >= least]
+        memory = self.owned.pop(idle[len(idle) - 1])[0] if idle else np.empty(least, self.kind)
+        lease = memory.view()
+        self.owned.append((memory, weakref.ref(lease)))
+        self.owned.sort(key=_size)
+        del self.owned[:-_MOST_KEPT]
+        return lease.data
+
+
+def _size(one: tuple[_Array, object]) -> int:
+    return len(one[0])
+
+
+_WHOLE, _REAL = _Stock(np.int64), _Stock(np.float64)
 
 
 class Log:
     """Arrays that grow by doubling; `told` has the rows that are part of the trace, in the order of their events."""
 
     def __init__(self, lines: int) -> None:
-        self.rows = array("q", bytes(8 * ROW * 256))
-        self.values = array("d", bytes(8 * 1024))
+        self.rows: memoryview[int] = _WHOLE.room(ROW * 256)
+        self.values: memoryview[float] = _REAL.room(1024)
         self.draws = array("q", bytes(8 * 2 * 64))  # tick, parameter
-        self.told = array("q", bytes(8 * 256))
+        self.told: memoryview[int] = _WHOLE.room(256)
         self.latest = array("q", [-1]) * lines  # the latest event of each timeline
         self.order = array("q", bytes(8 * lines))  # own timelines, as they are told
         self.shown = 0  # how many of them
         self.row_count = 0
-        self.row_capacity = 256
+        self.row_capacity = len(self.rows) // ROW
         self.value_count = 0
-        self.value_capacity = 1024
+        self.value_capacity = len(self.values)
         self.draw_count = 0
         self.draw_capacity = 64
         self.told_count = 0
@@ -36,6 +72,7 @@ class Log:
         self.rows[at + 2] = predicate
         self.rows[at + 3] = block
         self.rows[at + 4] = -1
+        self.rows[at + SHOWN] = 0
         self.row_count += 1
         return self.row_count - 1
 
@@ -82,6 +119,13 @@ class Log:
         """The tick of the first row that has not been told."""
         return self.rows[ROW * self.told_rows] if self.told_rows < self.row_count else FAR
 
+    def next_change(self, watched: int) -> int:
+        """The tick of the first row that has not been told and that is on one of the timelines `watched`."""
+        for row in range(self.told_rows, self.row_count):
+            if watched >> self.rows[ROW * row + 1] & 1:
+                return self.rows[ROW * row]
+        return FAR
+
     def tell(self, until: int, busy: int, event: int) -> int:
         """Number the tokens of whole ticks up to `until` as events, from `event` on; how many have been numbered.
 
@@ -119,7 +163,9 @@ class Log:
     def tell_row(self, row: int, event: int, cause: int) -> int:
         """Number one token."""
         if self.told_count == len(self.told):
-            self.told = array("q", bytes(self.told) + bytes(8 * self.told_count))
+            more = _WHOLE.room(2 * self.told_count)
+            more[: self.told_count] = self.told
+            self.told = more
         self.told[self.told_count] = row
         self.told_count += 1
         self.rows[ROW * row + EVENT] = event
@@ -146,16 +192,16 @@ class Log:
 
     def grow_rows(self) -> int:
         """Make room for twice as many tokens."""
-        more = array("q", bytes(8 * ROW * 2 * self.row_capacity))
-        more[: ROW * self.row_capacity] = array("q", bytes(self.rows))
+        more = _WHOLE.room(ROW * 2 * self.row_capacity)
+        more[: ROW * self.row_capacity] = self.rows[: ROW * self.row_capacity]
         self.rows = more
-        self.row_capacity *= 2
+        self.row_capacity = len(more) // ROW
         return 0
 
     def grow_values(self) -> int:
         """Make room for twice as many parameters."""
-        more = array("d", bytes(8 * 2 * self.value_capacity))
-        more[: self.value_capacity] = array("d", bytes(self.values))
+        more = _REAL.room(2 * self.value_capacity)
+        more[: self.value_capacity] = self.values
         self.values = more
-        self.value_capacity *= 2
+        self.value_capacity = len(more)
         return 0

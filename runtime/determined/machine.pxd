@@ -1,6 +1,7 @@
 # The C types of `machine.py`.
 
 cimport cython
+from libc cimport math
 from runtime.determined.log cimport Log
 from runtime.determined.present cimport Present
 
@@ -39,5 +40,3 @@ cdef class Machine:
 
     @cython.locals(block="long long", bound="long long", holds="bint")
     cpdef bint arrange(self, long long op, long long line, long long a, long long b, long long at) except -1
-
-    cpdef bint draw(self, long long parameter) except -1

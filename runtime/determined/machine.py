@@ -6,8 +6,7 @@ the block of what starts in its place, timelines in causal order. It stops at wh
 value that is not known, a constraint that does not hold, bounds without a value. What it has written by then is void;
 who runs it goes back to a snapshot, or hands over to the general engine.
 
-The operations are those of `compiler.determined.code`; their numbers are written out, so that the C compiler makes a
-jump table of them.
+The operations are those of `compiler.determined.code`, by numbers of which the C compiler makes a jump table.
 """
 
 import math
@@ -39,7 +38,7 @@ from runtime.determined.tags import (
     WISHED,
 )
 
-_NAN = math.nan
+_NAN = float("nan")
 _TOLERANCE = 1e-5  # that of the engine's floats
 _LARGEST = 2.0**51  # what is larger counts as infinite
 
@@ -61,7 +60,7 @@ class Machine:
         self.previous = array("q", bytes(8 * lines))
         self.remembers = array("q", bytes(8 * lines))
         self.starts = array("q", bytes(8 * lines))
-        self.is_trial = False  # a start is tried out: nothing else is about to end
+        self.is_trial = False  # is a start tried out, when nothing else is about to end
         self.is_planned = False  # what starts was asked for or followed, it is not the default
         self.width = array("q", bytes(8 * lines))
         self.default_block = array("q", bytes(8 * lines))
@@ -128,12 +127,11 @@ class Machine:
             if present.state[FOLLOWER * n + i] >= 0 and present.state[ENDING * n + present.state[OWNER * n + i]]:
                 present.state[DUE * n + i] = present.state[FOLLOWER * n + i]
                 present.state[FOLLOWER * n + i] = NONE
-                if present.state[OWNER * n + i] == i:
-                    continue
-                first = self.following[i]
-                into = self.incoming[i]
-                for j in range(self.width[i]):
-                    self.registers[into + j] = self.registers[first + j]
+                if present.state[OWNER * n + i] != i:
+                    first = self.following[i]
+                    into = self.incoming[i]
+                    for j in range(self.width[i]):
+                        self.registers[into + j] = self.registers[first + j]
         for k in range(n):
             i = self.order[k]
             if i < 0:
@@ -264,14 +262,20 @@ class Machine:
                     return False
                 r[out] = math.sqrt(r[a])
             elif op == 11:  # FLOOR
+                if not -_LARGEST < r[a] < _LARGEST:
+                    return False
                 r[out] = math.floor(r[a] + _TOLERANCE)
             elif op == 12:  # CEIL
+                if not -_LARGEST < r[a] < _LARGEST:
+                    return False
                 r[out] = math.ceil(r[a] - _TOLERANCE)
             elif op == 13:  # MOD
-                if r[b] == 0.0:
+                if r[b] == 0.0 or not -_LARGEST < r[a] < _LARGEST:
                     return False
                 r[out] = math.fmod(r[a], r[b])
             elif op == 14:  # WHOLE
+                if not -_LARGEST < r[a] < _LARGEST:
+                    return False
                 r[out] = math.ceil(r[a] - _TOLERANCE)
                 if r[out] != math.floor(r[a] + _TOLERANCE):
                     return False
@@ -305,7 +309,10 @@ class Machine:
                 z = r[code[at - 2]]
                 if z <= 0.0:
                     return False
-                r[out] = max(1.0, math.ceil(math.sqrt(x * x + y * y) / z - 1e-9))
+                z = math.sqrt(x * x + y * y) / z - 1e-9
+                if not z < _LARGEST:
+                    return False
+                r[out] = max(1.0, math.ceil(z))
             elif op == 25:  # UNIFY
                 if r[out] != r[out]:
                     r[out] = r[a]
@@ -327,11 +334,14 @@ class Machine:
                 if r[out] != 0.0:
                     at = 8 * a
             elif op == 31:  # DRAW
-                if self.sample_until[a] <= self.present.now and not self.draw(a):
-                    return False
+                if self.sample_until[a] <= self.present.now:
+                    if not self.world.draw(self, a, self.present.now):  # type: ignore[attr-defined]
+                        return False
+                    self.log.note_draw(self.present.now, a)
                 r[out] = self.sample_value[a]
-            elif not self.arrange(op, out, a, b, at):
-                return False
+            else:
+                if not self.arrange(op, out, a, b, at):
+                    return False
 
     def arrange(self, op: int, line: int, a: int, b: int, at: int) -> bool:
         """Operations on timelines; false where they are not possible."""
@@ -380,17 +390,11 @@ class Machine:
         value = self.registers[a]
         if not -_LARGEST < value < _LARGEST or value != math.floor(value):
             return False
-        bound = present.state[START * n + line] + int(value)
+        bound = int(value)
+        bound += present.state[START * n + line]
         slot = present.state[SLOT * n + line]
         if op != 38 and bound > present.state[LEAST * n + slot]:  # LAST_EXACTLY, LAST_LEAST
             present.state[LEAST * n + slot] = bound
         if op != 37 and bound < present.state[MOST * n + slot]:  # LAST_EXACTLY, LAST_MOST
             present.state[MOST * n + slot] = bound
-        return True
-
-    def draw(self, parameter: int) -> bool:
-        """Have the world draw a parameter anew."""
-        if not self.world.draw(self, parameter, self.present.now):  # type: ignore[attr-defined]
-            return False
-        self.log.note_draw(self.present.now, parameter)
         return True

@@ -1,16 +1,35 @@
 # The C types of `publish.py`.
 
 cimport cython
+from runtime.determined.arguments cimport arguments_of
 from runtime.determined.log cimport Log
+from runtime.determined.machine cimport Machine
 
-cdef long long ROW, WISHED, _NOTHING
+cdef long long FAR, ROW, WISHED, _NOTHING
+
+
+cdef class Samples:
+    cdef public list parameters
+    cdef public object drawn
+    cdef public dict draws
+
+    cpdef bint draw(self, Machine machine, long long parameter, long long tick) except -1
+
+
+cdef class _Told:
+    cdef public str name
+    cdef public object program
+    cdef public Log log
+
+    cpdef object event(self, long long place)
 
 
 cdef class Publisher:
     cdef public str name
-    cdef public object program, trace
+    cdef public object program, trace, columns
+    cdef public Samples samples
     cdef public Log log
-    cdef public dict draws, asked
+    cdef public dict asked
     cdef public list wishes
     cdef public long long busy
 
@@ -18,8 +37,6 @@ cdef class Publisher:
     cpdef list tell(self, long long until, long long watched)
 
     cpdef object look(self)
-
-    cpdef object event(self, long long place)
 
     @cython.locals(found=list, log=Log, place="long long")
     cpdef list _seen(self, long long tick, long long watched)

@@ -1,5 +1,6 @@
 """Publish what a machine has carried out: its log in, events of the trace and observations for users out."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,7 +8,8 @@ import numpy as np
 from runtime.determined.arguments import arguments_of
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.log import Log
-from runtime.determined.tags import ROW, WISHED
+from runtime.determined.machine import Machine
+from runtime.determined.tags import FAR, ROW, WISHED
 from runtime.executive.columns import PublishedColumns, StoredValues
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Draw, Event, EventKind, Phase
@@ -30,42 +32,33 @@ class Wish:
     is_recalled: bool = False
 
 
-class Publisher:
-    """Tells the log of one reactor, each row once; it is the columns that the trace expands."""
+class Samples:
+    """What a machine draws."""
 
-    def __init__(self, name: str, program: RegisterProgram, log: Log, trace: Trace) -> None:
+    def __init__(self, parameters: list[str], drawn: Callable[[str, int], tuple[Draw, int] | None]) -> None:
+        self.parameters = parameters
+        self.drawn = drawn
+        self.draws: dict[tuple[int, int], Draw] = {}
+
+    def draw(self, machine: Machine, parameter: int, tick: int) -> bool:
+        """Give a machine the value of a parameter that is in force at `tick`; false if the mission has none."""
+        found = self.drawn(self.parameters[parameter], tick)
+        if found is None:
+            return False
+        draw, until = found
+        machine.sample_value[parameter] = draw.value
+        machine.sample_until[parameter] = min(until, FAR)
+        self.draws[parameter, tick] = draw
+        return True
+
+
+class _Told:
+    """What was told of a log, as the columns that a trace expands."""
+
+    def __init__(self, name: str, program: RegisterProgram, log: Log) -> None:
         self.name = name
         self.program = program
         self.log = log
-        self.trace = trace
-        for k, line in enumerate(program.internal):
-            log.order[k] = line
-        log.shown = len(program.internal)
-        self.draws: dict[tuple[int, int], Draw] = {}
-        self.wishes: list[Wish] = []
-        self.asked: dict[int, Wish] = {}  # what the machine is to start on each timeline
-        self.busy = 0  # timelines on which something is asked for or under way
-
-    def tell(self, until: int, watched: int) -> list[Observation]:
-        """Put on record what has started up to tick `until`; the observations of that very tick, if `watched`."""
-        log, trace = self.log, self.trace
-        while log.next_tick() <= until:
-            first = log.told_count
-            count = log.tell(until, self.busy, len(trace.events))
-            if count:
-                trace.events.extend(self, first, count)
-            if log.next_tick() <= until:
-                self._tell_tick(log.next_tick())
-        return self._seen(until, watched) if watched else []
-
-    def look(self) -> None:
-        """Take note of which timelines have requests."""
-        self.busy = 0
-        for wish in self.wishes:
-            if wish.ended < 0 and (wish.started >= 0 or not wish.is_recalled):
-                self.busy |= 1 << wish.line
-        for line in self.asked:
-            self.busy |= 1 << line
 
     def event(self, place: int) -> Event:
         """An event of the trace, by its place among those that were told."""
@@ -102,6 +95,45 @@ class Publisher:
             given = tuple([each.name for each in parameters])
             found.append(PublishedColumns(name, short, log_rows.take(at), given, arguments, places, symbols))
         return tuple(found)
+
+
+class Publisher:
+    """Tells the log of one reactor, each row once."""
+
+    def __init__(self, name: str, program: RegisterProgram, log: Log, samples: Samples, trace: Trace) -> None:
+        self.name = name
+        self.program = program
+        self.log = log
+        self.samples = samples
+        self.trace = trace
+        self.columns = _Told(name, program, log)
+        for k, line in enumerate(program.internal):
+            log.order[k] = line
+        log.shown = len(program.internal)
+        self.wishes: list[Wish] = []
+        self.asked: dict[int, Wish] = {}  # what the machine is to start on each timeline
+        self.busy = 0  # timelines on which something is asked for or under way
+
+    def tell(self, until: int, watched: int) -> list[Observation]:
+        """Put on record what has started up to tick `until`; the observations of that very tick, if `watched`."""
+        log, trace = self.log, self.trace
+        while log.next_tick() <= until:
+            first = log.told_count
+            count = log.tell(until, self.busy, len(trace.events))
+            if count:
+                trace.events.extend(self.columns, first, count)
+            if log.next_tick() <= until:
+                self._tell_tick(log.next_tick())
+        return self._seen(until, watched) if watched else []
+
+    def look(self) -> None:
+        """Take note of which timelines have requests."""
+        self.busy = 0
+        for wish in self.wishes:
+            if wish.ended < 0 and (wish.started >= 0 or not wish.is_recalled):
+                self.busy |= 1 << wish.line
+        for line in self.asked:
+            self.busy |= 1 << line
 
     def _seen(self, tick: int, watched: int) -> list[Observation]:
         """What has started at a tick, the last that was told, on timelines that somebody uses."""
@@ -140,7 +172,7 @@ class Publisher:
                 wish = self._answered(line, log.rows[ROW * row + 3], tick)
                 cause = wish.request.event if wish is not None else log.latest[line]
                 log.tell_row(row, len(trace.events), cause)
-                trace.events.extend(self, log.told_count - 1, 1)
+                trace.events.extend(self.columns, log.told_count - 1, 1)
         self.look()
         trace.tick, trace.phase = now, phase
 
@@ -148,7 +180,7 @@ class Publisher:
         log = self.log
         while log.told_draws < log.draw_count and log.draws[2 * log.told_draws] <= tick:
             at = 2 * log.told_draws
-            self.trace.record_draw(self.name, self.draws[int(log.draws[at + 1]), int(log.draws[at])])
+            self.trace.record_draw(self.name, self.samples.draws[int(log.draws[at + 1]), int(log.draws[at])])
             log.told_draws += 1
 
     def _tell_achieved(self, rows: dict[int, int], tick: int) -> None:

@@ -11,8 +11,8 @@ cdef class DeterminedReactor:
     cdef public str name
     cdef public tuple internal, external
     cdef public long long latency, lookahead, final_tick, watched, execution_latency, tick, reached, base, due, steps_made
-    cdef public object program, drawn, make_general, trace, inputs, general
-    cdef public list parameters, wishes, refused_goals, refusals_made
+    cdef public object program, make_general, trace, inputs, general
+    cdef public list wishes, refused_goals, refusals_made
     cdef public Machine machine
     cdef public Publisher publisher
     cdef public dict numbers, news, windows
@@ -27,8 +27,6 @@ cdef class DeterminedReactor:
     cpdef object _return_to(self, long long tick)
 
     cpdef object _forget_ahead(self, long long tick)
-
-    cpdef bint draw(self, Machine machine, long long parameter, long long tick) except -1
 
     cpdef list observations(self, long long tick)
 

@@ -11,8 +11,7 @@ from runtime.determined.asking import Ask, ask, ask_instead
 from runtime.determined.expand import expand, record_of
 from runtime.determined.inputs import Inputs, catch_up, take_over
 from runtime.determined.loading import RegisterProgram
-from runtime.determined.machine import Machine
-from runtime.determined.publish import Publisher, Wish
+from runtime.determined.publish import Publisher, Samples, Wish
 from runtime.determined.tags import FAR, NONE, ROW, STOPS
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.messages import Observation, Request
@@ -24,7 +23,7 @@ from runtime.executive.story import latest
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import VariableName
 
-_AHEAD = 256  # ticks that are carried out before anybody asks for them
+_AHEAD = 128  # ticks that are carried out before anybody asks for them
 
 
 class DeterminedReactor:
@@ -45,15 +44,14 @@ class DeterminedReactor:
         self.internal, self.external = configuration.internal, configuration.external
         self.latency, self.lookahead = configuration.latency, configuration.lookahead
         self.program = program
-        self.drawn = drawn
         self.make_general = general
         self.final_tick = final_tick
         self.trace = trace
-        self.parameters = sorted(program.layout.samples, key=lambda name: program.layout.samples[name])
-        self.machine = program.machine(self)
+        samples = Samples(sorted(program.layout.samples, key=lambda name: program.layout.samples[name]), drawn)
+        self.machine = program.machine(samples)
         self.numbers = program.model.line_numbers
         self.watched = sum(1 << n for n in program.internal)  # timelines whose changes others see
-        self.publisher = Publisher(self.name, program, self.machine.log, trace)
+        self.publisher = Publisher(self.name, program, self.machine.log, samples, trace)
         self.inputs = Inputs()
         self.wishes: list[Wish] = []  # requests that have not started
         self.news: dict[int, Observation] = {}
@@ -148,23 +146,13 @@ class DeterminedReactor:
         self._return_to(self.tick)
         return record_of(self.program.frame, self.name, expand(self.program, self.machine, self.tick), self.tick)
 
-    def draw(self, machine: Machine, parameter: int, tick: int) -> bool:
-        """Give a machine the value of a parameter that is in force at `tick`; false if the mission has none."""
-        found = self.drawn(self.parameters[parameter], tick)
-        if found is None:
-            return False
-        draw, until = found
-        machine.sample_value[parameter] = draw.value
-        machine.sample_until[parameter] = min(until, FAR)
-        self.publisher.draws[parameter, tick] = draw
-        return True
-
     def observations(self, tick: int) -> list[Observation]:
         """What its own timelines have begun to hold at `tick`; what has begun before is only put on record."""
         if self.general is not None:
             return self.general.observations(tick)
         found = self.publisher.tell(tick, self.watched)
-        self.wishes = [wish for wish in self.wishes if wish.started < 0]
+        if self.wishes:
+            self.wishes = [wish for wish in self.wishes if wish.started < 0]
         return found
 
     def untold(self) -> int:
@@ -192,7 +180,7 @@ class DeterminedReactor:
         if self.general is None and self.reached == tick:
             self.machine.keep()
             self.base = tick
-            watched = self.watched
+            watched = 0
             limit = min(tick + _AHEAD, self.final_tick)
             for wish in self.wishes:
                 watched |= 1 << wish.line
@@ -270,7 +258,7 @@ class DeterminedReactor:
         """The next tick that others can see, or at which the machine stops."""
         if self.general is not None:
             return self.general.next_tick(tick)
-        return max(tick + 1, min(self.reached, self.final_tick))
+        return max(tick + 1, min(self.machine.log.next_change(self.watched), self.reached, self.final_tick))
 
     # ---- requests ----
 

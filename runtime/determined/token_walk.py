@@ -45,11 +45,11 @@ class TokenWalk:
     def __init__(self, log: Log, tokens: BlockTokens, lines: int, count: int) -> None:
         self.log = log
         self.count = count
-        self.first = tokens.first
+        self.first = self._filled(tokens.first)
         self.how = self._filled(tokens.how)
         self.line = self._filled(tokens.line)
         self.predicate = self._filled(tokens.predicate)
-        self.context = tokens.context
+        self.context = self._filled(tokens.context)
         self.places = self._filled(tokens.places)
         self.truths = self._filled(tokens.truths)
         self.is_fact = array("q", bytes(8 * lines))
@@ -69,8 +69,8 @@ class TokenWalk:
         self.next_key = 0
 
     def _filled(self, numbers: "array[int]") -> "array[int]":
-        """The same numbers; an array without any cannot be looked at."""
-        return numbers or array("q", [0])
+        """The same numbers, for blocks may be added later; an array without any cannot be looked at."""
+        return array("q", numbers or [0])
 
     def run(self) -> int:
         """Walk over all rows."""

@@ -18,10 +18,11 @@ from runtime.executive.outcome import (
 )
 from runtime.executive.poster import GoalPoster
 from runtime.executive.reactor import Failure, Refusal, TeleoReactor, Watched
-from runtime.executive.trace import Trace
+from runtime.executive.trace import Trace, as_it_is
 from runtime.plan.readout.statements import Term
 
-_NEVER = 2**62
+_START, _SYNCHRONISE, _OBSERVE = Phase.START, Phase.SYNCHRONISE, Phase.OBSERVE
+_DELIBERATE, _DISPATCH = Phase.DELIBERATE, Phase.DISPATCH
 
 
 class OwnershipError(ValueError):
@@ -128,6 +129,7 @@ class Agent:
         self.trace.phase = Phase.END
         if abort is None:
             self.trace.record(EventKind.END, "", code="F10" if left and not self.killed else "")
+        self.trace.tell_on = as_it_is  # without a cycle the memory of a mission is free as soon as nobody looks at it
         return Outcome(
             self.seed,
             self.tick,
@@ -146,14 +148,16 @@ class Agent:
         tick = self.tick
         for reactor in self.awake:
             reactor.due = reactor.next_tick(tick)
-        due = self.poster.due
+        soonest = self.poster.due
         for reactor in self.reactors:
-            due = min(due, reactor.due)
-        self.tick = min(max(tick + 1, due), last)
+            due = reactor.due
+            if due < soonest:
+                soonest = due
+        self.tick = min(max(tick + 1, soonest), last)
 
     def _pass_over(self) -> None:
         """Put on record what was carried out for earlier ticks, in the order of time."""
-        while (tick := min(reactor.untold() for reactor in self.ahead)) < self.tick:
+        while (tick := min([reactor.untold() for reactor in self.ahead])) < self.tick:
             for reactor in self.ahead:
                 reactor.pass_over(tick)
 
@@ -174,13 +178,13 @@ class Agent:
     def _synchronise_one(self, reactor: TeleoReactor) -> Abort | None:
         """Let one reactor synchronise the present, and tell what its timelines begin to hold."""
         self.awake.append(reactor)
-        self.trace.phase = Phase.START
+        self.trace.phase = _START
         reactor.start_tick(self.tick)
-        self.trace.phase = Phase.SYNCHRONISE
+        self.trace.phase = _SYNCHRONISE
         failure = reactor.synchronise(self.tick)
         if failure is not None:
             return self._give_up(reactor, failure)
-        self.trace.phase = Phase.OBSERVE
+        self.trace.phase = _OBSERVE
         self._publish(reactor.observations(self.tick))
         return None
 
@@ -204,10 +208,8 @@ class Agent:
                 abort = self._wake(self.stirred.pop(), busy)
             if abort is not None or not busy:
                 continue
-            reactor = busy[0]
-            if len(busy) > 1:
-                reactor = max(busy, key=lambda one: one.urgency(self.tick))  # of equal ones the first
-            self.trace.phase = Phase.DELIBERATE
+            reactor = self._most_urgent(busy)
+            self.trace.phase = _DELIBERATE
             if reactor.step(self.tick):
                 continue
             busy.remove(reactor)
@@ -215,9 +217,20 @@ class Agent:
             abort = self._give_up(reactor, failure) if failure is not None else self._dispatch(reactor, busy)
         return abort
 
+    def _most_urgent(self, busy: list[TeleoReactor]) -> TeleoReactor:
+        """Who comes next; of equal ones the first."""
+        found = busy[0]
+        if len(busy) > 1:
+            most = found.urgency(self.tick)
+            for reactor in busy[1:]:
+                urgency = reactor.urgency(self.tick)
+                if urgency > most:
+                    found, most = reactor, urgency
+        return found
+
     def _post_goals(self, busy: list[TeleoReactor]) -> Abort | None:
         """Hand the goals of the mission file that are due to the owners of their timelines, or take them back."""
-        self.trace.phase = Phase.START
+        self.trace.phase = _START
         if self.tick < self.poster.due:
             return None
         for request in self.poster.hand_out(self.tick, self.owners):
@@ -230,7 +243,7 @@ class Agent:
 
     def _dispatch(self, reactor: TeleoReactor, busy: list[TeleoReactor]) -> Abort | None:
         """Deliver what a reactor takes back, asks for and refuses, now that it has finished planning."""
-        self.trace.phase = Phase.DISPATCH
+        self.trace.phase = _DISPATCH
         refusals = reactor.refusals()
         if refusals:
             self._tell_refusals(refusals)

@@ -18,6 +18,7 @@ from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen,
 _INFINITY = 4503599627370495
 _NEVER = 2**62
 _MOST_CAUSES = 3
+_NOBODY: frozenset[int] = frozenset()
 _Kinds = Callable[[str, str], "Mapping[str, tuple[str, str]] | None"]  # timeline, predicate: parameters; None: unknown
 
 
@@ -83,9 +84,11 @@ class CodedReactor:
             arguments = {name: _shown(domain) for name, domain in observation.arguments}
             self.seen[timeline] = Seen(observation.predicate, arguments, observation.tick)
             self.events[timeline] = observation.event
-        now = Now(tick, dict(self.seen), frozenset(self.news), frozenset(self.refused_numbers), self.count)
+        refused = frozenset(self.refused_numbers) if self.refused_numbers else _NOBODY
+        now = Now(tick, dict(self.seen), frozenset(self.news), refused, self.count)
         self.news.clear()
-        self.refused_numbers = []
+        if self.refused_numbers:
+            self.refused_numbers = []
         self.wakes_at = _NEVER
         try:
             self._call(now)
@@ -143,7 +146,9 @@ class CodedReactor:
 
     def observations(self, tick: int) -> list[Observation]:
         """What the code has published."""
-        found = []
+        found: list[Observation] = []
+        if not self.published:
+            return found
         causes = tuple(sorted(sorted(set(self.events.values()), reverse=True)[:_MOST_CAUSES]))
         for one in {each.timeline: each for each in self.published}.values():
             arguments = self._arguments(one.timeline, one.predicate, one.arguments)

@@ -1,14 +1,14 @@
 """What reactors tell each other: observations, requests and recalls, as plain data."""
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from compiler.program import DomainConstant
 
 Arguments = tuple[tuple[str, DomainConstant], ...]  # parameter name and what is known of it, in declared order
 
 
-@dataclass(frozen=True, slots=True)
-class Observation:
+class Observation(NamedTuple):
     """The owner's word that from `tick` on `timeline` holds `predicate`; it holds until replaced (T-REX 1.6).
 
     `event` is its index in the trace; `owner`, `token` and `token_key` name the owner's token.

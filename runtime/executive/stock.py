@@ -50,6 +50,9 @@ class Loans:
     def __exit__(self, kind: type[BaseException] | None, error: object, trace: TracebackType | None) -> None:
         if kind is None:
             for shelf, loaded in self._borrowed:
+                assert loaded.snapshot is not None
+                loaded.snapshot.restore()
+                loaded.bench.database.environment = None  # nothing of the mission stays
                 shelf.idle.append(loaded)
         self._borrowed.clear()
 
@@ -76,8 +79,6 @@ class Loans:
             return Stocked(*make(draw), None)
         if shelf.idle:
             loaded = shelf.idle.pop()
-            assert loaded.snapshot is not None
-            loaded.snapshot.restore()
         else:
             asked: list[str] = []
 

@@ -9,6 +9,11 @@ from runtime.executive.reactor import Watched
 from runtime.plan.readout.names import TokenName
 
 
+def as_it_is(conflict: Conflict, watches: tuple[Watched, ...]) -> Conflict:
+    """A conflict of which nobody knows more."""
+    return conflict
+
+
 class Trace:
     """The events of one mission, in order; canonical: two runs of one mission record equal traces (T-REX 3.4)."""
 
@@ -19,7 +24,7 @@ class Trace:
         self.phase = Phase.START
         self._drawn: dict[tuple[str, int], int] = {}
         # a conflict, told on through the reactors that published what it hangs on; the agent knows these
-        self.tell_on: Callable[[Conflict, tuple[Watched, ...]], Conflict] = lambda conflict, _: conflict
+        self.tell_on: Callable[[Conflict, tuple[Watched, ...]], Conflict] = as_it_is
 
     def record(
         self,

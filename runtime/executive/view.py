@@ -126,15 +126,15 @@ class PlanView:
 
     def start(self, t: int) -> int:
         """The variable that holds when `t` starts."""
-        return int(self.rows.var0[t]) + START
+        return self.rows.var0[t] + START
 
     def end(self, t: int) -> int:
         """The variable that holds when `t` ends."""
-        return int(self.rows.var0[t]) + END
+        return self.rows.var0[t] + END
 
     def duration(self, t: int) -> int:
         """The variable that holds how long `t` lasts."""
-        return int(self.rows.var0[t]) + DURATION
+        return self.rows.var0[t] + DURATION
 
     def lower(self, v: int) -> float:
         """The earliest or least that is still possible."""
@@ -180,7 +180,7 @@ class PlanView:
 
     def key(self, t: int) -> int:
         """A number that names this token for ever, while `t` may name another one later."""
-        return int(self.rows.key[t])
+        return self.rows.key[t]
 
     def is_alive(self, t: int, key: int) -> bool:
         """Whether `t` still is the token that had `key`."""
@@ -243,29 +243,29 @@ class PlanView:
 
     def remember_request(self, t: int) -> None:
         """Note that somebody asked for `t`."""
-        self.requested[t] = int(self.rows.key[t])
+        self.requested[t] = self.rows.key[t]
 
     def parent(self, t: int) -> int:
         """The token whose rule asked for `t`; NONE where there is none."""
-        return int(self.rows.parent[t])
+        return self.rows.parent[t]
 
     def stands_for(self, t: int) -> int:
         """The token of the plan that `t` is, or is merged into."""
-        return int(self.rows.merged_into[t] if self.rows.status[t] == MERGED else t)
+        return self.rows.merged_into[t] if self.rows.status[t] == MERGED else t
 
     def predicate_of(self, t: int) -> int:
         """The predicate of a token."""
-        return int(self.rows.predicate[t])
+        return self.rows.predicate[t]
 
     def next_of(self, o: int, current: int) -> int:
         """The token behind the current one in the sequence of a timeline; the first one if there is no current."""
         if current < 0:
-            return int(self.rows.head_first[self.plan.object_head[o]])
-        return int(self.rows.link_after[LISTS * current + LIST_ORDER])
+            return self.rows.head_first[self.plan.object_head[o]]
+        return self.rows.link_after[LISTS * current + LIST_ORDER]
 
     def following(self, t: int) -> int:
         """The token behind another one in the sequence of their timeline; NONE behind the last."""
-        return int(self.rows.link_after[LISTS * t + LIST_ORDER])
+        return self.rows.link_after[LISTS * t + LIST_ORDER]
 
     def all_tokens(self) -> list[int]:
         """All tokens, oldest first."""
@@ -290,10 +290,10 @@ class PlanView:
     def _listed(self, head: int, kind: int) -> list[int]:
         """The tokens of one list."""
         found = []
-        t = int(self.rows.head_first[head])
+        t = self.rows.head_first[head]
         while t >= 0:
             found.append(t)
-            t = int(self.rows.link_after[LISTS * t + kind])
+            t = self.rows.link_after[LISTS * t + kind]
         return found
 
     def is_blocked(self, t: int, current: int, tick: int) -> bool:
@@ -365,7 +365,9 @@ class PlanView:
     def object_of(self, t: int) -> int:
         """The object that a token is on; NONE while that is open."""
         v = self.rows.var0[t] + OBJECT
-        return int(self.engine.lower(v)) if self.engine.is_singleton(v) else NONE
+        if not self.engine.is_singleton(v):
+            return NONE
+        return int(self.engine.lower(v))
 
     def is_due_to_request(self, t: int) -> bool:
         """Whether the token, or one that it follows from, is one that somebody asked for."""
@@ -386,13 +388,13 @@ class PlanView:
 
     def waits_for_own(self, t: int, tick: int) -> bool:
         """Whether the token is to follow one of this reactor that has not begun, and that nobody asked for."""
-        t = int(self.rows.parent[t])
+        t = self.rows.parent[t]
         while t >= 0:
             if self.is_requested(t) or self.is_started(t, tick):
                 return False
             if self.object_of(t) in self.late_objects:
                 return True
-            t = int(self.rows.parent[t])
+            t = self.rows.parent[t]
         return False
 
     def undecided(self) -> list[int]:

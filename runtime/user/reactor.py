@@ -1,15 +1,15 @@
 """Reactors that users write in Python: subclass `Reactor`, and say in `tick` what holds and what is asked for."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import NamedTuple
 
 Value = int | float | bool | str
 Argument = Value | tuple[float, float] | frozenset[Value]
 Ticks = int | tuple[int, int] | None
 
 
-@dataclass(frozen=True, slots=True)
-class Seen:
+class Seen(NamedTuple):
     """What holds on a timeline since tick `since`; of an argument that is not known, its two bounds or its values."""
 
     predicate: str
@@ -39,19 +39,30 @@ class Asked:
     duration: Ticks = None
 
 
-@dataclass(slots=True)
 class Now:
-    """One tick, as a reactor sees it and speaks in it."""
+    """One tick, as a reactor sees it and speaks in it.
 
-    tick: int
-    seen: Mapping[str, Seen]  # by timeline, of those that it uses
-    news: frozenset[str]  # timelines that have begun to hold something at this tick
-    refused: frozenset[int]  # numbers of what owners will not do
-    first_number: int = 0
-    published: list[Published] = field(default_factory=list)
-    asked: list[Asked] = field(default_factory=list)
-    recalled: list[int] = field(default_factory=list)
-    wakes_at: int | None = None
+    `seen` has what holds, by timeline, of those that it uses; `news` the timelines that have begun to hold something at
+    this tick, `refused` the numbers of what owners will not do.
+    """
+
+    def __init__(
+        self,
+        tick: int,
+        seen: Mapping[str, Seen],
+        news: frozenset[str],
+        refused: frozenset[int],
+        first_number: int = 0,
+    ) -> None:
+        self.tick = tick
+        self.seen = seen
+        self.news = news
+        self.refused = refused
+        self.first_number = first_number
+        self.published: list[Published] = []
+        self.asked: list[Asked] = []
+        self.recalled: list[int] = []
+        self.wakes_at: int | None = None
 
     def publish(self, timeline: str, predicate: str, /, **arguments: Argument) -> None:
         """Have an own timeline hold a value from this tick on."""

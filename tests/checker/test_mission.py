@@ -158,7 +158,7 @@ def test_a_mistake_in_what_depends_is_named_where_it_stands(text: str, line: int
         ("[check]\nmissions = 0\n", (16, "0", "NDDL705", "`missions` must be at least 1, not 0", None)),
         (
             "[check]\nmax_failure_rate = 5.0\n",
-            (16, "5.0", "NDDL705", "`max_failure_rate` must be from 0 to 1, not 5.0", None),
+            (16, "5.0", "NDDL705", "`max_failure_rate` must be from 0 to 1, not 5.0", "5 % is 0.05"),
         ),
         (
             "[parameters.A]\nrange = [4.0, 0.1]\n",

@@ -151,7 +151,7 @@ def test_a_level_is_kept_by_its_margin(
 ) -> None:
     one = PropertyConfiguration("p", PropertyKind.LEVEL, level=level, **given)
     agent = AgentConfiguration("a", "", 100, (), properties=(one,))
-    (found,) = property_fates(agent, {}, MissionRecord(()), 100, PROFILES)
+    (found,) = property_fates(agent, {}, MissionRecord(()), 100, profiles=PROFILES)
     assert (found.is_kept, found.tick) == (kept, tick)
     assert found.margin == pytest.approx(margin, abs=1e-12)
 

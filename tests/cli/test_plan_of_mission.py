@@ -52,3 +52,12 @@ def test_mistakes_of_the_file_are_told(tmp_path: Path, capsys: Captured) -> None
     mission.write_text(mission.read_text().replace("final_tick", "finaltick"))
     assert run(["plan", str(mission)]) == 2
     assert "did you mean `final_tick`" in capsys.readouterr().err
+
+
+def test_a_goal_without_a_time_is_planned_within_the_mission(tmp_path: Path, capsys: Captured) -> None:
+    assert run(["new", str(tmp_path / "battery")]) == 0
+    capsys.readouterr()
+    assert run(["plan", str(tmp_path / "battery" / "mission.toml")]) == 0
+    said = capsys.readouterr().out
+    assert "plan found" in said and "INACTIVE" not in said and "left out" not in said
+    assert "Reservoir.produce" in said

@@ -1,6 +1,7 @@
 """Determined reactors: register code tells the same as the general engine, and hands over where it cannot."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
@@ -99,6 +100,18 @@ def test_the_missions_of_the_project_have_determined_reactors() -> None:
 
 def test_a_step_a_tick_takes_commands() -> None:
     agree(steps(run(3, (5, 9), 10.0), run(12, (14, 14), -3.0)))
+
+
+def test_a_record_that_is_still_read_is_not_in_the_way_of_new_kinds_of_commands() -> None:
+    plain = steps(until=10)
+    agent, programs = plain.agent()
+    outcome, record = record_mission(agent, programs, 1)
+    before = [tuple(each.tokens) for each in record.reactors]
+    asked = replace(agent, goals=(GoalConfiguration("helm", "Run", 2, False, (4, 4), None, None, (("v", 3.0),)),))
+    later, _ = record_mission(asked, programs, 1)
+    assert any(event.predicate == "Run" and event.kind is EventKind.OBSERVATION for event in later.events)
+    assert [tuple(each.tokens) for each in record.reactors] == before
+    assert len(outcome.events) < len(later.events)
 
 
 def test_a_command_waits_until_the_one_before_may_end() -> None:

@@ -8,6 +8,7 @@ from runtime.executive.agent import Agent
 from runtime.executive.configuration import ParameterConfiguration
 from runtime.executive.loaded_state import LoadedState
 from runtime.executive.mission import MissionPrograms, record_mission, run_mission
+from runtime.executive.outcome import Outcome
 from runtime.executive.timelines import TimelineState
 from runtime.plan.store.rows import Rows
 from runtime.solver.configuration.configuration import default_configuration
@@ -41,15 +42,18 @@ def test_a_mission_that_was_broken_off_gives_nothing_back(monkeypatch: pytest.Mo
     expected = record_mission(agent, programs, 1, compiles=False)
     record_mission(agent, programs, 1, compiles=False)
     with monkeypatch.context() as patch:
-        patch.setattr(Agent, "run", stop)
+        patch.setattr("runtime.executive.mission.Agent", Stopping)
         with pytest.raises(RuntimeError):
             record_mission(agent, programs, 1, compiles=False)
     assert record_mission(agent, programs, 1, compiles=False) == expected
 
 
-def stop(agent: Agent, until: int | None = None) -> None:
-    """Break a mission off."""
-    raise RuntimeError
+class Stopping(Agent):
+    """Breaks a mission off."""
+
+    def run(self, until: int | None = None) -> Outcome:
+        """Fail."""
+        raise RuntimeError
 
 
 def test_a_script_that_draws_is_run_in_each_mission() -> None:

@@ -1,6 +1,7 @@
 """Interval arithmetic of reals, rounded outward: pairs of bounds in, bounds of all results out."""
 
 import math
+import sys
 from math import inf
 
 from runtime.constraints.propagators.functions import sine as sine_of
@@ -8,11 +9,13 @@ from runtime.constraints.propagators.reals import product
 
 Interval = tuple[float, float]
 
+_LAST = sys.float_info.max
 ROUGH = 1e-9  # more than sums, products, powers and sines of doubles are wrong by, relatively
 
 
 def outward(lo: float, hi: float) -> Interval:
-    """Widen by what computing may have cost."""
+    """Widen by what computing may have cost; what lies beyond the doubles lies beyond the last of them at least."""
+    lo, hi = min(lo, _LAST), max(hi, -_LAST)
     return lo - abs(lo) * ROUGH - ROUGH if lo > -inf else lo, hi + abs(hi) * ROUGH + ROUGH if hi < inf else hi
 
 
@@ -52,6 +55,12 @@ def sine(x: Interval) -> Interval:
 def cosine(x: Interval) -> Interval:
     """Give the interval of the cosine of degrees."""
     return sine((x[0] + 90.0, x[1] + 90.0))
+
+
+def whole(x: Interval) -> Interval:
+    """Move bounds inwards to whole numbers, where they are finite."""
+    lo, hi = x
+    return math.ceil(lo) if abs(lo) < inf else lo, math.floor(hi) if abs(hi) < inf else hi
 
 
 def raised(x: float, y: float) -> float:

@@ -11,7 +11,7 @@ from math import inf
 
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE
 from runtime.constraints.propagators.arguments import Arguments, tolerant
-from runtime.constraints.propagators.intervals import Interval, magnitude, outward, raised
+from runtime.constraints.propagators.intervals import Interval, magnitude, outward, raised, whole
 from runtime.constraints.propagators.reals import down, is_exact, lower_sum, product, up, upper_sum
 
 _HAIR = 1e-9  # a way of so little more than whole ticks takes no further one
@@ -28,7 +28,7 @@ def square_difference(row: Arguments) -> bool:
 def _square_numbers(bounds: Interval) -> Interval:
     """Give the least and the greatest square number between two bounds, where there are such."""
     lo, hi = bounds
-    least = math.ceil(math.sqrt(lo) - _HAIR) ** 2 if lo > 0.0 else -inf
+    least = math.ceil(math.sqrt(lo) - _HAIR) ** 2 if 0.0 < lo < inf else lo if lo == inf else -inf
     return least, math.floor(math.sqrt(hi) + _HAIR) ** 2 if 0.0 <= hi < inf else hi
 
 
@@ -73,7 +73,7 @@ def _keep_length(row: Arguments, pairs: _Pairs, length: Interval) -> bool:
         return row.refuse()
     total = (down(least * least), up(most * most))
     if all(are_whole):
-        total = (math.ceil(total[0]), math.floor(total[1]) if total[1] < inf else inf)
+        total = whole(total)
     for k in (0, 1, 0):
         other = squares[1 - k]
         room = lower_sum(total[0], -other[1]), upper_sum(total[1], -other[0])
@@ -99,9 +99,10 @@ def root_of_sum(row: Arguments) -> bool:
     if not row.keep(2, *_root(total)):
         return False
     least, most = tolerant(row.bounds(2))
-    total = max(total[0], down(max(0.0, least) ** 2)), min(total[1], up(most * most))
+    least = max(0.0, least)
+    total = max(total[0], down(least * least)), min(total[1], up(most * most))
     if row.is_whole(0) and row.is_whole(1):
-        total = (math.ceil(total[0]), math.floor(total[1]) if total[1] < inf else inf)
+        total = whole(total)
     if total[0] > total[1]:
         return row.refuse()
     if not row.keep(0, lower_sum(total[0], -b[1]), upper_sum(total[1], -b[0])):
@@ -205,7 +206,10 @@ def remainder(row: Arguments) -> bool:
     if y[0] < y[1] or magnitude(x)[1] == inf:
         return True
     ends = [math.fmod(a, y[0]) for a in x]
-    turns = [round((a - end) / y[0]) for a, end in zip(x, ends, strict=True)]
+    turns = [(a - end) / y[0] for a, end in zip(x, ends, strict=True)]
+    if max(map(abs, turns)) == inf:
+        return True
+    turns = [round(turn) for turn in turns]
     return turns[0] != turns[1] or row.keep(0, *outward(*ends))
 
 
@@ -217,8 +221,11 @@ def travel_time(row: Arguments) -> bool:
     distance, speed = _length(row, pairs), row.bounds(5)
     if speed[1] <= 0.0:
         return row.keep(0, 1.0, 1.0) and _keep_length(row, pairs, tolerant((0.0, 0.0)))
-    quickest, slowest = outward(distance[0] / speed[1], distance[1] / speed[0] if speed[0] > 0.0 else inf)
-    if not row.keep(0, math.ceil(quickest - _HAIR), inf):
+    quickest, slowest = outward(
+        distance[0] / speed[1] if speed[1] < inf else 0.0,
+        distance[1] / speed[0] if speed[0] > 0.0 and distance[1] < inf else inf,
+    )
+    if not row.keep(0, whole((quickest - _HAIR, inf))[0], inf):
         return False
     if slowest < inf and not row.keep(0, -inf, max(1.0, math.ceil(slowest))):
         return False
@@ -254,7 +261,8 @@ def unit_vector(row: Arguments) -> bool:
 def _keep_unit(row: Arguments, distance: Interval) -> bool:
     """Narrow the first two arguments to a vector of length one, or of length 0 where the distance is 0."""
     for k, other in ((0, magnitude(row.bounds(1))), (1, magnitude(row.bounds(0)))):
-        most = math.sqrt(max(0.0, 1.0 - max(0.0, other[0] - FLOAT_TOLERANCE) ** 2))
+        least = max(0.0, other[0] - FLOAT_TOLERANCE)
+        most = math.sqrt(max(0.0, 1.0 - least * least))
         if not row.keep(k, *outward(-most, most)):
             return False
     slack = 3.0 * FLOAT_TOLERANCE
@@ -262,7 +270,8 @@ def _keep_unit(row: Arguments, distance: Interval) -> bool:
         if distance[1] <= 0.0:
             return row.refuse()
         for k, other in ((0, magnitude(row.bounds(1))), (1, magnitude(row.bounds(0)))):
-            least = math.sqrt(max(0.0, 1.0 - (other[1] + slack) ** 2))
+            most = other[1] + slack
+            least = math.sqrt(max(0.0, 1.0 - most * most))
             if least > slack and not row.keep_away(k, least - slack):
                 return False
     elif distance[1] <= 0.0:

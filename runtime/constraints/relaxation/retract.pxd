@@ -21,7 +21,7 @@ cdef double FLOAT_TOLERANCE, inf
 @cython.locals(r="long long", v="long long")
 cpdef list retract(Store s, list constraints, list edges, list restrictions, list variables)
 
-@cython.locals(v="long long")
+@cython.locals(c="long long", doomed=dict, e="long long", v="long long")
 cpdef list _gather(Store s, list constraints, list variables)
 
 @cython.locals(e="long long")

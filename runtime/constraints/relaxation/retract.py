@@ -98,7 +98,8 @@ def _gather(s: Store, constraints: list[int], variables: list[int]) -> list[int]
     """List the constraints that go: the given ones and those on removed variables, each once."""
     doomed = dict.fromkeys(constraints)
     for v in variables:
-        doomed.update(dict.fromkeys(watchers_of(s, v)))
+        for c in watchers_of(s, v):
+            doomed[c] = None
         for e in edges_of(s, v):
             if s.edge_link[e] >= 0:
                 doomed[s.edge_link[e]] = None

@@ -1,7 +1,7 @@
 """What is judged of many tokens at once is what the judge of single tokens says of each."""
 
 from collections.abc import Sequence
-from math import inf
+from math import hypot, inf
 from random import Random
 from typing import Any
 
@@ -10,7 +10,7 @@ import pytest
 
 from checker.judge import bulk_tokens, judge
 from checker.judge.bulk_frame import closed
-from checker.judge.bulk_meanings import FUNCTIONS, HOLDS, TRUTHS, conforms, near, value_of
+from checker.judge.bulk_meanings import FUNCTIONS, HOLDS, TRUTHS, conforms, near, points, value_of
 from checker.judge.columns import Texts, column_of, constant, distinct, unknown
 from checker.judge.functions import COMPUTED
 from checker.judge.functions import conforms as conforms_one
@@ -111,6 +111,25 @@ def test_what_plainly_holds_holds(name: str) -> None:
         wanted = [TESTS[name](*each) for each in zip(*columns, strict=True)]
         assert all(wanted[k] is True for k in np.flatnonzero(holds)), columns
         assert all(wanted[k] is False for k in np.flatnonzero(fails)), columns
+        seen |= set(wanted)
+    assert {True, False} <= seen
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+def test_unit_vectors_are_those_of_single_tokens() -> None:
+    dice, texts = Random(11), Texts()
+    seen = set()
+    for _ in range(40):
+        rows = []
+        for _ in range(12):
+            x, y, tx, ty = (dice.choice((0.0, 1.0, -3.5, 200.25)) for _ in range(4))
+            way = hypot(tx - x, ty - y) or 1.0
+            slip = dice.choice((0.0, 0.0, 3e-6, 0.01))
+            rows.append(((tx - x) / way + slip, (ty - y) / way, x, y, tx, ty))
+        plain = points(*[column_of(each, texts) for each in zip(*rows, strict=True)]).tolist()
+        wanted = [MEANINGS["towards"](*row) for row in rows]
+        assert all(right is True for told, right in zip(plain, wanted, strict=True) if told)
+        assert all(told for told, right, row in zip(plain, wanted, rows, strict=True) if right and row[2:4] != row[4:])
         seen |= set(wanted)
     assert {True, False} <= seen
 

@@ -19,7 +19,7 @@ from runtime.executive.record import OpenValues, Value, ValueRange
 
 # What the judge says that it does not judge: domains rather than values, positions, dates.
 UNJUDGED = {"eqUnion", "memberImply", "lockCT", "testSingleton", "testSpecified", "commonAncestor", "hasAncestor"}
-UNJUDGED |= {"bind", "ll_dist", "wgsdisplace", "wgsdisplacement", "tick_date", "circle_mod", "towards"}
+UNJUDGED |= {"bind", "ll_dist", "wgsdisplace", "wgsdisplacement", "tick_date", "circle_mod"}
 ELSEWHERE = {"uses", "sampledParameter"}  # judged with resources and draws
 
 
@@ -57,6 +57,21 @@ def test_every_constraint_of_the_language_is_judged_or_known_not_to_be() -> None
         ("eq", (OpenValues(("red", "blue")), "green"), False),
         ("eq", (OpenValues(("red", "blue")), "red"), None),
         ("testLeq", (False, 2, 3), False),
+        ("testLessThan", (True, 10.0, 10.1), True),
+        ("testLessThan", (False, 10.0, 10.1), False),
+        ("testLessThan", (True, 10.0, 10.000000000000007), None),
+        ("testLessThan", (False, 10.0, 10.000000000000007), None),
+        ("testLessThan", (True, 10.0, 10.0), False),
+        ("eq", (72.5, inf), False),
+        ("leq", (72.5, inf), True),
+        ("towards", (0.6, 0.8, 1.0, 1.0, 4.0, 5.0), True),
+        ("towards", (0.8, 0.6, 1.0, 1.0, 4.0, 5.0), False),
+        ("towards", (-0.6, -0.8, 1.0, 1.0, 4.0, 5.0), False),
+        ("towards", (0.6001, 0.7999, 1.0, 1.0, 4.0, 5.0), False),
+        ("towards", (0.0, 0.0, 2.0, 3.0, 2.0, 3.0), True),
+        ("towards", (1.0, 0.0, 2.0, 3.0, 2.0, 3.0), False),
+        ("towards", (0.0, 1.0, 2.0, 3.0, 2.00001, 3.0), None),
+        ("towards", (0.0, 1.0, 2.0, 3.0, ValueRange(2.0, 9.0), 3.0), None),
         ("testAnd", (False, True, ValueRange(0, 1)), None),
         ("or", (False, False), False),
         ("or", (False, ValueRange(0, 1), True), True),

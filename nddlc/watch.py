@@ -1,0 +1,139 @@
+"""`--watch`: carry a command out again whenever a file changes that it may read, until Ctrl-C.
+
+Each time is a process of its own, so nothing of the last time lasts. Files are polled: no notification of the system is
+needed, so network drives and containers do as well.
+"""
+
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from pathlib import Path
+from signal import SIGINT
+from typing import Any
+
+import click
+
+from nddl_lang.text.read import LARGEST
+
+_KINDS = (".nddl", ".toml", ".xml", ".py", ".csv", ".json")
+_NAMED = re.compile(rb'"([^"\n]{1,300}\.(?:nddl|toml|xml|py|csv|json))["|:]')  # as files name others
+_OUTPUT = ("nddlc-report", "node_modules", "__pycache__")
+_PERIOD = 0.25  # seconds between two looks
+_ENDING = 5.0  # seconds that an interrupted run may take to end by itself
+_GIVEN = "nddlc.watch.arguments"
+Stamps = dict[Path, tuple[int, int]]
+
+
+class WatchedCommand(click.Command):
+    """A command with `--watch`."""
+
+    def __init__(self, *args: Any, **given: Any) -> None:
+        super().__init__(*args, **given)
+        told = "Do it again whenever a file of the model or mission changes; Ctrl-C ends it."
+        self.params.append(click.Option(["--watch", "is_watched"], is_flag=True, help=told))
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Keep the arguments, to give them on."""
+        ctx.meta[_GIVEN] = [each for each in args if each != "--watch"]
+        return super().parse_args(ctx, args)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Once, or again and again."""
+        if not ctx.params.pop("is_watched"):
+            return super().invoke(ctx)
+        given = [value for value in ctx.params.values() if isinstance(value, str | Path | tuple)]
+        flat = [str(each) for value in given for each in (value if isinstance(value, tuple) else (value,))]
+        named = [path for path in map(Path, flat) if path.exists()]
+        dialect = [] if ctx.obj is None else ["--dialect", ctx.obj]
+        return _watch([*dialect, str(ctx.info_name), *ctx.meta[_GIVEN]], named or [Path()])
+
+
+def _watch(arguments: list[str], named: list[Path]) -> int:
+    """Run, wait for a change, run again; Ctrl-C ends it in good order."""
+    try:
+        while True:
+            before = stamps(named)
+            _run(arguments)
+            count = len(before)
+            click.echo(f"nddlc: watching {count} file{'' if count == 1 else 's'}; Ctrl-C ends it", err=True)
+            changed = _changed(before, named)
+            click.echo(f"nddlc: changed: {', '.join(changed[:3])}{' and more' if len(changed) > 3 else ''}", err=True)
+    except KeyboardInterrupt:
+        click.echo("\nnddlc: no longer watching", err=True)
+    return 0
+
+
+def _run(arguments: list[str]) -> None:
+    with subprocess.Popen([sys.executable, "-P", "-m", "nddlc.main", *arguments]) as process:
+        try:
+            process.wait()
+        except KeyboardInterrupt:
+            # A terminal has told it as well: it is asked again only if it goes on.
+            with suppress(subprocess.TimeoutExpired):
+                process.wait(_ENDING)
+            if process.poll() is None:
+                process.send_signal(SIGINT)
+            raise
+
+
+def _changed(before: Stamps, named: list[Path]) -> list[str]:
+    """Wait until files differ from before, and no longer from one look to the next; which these are."""
+    now = before
+    while True:
+        time.sleep(_PERIOD)
+        last, now = now, stamps(named)
+        if now == last != before:
+            both = sorted({*before, *now})
+            return [str(path) for path in both if before.get(path) != now.get(path)]
+
+
+def stamps(named: Iterable[Path]) -> Stamps:
+    """When the files that may be read were changed, and how large they are.
+
+    These are the files in the folders that are named, in those of the files that are, and what files name in quotes.
+    """
+    found: Stamps = {}
+    waiting = [path for each in named for path in _files(each)]
+    while waiting:
+        path = waiting.pop()
+        try:
+            told = path.stat()
+        except OSError:
+            continue
+        if path in found or not path.is_file():
+            continue
+        found[path] = (told.st_mtime_ns, told.st_size)
+        waiting += [other for other in _named_in(path, told.st_size) if other not in found]
+    return found
+
+
+def _files(named: Path) -> Iterator[Path]:
+    """The files of a folder and the folders below; of a file those beside it."""
+    try:
+        beside = sorted((named if named.is_dir() else named.parent).iterdir())
+    except OSError:
+        return
+    for path in beside:
+        if path.suffix in _KINDS and path.is_file():
+            yield path
+        elif named.is_dir() and path.is_dir() and not path.is_symlink() and not _is_left_out(path):
+            yield from _files(path)
+
+
+def _is_left_out(folder: Path) -> bool:
+    return folder.name.startswith(".") or folder.name in _OUTPUT
+
+
+def _named_in(path: Path, size: int) -> Iterator[Path]:
+    """The files that the text of a file names."""
+    if path.suffix not in (".nddl", ".toml", ".xml") or size > LARGEST:
+        return
+    with suppress(OSError):
+        for match in _NAMED.finditer(path.read_bytes()):
+            other = path.parent / match[1].decode(errors="replace")
+            with suppress(OSError, ValueError):
+                if other.is_file():
+                    yield Path(*other.parts) if ".." not in other.parts else other.resolve()

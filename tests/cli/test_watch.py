@@ -1,0 +1,76 @@
+"""`--watch`: a command is carried out again when a file changes that it may read, and Ctrl-C ends it in good order."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+from nddlc.main import run
+from nddlc.watch import stamps
+
+ROOT = Path(__file__).parents[2]
+COMMAND = [sys.executable, "-P", "-m", "nddlc.main"]
+
+
+def test_lint_runs_again_after_a_change_and_ends_cleanly(tmp_path: Path) -> None:
+    (tmp_path / "part.nddl").write_text("int SPEED = 2;\n")
+    (tmp_path / "a.nddl").write_text('#include "part.nddl"\nint x = SPEED;\n')
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1"}
+    with subprocess.Popen(
+        [*COMMAND, "lint", "--watch", "a.nddl"], cwd=tmp_path, env=environment, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    ) as process:  # fmt: skip
+        assert process.stdout is not None
+        seen = []
+
+        def read_to(end: str) -> None:
+            for line in process.stdout or ():
+                seen.append(line)
+                if end in line:
+                    return
+
+        read_to("watching 2 files")
+        (tmp_path / "part.nddl").write_text("int SPEED2 = 2;\n")
+        read_to("watching 2 files")
+        process.send_signal(signal.SIGINT)
+        read_to("no longer watching")
+        assert process.wait(20) == 0
+    text = "".join(seen)
+    assert "nothing wrong in 1 file\n" in text.partition("changed: part.nddl")[0]
+    assert "error[NDDL201]: nothing named `SPEED`" in text.partition("changed: part.nddl")[2]
+    assert text.endswith("\nnddlc: no longer watching\n") and "Traceback" not in text
+
+
+def test_what_is_watched_is_what_may_be_read(tmp_path: Path) -> None:
+    def write(name: str, text: str = "") -> Path:
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    mission = write(
+        "m/mission.toml", '[[reactor]]\nmodel = "a.nddl"\nsolver = "sub/s.xml"\ncode = "far/x.py:Lookout"\n'
+    )
+    model = write("m/a.nddl", '#include "../common/b.nddl"\n')
+    common = write("common/b.nddl", '#include "c.nddl"\n#include "gone.nddl"\n')
+    part, solver, code = write("common/c.nddl"), write("m/sub/s.xml"), write("m/far/x.py")
+    write("m/nddlc-report/report.json")
+    write("m/.nddlc/x.toml")
+    write("common/unread.nddl")
+    write("m/sub/unread.toml")
+    assert set(stamps([mission])) == {mission, model, common.resolve(), part.resolve(), solver, code}
+    assert set(stamps([tmp_path / "m"])) == {*stamps([mission]), tmp_path / "m/sub/unread.toml"}
+
+
+def test_a_file_that_comes_and_one_that_goes_are_changes(tmp_path: Path) -> None:
+    (tmp_path / "a.nddl").write_text('#include "b.nddl"\n')
+    before = stamps([tmp_path])
+    (tmp_path / "b.nddl").write_text("")
+    between = stamps([tmp_path])
+    (tmp_path / "a.nddl").unlink()
+    assert len({len(before), len(between)}) == 2 and stamps([tmp_path]) not in (before, between)
+
+
+def test_the_other_commands_do_not_take_it() -> None:
+    assert run(["fmt", "--watch", "x.nddl"]) == 2
