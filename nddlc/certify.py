@@ -45,7 +45,7 @@ def command(
     _, mission, models = prepare(mission_here(path), is_trusted=is_trusted)
     excerpts = Excerpts(Path(models.agent.root))
     chosen = mission.check.seed if seed is None else seed
-    certifier = _certifier(models, chosen)
+    certifier = certifier_of(models, chosen)
     found = certifier.certify(corners=not no_corners)
     told = [_bounded(name, certifier, mission, models, chosen) for name in bounds]
     if style == "json":
@@ -67,7 +67,8 @@ def command(
 _Bound = tuple[str, SafeConstant | None, tuple[Any, ...], Certificate | None]
 
 
-def _certifier(models: ModelSet, seed: int) -> Certifier:
+def certifier_of(models: ModelSet, seed: int) -> Certifier:
+    """What certifies a mission, with missions flown in this process."""
     agent = models.agent
     root = Path(agent.root)
     library = load_library(root, agent.constraints, seconds=agent.constraint_seconds)
@@ -92,7 +93,7 @@ def _bounded(name: str, certifier: Certifier, mission: Mission, models: ModelSet
     if safe is None or overlay is None:
         return name, safe, places, None
     changed = load_models(mission, open_over(overlay))
-    return name, safe, places, None if changed.has_errors else _certifier(changed, seed).certify()
+    return name, safe, places, None if changed.has_errors else certifier_of(changed, seed).certify()
 
 
 def _bound_data(

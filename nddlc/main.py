@@ -45,13 +45,17 @@ COMMANDS = {
     "store": ("nddlc.store", "Look whether a store of runs is whole, and salvage a damaged one."),
     "validate": ("nddlc.validate", "Judge a mission, a record, a trace or a plan against the model."),
     "certify": ("nddlc.certify", "Prove that no value in the box breaks a mission, or fly one that does."),
+    "controllability": (
+        "nddlc.controllability",
+        "Tell whether plans can be carried out, however long the vehicle takes.",
+    ),
     "lsp": ("nddlc.lsp", "Serve an editor over standard input and output."),
     "rule": ("nddlc.rule", "Explain a code that a message carries."),
 }
 # What is slow where the engine is not compiled.
 _PLANNING = (
     *("load", "compile", "plan", "run", "replay", "gold", "check", "process", "study", "mutate"),
-    *("explain", "shrink", "promote", "validate", "certify"),
+    *("explain", "shrink", "promote", "validate", "certify", "controllability"),
 )
 _UNUSABLE, _BUG, _INTERRUPTED = 2, 3, 130
 _MACHINE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS)  # no room, or a broken disk

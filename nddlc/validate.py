@@ -2,12 +2,13 @@
 
 import json
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import click
 
 from checker.flight import load_programs
 from checker.judge.document import record_data
+from checker.judge.draws import Chance
 from checker.judge.judge import judge_mission, judge_plan
 from checker.judge.reading import read_json, read_plan, read_record
 from checker.judge.rendering import report_data, report_text
@@ -15,6 +16,8 @@ from checker.judge.report import JudgeReport
 from checker.judge.trace_reading import plan_of_trace
 from checker.judge.written_values import DocumentError
 from checker.mission import read_mission
+from checker.proofs.judgement import ProvedJudgement, judgement_data, judgement_text, prove_record
+from checker.proofs.operands import names_of
 from compiler.lower import compile_model
 from compiler.program import Program
 from nddl_lang.analysis import analyse_file
@@ -23,11 +26,24 @@ from nddl_lang.text.render import render
 from nddlc.inputs import Unusable
 from nddlc.mission_trust import models_of
 from nddlc.trust import trust_option
-from runtime.executive.configuration import AgentConfiguration
+from runtime.executive.configuration import AgentConfiguration, ReactorConfiguration
 from runtime.executive.mission import MissionPrograms, UnusableModelError, record_mission
 from runtime.executive.record import MissionRecord, ReactorRecord
 from runtime.executive.recorder import Recorder
 from runtime.plan.database import PlanDatabase
+
+_PLAN = "plan"
+_MOST_TOKENS = 5000
+
+
+class _Judged(NamedTuple):
+    """What was judged, and what it takes to judge it again; `seed` is None where nothing is known of draws."""
+
+    report: JudgeReport
+    agent: AgentConfiguration
+    programs: tuple[Program, ...]
+    record: MissionRecord
+    seed: int | None
 
 
 @click.command()
@@ -35,34 +51,65 @@ from runtime.plan.database import PlanDatabase
 @click.option("--mission", "mission_path", type=click.Path(path_type=Path, exists=True), help="Whose trace or record.")
 @click.option("--seed", type=int, default=0, help="Of a mission that is flown here.")
 @click.option("--record", "target", type=click.Path(path_type=Path), help="Write the record of what was flown.")
+@click.option("--smt", "asks_z3", is_flag=True, help="Have z3 judge it as well, from the text of the model.")
 @click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
 @trust_option
-def command(plan: Path, mission_path: Path | None, seed: int, target: Path | None, style: str, is_trusted: bool) -> int:
+def command(
+    plan: Path,
+    mission_path: Path | None,
+    seed: int,
+    target: Path | None,
+    asks_z3: bool,
+    style: str,
+    is_trusted: bool,
+) -> int:
     """Judge PLAN against its model, by code that shares nothing with the planner.
 
     PLAN is a mission file (.toml), which is flown; a record or a plan (.json); or a trace (.jsonl), which needs
     --mission. docs/validate.md describes the documents. The exit code is 1 where something breaks the model.
+    With --smt z3 judges the same values, by what the text of the model demands.
     """
     try:
         match plan.suffix:
             case ".toml":
-                report = _flown(plan, seed, target, is_trusted)
+                judged = _flown(plan, seed, target, is_trusted)
             case ".jsonl":
                 if mission_path is None:
                     raise Unusable("a trace does not say whose it is", "name the mission file with --mission")
-                report = _traced(plan, mission_path, is_trusted)
+                judged = _traced(plan, mission_path, is_trusted)
             case _:
-                report = _documented(plan, mission_path, is_trusted)
+                judged = _documented(plan, mission_path, is_trusted)
     except DocumentError as problem:
         raise Unusable(f"`{plan}`: {problem}", problem.advice or "docs/validate.md describes the form") from None
     except UnusableModelError as problem:
         raise Unusable(str(problem)) from None
-    advises = plan.suffix != ".toml"
-    click.echo(report_text(report, advises=advises) if style == "text" else json.dumps(report_data(report), indent=1))
-    return 0 if report.holds else 1
+    report, proved = judged.report, _proved(judged) if asks_z3 else None
+    if style == "json":
+        data = report_data(report) | ({} if proved is None else {"smt": judgement_data(proved)})
+        click.echo(json.dumps(data, indent=1))
+    else:
+        click.echo(report_text(report, advises=plan.suffix != ".toml"))
+        if proved is not None:
+            click.echo(judgement_text(proved))
+    return 0 if report.holds and (proved is None or not proved.broken) else 1
 
 
-def _flown(path: Path, seed: int, target: Path | None, is_trusted: bool) -> JudgeReport:
+def _proved(judged: _Judged) -> ProvedJudgement:
+    """What z3 says of the same values; draws that are made again and again are left to the judge."""
+    count = sum(len(each.tokens) for each in judged.record.reactors)
+    if count > _MOST_TOKENS:
+        raise Unusable(f"{count} tokens are too many for z3 (at most {_MOST_TOKENS})", "judge a shorter mission")
+    draws = {}
+    if judged.seed is not None:
+        chance = Chance(judged.agent, judged.programs, judged.seed, {})
+        for each in judged.agent.parameters:
+            value = chance.draw(each.name, 0)
+            if each.mode == "inter" and isinstance(value, (int, float)):
+                draws[each.name] = float(value)
+    return prove_record(judged.agent, judged.programs, judged.record, draws)
+
+
+def _flown(path: Path, seed: int, target: Path | None, is_trusted: bool) -> _Judged:
     agent, programs = _loaded(path, is_trusted)
     outcome, record = record_mission(agent, programs, seed)
     if target is not None:
@@ -70,7 +117,8 @@ def _flown(path: Path, seed: int, target: Path | None, is_trusted: bool) -> Judg
         draft = target.with_name(target.name + ".part")
         draft.write_text(text + "\n", encoding="utf-8")
         draft.replace(target)
-    return judge_mission(agent, programs.programs, outcome, record, programs.constraints)
+    report = judge_mission(agent, programs.programs, outcome, record, programs.constraints)
+    return _Judged(report, agent, programs.programs, record, seed)
 
 
 def _loaded(path: Path, is_trusted: bool, *, is_named: bool = True) -> tuple[AgentConfiguration, MissionPrograms]:
@@ -91,24 +139,27 @@ def _refuse(found: tuple[Diagnostic, ...]) -> None:
         raise Unusable("the model has errors")
 
 
-def _traced(path: Path, mission_path: Path, is_trusted: bool) -> JudgeReport:
+def _traced(path: Path, mission_path: Path, is_trusted: bool) -> _Judged:
     agent, programs = _loaded(mission_path, is_trusted)
     lines = path.read_text(encoding="utf-8").splitlines()
-    reports = []
+    reports, plans = [], []
     for place, program in zip(agent.reactors, programs.programs, strict=True):
         timelines = (*place.internal, *place.external)
         plan = plan_of_trace(lines, timelines, _base(program, place.name, programs), program)
         told = frozenset(each.class_name for each in plan.objects if each.name in timelines)
-        reports.append(judge_plan(program, plan, programs.constraints, told))
-    return JudgeReport(
+        report, followed = judge_plan(program, plan, programs.constraints, told)
+        reports.append(report)
+        plans.append(followed._replace(reactor=place.name))
+    report = JudgeReport(
         tuple(one for report in reports for one in report.disagreements),
         sum(report.judged for report in reports),
         sum(report.open for report in reports),
         tuple(row for report in reports for row in report.skipped),
     )
+    return _Judged(report, agent, programs.programs, MissionRecord(tuple(plans)), None)
 
 
-def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> JudgeReport:
+def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> _Judged:
     try:
         data: Any = read_json(path.read_text(encoding="utf-8"))
     except UnicodeDecodeError as problem:
@@ -125,10 +176,17 @@ def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> Judg
     analysis = analyse_file(model)
     _refuse(analysis.diagnostics)
     program = compile_model(analysis)
-    return judge_plan(program, read_plan(data, _base(program, "plan"), program))
+    plan = read_plan(data, _base(program, _PLAN), program)._replace(reactor=_PLAN)
+    report, followed = judge_plan(program, plan)
+    names = names_of(program)
+    timelines = tuple(each.name for each in plan.objects if names.is_kind_of(each.class_name, "Timeline"))
+    last = max([plan.last_tick, *[one.end for one in plan.tokens if isinstance(one.end, int)]])
+    reactor = ReactorConfiguration(_PLAN, str(model), internal=timelines)
+    agent = AgentConfiguration(_PLAN, str(path.parent), last, (reactor,))
+    return _Judged(report, agent, (program,), MissionRecord((followed,)), None)
 
 
-def _recorded(path: Path, data: dict[str, Any], mission_path: Path | None, is_trusted: bool) -> JudgeReport:
+def _recorded(path: Path, data: dict[str, Any], mission_path: Path | None, is_trusted: bool) -> _Judged:
     named = mission_path or (path.parent / data["mission"] if isinstance(data.get("mission"), str) else None)
     if named is None or not named.is_file():
         raise DocumentError("the mission that it names is not there; say where with --mission")
@@ -138,9 +196,11 @@ def _recorded(path: Path, data: dict[str, Any], mission_path: Path | None, is_tr
     bases = {name: _base(program, name, programs) for name, program in models.items()}
     record: MissionRecord = read_record(data, bases, models)
     seed = data.get("seed", 0)
+    seed = seed if isinstance(seed, int) else 0
     # What was published is what the mission publishes when it is flown again.
-    outcome, _ = record_mission(agent, programs, seed if isinstance(seed, int) else 0)
-    return judge_mission(agent, programs.programs, outcome, record, programs.constraints)
+    outcome, _ = record_mission(agent, programs, seed)
+    report = judge_mission(agent, programs.programs, outcome, record, programs.constraints)
+    return _Judged(report, agent, programs.programs, record, seed)
 
 
 def _base(program: Program, name: str, programs: MissionPrograms | None = None) -> ReactorRecord:

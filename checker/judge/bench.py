@@ -9,7 +9,7 @@ from checker.judge.report import Disagreement, Kind, ResourceProfile
 from checker.judge.values import UNKNOWN, difference, hull, is_open
 from nddl_lang.text.source import Span
 from runtime.executive.columns import TokenColumns
-from runtime.executive.record import ReactorRecord, TokenRecord, Value, ValueRange
+from runtime.executive.record import BodyRun, ReactorRecord, TokenRecord, Value, ValueRange
 
 _Draws = Callable[[str, Array], Array | None]  # parameter and ticks in, values out; None where nothing is drawn
 _DEEPEST = 64  # merged into what is merged into ...
@@ -131,6 +131,7 @@ class Bench:
         self.tokens = _Toks(record.tokens)
         self.uses: list[tuple[Value, Value, Value, Value, Tok | None, Span]] = []  # resource, quantity, start, end
         self.infers = False  # whether runs that are not on record are found out
+        self.runs: dict[int, list[BodyRun]] = {}  # those that were
         self.told: frozenset[str] | None = None  # the classes of whose objects all tokens are known; None: all
         self.found: list[Disagreement] = []
         self.profiles: list[ResourceProfile] = []

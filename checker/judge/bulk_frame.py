@@ -86,7 +86,7 @@ class RowFrame:
         self.tok = tok
         self.slots = slots
         self.tokens = tokens
-        self.tally = RowTally(len(tok.rows))
+        self.tally = RowTally(len(tok))
         self.whole: RowFrame | None = None  # the frame of which this one has some `rows`
         self.rows: Array | None = None
         self.locals: Iterator[Column] = iter(())

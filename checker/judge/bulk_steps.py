@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from checker.judge.alike import BranchRows
+from checker.judge.alike import GuardRows
 from checker.judge.bodies import StepMaker, Written, compile_body
 from checker.judge.bulk_frame import RowFrame, RowRead, RowStep, UnplainError, closed, row_reader
 from checker.judge.bulk_meanings import HOLDS, TRUTHS, conforms, difference_of, near, points, truth, value_of
@@ -281,10 +281,14 @@ def _guard(guard: Guard, then: list[RowStep], otherwise: list[RowStep], names: V
         reached = next(frame.guards, None)
         if reached is None:
             raise UnplainError
+        _judge_branches(frame, reached, frame.use(condition(frame)))
         for part in reached:
+            if part.run is None:
+                continue
             inner = frame.branch(part)
             try:
-                _take(inner, part, condition, then if part.branch == "then" else otherwise)
+                for each in then if part.branch == "then" else otherwise:
+                    each(inner)
             except UnplainError:
                 if part.rows is None:
                     raise
@@ -295,25 +299,29 @@ def _guard(guard: Guard, then: list[RowStep], otherwise: list[RowStep], names: V
     return step
 
 
-def _take(frame: RowFrame, part: BranchRows, condition: RowRead, steps: list[RowStep]) -> None:
-    """Judge a branch in the rows that took it."""
-    if part.branch == "waiting":
-        if part.is_decided:
-            raise UnplainError
-        frame.tally.open.append(np.ones(frame.tally.count, bool))
-        return
-    column = frame.use(condition(frame))
-    if column.kind == TEXT:
-        holds = np.full(frame.tally.count, part.branch == "then")
+def _judge_branches(frame: RowFrame, reached: GuardRows, condition: Column) -> None:
+    """Judge which branches were taken; a guard that waits, of an input that is not given, is left open."""
+    tally = frame.tally
+    yes, no = (np.ones(1, bool), np.zeros(1, bool)) if condition.kind == TEXT else truth(condition)
+    fixed = None if condition.kind == TEXT else closed([condition], tally.count)
+    right = np.zeros(tally.count, bool)
+    waits = np.zeros(tally.count, bool)
+    for part in reached:
+        rows = slice(None) if part.rows is None else part.rows
+        if part.branch != "waiting":
+            right[rows] = np.broadcast_to(yes if part.branch == "then" else no, tally.count)[rows]
+        elif part.is_decided:
+            tally.holds[rows] = False
+        else:
+            waits[rows] = True
+    if fixed is not None:
+        right &= fixed
+    if waits.any():
+        tally.need(right | waits)
+        tally.more.append(right)
+        tally.open.append(waits)
     else:
-        yes, no = truth(column)
-        holds = yes if part.branch == "then" else no
-        fixed = closed([column], frame.tally.count)
-        holds = holds if fixed is None else holds & fixed
-    frame.tally.judge(holds)
-    if part.run is not None:
-        for each in steps:
-            each(frame)
+        tally.judge(right)
 
 
 _ROWS = StepMaker(

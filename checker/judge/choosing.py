@@ -4,7 +4,7 @@ A plan written by hand, and a trace, say which tokens there were, not which of t
 tried among the tokens that fit by predicate, object and relation; the first choice under which all holds is taken.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import inf
 
 from checker.judge.bench import Bench, Tok
@@ -12,22 +12,54 @@ from checker.judge.operands import BodyFrame, VariableNames
 from checker.judge.relations import Demand
 from checker.judge.values import difference, hull, may_be_equal
 from compiler.program import END, OBJECT, START, Child
-from runtime.executive.record import NOBODY, Value
+from runtime.executive.record import NOBODY, BodyRun, GuardRun, Value
 
 MOST_TRIES = 2000
+
+
+class _RunLog:
+    """What a run of a body would have on record."""
+
+    def __init__(self) -> None:
+        self.locals: list[Value] = []
+        self.children: list[int] = []
+        self.guards: list[GuardRun] = []
+
+    def run(self, rule: int) -> BodyRun:
+        """The run, as records have it."""
+        return BodyRun(rule, tuple(self.locals), tuple(self.children), tuple(self.guards))
 
 
 class Choosing:
     """The choices of one run of a rule: the n-th child takes candidate number `taken[n]`."""
 
-    def __init__(self) -> None:
+    def __init__(self, rule: int) -> None:
+        self.rule = rule
         self.taken: list[int] = []
         self.counts: list[int] = []
         self.known: set[int] = set()  # slots of locals whose values were inferred
+        self.log = _RunLog()
 
     def begin(self) -> None:
         """Run the rule again from its start."""
         self.counts = []
+        self.log = _RunLog()
+
+    def run(self) -> BodyRun:
+        """The run, as records have it."""
+        return self.log.run(self.rule)
+
+    def branch(self, truth: bool | None, carry_out: Callable[[], None] | None) -> None:
+        """Note which branch of a guard is taken, None for neither, and what it does."""
+        if truth is None:
+            self.log.guards.append(GuardRun("waiting", False, None))
+            return
+        outer, self.log = self.log, _RunLog()
+        if carry_out is not None:
+            carry_out()
+        run = self.run() if carry_out is not None else None
+        outer.guards.append(GuardRun("then" if truth else "else", True, run))
+        self.log = outer
 
     def pick(
         self, frame: BodyFrame, child: Child, pairs: tuple[Demand, ...], holder: Value | None, names: VariableNames
@@ -40,7 +72,9 @@ class Choosing:
         self.counts.append(len(found))
         if n == len(self.taken):
             self.taken.append(0)
-        return found[self.taken[n]] if found else NOBODY
+        key = found[self.taken[n]] if found else NOBODY
+        self.log.children.append(key)
+        return key
 
     def advance(self) -> bool:
         """Go on to the next choices; False if there are none."""
@@ -85,8 +119,7 @@ def nearest_of(
     best: tuple[float, Tok, tuple[tuple[str, Value], ...]] | None = None
     for tok in _of_predicate(frame, child, names):
         if holder is not None and not may_be_equal(tok.values[OBJECT], holder):
-            far = inf
-            values: tuple[tuple[str, Value], ...] = (("object", tok.values[OBJECT]), ("asked", holder))
+            far, values = inf, _objects(tok, holder)
         elif origin is not None:
             far, values = _missed(pairs, origin, tok)
         else:
@@ -94,6 +127,10 @@ def nearest_of(
         if best is None or far < best[0]:
             best = (far, tok, values)
     return ((), ()) if best is None else ((best[1],), best[2])
+
+
+def _objects(tok: Tok, holder: Value) -> tuple[tuple[str, Value], ...]:
+    return (("object", tok.values[OBJECT]), ("asked", holder))
 
 
 def _missed(pairs: tuple[Demand, ...], origin: Tok, target: Tok) -> tuple[float, tuple[tuple[str, Value], ...]]:

@@ -88,8 +88,8 @@ def judge_plan(
     record: ReactorRecord,
     constraints: Sequence[Constraint] = (),
     told: frozenset[str] | None = None,
-) -> JudgeReport:
-    """Judge a plan by itself: no owner and no draws; runs that are not on record are found out.
+) -> tuple[JudgeReport, ReactorRecord]:
+    """Judge a plan by itself: no owner and no draws; the plan comes back with the runs that were found out.
 
     `told` names the classes of whose objects all tokens are known; without it the plan has all tokens.
     """
@@ -99,7 +99,8 @@ def judge_plan(
     bench.told = told
     _judge_model(judge, bench, None)
     judge_timelines(judge, bench, None, {}, (), ())
-    return _summary([bench])
+    tokens = tuple([one._replace(runs=tuple(bench.runs.get(one.key, one.runs))) for one in record.tokens])
+    return _summary([bench]), record._replace(tokens=tokens)
 
 
 def _undrawn(parameter: str, ticks: Array) -> None:

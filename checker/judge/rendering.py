@@ -19,12 +19,12 @@ class DisagreementError(Exception):
         super().__init__(disagreement_text(report.errors[0]) + others)
 
 
-def _value_text(value: Value) -> str:
+def value_text(value: Value) -> str:
     """A value as reports print it: `[lo hi]` and `{a, b}` for what was never fixed."""
     if isinstance(value, ValueRange):
         return f"[{_bound(value.lower)} {_bound(value.upper)}]"
     if isinstance(value, OpenValues):
-        return "{" + ", ".join(_value_text(each) for each in value.values) + "}"
+        return "{" + ", ".join(value_text(each) for each in value.values) + "}"
     if isinstance(value, bool):
         return "true" if value else "false"
     return value if isinstance(value, str) else repr(value)
@@ -36,14 +36,14 @@ def _bound(number: float) -> str:
     return repr(int(number)) if number == int(number) else repr(number)
 
 
-def _place_text(span: Span) -> str:
+def place_text(span: Span) -> str:
     """File and line of a stretch of a model."""
     return f"{PurePath(span.source.name).name}:{span.line}"
 
 
 def disagreement_text(one: Disagreement) -> str:
     """One disagreement in one line."""
-    where = f"{_place_text(one.span)}: " if one.span is not None else ""
+    where = f"{place_text(one.span)}: " if one.span is not None else ""
     who = f" ({', '.join(one.tokens)})" if one.tokens else ""
     return f"{one.reactor}: {where}{_claim(one)}{who}{_values_text(one)}"
 
@@ -52,12 +52,12 @@ def _values_text(one: Disagreement) -> str:
     """The values that were judged; constants and parts of expressions stand in the text of the model."""
     has_names = any(name for name, _ in one.values)
     shown = [(name, value) for name, value in one.values if name or not has_names]
-    texts = [f"{name} = {_value_text(value)}" if name else _value_text(value) for name, value in shown]
+    texts = [f"{name} = {value_text(value)}" if name else value_text(value) for name, value in shown]
     return f": {', '.join(texts)}" if texts else ""
 
 
 def _claim(one: Disagreement) -> str:
-    line = f"`{_statement(one.span)}`" if one.span is not None else f"`{one.name}`"
+    line = f"`{statement_of(one.span)}`" if one.span is not None else f"`{one.name}`"
     match one.kind:
         case "constraint" | "relation":
             left_open = "fixes a value that was left open"
@@ -82,7 +82,7 @@ def _claim(one: Disagreement) -> str:
             return f"{one.kind} `{one.name}`: {one.held}, but {one.found}"
 
 
-def _statement(span: Span) -> str:
+def statement_of(span: Span) -> str:
     """The statement of a model that a stretch of it belongs to, on one line; of a block its head."""
     text, begin, finish = span.source.text, span.begin, span.finish
     line = text.rfind("\n", 0, begin) + 1

@@ -1,6 +1,7 @@
 """Steps that judge one run of a body against the record."""
 
 from dataclasses import dataclass
+from functools import partial
 
 from checker.judge.bench import Bench
 from checker.judge.bodies import StepMaker, Written, compile_body
@@ -93,6 +94,7 @@ def _variable(new: NewVariable, names: VariableNames) -> Step:
             if slot not in frame.choosing.known:
                 frame.slots[slot] = UNKNOWN
             value = frame.slots[slot]
+            frame.choosing.log.locals.append(value)
         if value is None:
             bench.skip("a local variable is not on record")
             frame.slots[slot] = UNKNOWN
@@ -284,14 +286,10 @@ def _guard(guard: Guard, then: list[Step], otherwise: list[Step], names: Variabl
         if reached is None and frame.choosing is not None:
             value = condition(frame)
             truth = True if isinstance(value, str) else is_true(value)
+            branch = then if truth else otherwise
             if truth is None:
                 bench.skip("a branch that is not known")
-                return
-            inner = BodyFrame(bench, frame.tok, list(frame.slots), list(frame.tokens))
-            inner.choosing = frame.choosing
-            inner.within = text if truth else f"else of {text}"
-            for each in then if truth else otherwise:
-                each(inner)
+            frame.choosing.branch(truth, partial(_carry_out, frame, branch, text, truth) if branch else None)
             return
         if reached is None:
             bench.skip("a guard is not on record")
@@ -316,6 +314,15 @@ def _guard(guard: Guard, then: list[Step], otherwise: list[Step], names: Variabl
                 each(inner)
 
     return step
+
+
+def _carry_out(frame: BodyFrame, steps: list[Step], text: str, truth: bool | None) -> None:
+    """Judge a branch that nobody recorded."""
+    inner = BodyFrame(frame.bench, frame.tok, list(frame.slots), list(frame.tokens))
+    inner.choosing = frame.choosing
+    inner.within = text if truth else f"else of {text}"
+    for each in steps:
+        each(inner)
 
 
 def _loop(loop: ObjectLoop, body: list[Step], names: VariableNames) -> Step:

@@ -166,22 +166,39 @@ class Tables:
 class RowTokens:
     """One token per row of a group: `rows` are their places in the record."""
 
-    __slots__ = ("_arguments", "_columns", "_part", "_whole", "rows", "standing", "tables")
+    __slots__ = ("_arguments", "_columns", "_part", "_rows", "_standing", "_whole", "tables")
 
-    def __init__(self, tables: Tables, rows: Array) -> None:
+    def __init__(self, tables: Tables, rows: Array, whole: "RowTokens | None" = None) -> None:
         self.tables = tables
-        self.rows = rows
-        self.standing = tables.standing.take(rows)
+        self._whole = whole  # the tokens of which these are the part in some rows
+        self._part = rows
+        self._rows: Array | None = rows if whole is None else None
+        self._standing: Array | None = None
         self._columns: dict[int, Column] = {}
         self._arguments: list[tuple[Mask, _Picked]] | None = None
-        self._whole: RowTokens | None = None  # the tokens of which these are the part in some rows
-        self._part = rows
+
+    @property
+    def rows(self) -> Array:
+        """The places of these tokens in the record."""
+        if self._rows is None:
+            assert self._whole is not None
+            self._rows = self._whole.rows.take(self._part)
+        return self._rows
+
+    @property
+    def standing(self) -> Array:
+        """The places of those that stand for these tokens."""
+        if self._standing is None:
+            whole = self._whole
+            self._standing = self.tables.standing.take(self.rows) if whole is None else whole.standing.take(self._part)
+        return self._standing
+
+    def __len__(self) -> int:
+        return len(self._part)
 
     def part(self, rows: Array) -> "RowTokens":
         """The tokens of some rows of the group."""
-        found = RowTokens(self.tables, self.rows.take(rows))
-        found._whole, found._part = self, rows
-        return found
+        return RowTokens(self.tables, rows, self)
 
     def column(self, variable: int) -> Column:
         """A variable of these tokens, of those that stand for them where they are merged."""
@@ -199,7 +216,7 @@ class RowTokens:
         number = variable - FIRST_PARAMETER
         if len(self._arguments) == 1:
             return self._arguments[0][1].column(number)
-        return joined([(rows, each.column(number)) for rows, each in self._arguments], len(self.rows))
+        return joined([(rows, each.column(number)) for rows, each in self._arguments], len(self))
 
     def _sort(self) -> list[tuple[Mask, _Picked]]:
         """The arguments by predicate, with the rows of each."""

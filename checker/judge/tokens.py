@@ -137,7 +137,7 @@ def _judge_token(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
         return
     if bench.infers and not record.runs:
         for number in known.rules:
-            _find_run(bench, tok, judge.rules[number])
+            _find_run(bench, tok, number, judge.rules[number])
         return
     if not _has_fired(bench, tok, known, record.runs):
         return
@@ -149,11 +149,12 @@ def _judge_token(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
             step(frame)
 
 
-def _find_run(bench: Bench, tok: Tok, rule: RuleJudge) -> None:
+def _find_run(bench: Bench, tok: Tok, number: int, rule: RuleJudge) -> None:
     """Judge a rule whose run nobody recorded: under some choice of its children all of it must hold."""
-    choosing = Choosing()
+    choosing = Choosing(number)
     before = len(bench.found)
     first: list[Disagreement] = []
+    run = choosing.run()
     for tries in range(MOST_TRIES):
         choosing.begin()
         choosing.known.clear()
@@ -167,8 +168,10 @@ def _find_run(bench: Bench, tok: Tok, rule: RuleJudge) -> None:
             for step in rule.steps:
                 step(frame)
         if len(bench.found) == before:
+            bench.runs.setdefault(tok.key, []).append(choosing.run())
             return
-        first = first or bench.found[before:]
+        if not first:
+            first, run = bench.found[before:], choosing.run()
         del bench.found[before:]
         if not choosing.advance():
             break
@@ -176,6 +179,7 @@ def _find_run(bench: Bench, tok: Tok, rule: RuleJudge) -> None:
             bench.skip("a rule with too many choices")
             return
     bench.found += first
+    bench.runs.setdefault(tok.key, []).append(run)
 
 
 def _has_fired(bench: Bench, tok: Tok, known: PredicateJudge, runs: tuple[BodyRun, ...]) -> bool:

@@ -34,6 +34,7 @@ _MOST_STRUCTURES = 24
 _MOST_CORNERS = 64
 _NUDGES = 3
 _MOST_DRAWN = 8
+_ROUNDING = Fraction(1, 10**9)
 
 
 class Certainty(Enum):
@@ -126,6 +127,11 @@ class Certifier:
             return self._unknown(f"z3 cannot be told what `{silent[0]}` means")
         return self._answer(Certainty.CERTIFIED, why=_UNSEEN if has_gaps else "")
 
+    def find_structure(self) -> bool:
+        """Fly the middle of the box, else points drawn evenly, until a mission passes."""
+        points = (self.box.middle(), *self.box.drawn(_MOST_CORNERS, 0))
+        return any(self._flown(point) is None for point in points)
+
     def _first_points(self, corners: bool) -> Iterator[Point]:
         yield self.box.middle()
         if corners and 2 ** len(self.box.sides) <= _MOST_CORNERS:
@@ -180,7 +186,7 @@ class Certifier:
         those of the structures.
         """
         claims = conditions or [[each.claim for each in found.conditions] for found in self.dated]
-        ranges = self._ranges(free)
+        ranges = self.ranges(free)
         draws: dict[str, dict[str, Number]] = {name: {} for name in self.box.sides}
         solver = z3.Solver()
         solver.set("rlimit", self.effort)
@@ -213,13 +219,17 @@ class Certifier:
                 return (self._point(solver.model()),)
         return None if z3.unknown in (answer, apart) else ({}, {})
 
-    def _ranges(self, free: Mapping[str, object]) -> Ranges:
-        """The ranges of the sampled values while only some parameters are free."""
+    def ranges(self, free: Mapping[str, object] | None = None) -> Ranges:
+        """The ranges of the sampled values while only some parameters are free; None: all, and a bit beyond."""
         sides = {}
         for structure in self.structures:
             for name, drawn in structure.draws.items():
-                fixed = None if name in free or self.base is None else Fraction(self.base[name])
-                sides.update(dict.fromkeys(drawn, self.box.range(name) if fixed is None else (fixed, fixed)))
+                lower, upper = self.box.range(name)
+                if free is None:  # as far as doubles may round
+                    lower, upper = lower - _ROUNDING, upper + _ROUNDING
+                elif name not in free and self.base is not None:
+                    lower = upper = Fraction(self.base[name])
+                sides.update(dict.fromkeys(drawn, (lower, upper)))
         return Ranges(sides)
 
     def _doubtful(self, claims: Sequence[Claim], ranges: Ranges) -> list[Claim]:
@@ -248,9 +258,7 @@ class Certifier:
 
     def _refuted(self, point: Point, outcome: Outcome) -> Certificate:
         if self.base is None:
-            for each in self.box.drawn(_MOST_CORNERS, 0):
-                if self._flown(each) is None:
-                    break
+            self.find_structure()
         subset, is_smallest, failing, failed = self._smallest(point, outcome)
         lines = self._lines(failing)
         return self._answer(

@@ -7,6 +7,7 @@ is not assumed: every demand is a condition on the sampled values in the end.
 """
 
 from collections import deque
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import floor
 
@@ -36,6 +37,7 @@ class Dated:
     conditions: tuple[Requirement, ...]
     open: int
     lags: int  # times that follow something as they did in the flight
+    known: Mapping[str, Number] = field(default_factory=dict)  # variables over sampled values
 
 
 def dated(structure: Structure, freed: frozenset[str] = frozenset()) -> Dated:
@@ -277,7 +279,7 @@ class _Dating:
         found += [
             Requirement(demand, divisor != 0) for demand, divisor in self.divisors if fraction(divisor) is None
         ]  # what is divided by may be 0 elsewhere
-        return Dated(tuple(found), left, self.lags)
+        return Dated(tuple(found), left, self.lags, self.known)
 
 
 def _variables(expression: Number) -> list[Number]:

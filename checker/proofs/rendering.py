@@ -10,6 +10,8 @@ from checker.oracle import judge
 from checker.proofs.box import Box, Point
 from checker.proofs.certify import Certainty, Certificate
 from checker.proofs.constants import SafeConstant
+from checker.proofs.demands import Demand
+from checker.proofs.uncertain import PlanNetwork, VehicleDuration
 from checker.rendering import failure_text
 from checker.sampling.rendering import number
 from nddl_lang.text.source import Span
@@ -121,3 +123,78 @@ def _side(box: Box, name: str) -> str:
 
 def _point(point: Point | None) -> str:
     return ", ".join(f"{name} = {number(value)}" for name, value in (point or {}).items()) or "the mission"
+
+
+def control_lines(
+    name: str,
+    plan: PlanNetwork,
+    cycle: tuple[object, ...] | None,
+    excerpts: Excerpts,
+    *,
+    is_strong: bool,
+    is_weak: bool | None,
+) -> list[str]:
+    """What is said of one reactor's plan."""
+    answer = "dynamically controllable" if cycle is None else "not dynamically controllable"
+    lines = [f"{name}, plan of {plan.reactor}: {answer}; {_static(is_strong, is_weak)}"]
+    lines.append("  the vehicle decides:")
+    lines += [f"    {_taken(each)}" for each in plan.durations]
+    if plan.left_out:
+        lines.append(f"  {plan.left_out} demands are no distances between times, and are left out")
+    if cycle is not None:
+        lines.append("  no strategy keeps all of these:")
+        for each in _cycle(cycle):
+            match each:
+                case VehicleDuration():
+                    lines.append(f"    {_taken(each)}")
+                case Demand(span=Span() as span):
+                    lines.append(f"    {each.token}" if each.token else "    the script")
+                    lines += excerpt_lines(place_of(span, excerpts.root), excerpts, indent="      ")
+                case Demand():
+                    lines.append(f"    {_unwritten(each)}")
+    return lines
+
+
+def _taken(each: VehicleDuration) -> str:
+    after = f"ends {each.lower} to {each.upper} after the end of {each.after}"
+    return f"{each.token} {after if each.after else f'takes {each.lower} to {each.upper}'}"
+
+
+def _cycle(cycle: tuple[object, ...]) -> list[object]:
+    """The reasons of a cycle, each line and each duration once."""
+    found: dict[object, object] = {}
+    for each in cycle:
+        key = (each.token, each.span) if isinstance(each, Demand) and each.span is not None else each
+        found.setdefault(key, each)
+    return list(found.values())
+
+
+def _unwritten(demand: Demand) -> str:
+    if demand.token:
+        return f"{demand.token} lasts at least 1, and is over when the mission ends"
+    return "the order of tokens on a timeline, or what the mission file asks for"
+
+
+def _static(is_strong: bool, is_weak: bool | None) -> str:
+    if is_strong:
+        return "strongly too: one schedule does for all durations"
+    known = {True: "weakly", False: "not even weakly", None: "whether weakly is not known"}[is_weak]
+    return f"not strongly, {known}" if is_weak is not None else f"not strongly; {known}"
+
+
+def control_data(
+    plan: PlanNetwork, cycle: tuple[object, ...] | None, excerpts: Excerpts, *, is_strong: bool, is_weak: bool | None
+) -> dict[str, Any]:
+    """The same as data."""
+    spans = [each.span for each in _cycle(cycle or ()) if isinstance(each, Demand) and each.span is not None]
+    return {
+        "reactor": plan.reactor,
+        "dynamic": cycle is None,
+        "strong": is_strong,
+        "weak": is_weak,
+        "durations": [
+            {"token": each.token, "between": [each.lower, each.upper], "after": each.after} for each in plan.durations
+        ],
+        "left_out": plan.left_out,
+        "cycle": [place_data(place_of(span, excerpts.root), excerpts) for span in spans],
+    }

@@ -30,15 +30,17 @@ class Structure:
     values: dict[str, Value] = field(default_factory=dict)
     variables: dict[str, Number] = field(default_factory=dict)
     times: list[tuple[str, str, str]] = field(default_factory=list)  # start, end and duration of each token
+    asked: list[tuple[str, str, str]] = field(default_factory=list)  # reactor, variables and name of what it asked for
     earliest: dict[str, int] = field(default_factory=dict)  # starts that the mission file asks for
     draws: dict[str, list[str]] = field(default_factory=dict)  # variables of each sampled parameter
     untold: dict[str, int] = field(default_factory=dict)
+    symbols: Symbols = field(default_factory=Symbols)
 
 
 def structure_of(agent: AgentConfiguration, programs: Sequence[Program], record: MissionRecord) -> Structure:
     """The structure of a flown mission."""
     found = Structure()
-    symbols = Symbols()
+    symbols = found.symbols
     redrawn = frozenset(each.name for each in agent.parameters if each.mode == "intra")
     readers = []
     by_name = {each.reactor: each for each in record.reactors}
@@ -157,6 +159,8 @@ class _ReactorReader:
             if domains:
                 claim = z3.And(*[self.symbols.within(target, each) for each in domains])
                 self.found.demands.append(Demand("", (target,), claim, parameter.span, name, self.place.name))
+        if token.origin != "observation" and str(token.object) in self.place.external and isinstance(token.end, int):
+            self.found.asked.append((self.place.name, f"{self.place.name}:{token.key}", name))
         if isinstance(token.end, int):
             self.found.times.append((name_of(start), name_of(end), name_of(length)))
         else:

@@ -381,9 +381,20 @@ class Agent:
         self.reactors.remove(reactor)
         self.awake.remove(reactor)
         self.killed.append(reactor)
+        done = {each.request for each in self.trace.events if each.kind is EventKind.ACHIEVED}
         for number in reactor.open_requests():
             owner = self.takers.pop(number, None)
-            if owner is not None and owner in self.reactors:
+            if owner is not None and owner in self.reactors and number not in done:
+                one = self.made[number]
+                self.trace.record(
+                    EventKind.RECALL,
+                    reactor.name,
+                    one.timeline,
+                    one.predicate,
+                    one.arguments,
+                    (event,),
+                    request=number,
+                )
                 owner.recall(number)
                 self.stirred.append(owner)
         lost = [number for number, owner in self.takers.items() if owner is reactor and number in self.made]

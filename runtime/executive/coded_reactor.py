@@ -134,14 +134,14 @@ class CodedReactor:
             self._arguments(asked.timeline, asked.predicate, asked.arguments)
             _bounds(asked.start), _bounds(asked.end), _bounds(asked.duration)
         for number in now.recalled:
-            if number not in self.numbers and number not in [asked.number for asked in now.asked]:
+            if not 0 <= number < self.count + len(now.asked):
                 raise ValueError(f"it took back request {number!r}, which it never made")
         if now.wakes_at is not None:
             if not isinstance(now.wakes_at, int) or now.wakes_at <= now.tick:
                 raise ValueError(f"it wants to be woken at {now.wakes_at!r}, which is not later than {now.tick}")
             self.wakes_at = now.wakes_at
         self.published, self.recalled = now.published, now.recalled
-        self.asked = now.asked
+        self.asked = [asked for asked in now.asked if asked.number not in now.recalled]
         self.count += len(now.asked)
 
     def observations(self, tick: int) -> list[Observation]:

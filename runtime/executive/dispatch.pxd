@@ -18,6 +18,8 @@ cdef class Dispatch:
 
     cpdef bint is_refused(self, long long token) except -1
 
+    cpdef int forgive(self) except -1
+
     cpdef tuple refusals(self)
 
     @cython.locals(t="long long")

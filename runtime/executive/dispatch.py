@@ -21,6 +21,7 @@ class Dispatch:
         self.sent: dict[int, Request] = {}  # by the key of the token that was sent, until it is over
         self.sent_tokens: dict[int, int] = {}
         self.refused: dict[int, int] = {}  # by number: the event in which an owner gave a request up
+        bench.asked = self.sent
 
     def is_asked(self, token: int) -> bool:
         """Whether the owner has been asked for a token that is not over."""
@@ -41,6 +42,18 @@ class Dispatch:
         news = [line.news.event for line in self.timelines if line.news is not None]
         tokens = [self.sent_tokens[key] for key in self.sent if self.bench.is_alive(self.sent_tokens[key], key)]
         return [token for token in tokens if any(self.is_answered(token, event) for event in news)]
+
+    def forgive(self) -> int:
+        """Forget refusals of what owners have now begun all the same: there was room for it again."""
+        if not self.refused:
+            return 0
+        for line in self.timelines:
+            if line.news is not None:
+                for cause in self.trace.events[line.news.event].causes:
+                    for request in self.sent.values():
+                        if request.event == cause:
+                            self.refused.pop(request.number, None)
+        return 0
 
     def refusals(self) -> tuple[int, ...]:
         """The events in which owners gave up what still is in the plan."""

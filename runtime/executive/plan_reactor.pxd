@@ -15,7 +15,8 @@ cdef long long EPISODE_DONE, EPISODE_MOVED, EPISODE_TOO_DEEP, NOTHING
 cdef class PlanReactor:
     cdef public str name
     cdef public tuple internal, external
-    cdef public long long latency, lookahead, reach, final_tick, tick, due, relaxes, relaxed_at, steps_made, work_since
+    cdef public long long latency, lookahead, reach, final_tick, tick, due, relaxes, relaxed_at, steps_made
+    cdef public long long decisions_made, work_since
     cdef public Workbench bench
     cdef public Planner planner
     cdef public Dispatch dispatch

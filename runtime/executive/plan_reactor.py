@@ -68,6 +68,7 @@ class PlanReactor:
         self.relaxes = 0
         self.relaxed_at = NOTHING
         self.steps_made = 0
+        self.decisions_made = 0
         self.work_since = 0
         self.broken: Failure | None = None
         self.deferral = Deferral(bench, self.timelines)
@@ -99,6 +100,7 @@ class PlanReactor:
         self.tick = tick
         self.work_since = tick
         self.steps_made = 0
+        self.decisions_made = 0
         self.is_stirred = False
 
     def notify(self, observation: Observation) -> None:
@@ -151,6 +153,7 @@ class PlanReactor:
         events = tuple([line.event for line in self.timelines if line.event != NOTHING and not line.is_internal])
         failures: list[SyncFailure] = []
         watched: tuple[Watched, ...] = ()
+        self.dispatch.forgive()
         for attempt in range(3):
             if attempt:
                 self.trace.phase = Phase.REPAIR
@@ -275,7 +278,7 @@ class PlanReactor:
 
     def is_out_of_steps(self) -> bool:
         """Whether it has made as many decisions in this tick as it may."""
-        return self.max_steps is not None and self.steps_made >= self.max_steps
+        return self.max_steps is not None and self.decisions_made >= self.max_steps
 
     def step(self, tick: int) -> bool:
         """Take in requests, or make one decision inside the planning window; when nothing is left, keep the plan."""
@@ -289,6 +292,7 @@ class PlanReactor:
         self.steps_made += 1
         outcome = self.planner.deliberate(tick, min(tick + self.reach, self.final_tick))
         if outcome == EPISODE_MOVED:
+            self.decisions_made += 1
             return True
         if outcome == EPISODE_DONE:
             self.goals.report_rejected(tick)

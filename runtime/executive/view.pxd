@@ -19,7 +19,7 @@ cdef class PlanView:
     cdef public Engine engine
     cdef public Rows rows
     cdef public str name
-    cdef public dict predicates, parameters, globals, requested, moved
+    cdef public dict predicates, parameters, globals, requested, moved, asked
     cdef public set external_objects, internal_objects, late_objects
     cdef public Recorder recorder
 
@@ -112,6 +112,9 @@ cdef class PlanView:
 
     @cython.locals(e="long long", engine=Engine, seen=set, stack=list, v="long long")
     cpdef bint _follows_awaited(self, long long t, long long current, long long tick) except -1
+
+    @cython.locals(after="long long", e="long long", ended="long long", engine=Engine, seen=set, stack=list)
+    cpdef bint _ends_with(self, long long v, long long t) except -1
 
     @cython.locals(_="long long", engine=Engine, is_own=bint, plan=Plan, support="long long", v="long long")
     cpdef bint _is_held_back(self, long long t, long long tick) except -1

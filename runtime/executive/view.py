@@ -1,5 +1,6 @@
 """Read a plan database under execution in tokens, ticks and names."""
 
+from collections.abc import Mapping
 from math import inf
 
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, DomainConstant
@@ -62,6 +63,7 @@ class PlanView:
         self.globals = {name: number for number, (name, _) in enumerate(database.program.globals)}
         self.requested: dict[int, int] = {}  # token -> key
         self.moved: dict[int, None] = {}  # variables whose least value was raised since the last tidying
+        self.asked: Mapping[int, object] = {}  # what owners were asked for, by the key of its token
         self.external_objects: set[int] = set()
         self.recorder = Recorder(database, name)
         self.internal_objects: set[int] = set()
@@ -312,7 +314,7 @@ class PlanView:
             while e >= 0:
                 v = engine.edge_target[e]
                 if engine.edge_weight[e] <= 0 and v not in seen and engine.upper(v) > tick:
-                    if self._is_awaited(v, t, current, tick):
+                    if self._is_awaited(v, t, current, tick) and not self._ends_with(v, t):
                         return True
                     seen.add(v)
                     stack.append(v)
@@ -340,9 +342,25 @@ class PlanView:
         if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != END or self.engine.upper(v) <= tick:
             return False
         other = self.stands_for(plan.variable_owner[v])
-        if other == self.stands_for(t) or other == current:
+        return other not in (self.stands_for(t), current) and self.object_of(other) in self.external_objects
+
+    def _ends_with(self, v: int, t: int) -> bool:
+        """Whether `v` ends what was not asked for, when what is planned next there begins, which `t` cannot outwait."""
+        ended = self.stands_for(self.plan.variable_owner[v])
+        after = self.following(ended)
+        if after < 0 or self.key(ended) in self.asked:
             return False
-        return self.object_of(other) in self.external_objects
+        engine, seen = self.engine, {self.start(after)}
+        stack = list(seen)
+        while stack:
+            e = engine.out_head[stack.pop()]
+            while e >= 0:
+                v = engine.edge_target[e]
+                if engine.edge_weight[e] <= 0 and v not in seen:
+                    seen.add(v)
+                    stack.append(v)
+                e = engine.out_next[e]
+        return self.start(t) in seen
 
     def object_of(self, t: int) -> int:
         """The object that a token is on; NONE while that is open."""

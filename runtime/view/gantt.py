@@ -1,4 +1,4 @@
-"""Gantt chart in characters: a row per object, time from left to right, each token as early as it can be."""
+"""Gantt chart in characters: a row per object, time from left to right, each token with the range of its times."""
 
 from collections.abc import Iterator
 
@@ -11,6 +11,7 @@ _WIDEST = 160  # columns of the drawing
 _LEAST = 16
 _MARGIN = 20  # columns between numbers on the scale
 _SEVERAL = "#"
+_MAYBE = "."
 
 
 def chart(drawn: Drawing, width: int) -> Iterator[str]:
@@ -41,6 +42,8 @@ def _legend(drawn: Drawing, signs: set[str], width: int) -> Iterator[str]:
     said = []
     if not all(bar.is_fixed for own in drawn.bars.values() for bar in own):
         said.append("each token as early as it can be")
+    if _MAYBE in signs:
+        said.append(f"`{_MAYBE}` where it may be later")
     if ">" in signs:
         said.append("`>` may last longer")
     if drawn.profiles:
@@ -63,7 +66,10 @@ def _lane_line(lane: list[Bar], columns: int, first: int, scale: float) -> str:
     begun: set[int] = set()
     for bar in lane:
         start = int((bar.start - first) * scale)
-        _draw(line, start, int((bar.end - first) * scale), bar.predicate, "=")
+        earliest, latest = (int((moment - first) * scale) for moment in (min(bar.sure[1], bar.end), bar.end))
+        _draw(line, start, latest, bar.predicate, _MAYBE)
+        for at in range(start, min(earliest, latest, len(line))):
+            line[at] = "=" if line[at] == _MAYBE else line[at]
         if start in begun:
             line[start] = _SEVERAL
         begun.add(start)

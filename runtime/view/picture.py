@@ -1,6 +1,6 @@
 """SVG picture of a plan, and HTML page that holds it: no scripts, nothing from outside."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from html import escape
 from math import inf
 
@@ -16,6 +16,7 @@ _ROOMY = 60  # pixels that a token is given where that is possible
 _LINE = 26
 _TALL = 56  # the height of a level's row
 _HEAD = 30
+_NAMED = 32  # pixels in which a name can be read
 _LETTER = 7  # pixels, as wide as most are
 _MOST_TICKS = 12  # where the picture is narrow
 _LONGEST = 32  # letters of an object's name
@@ -36,7 +37,7 @@ _LOOK = (
 
 
 def svg(drawn: Drawing) -> str:
-    """The plan as one SVG element; bars that may move have a dashed outline."""
+    """The plan as one SVG element; where a token may hold, but need not, its bar is pale, with a dashed outline."""
     margin = 20 + _LETTER * max([min(len(row), _LONGEST) for row in drawn.rows], default=0)
     most = max([len(own) for own in drawn.bars.values()], default=0)
     width = min(max(_NARROW, _ROOMY * most), _WIDE)
@@ -55,8 +56,7 @@ def svg(drawn: Drawing) -> str:
             own = lanes(drawn.bars[row])
             for lane in own:
                 for bar in lane:
-                    start = margin + (bar.start - drawn.first) * scale
-                    body += _bar(bar, start, (bar.end - bar.start) * scale, y, colours)
+                    body += _bar(bar, lambda moment: margin + (moment - drawn.first) * scale, y, colours)
                 y += _LINE
             y += 0 if own else _LINE
         body.append(f'<line class="r" x1="0" y1="{y}" x2="{margin + width + 20}" y2="{y}"/>')
@@ -73,23 +73,45 @@ def svg(drawn: Drawing) -> str:
     )
 
 
-def _bar(bar: Bar, x: float, width: float, y: int, colours: dict[str, str]) -> Iterator[str]:
-    """One token: a box with its name and, for the pointer, all that is known of it."""
-    wide = max(width, 3.0)
-    outline = "" if bar.is_fixed else ' class="m" stroke-dasharray="3 2"'
-    box = (
-        f'<rect x="{x:.1f}" y="{y + 3}" width="{wide:.1f}" height="{_LINE - 6}" rx="3" fill="{colours[bar.predicate]}"'
-    )
-    yield f"<g><title>{escape(bar.tip)}</title>{box}{outline}/>"
+def _bar(bar: Bar, across: Callable[[int], float], y: int, colours: dict[str, str]) -> Iterator[str]:
+    """One token: full where it holds in any case, paler where it does if it is early, palest where it may.
+
+    For the pointer all that is known of it.
+    """
+    x, colour = across(bar.start), colours[bar.predicate]
+    wide = max(across(bar.end) - x, 3.0)
+    begin, end = max(across(bar.sure[0]), x), min(max(across(bar.sure[1]), x + 3.0), x + wide)
+    is_full = bar.is_fixed or bar.is_early
+    shape = f'y="{y + 3}" height="{_LINE - 6}" rx="3" fill="{colour}"'
+    yield f"<g><title>{escape(bar.tip)}</title>"
+    if is_full:
+        yield f'<rect x="{x:.1f}" width="{wide:.1f}" {shape}/>'
+    else:
+        yield f'<rect x="{x:.1f}" width="{wide:.1f}" {shape} fill-opacity="0.2"/>'
+        yield f'<rect x="{x:.1f}" width="{end - x:.1f}" {shape} fill-opacity="0.35"/>'
+        if end > begin:
+            yield f'<rect x="{begin:.1f}" width="{end - begin:.1f}" {shape}/>'
+    if not bar.is_fixed:
+        yield f'<rect class="m" x="{x:.1f}" width="{wide:.1f}" {shape.replace(colour, "none")} stroke-dasharray="3 2"/>'
     if bar.is_open:
-        end = x + wide
-        yield f'<path class="m" fill="none" d="M{end + 2:.1f} {y + 9}l5 4l-5 4"/>'
+        yield f'<path class="m" fill="none" d="M{x + wide + 2:.1f} {y + 9}l5 4l-5 4"/>'
+    is_on_full = is_full or end - begin >= _NAMED
+    if is_on_full:
+        x, wide = (x, wide) if is_full else (begin, end - begin)
+    elif end > begin and begin - x < _NAMED:
+        x, wide = end, x + wide - end
+    elif end > begin:
+        wide = begin - x
+    yield from _name(bar.predicate, x, wide, y, ("t k" if colour in _LIGHT else "t w") if is_on_full else "t")
+    yield "</g>"
+
+
+def _name(name: str, x: float, wide: float, y: int, letters: str) -> Iterator[str]:
+    """As much of a name as there is room for."""
     room = int((wide - 6) / 6.5)
     if room >= 2:
-        name = bar.predicate if len(bar.predicate) <= room else bar.predicate[: room - 1] + "…"
-        letters = "t k" if colours[bar.predicate] in _LIGHT else "t w"
-        yield f'<text class="{letters}" x="{x + 4:.1f}" y="{y + 17}">{escape(name)}</text>'
-    yield "</g>"
+        shown = name if len(name) <= room else name[: room - 1] + "…"
+        yield f'<text class="{letters}" x="{x + 4:.1f}" y="{y + 17}">{escape(shown)}</text>'
 
 
 def _level(name: str, profile: LevelProfile, drawn: Drawing, margin: int, y: int, scale: float) -> Iterator[str]:

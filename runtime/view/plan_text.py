@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from runtime.plan.readout.state import PlanState, TokenState
 from runtime.plan.store.domain_texts import DomainText
 from runtime.solver.configuration.limits import Limits
-from runtime.view.drawing import Drawing, interval_text
+from runtime.view.drawing import Drawing, interval_text, readable
 from runtime.view.gantt import chart
 from runtime.view.table import table
 
@@ -102,7 +102,7 @@ def token_cells(token: TokenState, *, is_full: bool = False) -> tuple[str, ...]:
     own = token.extent
     if own is None:
         return (token.name, token.predicate, state, "", "", "", "", "")
-    shown = [f"{name} {each}" if is_full else f"{name}={each.brief}" for name, each in own.parameters.items()]
+    shown = [f"{name} {each}" if is_full else f"{name}={readable(each.brief)}" for name, each in own.parameters.items()]
     times = (interval_text(own.start), interval_text(own.duration), interval_text(own.end))
     holder = str(own.object) if is_full else own.object.brief
     return (token.name, token.predicate, state, holder, *times, ", ".join(shown))
@@ -110,7 +110,7 @@ def token_cells(token: TokenState, *, is_full: bool = False) -> tuple[str, ...]:
 
 def found_values(plan: PlanState, before: Mapping[str, DomainText]) -> list[tuple[str, str]]:
     """The variables of the model, not of tokens, that the search has narrowed, and what is left of them."""
-    return [(name, domain.brief) for name, domain in plan.variables.items() if before.get(name) != domain]
+    return [(name, readable(domain.brief)) for name, domain in plan.variables.items() if before.get(name) != domain]
 
 
 def verdict(report: PlanReport) -> Iterator[str]:

@@ -6,6 +6,7 @@ import re
 import signal
 import subprocess
 import sys
+from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -76,7 +77,7 @@ def planned(folder: Path, text: str, *options: str) -> int:
 def test_a_plan_is_a_chart_a_table_and_a_verdict(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert planned(tmp_path, TWO) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert re.fullmatch(r"lamp +\|On=+\|Off=+", lines[0])
+    assert re.fullmatch(r"lamp +\|On=+\|Off=+\.+", lines[0])
     assert any(re.match(r"b +Lamp\.On +MERGED a$", line) for line in lines)
     assert re.fullmatch(r"plan found after \d+ steps, \d+ decisions in force", lines[-1])
 
@@ -162,7 +163,7 @@ def test_an_infinite_horizon_holds_what_never_ends(tmp_path: Path, capsys: pytes
     last = json.loads(capsys.readouterr().out)["tokens"][-1]
     assert (last["state"], last["end"]) == ("ACTIVE", [15, "+inf"])
     assert planned(tmp_path, text, "--horizon", "-inf", "inf") == 0
-    assert re.search(r"^lamp +\|On=+\|Off=+>$", capsys.readouterr().out, re.M)
+    assert re.search(r"^lamp +\|On=+\|Off[=.]+>$", capsys.readouterr().out, re.M)
 
 
 def test_values_that_the_search_found_are_shown(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -239,3 +240,57 @@ def test_variables_of_tokens_that_rules_made_are_shown_with_the_token_alone(
     told = capsys.readouterr().out
     assert "\nTank.consume#1 " in told
     assert "Tank.consume#1.start" not in told
+
+
+MOVABLE = """\
+class Lamp extends Timeline { predicate On { float power; } }
+Lamp lamp = new Lamp();
+close();
+float share = [0 1];
+share == 0.1 + 0.2;
+goal(lamp.On first);
+first.start = [0 20];
+first.duration = 10;
+first.power == 59.3 * 0.1;
+goal(lamp.On second);
+second.start = [15 20];
+second.end = 40;
+first before second;
+"""
+
+
+def test_times_that_are_open_are_drawn_with_their_range(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert planned(tmp_path, MOVABLE) == 0
+    first, second, _, legend, *_ = capsys.readouterr().out.splitlines()
+    assert re.fullmatch(r"lamp +\|On=+\.+", first) and re.fullmatch(r" +\|On=+", second)
+    assert first.count(".") == pytest.approx(first.count("=") + 3, abs=2)  # until 10 at the earliest, 20 at the latest
+    assert legend == "each token as early as it can be; `.` where it may be later"
+    assert planned(tmp_path, MOVABLE, "--format", "svg") == 0
+    picture = ElementTree.fromstring(capsys.readouterr().out)
+    boxes = [
+        (round(float(each.attrib["x"]) - 48), round(float(each.attrib["width"])), each.attrib.get("fill-opacity"))
+        for each in picture.iter("{http://www.w3.org/2000/svg}rect")
+        if each.attrib["fill"] != "none"
+    ]
+    # 22.5 pixels a tick: where a token may hold, where it does if it is early, and where it does in any case.
+    assert boxes == [(0, 450, "0.2"), (0, 225, "0.35"), (338, 562, "0.2"), (338, 562, "0.35"), (450, 450, None)]
+
+
+def test_where_many_tokens_may_move_they_are_drawn_early(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    names = [f"t{number}" for number in range(12)]
+    times = "0 <= {0}.start;\n{0}.duration = 2;\n{0}.end <= 90;\n"
+    goals = "".join(f"goal(lamp.On {name});\n{times.format(name)}" for name in names)
+    order = "".join(f"{one} before {other};\n" for one, other in pairwise(names))
+    head = "class Lamp extends Timeline { predicate On { } }\nLamp lamp = new Lamp();\nclose();\n"
+    assert planned(tmp_path, head + goals + order) == 0
+    row, _, legend, *_ = capsys.readouterr().out.splitlines()
+    assert row.count("|On") == 12 and "." not in row
+    assert legend == "each token as early as it can be"
+
+
+def test_numbers_are_shown_as_they_are_read(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert planned(tmp_path, MOVABLE) == 0
+    said = capsys.readouterr().out
+    assert "power=5.93" in said and "00000000" not in said and "99999" not in said
+    assert planned(tmp_path, MOVABLE, "--json") == 0
+    assert "0.30000000000000004" in capsys.readouterr().out

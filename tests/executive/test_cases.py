@@ -7,15 +7,14 @@ from typing import Any
 
 import pytest
 
+from checker.flight import programs_of
 from checker.mission import read_mission
+from checker.models import load_models
 from checker.oracle import judge
-from compiler.lower import compile_model
-from nddl_lang.analysis import analyse_file
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, run_mission
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import event_data
-from runtime.solver.configuration.configuration import default_configuration
 
 HERE = Path(__file__).parent
 CASES = sorted(path.parent for path in HERE.glob("cases/*/expected.json"))
@@ -23,11 +22,11 @@ Data = dict[str, Any]
 
 
 def loaded(folder: Path) -> tuple[AgentConfiguration, MissionPrograms]:
-    """A mission file and its models."""
+    """A mission file, its models and its code."""
     mission, found = read_mission(folder / "mission.toml")
     assert mission is not None, found
-    programs = tuple(compile_model(analyse_file(folder / reactor.model)) for reactor in mission.agent.reactors)
-    return mission.agent, MissionPrograms(programs, tuple(default_configuration() for _ in programs))
+    agent = load_models(mission).agent
+    return agent, programs_of(agent)
 
 
 def told(outcome: Outcome) -> list[Data]:

@@ -47,7 +47,7 @@ def _list_insertions_on(agenda: Agenda, stack: Decisions, d: int, t: int, o: int
         stack.add_to_pool(d, o, t, sequence.tokens[gap])
     if behind == count:
         stack.add_to_pool(d, o, sequence.tokens[count - 1], t)
-    if agenda.earliest and not _is_for_goal(agenda, t):
+    if agenda.earliest and (agenda.rows.parent[t] < 0 or not _is_for_goal(agenda, t)):
         _list_behind_goals(agenda, stack, start, t)
     return 0
 

@@ -1,0 +1,151 @@
+"""Dynamic controllability in cubic time: Morris' backward propagation from negative nodes (CPAIOR 2014).
+
+Each contingent link [x, y] from A to C is brought into normal form: A' exactly x after A, and C after A' by 0 to y - x.
+The upper-case edge C -> A' of weight x - y says that the vehicle may take that long, the lower-case edge A' -> C of
+weight 0 that it may be done at once. From each node that a negative edge leads to, distances are propagated backwards
+along non-negative edges, until they are not negative; then the path is one more edge. A negative node on the way is
+done first, and one that waits for itself is a cycle that no strategy can keep. A strategy may react at once to what it
+sees.
+"""
+
+from heapq import heappop, heappush
+
+from checker.controllability.network import UncertainNetwork
+
+# An edge as it stands with its later node: earlier node, weight, whether it is a lower-case edge, what it is made of.
+_Edge = tuple[int, int, bool, "object | _Call"]
+
+
+def offending_cycle(network: UncertainNetwork) -> tuple[object, ...] | None:
+    """The reasons of a cycle that no strategy can keep; None where the network is dynamically controllable."""
+    return _Propagation(network).run()
+
+
+class _Call:
+    """Propagation back from one node, suspended while another is done first."""
+
+    __slots__ = ("distance", "done", "node", "queue", "via", "waits")
+
+    def __init__(self, node: int) -> None:
+        self.node = node
+        self.distance: dict[int, int] = {node: 0}
+        self.via: dict[int, tuple[_Edge, int]] = {}  # the first edge of the path from a node, and where it leads
+        self.queue: list[tuple[int, int]] = []
+        self.done: set[int] = set()
+        self.waits = -1
+
+
+class _Propagation:
+    def __init__(self, network: UncertainNetwork) -> None:
+        count = network.points + len(network.links)
+        self.into: list[list[_Edge]] = [[] for _ in range(count)]  # negative ones
+        self.upper: list[list[_Edge]] = [[] for _ in range(count)]  # the others
+        self.least: list[dict[int, int]] = [{} for _ in range(count)]  # the smallest weight of ordinary edges
+        for edge in network.edges:
+            self._add(edge.earlier, edge.later, edge.weight, edge.why)
+        for number, link in enumerate(network.links):
+            amid, why = network.points + number, link.why
+            self._add(link.start, amid, link.lower, why)
+            self._add(amid, link.start, -link.lower, why)
+            self._add(amid, link.end, link.upper - link.lower, why)
+            self._add(link.end, amid, 0, why)
+            self._put(link.end, (amid, 0, True, why))
+            self._put(amid, (link.end, link.lower - link.upper, False, why))
+        self.negative = [bool(edges) for edges in self.into]
+        # A path that is longer than all that is negative together is part of no negative cycle.
+        self.most = -sum(edge[1] for edges in self.into for edge in edges)
+        self.finished = [False] * count
+
+    def _add(self, earlier: int, later: int, weight: int, why: "object | _Call") -> None:
+        """Add an ordinary edge, unless there is a stronger one."""
+        known = self.least[later].get(earlier)
+        if known is None or weight < known:
+            self.least[later][earlier] = weight
+            self._put(later, (earlier, weight, False, why))
+
+    def _put(self, later: int, edge: _Edge) -> None:
+        (self.into if edge[1] < 0 else self.upper)[later].append(edge)
+
+    def run(self) -> tuple[object, ...] | None:
+        """Propagate from every negative node."""
+        for node, is_negative in enumerate(self.negative):
+            if is_negative and not self.finished[node] and (cycle := self._from(node)) is not None:
+                return cycle
+        return None
+
+    def _from(self, first: int) -> tuple[object, ...] | None:
+        """Propagate back from a node, and from those that have to be done before; the reasons of a cycle."""
+        calls = [self._begin(first)]
+        open_nodes = {first}
+        while calls:
+            call = calls[-1]
+            waits = self._go_on(call)
+            if waits < 0:
+                self.finished[call.node] = True
+                open_nodes.discard(call.node)
+                calls.pop()
+            elif waits in open_nodes:
+                return self._cycle(calls, waits)
+            else:
+                open_nodes.add(waits)
+                calls.append(self._begin(waits))
+        return None
+
+    def _begin(self, node: int) -> _Call:
+        call = _Call(node)
+        for edge in self.into[node]:
+            if edge[1] < call.distance.get(edge[0], 0):
+                call.distance[edge[0]] = edge[1]
+                call.via[edge[0]] = (edge, node)
+                heappush(call.queue, (edge[1], edge[0]))
+        return call
+
+    def _go_on(self, call: _Call) -> int:
+        """Propagate until a negative node has to be done first, which is told; -1 at the end."""
+        queue, distance, via, done, source = call.queue, call.distance, call.via, call.done, call.node
+        most = self.most
+        while queue:
+            length, node = heappop(queue)
+            if node in done or length > distance[node]:
+                continue
+            if length >= 0:
+                done.add(node)
+                self._add(node, source, length, call)
+                continue
+            if self.negative[node] and not self.finished[node]:
+                heappush(queue, (length, node))
+                call.waits = node
+                return node
+            done.add(node)
+            for edge in self.upper[node]:
+                earlier = edge[0]
+                total = length + edge[1]
+                # The vehicle cannot be both at once and as late as it may.
+                if total < distance.get(earlier, most) and not (edge[2] and earlier == source):
+                    distance[earlier] = total
+                    via[earlier] = (edge, node)
+                    heappush(queue, (total, earlier))
+        return -1
+
+    def _cycle(self, calls: list[_Call], node: int) -> tuple[object, ...]:
+        """The reasons of the paths between the nodes that wait for each other."""
+        first = next(k for k, call in enumerate(calls) if call.node == node)
+        reasons: dict[object, None] = {}
+        pending: list[tuple[_Call, int]] = [(call, call.waits) for call in reversed(calls[first:])]
+        seen: set[tuple[int, int]] = set()
+        while pending:
+            call, at = pending.pop()
+            if (id(call), at) in seen:
+                continue
+            seen.add((id(call), at))
+            inner: list[tuple[_Call, int]] = []
+            is_first = True
+            while is_first or at != call.node:
+                is_first = False
+                edge, at = call.via[at]
+                if isinstance(edge[3], _Call):
+                    inner.append((edge[3], edge[0]))
+                elif edge[3] is not None:
+                    reasons.setdefault(edge[3])
+            pending += reversed(inner)
+        return tuple(reasons)

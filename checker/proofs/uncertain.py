@@ -1,0 +1,177 @@
+"""A flown mission's plan as a network with uncertain durations: those of tokens that a reactor asks others for.
+
+How long such a token may take is the range of what its owner makes of the sampled parameters, over the whole box.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, floor, isinf
+
+import z3
+
+from checker.controllability.network import ContingentLink, UncertainNetwork
+from checker.proofs.claims import Number
+from checker.proofs.dating import Dated
+from checker.proofs.demands import Demand
+from checker.proofs.intervals import Ranges
+from checker.proofs.operands import name_of
+from checker.proofs.solving import fraction
+from checker.proofs.structure import Structure
+from runtime.executive.record import Value
+
+_POINTS = (".start", ".end")
+_LENGTH = ".duration"
+
+
+@dataclass(frozen=True, slots=True)
+class VehicleDuration:
+    """A token of another reactor, and how long it may take; `after`: from the end of that token on."""
+
+    token: str
+    lower: int
+    upper: int
+    after: str = ""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PlanNetwork:
+    """The network of one reactor's plan; `left_out` counts demands that are no distances between times."""
+
+    reactor: str
+    network: UncertainNetwork
+    durations: tuple[VehicleDuration, ...]
+    left_out: int
+
+
+def plan_networks(structure: Structure, found: Dated, ranges: Ranges) -> Iterator[PlanNetwork]:
+    """The network of each reactor that asks others for something."""
+    for reactor in dict.fromkeys(reactor for reactor, _, _ in structure.asked):
+        yield _Builder(structure, found, ranges, reactor).build()
+
+
+class _Builder:
+    def __init__(self, structure: Structure, found: Dated, ranges: Ranges, reactor: str) -> None:
+        self.structure = structure
+        self.known = found.known
+        self.ranges = ranges
+        self.reactor = reactor
+        self.points: dict[str, int] = {"": 0}  # the beginning of the mission
+        for start, end, _ in structure.times:
+            for name in (start, end):
+                if name.startswith(f"{reactor}:"):
+                    self.points.setdefault(name, len(self.points))
+        for demand in structure.demands:
+            for each in demand.numbers:
+                name = name_of(each)
+                if name.startswith(f"{reactor}:") and name.endswith(_POINTS):
+                    self.points.setdefault(name, len(self.points))
+        self.network = UncertainNetwork(len(self.points))
+        self.left_out = 0
+
+    def build(self) -> PlanNetwork:
+        """The edges of all demands on the reactor's times, and the links of what it asked for."""
+        durations = []
+        asked = [each for each in self.structure.asked if each[0] == self.reactor and each[1] + ".end" in self.known]
+        for number, (_, variable, name) in enumerate(asked):
+            taken = self._taken(variable, name, asked[:number] + asked[number + 1 :])
+            if taken is not None:
+                durations.append(taken)
+        for demand in self.structure.demands:
+            names = [name for each in demand.numbers if (name := name_of(each))]
+            own = [name for name in names if name.startswith(f"{self.reactor}:")]
+            if own and len(own) == len(names) and any(name.endswith((*_POINTS, _LENGTH)) for name in own):
+                self._demand(demand)
+        return PlanNetwork(self.reactor, self.network, tuple(durations), self.left_out)
+
+    def _taken(self, variable: str, name: str, others: Sequence[tuple[str, str, str]]) -> VehicleDuration | None:
+        """How long a token takes, from its start or from the end of another on: what is told most exactly."""
+        end = self.known[variable + ".end"]
+        flown = self.structure.values[variable + ".end"]
+        origins = [(variable + ".start", "")]
+        origins += [
+            (other + ".end", label) for _, other, label in others if self._is_before(other + ".end", flown, variable)
+        ]
+        best: tuple[float, str, VehicleDuration] | None = None
+        for origin, label in origins:
+            if origin not in self.known:
+                continue
+            lower, upper = self.ranges.range(z3.simplify(end - self.known[origin]))
+            if isinf(lower) or isinf(upper) or lower < 0:
+                continue
+            if best is None or upper - lower < best[0]:
+                best = (upper - lower, origin, VehicleDuration(name, ceil(lower), floor(upper), label))
+        if best is None:
+            return None
+        _, origin, taken = best
+        link = ContingentLink(self.points[origin], self.points[variable + ".end"], taken.lower, taken.upper, taken)
+        self.network.links.append(link)
+        return taken
+
+    def _is_before(self, other: str, flown: Value, variable: str) -> bool:
+        """Whether another end came before that of a token in the flight, while it lasted."""
+        at, start = self.structure.values.get(other), self.structure.values.get(variable + ".start")
+        if not (isinstance(at, int) and isinstance(flown, int) and isinstance(start, int)):
+            return False
+        return start < at < flown
+
+    def _demand(self, demand: Demand) -> None:
+        numbers = demand.numbers
+        match demand.name:
+            case "gap":
+                lower, upper = (None if each is None else each.as_long() for each in numbers[2:4])
+                self._between(self._point(numbers[0]), self._point(numbers[1]), lower, upper, demand)
+            case "temporalDistance":
+                length = self._value(numbers[1])
+                if length is not None:
+                    exact = int(length)
+                    self._between(self._point(numbers[0]), self._point(numbers[2]), exact, exact, demand)
+            case "eq" | "concurrent" if len(numbers) == 2:
+                self._compare(numbers[0], numbers[1], demand, both=True)
+            case "leq" | "precedes":
+                self._compare(numbers[0], numbers[1], demand, both=False)
+            case "lt" | "strictlyPrecedes":
+                self._compare(numbers[0], numbers[1], demand, both=False, least=1)
+            case _:
+                self.left_out += 1
+
+    def _compare(self, a: Number, b: Number, demand: Demand, *, both: bool, least: int = 0) -> None:
+        """`a + least <= b`, and the reverse if `both`."""
+        first, second = self._span_of(a), self._span_of(b)
+        one, other = self._value(a), self._value(b)
+        if first is not None and other is not None:
+            most = floor(other) - least
+            self._between(*first, ceil(other) if both else None, most, demand)
+        elif second is not None and one is not None:
+            self._between(*second, ceil(one) + least, floor(one) if both else None, demand)
+        elif (x := self._point(a)) is not None and (y := self._point(b)) is not None and 0 not in (x, y):
+            self._between(x, y, least, 0 if both else None, demand)
+        elif name_of(a).endswith(_LENGTH) or name_of(b).endswith(_LENGTH):
+            self.left_out += name_of(a).endswith(_LENGTH) != name_of(b).endswith(_LENGTH)
+
+    def _span_of(self, number: Number) -> tuple[int, int] | None:
+        """A duration as the distance of two points, a time as that from the beginning."""
+        name = name_of(number)
+        if name.endswith(_LENGTH):
+            ends = [self.points.get(name.removesuffix(_LENGTH) + each) for each in _POINTS]
+            return (ends[0], ends[1]) if ends[0] is not None and ends[1] is not None else None
+        point = self.points.get(name) if name else None
+        return None if point is None else (0, point)
+
+    def _point(self, number: Number) -> int | None:
+        name = name_of(number)
+        return self.points.get(name) if name else 0
+
+    def _value(self, number: Number) -> Fraction | None:
+        """A number, or the value of a constant of the model."""
+        name = name_of(number)
+        if not name:
+            return fraction(number)
+        if name.endswith((*_POINTS, _LENGTH)):
+            return None
+        known = self.known.get(name)
+        return None if known is None else fraction(known)
+
+    def _between(self, a: int | None, b: int | None, lower: int | None, upper: int | None, demand: Demand) -> None:
+        if a is not None and b is not None and a != b:
+            self.network.between(a, b, lower, upper, demand)

@@ -1,0 +1,52 @@
+"""`nddlc controllability`: can the plan of a mission be carried out, however long the vehicle takes?"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+
+from checker.controllability.dynamic import offending_cycle
+from checker.controllability.static import is_strongly_controllable, is_weakly_controllable
+from checker.excerpts import Excerpts
+from checker.mission import LARGEST_SEED
+from checker.proofs.rendering import control_data, control_lines
+from checker.proofs.uncertain import plan_networks
+from nddlc.certify import certifier_of
+from nddlc.inputs import Unusable, mission_here
+from nddlc.one_mission import prepare
+from nddlc.trust import trust_option
+
+
+@click.command()
+@click.argument("path", metavar="[MISSION]", required=False)
+@click.option("--seed", type=click.IntRange(0, LARGEST_SEED), help="Of the mission flown, else that of the file.")
+@click.option("--format", "style", type=click.Choice(["text", "json"]), default="text", help="How to print it.")
+@trust_option
+def command(path: str | None, seed: int | None, style: str, is_trusted: bool) -> int:
+    """Tell whether the plans of MISSION can be carried out, however long the vehicle takes for what it is asked.
+
+    A flight that passes gives the plan of each reactor: tokens, order, relations. What the reactor asks others for is
+    uncertain, between the least and the greatest duration over the box of the sampled parameters. The plan is
+    dynamically controllable if some strategy keeps all demands that only knows what has happened. Ends with 0 if all
+    plans are, with 1 if one is not, with 2 if it cannot be told.
+    """
+    _, mission, models = prepare(mission_here(path), is_trusted=is_trusted)
+    certifier = certifier_of(models, mission.check.seed if seed is None else seed)
+    if not certifier.find_structure():
+        raise Unusable("none of the missions flown passes, so there is no plan to look at")
+    excerpts = Excerpts(Path(models.agent.root))
+    answers: list[dict[str, Any]] = []
+    lines: list[str] = []
+    is_controllable = True
+    for plan in plan_networks(certifier.structures[0], certifier.dated[0], certifier.ranges()):
+        cycle = offending_cycle(plan.network)
+        is_strong = cycle is None and is_strongly_controllable(plan.network)
+        is_weak = cycle is None or is_weakly_controllable(plan.network)
+        is_controllable &= cycle is None
+        lines += control_lines(mission.agent.name, plan, cycle, excerpts, is_strong=is_strong, is_weak=is_weak)
+        answers.append(control_data(plan, cycle, excerpts, is_strong=is_strong, is_weak=is_weak))
+    if not answers:
+        lines.append(f"{mission.agent.name}: no reactor asks another for anything: nothing is uncertain")
+    click.echo(json.dumps(answers, ensure_ascii=False, indent=1) if style == "json" else "\n".join(lines))
+    return 0 if is_controllable else 1

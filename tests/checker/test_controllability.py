@@ -1,0 +1,144 @@
+"""Controllability agrees with the game played to its end; its cycles are enough; the command tells of missions."""
+
+import json
+import os
+from dataclasses import replace
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from checker.controllability.dynamic import offending_cycle
+from checker.controllability.network import ContingentLink, RequirementEdge, UncertainNetwork
+from checker.controllability.static import is_consistent, is_strongly_controllable, is_weakly_controllable
+from nddlc.controllability import command
+from tests.checker.controllability_games import random_network, wins
+
+GPS = Path(__file__).parents[2] / "models" / "gps"
+# The 10^4 networks of the goal: NDDLC_PROOFS=10000.
+MOST = int(os.environ.get("NDDLC_PROOFS", "300"))
+HORIZON = 20
+
+
+def networks(seed: int, count: int = MOST) -> list[UncertainNetwork]:
+    chance = np.random.default_rng(seed)
+    return [random_network(chance) for _ in range(count)]
+
+
+def some_schedule(network: UncertainNetwork, lengths: tuple[int, ...]) -> bool:
+    """Whether there is a schedule for these durations."""
+    fixed = [
+        edge
+        for link, length in zip(network.links, lengths, strict=True)
+        for edge in (RequirementEdge(link.start, link.end, length), RequirementEdge(link.end, link.start, -length))
+    ]
+    return is_consistent(network.points, [*network.edges, *fixed])
+
+
+def test_dynamic_controllability_is_to_win_the_game() -> None:
+    answers = set()
+    for network in networks(7):
+        answer = offending_cycle(network) is None
+        assert answer == wins(network, HORIZON), network
+        answers.add(answer)
+    assert answers == {True, False}
+
+
+def test_weak_controllability_is_a_schedule_for_all_durations() -> None:
+    for network in networks(8):
+        ranges = [range(link.lower, link.upper + 1) for link in network.links]
+        assert is_weakly_controllable(network) == all(some_schedule(network, each) for each in product(*ranges))
+
+
+def test_strong_controllability_is_one_schedule_for_all_durations() -> None:
+    answers = set()
+    for network in networks(9):
+        ends = {link.end for link in network.links}
+        free = [point for point in range(network.points) if point not in ends]
+        ranges = [range(link.lower, link.upper + 1) for link in network.links]
+        found = any(
+            all(_keeps(network, dict(zip(free, times, strict=True)), each) for each in product(*ranges))
+            for times in product(range(-8, 9), repeat=len(free))
+            if times[0] == 0
+        )
+        assert is_strongly_controllable(network) == found, network
+        answers.add(found)
+    assert answers == {True, False}
+
+
+def _keeps(network: UncertainNetwork, times: dict[int, int], lengths: tuple[int, ...]) -> bool:
+    times = dict(times)
+    for link, length in zip(network.links, lengths, strict=True):
+        times[link.end] = times[link.start] + length
+    return all(times[edge.later] - times[edge.earlier] <= edge.weight for edge in network.edges)
+
+
+def test_strong_is_dynamic_and_dynamic_is_weak() -> None:
+    for network in networks(10):
+        strong, dynamic = is_strongly_controllable(network), offending_cycle(network) is None
+        assert dynamic or not strong
+        assert is_weakly_controllable(network) or not dynamic
+
+
+def test_the_edges_of_the_cycle_are_enough() -> None:
+    seen = 0
+    for network in networks(11):
+        network = UncertainNetwork(
+            network.points, [replace(each, why=k) for k, each in enumerate(network.edges)], network.links
+        )
+        cycle = offending_cycle(network)
+        if cycle is None:
+            continue
+        edges = [each for each in network.edges if each.why in cycle]
+        links = [each for each in network.links if each.why in cycle]
+        assert offending_cycle(UncertainNetwork(network.points, edges, links)) is not None
+        seen += len(edges) < len(network.edges)
+    assert seen
+
+
+def test_one_who_must_know_beforehand_cannot() -> None:
+    """The sonar has to be on 5 before the drive ends, which takes 10 to 20: weakly, not dynamically."""
+    network = UncertainNetwork(3, [], [ContingentLink(0, 1, 10, 20, "drive")])
+    network.between(2, 1, 5, 6, "sonar")
+    assert is_weakly_controllable(network)
+    assert not is_strongly_controllable(network)
+    assert offending_cycle(network) is not None
+    network.edges.clear()
+    network.between(1, 2, 0, 1, "sonar")
+    assert offending_cycle(network) is None
+    assert not is_strongly_controllable(network)
+
+
+def test_a_long_chain_needs_no_deep_stack() -> None:
+    network = UncertainNetwork(3001)
+    for k in range(1500):
+        network.links.append(ContingentLink(2 * k, 2 * k + 1, 1, 3, k))
+        network.between(2 * k + 1, 2 * k + 2, 1, 1, k)
+    assert offending_cycle(network) is None
+    network.between(0, 3000, None, 5999, "last")
+    assert offending_cycle(network) is not None
+
+
+@pytest.mark.parametrize(("mission", "answer"), [("mission.toml", False), ("mended.toml", True)])
+def test_the_command_tells_of_a_mission(mission: str, answer: bool) -> None:
+    found = CliRunner().invoke(command, [str(GPS / mission), "--format", "json"], standalone_mode=False)
+    assert found.exception is None
+    assert found.return_value == (0 if answer else 1)
+    (plan,) = json.loads(found.output)
+    assert plan["reactor"] == "navigator"
+    assert plan["dynamic"] is answer
+    taken = {(each["token"].partition("#")[0], *each["between"]) for each in plan["durations"]}
+    assert {(name, upper) for name, _, upper in taken} == {
+        ("Helm.Run", 200), ("Helm.Run", 150), ("Helm.Ascend", 25), ("Gps.Active", 40),
+    }  # fmt: skip
+    if not answer:
+        assert "duration <= SURFACE_MAX;" in [each["text"].partition(";")[0] + ";" for each in plan["cycle"]]
+
+
+def test_the_command_names_the_lines_that_no_strategy_keeps() -> None:
+    found = CliRunner().invoke(command, [str(GPS / "mission.toml")], standalone_mode=False)
+    assert "plan of navigator: not dynamically controllable; not strongly, not even weakly" in found.output
+    assert "duration <= SURFACE_MAX" in found.output
+    assert "takes 1 to 40" in found.output

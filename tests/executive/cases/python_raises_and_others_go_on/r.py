@@ -1,0 +1,12 @@
+from runtime.user.reactor import Now, Reactor
+
+
+class User(Reactor):
+    def tick(self, now: Now) -> None:
+        if now.tick < 10:
+            now.wake(10)
+        if now.tick == 0:
+            now.publish("mood", "Low")
+            now.ask("task", "Do", start=(20, 20), n=1)
+        if now.tick == 10:
+            raise ValueError(now.tick)
