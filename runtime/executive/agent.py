@@ -150,9 +150,7 @@ class Agent:
             reactor.due = reactor.next_tick(tick)
         soonest = self.poster.due
         for reactor in self.reactors:
-            due = reactor.due
-            if due < soonest:
-                soonest = due
+            soonest = min(soonest, reactor.due)
         self.tick = min(max(tick + 1, soonest), last)
 
     def _pass_over(self) -> None:
@@ -219,14 +217,10 @@ class Agent:
 
     def _most_urgent(self, busy: list[TeleoReactor]) -> TeleoReactor:
         """Who comes next; of equal ones the first."""
-        found = busy[0]
-        if len(busy) > 1:
-            most = found.urgency(self.tick)
-            for reactor in busy[1:]:
-                urgency = reactor.urgency(self.tick)
-                if urgency > most:
-                    found, most = reactor, urgency
-        return found
+        if len(busy) == 1:
+            return busy[0]
+        urgencies = [reactor.urgency(self.tick) for reactor in busy]
+        return busy[urgencies.index(max(urgencies))]
 
     def _post_goals(self, busy: list[TeleoReactor]) -> Abort | None:
         """Hand the goals of the mission file that are due to the owners of their timelines, or take them back."""

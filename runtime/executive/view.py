@@ -365,9 +365,7 @@ class PlanView:
     def object_of(self, t: int) -> int:
         """The object that a token is on; NONE while that is open."""
         v = self.rows.var0[t] + OBJECT
-        if not self.engine.is_singleton(v):
-            return NONE
-        return int(self.engine.lower(v))
+        return int(self.engine.lower(v)) if self.engine.is_singleton(v) else NONE
 
     def is_due_to_request(self, t: int) -> bool:
         """Whether the token, or one that it follows from, is one that somebody asked for."""
