@@ -380,15 +380,8 @@ class Agent:
             owner = self.takers.pop(number, None)
             if owner is not None and owner in self.reactors and number not in done:
                 one = self.made[number]
-                self.trace.record(
-                    EventKind.RECALL,
-                    reactor.name,
-                    one.timeline,
-                    one.predicate,
-                    one.arguments,
-                    (event,),
-                    request=number,
-                )
+                what = (one.timeline, one.predicate, one.arguments, (event,))
+                self.trace.record(EventKind.RECALL, reactor.name, *what, request=number)
                 owner.recall(number)
                 self.stirred.append(owner)
         lost = [number for number, owner in self.takers.items() if owner is reactor and number in self.made]
