@@ -100,11 +100,11 @@ def test_what_is_visited_at_every_tick_stays_small_too() -> None:
 class Hoarder(Workbench):
     """A workbench that archives nothing."""
 
-    asked = 0
+    calls = 0
 
     def archive(self, timelines: list[TimelineState], tick: int) -> int:
         """Leave what is over where it is."""
-        Hoarder.asked += 1
+        Hoarder.calls += 1
         return 0
 
 
@@ -113,7 +113,7 @@ def test_the_archive_changes_no_outcome(seed: int, monkeypatch: pytest.MonkeyPat
     with_archive = toy(seed)
     monkeypatch.setattr("runtime.executive.mission.Workbench", Hoarder)
     SHELVES.clear()
-    asked = Hoarder.asked
+    before = Hoarder.calls
     assert toy(seed) == with_archive
-    assert Hoarder.asked > asked
+    assert Hoarder.calls > before
     SHELVES.clear()
