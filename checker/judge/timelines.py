@@ -1,5 +1,7 @@
 """Judge timelines: one token at a time, nothing left out, and what the owner published is what its users hold."""
 
+from math import inf
+
 from checker.judge.bench import Bench, Tok
 from checker.judge.bulk_timelines import BulkTimelines, History, Publications
 from checker.judge.operands import domain_value
@@ -28,11 +30,17 @@ def _sequences(judge: ProgramJudge, bench: Bench, timelines: set[str]) -> dict[s
         if isinstance(thing, str) and bench.members.get(thing, ("",))[0] in judge.timelines:
             found.setdefault(thing, []).append(tok)
     for timeline, tokens in found.items():
-        # What a repair took away may have been put back as another token.
-        lasting = {tok.record.start for tok in tokens if not tok.is_cut}
-        found[timeline] = [tok for tok in tokens if not tok.is_cut or tok.record.start not in lasting]
-        found[timeline].sort(key=_place)
+        found[timeline] = sorted(_not_replaced(tokens), key=_place)
     return found
+
+
+def _not_replaced(tokens: list[Tok]) -> list[Tok]:
+    """Without what a repair took away and was put back as another token, which a later repair may have taken, too."""
+    last: dict[Value, float] = {}  # by start: when the last of the tokens left the plan, infinite if none took it
+    for tok in tokens:
+        left = tok.record.tick if tok.is_cut else inf
+        last[tok.record.start] = max(left, last.get(tok.record.start, left))
+    return [tok for tok in tokens if not tok.is_cut or tok.record.tick == last[tok.record.start]]
 
 
 def _place(tok: Tok) -> tuple[int, float, int]:

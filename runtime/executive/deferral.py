@@ -88,7 +88,7 @@ class Deferral:
     def _observe(self, line: TimelineState, observation: Observation, end: int) -> None:
         """Let an observation begin a token; the one before ended at `end`."""
         bench, tick = self.bench, observation.tick
-        holds = line.current == NOTHING or bench.fix(bench.end(line.current), end, SPAN_OBSERVATION, line.current)
+        holds = line.current == NOTHING or bench.end_observed(line.current, end)
         fact = bench.new_token(line.predicates[observation.predicate], line.object_id, True)
         holds = holds and bench.fix(bench.start(fact), tick, SPAN_OBSERVATION, fact)
         holds = holds and bench.at_least(bench.end(fact), tick + 1, SPAN_OBSERVATION, fact)

@@ -3,11 +3,12 @@
 cimport cython
 from runtime.executive.workbench cimport Workbench
 from runtime.plan.store.plan cimport Plan
+from runtime.plan.store.rows cimport Rows
 from runtime.solver.flaws.filters cimport PlanningScope
 from runtime.solver.search cimport Solver
 
-cdef long long EXHAUSTED, FLAG_REJECTABLE, INACTIVE, _MOST_EXPLAINED, _MOST_STEPS, _NEVER, _NO_LIMIT, PLAN, ROLE_LOCAL
-cdef long long ROLE_TOKEN
+cdef long long EXHAUSTED, FLAG_REJECTABLE, INACTIVE, LISTS, LIST_THREAT, _MOST_EXPLAINED, _MOST_STEPS, _NEVER
+cdef long long _NO_LIMIT, PLAN, ROLE_LOCAL, ROLE_TOKEN
 
 
 cdef class _Window(PlanningScope):
@@ -17,6 +18,12 @@ cdef class _Window(PlanningScope):
 
     @cython.locals(bench=Workbench, earliest=double, start="long long")
     cpdef bint admits_token(self, long long t) except -1
+
+    @cython.locals(bench=Workbench, o="long long")
+    cpdef bint may_begin(self, long long t) except -1
+
+    @cython.locals(rows=Rows)
+    cpdef bint _is_left_over(self, long long t) except -1
 
     @cython.locals(plan=Plan, role="long long")
     cpdef bint admits_variable(self, long long v) except -1

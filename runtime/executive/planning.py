@@ -6,7 +6,7 @@ from dataclasses import replace
 from runtime.executive.outcome import Conflict, Deadlock, Reason, ReasonKind
 from runtime.executive.story import SearchLog, conflict_of
 from runtime.executive.workbench import Workbench
-from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, ROLE_LOCAL, ROLE_TOKEN
+from runtime.plan.tags import FLAG_REJECTABLE, INACTIVE, LIST_THREAT, LISTS, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.configuration.configuration import Configuration, FlawFilter
 from runtime.solver.flaws.filters import PlanningScope
 from runtime.solver.search import Solver
@@ -28,6 +28,7 @@ class LimitError(RuntimeError):
 class _Window(PlanningScope):
     """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7); for the present, those that hold now.
 
+    What is over and still undecided is in scope of both: it must be found among what has happened.
     Who looks one tick ahead plans what was asked for and what others are to do, no more: what else its own timelines
     begin to hold is decided when the time comes, by what holds then.
     """
@@ -44,6 +45,8 @@ class _Window(PlanningScope):
         """Whether flaws of `t` are to be mended now."""
         bench = self.bench
         start = bench.start(t)
+        if bench.upper(bench.end(t)) < self.tick:
+            return self._is_left_over(t)
         if self.is_present:
             if self.tick == self.final and bench.lower(start) == self.tick and bench.is_goal(t):
                 return False  # what can begin at the end at the earliest is not begun
@@ -51,7 +54,22 @@ class _Window(PlanningScope):
         earliest = bench.lower(start)
         if self.is_reactive and earliest > self.tick and bench.is_internal(t) and not bench.is_due_to_request(t):
             return False
-        return earliest <= self.end and earliest < self.final and bench.upper(bench.end(t)) >= self.tick
+        return earliest <= self.end and earliest < self.final
+
+    def may_begin(self, t: int) -> bool:
+        """Whether `t` may have times of its own: what holds on a shared timeline up to now is known."""
+        bench = self.bench
+        if bench.upper(bench.end(t)) >= self.tick or bench.lower(bench.start(t)) < 0 or bench.is_fact(t):
+            return True
+        o = bench.object_of(t)
+        return o not in bench.internal_objects and o not in bench.external_objects
+
+    def _is_left_over(self, t: int) -> bool:
+        """Whether `t` is undecided, and no goal, or active without a place in a sequence."""
+        rows = self.bench.rows
+        if rows.status[t] == INACTIVE:
+            return not self.bench.is_goal(t)
+        return bool(rows.link_head[LISTS * t + LIST_THREAT] >= 0)
 
     def admits_variable(self, v: int) -> bool:
         """Whether `v` is to be decided now: globals always, others with their token."""

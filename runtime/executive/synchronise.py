@@ -72,7 +72,7 @@ def _persist(bench: Workbench, timelines: list[TimelineState], tick: int, asked:
                 following = bench.next_of(line.object_id, line.current)
                 code = "F6" if following >= 0 and asked.is_refused(following) else "F1"
                 return SyncFailure(code, (line.name,), what, conflict_of(bench))
-        elif not bench.fix(bench.end(line.current), tick, SPAN_OBSERVATION, line.current):
+        elif not bench.end_observed(line.current, tick):
             what = Reason(ReasonKind.ENDED, bench.name_of(line.current), tick=tick)
             return SyncFailure("F2", (line.name,), what, conflict_of(bench))
     return None

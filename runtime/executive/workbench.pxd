@@ -94,5 +94,8 @@ cdef class Workbench(PlanView):
     @cython.locals(other="long long")
     cpdef long long fact_of(self, long long t) except? -1
 
+    @cython.locals(fact="long long")
+    cpdef bint end_observed(self, long long t, long long tick) except -1
+
     @cython.locals(before="long long", t="long long")
     cpdef bint stand_alone(self, long long fact, long long o) except -1

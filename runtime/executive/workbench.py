@@ -245,6 +245,13 @@ class Workbench(PlanView):
             other = int(self.rows.merged_next[other])
         return other
 
+    def end_observed(self, t: int, tick: int) -> bool:
+        """End what holds on another reactor's timeline; the observation keeps that if the token it met goes."""
+        fact = self.fact_of(t)
+        if not self.fix(self.end(t), tick, SPAN_OBSERVATION, t):
+            return False
+        return fact == t or fact < 0 or self.fix(self.end(fact), tick, SPAN_OBSERVATION, fact)
+
     def stand_alone(self, fact: int, o: int) -> bool:
         """Put an observation into the plan by itself, behind what was on its timeline before."""
         if self.rows.status[fact] == MERGED:

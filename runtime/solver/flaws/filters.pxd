@@ -17,6 +17,8 @@ cdef class PlanningScope:
 
     cpdef bint admits_token(self, long long t) except -1
 
+    cpdef bint may_begin(self, long long t) except -1
+
     cpdef bint admits_variable(self, long long v) except -1
 
 

@@ -27,6 +27,10 @@ class PlanningScope:
         """Whether flaws of token `t` are in scope; asked again when its times change."""
         return t >= 0
 
+    def may_begin(self, t: int) -> bool:
+        """Whether the inactive token `t`, which is in scope, may be activated, as far as its times say."""
+        return t >= 0
+
     def admits_variable(self, v: int) -> bool:
         """Whether variable `v` may be decided; asked again when its domain or its token's times change."""
         return v >= 0
