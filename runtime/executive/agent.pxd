@@ -11,7 +11,7 @@ cdef class Agent:
     cdef public object seed
     cdef public long long tick
 
-    @cython.locals(due="long long", soonest="long long", tick="long long")
+    @cython.locals(soonest="long long", tick="long long")
     cpdef object _advance(self, long long last)
 
     @cython.locals(tick="long long")
@@ -27,7 +27,6 @@ cdef class Agent:
     @cython.locals(busy=list)
     cpdef object _deliberate(self)
 
-    @cython.locals(most="double", urgency="double")
     cpdef object _most_urgent(self, list busy)
 
     cpdef object _post_goals(self, list busy)

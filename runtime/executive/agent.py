@@ -150,9 +150,7 @@ class Agent:
             reactor.due = reactor.next_tick(tick)
         soonest = self.poster.due
         for reactor in self.reactors:
-            due = reactor.due
-            if due < soonest:
-                soonest = due
+            soonest = min(soonest, reactor.due)
         self.tick = min(max(tick + 1, soonest), last)
 
     def _pass_over(self) -> None:
@@ -219,14 +217,10 @@ class Agent:
 
     def _most_urgent(self, busy: list[TeleoReactor]) -> TeleoReactor:
         """Who comes next; of equal ones the first."""
-        found = busy[0]
-        if len(busy) > 1:
-            most = found.urgency(self.tick)
-            for reactor in busy[1:]:
-                urgency = reactor.urgency(self.tick)
-                if urgency > most:
-                    found, most = reactor, urgency
-        return found
+        if len(busy) == 1:
+            return busy[0]
+        urgencies = [reactor.urgency(self.tick) for reactor in busy]
+        return busy[urgencies.index(max(urgencies))]
 
     def _post_goals(self, busy: list[TeleoReactor]) -> Abort | None:
         """Hand the goals of the mission file that are due to the owners of their timelines, or take them back."""
@@ -386,15 +380,8 @@ class Agent:
             owner = self.takers.pop(number, None)
             if owner is not None and owner in self.reactors and number not in done:
                 one = self.made[number]
-                self.trace.record(
-                    EventKind.RECALL,
-                    reactor.name,
-                    one.timeline,
-                    one.predicate,
-                    one.arguments,
-                    (event,),
-                    request=number,
-                )
+                what = (one.timeline, one.predicate, one.arguments, (event,))
+                self.trace.record(EventKind.RECALL, reactor.name, *what, request=number)
                 owner.recall(number)
                 self.stirred.append(owner)
         lost = [number for number, owner in self.takers.items() if owner is reactor and number in self.made]

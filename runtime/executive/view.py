@@ -347,11 +347,9 @@ class PlanView:
     def _ends_with(self, v: int, t: int) -> bool:
         """Whether `v` ends what was not asked for, when what is planned next there begins, which `t` cannot outwait."""
         ended = self.stands_for(self.plan.variable_owner[v])
-        after = self.following(ended)
-        if after < 0 or self.key(ended) in self.asked:
+        if (after := self.following(ended)) < 0 or self.key(ended) in self.asked:
             return False
-        engine, seen = self.engine, {self.start(after)}
-        stack = list(seen)
+        engine, seen, stack = self.engine, {self.start(after)}, [self.start(after)]
         while stack:
             e = engine.out_head[stack.pop()]
             while e >= 0:
@@ -365,9 +363,7 @@ class PlanView:
     def object_of(self, t: int) -> int:
         """The object that a token is on; NONE while that is open."""
         v = self.rows.var0[t] + OBJECT
-        if not self.engine.is_singleton(v):
-            return NONE
-        return int(self.engine.lower(v))
+        return int(self.engine.lower(v)) if self.engine.is_singleton(v) else NONE
 
     def is_due_to_request(self, t: int) -> bool:
         """Whether the token, or one that it follows from, is one that somebody asked for."""

@@ -53,8 +53,8 @@ def wins(network: UncertainNetwork, horizon: int) -> bool:
 
     def moves(tick: int, times: Times) -> Iterator[Times]:
         """What the vehicle may do."""
-        may = []
-        must = []
+        may: list[int] = []
+        must: list[int] = []
         for end, link in ends.items():
             start = times[link.start]
             if times[end] is None and start is not None and start + link.lower <= tick:

@@ -124,11 +124,11 @@ def test_what_is_over_leaves_numbers_as_they_are_whose_last_places_exceed_the_to
 class Hoarder(Workbench):
     """A workbench that archives nothing."""
 
-    asked = 0
+    calls = 0
 
     def archive(self, timelines: list[TimelineState], tick: int) -> int:
         """Leave what is over where it is."""
-        Hoarder.asked += 1
+        Hoarder.calls += 1
         return 0
 
 
@@ -137,7 +137,7 @@ def test_the_archive_changes_no_outcome(seed: int, monkeypatch: pytest.MonkeyPat
     with_archive = toy(seed)
     monkeypatch.setattr("runtime.executive.mission.Workbench", Hoarder)
     SHELVES.clear()
-    asked = Hoarder.asked
+    before = Hoarder.calls
     assert toy(seed) == with_archive
-    assert Hoarder.asked > asked
+    assert Hoarder.calls > before
     SHELVES.clear()

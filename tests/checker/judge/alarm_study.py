@@ -6,7 +6,7 @@ python -m tests.checker.judge.alarm_study [missions] [kind ...]     kinds: gps, 
 import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import islice
 from pathlib import Path
 
@@ -92,7 +92,7 @@ def _mutants() -> Flights:
                     break
 
 
-KINDS = {
+KINDS: dict[str, Callable[[], Flights]] = {
     "cases": _cases,
     "gps": lambda: _file(GPS),
     "random": _random,
