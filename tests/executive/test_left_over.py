@@ -3,7 +3,7 @@
 from checker.judge.rendering import disagreement_text
 from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.outcome import EventKind, Outcome
-from tests.executive.flying import fly, flown, history, lines, planner, simulator
+from tests.executive.flying import flown, fly, history, lines, planner, simulator
 
 LAMP = """
 class Lamp extends AgentTimeline {
