@@ -22,6 +22,7 @@ from nddl_lang.syntax.nodes import (
     ConstructorDecl,
     Declarator,
     Identifier,
+    NewExpr,
     PredicateDecl,
     VariableDecl,
 )
@@ -147,7 +148,8 @@ def _check_initialiser(context: Context, owner: Class, declarator: Declarator, v
     if value is None:
         return
     scope = Scope(BlockKind.CONSTRUCTOR, owner.name)
-    if check_value(context, scope, value, variable.type, variable.name) is None:
+    is_unknown = isinstance(value, NewExpr) and context.symbols.find_class(value.class_name.name) is None
+    if not is_unknown and check_value(context, scope, value, variable.type, variable.name) is None:
         return
     if constant(context, value) is None:
         context.complain(MEMBER_VALUE.at(value.span, help="assign it in the constructor", text=value.span.text))

@@ -155,9 +155,17 @@ class Engine(Store):
         return bool(self.consistent and raise_to(self, v, lo, support) and reduce_to(self, v, hi, support))
 
     def freeze_base(self, v: int, lo: float, hi: float, span: int, owner: int) -> None:
-        """Restrict the base domain for good to what has happened; such a restriction is known by FLAG_FROZEN."""
+        """Restrict the base domain for good to what has happened; such a restriction is known by FLAG_FROZEN.
+
+        It takes over the bounds: nothing is propagated anew, which could round large floats otherwise.
+        """
         self.restrict_base(v, lo, hi, span, owner)
-        self.restriction_flags[self.newest_restriction] = FLAG_FROZEN
+        r = self.newest_restriction
+        self.restriction_flags[r] = FLAG_FROZEN
+        if lo > -inf:
+            self.lower_support[v], self.lower_when[v] = r * 4 + SUPPORT_RESTRICTION, -1
+        if hi < inf:
+            self.upper_support[v], self.upper_when[v] = r * 4 + SUPPORT_RESTRICTION, -1
 
     def restrict_base_values(self, v: int, values: list[float], span: int, owner: int) -> bool:
         """Intersect the base domain with a set; false if no value is left."""

@@ -109,11 +109,10 @@ class Draws:
         """When a token begins, as far as is known: what has not begun does so now, or next if now is synchronised."""
         assert self.view is not None
         start = self.view.start(token)
-        now = self.world.trace.tick
-        if self.view.upper(start) <= now:
-            return int(max(self.view.lower(start), 0))
+        earliest = self.view.lower(start)
         is_synchronised = self.world.trace.phase in (Phase.DELIBERATE, Phase.DISPATCH)
-        return int(max(self.view.lower(start), now + 1 if is_synchronised else now))
+        next_tick = self.world.trace.tick + is_synchronised
+        return int(max(earliest, 0 if self.view.upper(start) < next_tick else next_tick))
 
     def outdated(self, view: PlanView, tick: int) -> list[int]:
         """Tokens that have not begun by `tick` and hold a value that is no longer, or not yet, in force then."""

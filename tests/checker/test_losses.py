@@ -98,7 +98,7 @@ def test_a_check_that_holds_says_what_was_lost(mission: Path, capsys: pytest.Cap
     assert data["losses"]["optional_goals"] == 4
     first = data["missions"][0]["losses"]
     assert [(one["goal"], one["fate"], one["line"]) for one in first["rejected"]] == [
-        (1, "rejected", 23),
+        (3, "rejected", 44),
         (4, "late", 51),
     ]
     page = Path("nddlc-report/report.html").read_text()

@@ -13,7 +13,7 @@ from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import PlanDatabase
 from runtime.solver.configuration.configuration import default_configuration
-from tests.executive.flying import program
+from tests.executive.flying import flown, history, program, simulator
 from tests.executive.test_equal_runs import toy
 
 METRONOME = """
@@ -25,6 +25,18 @@ Clock::Tick {
 }
 Clock clock = new Clock(Internal); close();
 goal(Clock.Tick first); first.start == 0; first.n == 0; first.x == 0.0;
+"""
+
+
+GROWTH = """
+class Stock extends AgentTimeline { predicate Holds { float y; float y1; } Stock(Mode m) { super(m, "Holds"); } }
+class Seen extends AgentTimeline { predicate Is { float w; } Seen(Mode m) { super(m, "Is"); } }
+Stock::Holds {
+  duration == 1; meets(object.Holds next); next.y == y1; equals(Seen.Is s); s.w == y;
+  float a; a == y * 3.0; y1 == a + a * 2.0 * 0.1;
+}
+Stock stock = new Stock(Internal); Seen seen = new Seen(Internal); close();
+fact(stock.Holds first); first.start == 0; eq(first.y, 1.0);
 """
 
 
@@ -95,6 +107,18 @@ def test_what_is_visited_at_every_tick_stays_small_too() -> None:
         if tick in (109, 399):
             grown.append(sizes(reactor))
     assert grown[0] == grown[1]
+
+
+@pytest.mark.parametrize("compiles", [False, True])
+def test_what_is_over_leaves_numbers_as_they_are_whose_last_places_exceed_the_tolerance(compiles: bool) -> None:
+    flight = flown(simulator("shop", GROWTH, "stock seen"), until=26, compiles=compiles)
+    assert flight.outcome.abort is None
+    assert flight.report.holds
+    y = 1.0
+    for line in history(flight.outcome, "seen"):
+        assert float(line.partition("w=")[2].rstrip(")")) == pytest.approx(y, rel=1e-12)
+        y = y * 3.0 + y * 3.0 * 2.0 * 0.1
+    assert y > 1e14
 
 
 class Hoarder(Workbench):

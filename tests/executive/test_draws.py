@@ -1,8 +1,10 @@
 """Sampled parameters in flight: one value per mission, or a new one at each update, whatever the planner tries."""
 
+import pytest
+
 from runtime.executive.configuration import GoalConfiguration, ParameterConfiguration
 from runtime.executive.outcome import EventKind, Outcome
-from tests.executive.flying import fly, history, lines, simulator
+from tests.executive.flying import flown, fly, history, lines, simulator
 
 SEA = """
 float SWELL = [0.0 1.0];
@@ -82,3 +84,27 @@ def test_a_goal_with_a_range_leaves_the_draw_its_say() -> None:
     swell = ParameterConfiguration("SWELL", 0.0, 1.0)
     outcome = fly(simulator("sea", f"{SEA}{OWN}", "sea"), until=9, goals=goals, parameters=(swell,))
     assert len({height for _, height in heights(outcome)}) == 1
+
+
+@pytest.mark.parametrize("compiles", [False, True])
+def test_a_command_that_begins_later_than_it_might_has_the_draw_of_the_tick_at_which_it_begins(compiles: bool) -> None:
+    # It is planned at tick 24 for 25 or later; what holds then lasts until 28, and the draw changes at 28.
+    shop = """
+    float SLOW = [0.1 2.0];
+    class Shop extends AgentTimeline { predicate Rest { } predicate Do { float d; } Shop(Mode m) { super(m, "Rest"); } }
+    Shop::Do { int t; d == sampledParameter(SLOW); t == ceil(d * 4.0); duration == t + 1; }
+    Shop::Rest { duration == 4; }
+    Shop shop = new Shop(Internal); close();
+    """
+    goals = (GoalConfiguration("shop", "Do", 16, False, (25.0, 28.0)),)
+    slow = ParameterConfiguration("SLOW", 0.1, 2.0, mode="intra", update=7)
+    for seed in range(5):
+        flight = flown(
+            simulator("shop", shop, "shop"), until=40, goals=goals, parameters=(slow,), seed=seed, compiles=compiles
+        )
+        outcome = flight.outcome
+        assert flight.report.holds
+        drawn = {draw.tick: draw.value for draw in outcome.draws}
+        (begun,) = [line for line in history(outcome, "shop") if "Do(" in line]
+        assert begun.startswith("28 ")
+        assert float(begun.partition("d=")[2].rstrip(")")) == drawn[28]

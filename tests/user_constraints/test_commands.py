@@ -185,4 +185,4 @@ def test_a_mission_that_ended_in_an_error_is_flown_again(mission: Path, capsys: 
     assert run(["check", str(mission), "--missions", "3", "--workers", "1"]) == 2
     Path("mended").touch()
     assert run(["check", str(mission), "--missions", "3", "--workers", "1", "--resume"]) == 0
-    assert "3 missions, 0 failed\n" in capsys.readouterr().out
+    assert "3 missions, 0 failed (run " in capsys.readouterr().out
