@@ -57,10 +57,11 @@ class _Window(PlanningScope):
         return earliest <= self.end and earliest < self.final
 
     def may_begin(self, t: int) -> bool:
-        """Whether `t` may have times of its own: what holds on a shared timeline up to now is known."""
+        """Whether `t` may begin now or later; what held on a shared timeline up to now is known."""
         bench = self.bench
-        if bench.upper(bench.end(t)) >= self.tick or bench.lower(bench.start(t)) < 0 or bench.is_fact(t):
-            return True
+        start = bench.start(t)
+        if bench.upper(start) >= self.tick or bench.lower(start) < 0:
+            return True  # of the time before the mission nothing is known
         o = bench.object_of(t)
         return o not in bench.internal_objects and o not in bench.external_objects
 

@@ -16,6 +16,7 @@ USER = """
 class User extends AgentTimeline { predicate Idle { } predicate Busy { } User(Mode m) { super(m, "Idle"); } }
 """
 OBJECTS = "User user = new User(Internal); Lamp lamp = new Lamp(External); Sky sky = new Sky({0}); close();"
+HIGH_FIRST = 'Sky(Mode m) { super(m, "High"); }'
 WORLD = "Lamp lamp = new Lamp(Internal); Sky sky = new Sky(Internal); close();"
 
 
@@ -81,3 +82,19 @@ def test_the_end_of_an_observation_is_kept_when_the_token_it_met_goes() -> None:
     }
     assert list(ends) == [(0, "Off"), (1, "Rising")]
     assert {key: held[key] for key in ends} == ends
+
+
+def test_nothing_is_put_where_the_past_is_forgotten() -> None:
+    # The lamp shines shorter than planned, and the sky's turn, which had to lie within, goes on.
+    using = "User::Busy { contains(Sky.High h); contains(Lamp.On on); h contained_by on; duration <= 30; }"
+    world = "Lamp::On { duration == 8; } Sky::Low { } Sky::High { duration == 20; }"
+    sky = 'Sky(Mode m) { super(m, "Low"); }'
+    outcome = fly(
+        planner(
+            "user", f"{LAMP}{USER}{using}{OBJECTS.format('External')}".replace(HIGH_FIRST, sky), "user", "lamp sky"
+        ),
+        simulator("world", f"{LAMP}{world}{WORLD}".replace(HIGH_FIRST, sky), "lamp sky"),
+        until=60,
+        goals=(GoalConfiguration("user", "Busy", start=(3, 3), mandatory=True),),
+    )
+    assert outcome.abort is not None and outcome.abort.reactor == "user"

@@ -28,7 +28,7 @@ class PlanningScope:
         return t >= 0
 
     def may_begin(self, t: int) -> bool:
-        """Whether the inactive token `t`, which is in scope, may be activated, as far as its times say."""
+        """Whether token `t` has not begun, as far as its times say: else none but facts may be put before it."""
         return t >= 0
 
     def admits_variable(self, v: int) -> bool:

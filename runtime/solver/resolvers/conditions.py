@@ -134,7 +134,8 @@ def _mend_by_activating(agenda: Agenda, stack: Decisions, d: int, t: int) -> int
     """Activate a token, or have the next action support it; `cursor` counts the ways tried."""
     if not _may_become(agenda, t, SYMBOL_ACTIVE):
         return NO_CHOICE
-    if agenda.filters.has_scope and not agenda.filters.scope.may_begin(t):
+    is_fact = agenda.rows.flags[t] & FLAG_FACT
+    if agenda.filters.has_scope and not is_fact and not agenda.filters.scope.may_begin(t):
         return NO_CHOICE  # a dead end asks for the times of a token that is in scope
     way = stack.cursor[d] + 1
     code = agenda.table.handler_code[stack.handler[d]]

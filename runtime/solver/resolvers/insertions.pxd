@@ -5,7 +5,7 @@ from runtime.solver.flaws.decisions cimport Decisions
 from runtime.solver.flaws.agenda cimport Agenda
 from runtime.constraints.stn.reach cimport Reach
 
-cdef long long DURATION, END, FLAG_GOAL, HALF_INF, LISTS, LIST_ORDER, NEVER, OBJECT, START
+cdef long long DURATION, END, FLAG_FACT, FLAG_GOAL, HALF_INF, LISTS, LIST_ORDER, NEVER, OBJECT, START
 
 
 cpdef int list_insertions(Agenda agenda, Decisions stack, long long d, long long t) except -1

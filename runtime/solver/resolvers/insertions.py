@@ -3,7 +3,7 @@
 from runtime.constraints.domains.bitset import next_value
 from runtime.constraints.domains.tags import HALF_INF, NEVER
 from runtime.constraints.stn.reach import Reach
-from runtime.plan.tags import DURATION, END, FLAG_GOAL, LIST_ORDER, LISTS, OBJECT, START
+from runtime.plan.tags import DURATION, END, FLAG_FACT, FLAG_GOAL, LIST_ORDER, LISTS, OBJECT, START
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
 
@@ -40,6 +40,13 @@ def _list_insertions_on(agenda: Agenda, stack: Decisions, d: int, t: int, o: int
         return 0
     first = _first_apart(agenda, sequence.from_end, START, count, False)
     behind = _count_apart(agenda, sequence.to_start, END, count)
+    if (
+        agenda.filters.has_scope
+        and agenda.engine.lb[agenda.rows.var0[t] + START] >= 0
+        and not agenda.rows.flags[t] & FLAG_FACT
+    ):
+        while first < count and not agenda.filters.scope.may_begin(sequence.tokens[first]):
+            first += 1
     if first == 0:
         stack.add_to_pool(d, o, t, sequence.tokens[0])
         first = 1
