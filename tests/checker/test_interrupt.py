@@ -125,7 +125,7 @@ def test_a_batch_killed_at_random_moments_and_resumed_is_as_if_undisturbed(
     assert worst < 1.0 + LAG
     ended = begin(tmp_path, "load_slow", "--missions", missions, "--output", "resumed")
     ended.communicate(timeout=120)
-    undisturbed = begin(tmp_path, "load_slow", "--missions", missions, "--output", "whole", "--store", "whole")
+    undisturbed = begin(tmp_path, "load_slow", "--missions", missions, "--output", "whole", "--store", "whole.sqlite")
     undisturbed.communicate(timeout=120)
     assert (ended.returncode, undisturbed.returncode) == (1, 1)
     for name in ("report.json", "report.html", "report.sarif", "junit.xml"):
