@@ -247,9 +247,9 @@ def _follow_distance(s: Store, c: int, start: int, distance: int, end: int, whol
     shortest = -NEVER
     if s.kind[distance] == KIND_FLOAT:
         if high(s, distance) < HALF_INF:
-            longest = int(math.floor(high(s, distance) + FLOAT_TOLERANCE))
+            longest = int(math.floor(max(high(s, distance), -HALF_INF) + FLOAT_TOLERANCE))
         if low(s, distance) > -HALF_INF:
-            shortest = int(math.ceil(low(s, distance) - FLOAT_TOLERANCE))
+            shortest = int(math.ceil(min(low(s, distance), HALF_INF) - FLOAT_TOLERANCE))
     else:
         if s.ub[distance] < HALF_INF:
             longest = s.ub[distance]
