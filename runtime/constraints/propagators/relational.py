@@ -99,7 +99,7 @@ def root_of_sum(row: Arguments) -> bool:
     if not row.keep(2, *_root(total)):
         return False
     least, most = tolerant(row.bounds(2))
-    least = max(0.0, least)
+    least = min(max(0.0, least), 1e154)  # the square of what is greater is no double
     total = max(total[0], down(least * least)), min(total[1], up(most * most))
     if row.is_whole(0) and row.is_whole(1):
         total = whole(total)
