@@ -4,11 +4,12 @@ import json
 from collections.abc import Sequence
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from enum import Enum
-from functools import cache
+from functools import cache, partial
 from itertools import repeat
 from types import UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
+from checker.batch.kept_trace import read_trace, write_trace
 from checker.losses import NO_LOSSES, Losses
 from checker.oracle import Judgement, Verdict
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint
@@ -98,8 +99,10 @@ def _plain(value: Any) -> Any:
             if default is MISSING or default != item:
                 found[name] = _plain(item)
         return found
-    if isinstance(value, tuple | EventLog):
+    if isinstance(value, tuple):
         return [_plain(item) for item in value]
+    if isinstance(value, EventLog):
+        return write_trace(value, _plain)
     return value.value if isinstance(value, Enum) else value
 
 
@@ -112,6 +115,8 @@ def _read(kind: Any, value: Any) -> Any:
         return kind(value)
     origin: Any = get_origin(kind)
     inner = get_args(kind)
+    if origin is Sequence and isinstance(value, dict):
+        return read_trace(value, partial(_read, inner[0]))
     if origin in (tuple, Sequence):
         kinds = repeat(inner[0]) if origin is Sequence or inner[-1] is Ellipsis else inner
         return tuple(_read(one, item) for one, item in zip(kinds, value, strict=False))
