@@ -40,37 +40,35 @@ def read_trace(text: dict[str, Any], read: Callable[[Any], Event]) -> EventLog:
 
 
 def _write_columns(columns: StoredObservations) -> dict[str, Any]:
-    kinds = [
-        {
-            "timeline": each.timeline,
-            "predicate": each.predicate,
-            "full_name": each.full_name,
-            "shapes": each.shapes,
-            "values": _packed(each.values, "<f8"),
-            **{name: _packed(np.diff(getattr(each, name), prepend=0), "<i8") for name in _NUMBERS},
-        }
-        for each in columns.kinds
-    ]
-    return {"name": columns.name, "symbols": columns.symbols, "kinds": kinds}
+    """One text each for all whole numbers and all reals: what a text costs counts in small traces."""
+    kinds = columns.kinds
+    numbers = [np.diff(getattr(each, name), prepend=0) for each in kinds for name in _NUMBERS]
+    return {
+        "name": columns.name,
+        "symbols": columns.symbols,
+        "kinds": [[each.timeline, each.predicate, each.full_name, each.shapes, len(each.places)] for each in kinds],
+        "numbers": _packed(numbers, "<i8"),
+        "values": _packed([each.values.ravel() for each in kinds], "<f8"),
+    }
 
 
 def _read_columns(text: dict[str, Any]) -> StoredObservations:
     kinds = []
-    for each in text["kinds"]:
-        shapes = tuple([tuple(shape) for shape in each["shapes"]])
-        places, ticks, rows, causes = (np.cumsum(_unpacked(each[name], "<i8")) for name in _NUMBERS)
-        values = _unpacked(each["values"], "<f8").reshape(len(places), len(shapes))
-        kinds.append(
-            StoredKind(
-                each["timeline"], each["predicate"], each["full_name"], shapes, places, ticks, rows, causes, values
-            )
-        )  # fmt: skip
+    numbers, values = _unpacked(text["numbers"], "<i8"), _unpacked(text["values"], "<f8")
+    for timeline, predicate, full_name, written, count in text["kinds"]:
+        shapes = tuple([tuple(shape) for shape in written])
+        places, ticks, rows, causes = (np.cumsum(numbers[k * count : (k + 1) * count]) for k in range(len(_NUMBERS)))
+        numbers = numbers[len(_NUMBERS) * count :]
+        own, values = np.split(values, [count * len(shapes)])
+        table = own.reshape(count, len(shapes))
+        kinds.append(StoredKind(timeline, predicate, full_name, shapes, places, ticks, rows, causes, table))
     return StoredObservations(text["name"], tuple(kinds), tuple(text["symbols"]))
 
 
-def _packed(numbers: Sequence[Any] | np.ndarray, kind: str) -> str:
-    """The bytes of an array, compressed, as text."""
-    return base64.b64encode(zlib.compress(np.ascontiguousarray(numbers, kind).tobytes(), 1)).decode("ascii")
+def _packed(parts: Sequence[np.ndarray], kind: str) -> str:
+    """The bytes of some arrays, compressed, as text."""
+    joined = np.concatenate([np.empty(0, kind), *parts], dtype=kind)
+    return base64.b64encode(zlib.compress(joined.tobytes(), 1)).decode("ascii")
 
 
 def _unpacked(text: str, kind: str) -> np.ndarray:
