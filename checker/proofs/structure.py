@@ -98,12 +98,10 @@ class _ReactorReader:
             self.names, self.symbols, self.place.name, predicates, objects, self.found.values, self.redrawn
         )
         program = self.names.program
-        for demand in reader.bare(program.script, NOBODY):
-            self.found.demands.append(demand)
+        self._add(reader.bare(program.script, NOBODY))
         for token in self.flown.values():
             reader.token_name = f"{token.predicate}#{token.key}"
-            for demand in reader.bare(self.names.predicates[token.predicate].body, token.key):
-                self.found.demands.append(demand)
+            self._add(reader.bare(self.names.predicates[token.predicate].body, token.key))
             for run in token.runs:
                 self._add(reader.follow(program.rules[run.rule].body, run, token.key))
         for name, count in reader.untold.items():
@@ -112,6 +110,7 @@ class _ReactorReader:
         self._order()
 
     def _add(self, demands: Iterator[Demand]) -> None:
+        """Add the demands of a body, and note what it samples."""
         for demand in demands:
             self.found.demands.append(demand)
             for each in demand.numbers:
