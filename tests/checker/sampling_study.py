@@ -4,7 +4,7 @@
 
 The true rates are known: they are the volumes of the failing regions. A batch ends with its last mission, when a rule
 to stop by has its answer, with its third failure, or when time is over, where missions that fail take a tenth of the
-time of others. Of samplers with plain random missions at settled places only these count: they are drawn as arrays.
+time of others. Of samplers with plain random missions in fixed places only these count: they are drawn as arrays.
 """
 
 import sys
@@ -106,7 +106,7 @@ class Coverage:
         return self.covered >= self.count * CONFIDENCE - 4.0 * sqrt(self.count * CONFIDENCE * (1.0 - CONFIDENCE))
 
 
-def settled_roles(name: str, missions: int) -> list[MissionRole] | None:
+def fixed_roles(name: str, missions: int) -> list[MissionRole] | None:
     """The roles of a batch's missions where these are the same whatever fails; None where weights are chosen."""
     world, found = WORLDS["half"], set()
     for batch, _ in batches(name, world, missions, 3):
@@ -135,7 +135,7 @@ def first(hits: np.ndarray) -> np.ndarray:
 
 def coverages(name: str, world: World, missions: int, count: int) -> dict[End, Coverage]:
     """The coverage of one sampler's intervals, by what ends a batch; none where it refuses to state one."""
-    roles = settled_roles(name, missions)
+    roles = fixed_roles(name, missions)
     if roles is None:
         return _weighted_coverages(name, world, missions, count)
     plain = sum(role is MissionRole.RANDOM for role in roles)
