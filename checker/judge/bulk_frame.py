@@ -195,14 +195,14 @@ def _field_reader(base: RowRead, members: tuple[str, ...], names: VariableNames)
         if column.upper is not None or column.kind != TEXT:
             raise UnplainError
         texts = frame.tables.texts
-        things, places = distinct(column.lower)
+        things, indices = distinct(column.lower)
         found: list[Value] = []
         for number in things:
             value: Value = texts.names[number]
             for name in members:
                 value = member_of(frame.bench, names, value, name)
             found.append(value)
-        return column_of(found, texts).take(places)
+        return column_of(found, texts).take(indices)
 
     return read
 

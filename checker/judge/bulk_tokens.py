@@ -132,11 +132,11 @@ def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, group: AlikeTok
             step(frame)
         if code.rules:
             tally.judged += 1  # that these rules have fired
-        for place, number in enumerate(code.rules):
+        for index, number in enumerate(code.rules):
             rule, steps = judge.rule(number)
             frame = RowFrame(bench, tok, [None] * rule.slots, [tok, *[None] * rule.tokens])
             frame.tally = tally
-            frame.follow(group.runs[place])
+            frame.follow(group.runs[index])
             for step in steps:
                 step(frame)
                 if not tally.holds.any():
@@ -163,8 +163,8 @@ def _judge_own(known: _PredicateRows, frame: RowFrame, tables: Tables, rows: Arr
         if each is not None and each.open is not None:
             tally.need(~each.open)
     tally.judge(length >= (0 if known.code.is_event else 1))
-    for place, test in known.tests:
-        tally.judge(allowed(test, frame.tok.column(place), frame))
+    for index, test in known.tests:
+        tally.judge(allowed(test, frame.tok.column(index), frame))
     things = frame.use(frame.tok.column(OBJECT))
     if things.kind != "s":
         raise UnplainError

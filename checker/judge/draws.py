@@ -110,8 +110,8 @@ def _quantiles(parts: Array) -> Array:
 def _picked(parameter: ParameterConfiguration, parts: Array) -> Array:
     weights = parameter.weights or (1.0,) * len(parameter.values)
     reached = np.add.accumulate(weights)
-    places = np.searchsorted(reached, parts * sum(weights), side="right")
-    return np.array(parameter.values, float)[np.minimum(places, len(weights) - 1)]
+    at = np.searchsorted(reached, parts * sum(weights), side="right")
+    return np.array(parameter.values, float)[np.minimum(at, len(weights) - 1)]
 
 
 @lru_cache(maxsize=256)

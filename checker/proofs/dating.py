@@ -108,14 +108,14 @@ class _Dating:
             unknown = [k for k, name in enumerate(names) if name and not self._is_known(name)]
             if len(unknown) != 1 or names.count(names[unknown[0]]) > 1:
                 continue
-            place = unknown[0]
+            index = unknown[0]
             numbers = [self._value(name, each) for name, each in zip(names, demand.numbers, strict=True)]
-            value = solved(demand.name, place, numbers, demand.numbers[place])
+            value = solved(demand.name, index, numbers, demand.numbers[index])
             if value is not None:
                 self.sources.add(demand)
-                if demand.name == "mulEq" and place < 2:
-                    self.divisors.append((demand, numbers[1 - place]))
-                self._know(names[place], value)
+                if demand.name == "mulEq" and index < 2:
+                    self.divisors.append((demand, numbers[1 - index]))
+                self._know(names[index], value)
 
     def _is_known(self, name: str) -> bool:
         return name in self.known or name.startswith("sampled ")

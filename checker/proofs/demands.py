@@ -125,10 +125,10 @@ class RunReader:
             if known is None:
                 return None
             code = next(each for each in self.names.program.classes if each.name == known.class_name)
-            place = next((k for k, each in enumerate(code.members) if each.name == name), None)
-            if place is None:
+            index = next((k for k, each in enumerate(code.members) if each.name == name), None)
+            if index is None:
                 return None
-            thing, kind = known.members[place], code.members[place].type.kind
+            thing, kind = known.members[index], code.members[index].type.kind
         return None if thing is None or isinstance(thing, tuple) else self.symbols.constant(thing, kind)
 
     def value(self, operand: Operand) -> Value | None:

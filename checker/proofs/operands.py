@@ -212,10 +212,10 @@ def token_number(name: str, predicate: str, variable: int, names: ProgramNames, 
         known = TOKEN_VARIABLES[variable]
         return symbols.variable(f"{name}.{known}", _KINDS[known])
     code = names.predicates.get(predicate)
-    place = variable - FIRST_PARAMETER
-    if code is None or place >= len(code.parameters):
+    index = variable - FIRST_PARAMETER
+    if code is None or index >= len(code.parameters):
         return None
-    parameter = code.parameters[place]
+    parameter = code.parameters[index]
     return symbols.variable(f"{name}.{parameter.name}", parameter.type.kind)
 
 
