@@ -4,8 +4,6 @@ from collections.abc import Iterator
 from itertools import islice
 from pathlib import Path
 
-import pytest
-
 from checker.counterfactual.trials import Bounds
 from checker.mission import read_mission
 from checker.models import load_models
@@ -13,7 +11,7 @@ from checker.yardstick import TOP, Fate, MutantReport, measure, open_flyer, prep
 
 UNSEEN = Path(__file__).resolve().parent / "unseen"
 MISSIONS = 1
-SEED = 5
+SEED = 2
 
 
 def reports(name: str, limit: int) -> Iterator[MutantReport]:
@@ -28,12 +26,12 @@ def reports(name: str, limit: int) -> Iterator[MutantReport]:
         yield from islice(measure(ground, flyer, SEED, Bounds), limit)
 
 
-# Two planners and a store; draws that multiply, a loop and guards; a reactor in Python whose reports are rules' tokens.
-@pytest.mark.parametrize(("name", "limit", "least"), [("quay", 12, 3), ("kiln", 12, 3), ("gale", 12, 3)])
-def test_faults_of_a_mission_are_found(name: str, limit: int, least: int) -> None:
-    failing = [one for one in reports(name, limit) if one.fate is Fate.FAILS]
+# Two planners and a store; draws that multiply, a loop and guards; a reactor in Python whose reports have rules.
+def test_most_faults_are_found_and_each_is_one_to_a_user() -> None:
+    found = [one for name, limit in (("quay", 5), ("kiln", 9), ("gale", 6)) for one in reports(name, limit)]
+    failing = [one for one in found if one.fate is Fate.FAILS]
     told = [(one.edit.line, one.edit.old, one.edit.new.strip(), one.place) for one in failing]
-    assert len(failing) >= least, told
+    assert len(failing) >= 9, told
     assert sum(1 <= one.place <= TOP for one in failing) >= 0.9 * len(failing), told
-    assert sum(one.place == 1 for one in failing) >= 0.7 * len(failing), told
+    assert sum(one.place == 1 for one in failing) >= 0.8 * len(failing), told
     assert all(one.faults == 1 for one in failing), told

@@ -8,8 +8,8 @@ class Weather(Reactor):
 
     def tick(self, now):
         """Report, and wake for the next report."""
-        gales = [int(word) for word in self.settings["gales"].split()]
-        forces = [float(word) for word in self.settings["forces"].split()]
+        gales = [int(word) for word in str(self.settings["gales"]).split()]
+        forces = [float(word) for word in str(self.settings["forces"]).split()]
         if now.tick == 0:
             now.publish("sky", "Fair", wanted=0)
         for at, force in zip(gales, forces, strict=True):
