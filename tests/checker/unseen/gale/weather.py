@@ -1,12 +1,12 @@
 """The weather: fair until a gale is reported, whose force and tick the settings give; after it probes are wanted."""
 
-from runtime.user.reactor import Reactor
+from runtime.user.reactor import Now, Reactor
 
 
 class Weather(Reactor):
     """Publishes a gale at each of some ticks, and fair weather after it."""
 
-    def tick(self, now):
+    def tick(self, now: Now) -> None:
         """Report, and wake for the next report."""
         gales = [int(word) for word in str(self.settings["gales"]).split()]
         forces = [float(word) for word in str(self.settings["forces"]).split()]
