@@ -126,7 +126,7 @@ class Campaign:
         ended_by = None
         tasks = watch.schedule.more()
         if not watch.is_enough():
-            more = nothing_more if watch.schedule.is_settled else watch.schedule.more
+            more = nothing_more if watch.schedule.is_complete else watch.schedule.more
             if tasks:
                 agent, limit = self.models.agent, check.time_limit
                 ended_by = self.fly_batch(Batch(self.load, agent, tasks, workers, limit, more), watch)

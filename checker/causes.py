@@ -51,7 +51,7 @@ class Culprit:
 
     @property
     def place(self) -> SourcePlace | None:
-        """The line to blame."""
+        """Its line in the model."""
         return self.element.place if self.element is not None else self.at
 
 
@@ -70,7 +70,7 @@ def failed_by(outcome: Outcome | None) -> Failed:
 
 
 def lines_that_rule_out(failed: Failed) -> list[ConflictElement]:
-    """The elements with a place, one for each line: the line to blame and what sets its limit first."""
+    """The elements with a place, one for each line: the culprit and what sets its limit first."""
     conflicts = [failed.conflict] if failed.conflict is not None else []
     conflicts += failed.deadlock.conflicts() if failed.deadlock is not None else ()
     culprit = culprit_of(failed.conflict)

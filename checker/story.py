@@ -38,7 +38,7 @@ class StepKind(StrEnum):
     LINE = "line"  # of the model, on the way of the draw
     EVENT = "event"
     CAUSE = "cause"  # an element of the conflict
-    FAULT = "fault"  # the element to blame
+    FAULT = "fault"  # the culprit
     TRIED = "tried"  # what the search tried in vain
     ABORT = "abort"
 
@@ -170,7 +170,7 @@ def _sampled_at(outcome: Outcome, name: str) -> SourcePlace | None:
 
 
 def _conflict(conflict: Conflict | None, confirmation: Confirmation | None) -> list[Step]:
-    """The elements of the conflict that its contradiction needs, from the draw outwards, the line to blame last."""
+    """The elements of the conflict that its contradiction needs, from the draw outwards, the culprit last."""
     if conflict is None or confirmation is None:
         return []
     culprit = culprit_of(conflict)

@@ -36,7 +36,7 @@ class BlockTokens:
         self.line = array("q")
         self.predicate = array("q")
         self.context = array("q", [0])
-        self.places = array("q")  # among the values that the block shows
+        self.indices = array("q")  # among the values that the block shows
         self.truths = array("q")
 
 
@@ -51,7 +51,7 @@ class TokenWalk:
         self.line = self._filled(tokens.line)
         self.predicate = self._filled(tokens.predicate)
         self.context = self._filled(tokens.context)
-        self.places = self._filled(tokens.places)
+        self.indices = self._filled(tokens.indices)
         self.truths = self._filled(tokens.truths)
         self.is_fact = array("q", bytes(8 * lines))
         self.is_used = array("q", bytes(8 * lines))
@@ -131,7 +131,7 @@ class TokenWalk:
         for t in range(first, self.first[block + 1]):
             holds = True
             for c in range(self.context[t], self.context[t + 1]):
-                if (self.log.values[shown + self.places[c]] != 0.0) != (self.truths[c] != 0):
+                if (self.log.values[shown + self.indices[c]] != 0.0) != (self.truths[c] != 0):
                     holds = False
                     break
             if not holds:

@@ -53,13 +53,13 @@ def run_of(run: RunColumns, row: int, names: list[str]) -> BodyRun:
 def guard_of(guard: GuardColumns, row: int, names: list[str]) -> GuardRun:
     is_true = bool(guard.is_true[row])
     run = guard.then if is_true else guard.otherwise
-    place = int((guard.is_true[:row] == is_true).sum())  # among the rows that took the same branch
-    return GuardRun("then" if is_true else "else", True, None if run is None else run_of(run, place, names))
+    index = int((guard.is_true[:row] == is_true).sum())  # among the rows that took the same branch
+    return GuardRun("then" if is_true else "else", True, None if run is None else run_of(run, index, names))
 
 
-def arguments_of(tokens: TokenColumns, place: int, names: list[str]) -> tuple[Value, ...]:
-    kinds = tokens.kinds[tokens.times.predicates[place]]
-    stored = StoredValues(tokens.store, tokens.times.values[place : place + 1], kinds)
+def arguments_of(tokens: TokenColumns, index: int, names: list[str]) -> tuple[Value, ...]:
+    kinds = tokens.kinds[tokens.times.predicates[index]]
+    stored = StoredValues(tokens.store, tokens.times.values[index : index + 1], kinds)
     return tuple(value(column, 0, names) for column in stored.columns())
 
 
@@ -68,13 +68,13 @@ def compare(tokens: TokenColumns) -> int:
     names = list(tokens.symbols)
     seen: set[int] = set()
     for group in tokens.groups:
-        for row, place in enumerate(group.places.tolist()):
-            token = tokens[place]
+        for row, index in enumerate(group.indices.tolist()):
+            token = tokens[index]
             assert (token.predicate, token.object, token.state) == (group.predicate, group.object, "active")
-            assert token.arguments == arguments_of(tokens, place, names)
+            assert token.arguments == arguments_of(tokens, index, names)
             assert token.runs == tuple(run_of(each, row, names) for each in group.runs)
-            seen.add(place)
-    active = {place for place, token in enumerate(tokens) if token.state == "active"}
+            seen.add(index)
+    active = {index for index, token in enumerate(tokens) if token.state == "active"}
     assert seen == active
     return len(seen)
 
@@ -97,13 +97,13 @@ def test_times_of_columns_are_those_of_the_tokens() -> None:
     tokens = flown()[1].reactors[2].tokens
     assert isinstance(tokens, TokenColumns)
     times, names = tokens.times, tokens.names
-    for place, token in enumerate(tokens):
-        assert token.key == times.keys[place]
-        assert (token.predicate, token.object) == (names[times.predicates[place]], names[times.objects[place]])
-        assert token.merged_into == times.merged_into[place]
-        assert (token.fate == "over", token.tick) == (bool(times.is_over[place]), times.ticks[place])
-        assert not isinstance(token.start, int) or token.start == times.starts[place]
-        assert not isinstance(token.end, int) or token.end == times.ends[place] == times.latest[place]
+    for index, token in enumerate(tokens):
+        assert token.key == times.keys[index]
+        assert (token.predicate, token.object) == (names[times.predicates[index]], names[times.objects[index]])
+        assert token.merged_into == times.merged_into[index]
+        assert (token.fate == "over", token.tick) == (bool(times.is_over[index]), times.ticks[index])
+        assert not isinstance(token.start, int) or token.start == times.starts[index]
+        assert not isinstance(token.end, int) or token.end == times.ends[index] == times.latest[index]
 
 
 def test_events_read_by_index_are_those_that_are_passed_by() -> None:
