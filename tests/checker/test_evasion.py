@@ -10,6 +10,7 @@ from nddlc.main import run
 
 MODEL = """#include "TREX.nddl"
 float A = [0.0 1.0];
+float B = [0.0 1.0];
 class W extends AgentTimeline {
   predicate Idle { }
   predicate Go { }
@@ -17,21 +18,24 @@ class W extends AgentTimeline {
 }
 W::Idle { duration == 5; meets(object.Go g); }
 W::Go {
-  float a;
+  float a; float b;
   a == sampledParameter(A);
-  a >= 0.2;
-  a <= 0.8;
+  b == sampledParameter(B);
+  bool p; bool q;
+  p == (a > 0.5);
+  q == (b > 0.5);
+  p == q;
   duration == 5;
 }
 W w = new W(Internal);
 close();
 """
 MISSION = """[mission]
-name = "sides"
+name = "either"
 final_tick = 12
 [[reactor]]
 name = "sim"
-model = "sides.nddl"
+model = "either.nddl"
 latency = 0
 lookahead = 1
 internal = ["w"]
@@ -43,14 +47,14 @@ max_failure_rate = 0.01
 
 
 def test_a_postponement_is_no_mending(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "sides.nddl").write_text(MODEL, encoding="utf-8")
+    (tmp_path / "either.nddl").write_text(MODEL, encoding="utf-8")
     (tmp_path / "mission.toml").write_text(MISSION, encoding="utf-8")
     report = tmp_path / "report"
     assert run(["check", str(tmp_path / "mission.toml"), "--no-store", "--output", str(report)]) == 1
     capsys.readouterr()
     data: dict[str, Any] = json.loads((report / "report.json").read_text(encoding="utf-8"))
-    (bucket,) = data["buckets"]
-    claims = {one["line"]: one["claim"] for one in bucket["causes"]["ranked"]}
+    (fault,) = data["faults"]
+    claims = {one["line"]: one["claim"] for one in fault["causes"]["ranked"]}
     line = MODEL.splitlines().index("W::Idle { duration == 5; meets(object.Go g); }") + 1
     assert claims.get(line, "evades") == "evades"
-    assert "mends" not in claims.values()  # no change of one bound suits both sides
+    assert "mends" not in claims.values()  # no change of one bound suits both either
