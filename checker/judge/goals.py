@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from checker.judge.bench import Bench, Tok
+from checker.judge.timelines import is_cut_short
 from checker.judge.tokens import ProgramJudge
 from checker.judge.values import lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, START
@@ -32,7 +33,7 @@ def _judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, has_
     bench.judged += 1
     named = bench.tokens.of(bench.tokens.named(goal.predicate))
     fitting = [tok for tok in named if _is_answer(judge, bench, goal, tok)]
-    if any(not tok.is_cut or not has_ended for tok in fitting):
+    if any(not is_cut_short(tok) or not has_ended for tok in fitting):
         return
     values: tuple[tuple[str, Value], ...] = (("timeline", goal.timeline), ("asked from", goal.at))
     is_cut = bool(fitting)

@@ -87,7 +87,7 @@ def _judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool
     before: Tok | None = None
     for tok in tokens:
         bench.judged += 1
-        if before is not None and not _is_cut_short(before):
+        if before is not None and not is_cut_short(before):
             start = tok.values[START]
             if before.values[END] == start:
                 before = tok
@@ -101,14 +101,14 @@ def _judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool
                 elif is_shared and ends[1] < start:
                     bench.report("gap", timeline, (before, tok), values, _GAPLESS, "nothing does")
         before = tok
-    if before is not None and is_shared and not _is_cut_short(before):
+    if before is not None and is_shared and not is_cut_short(before):
         ends = hull(before.values[END])
         if ends is not None and ends[1] <= bench.last_tick:
             values = ((f"{before.name}.end", before.values[END]), ("last tick", bench.last_tick))
             bench.report("gap", timeline, (before,), values, _GAPLESS, "nothing does")
 
 
-def _is_cut_short(tok: Tok) -> bool:
+def is_cut_short(tok: Tok) -> bool:
     """Whether a repair took a token away before its end, which then is not known."""
     end = tok.record.end
     return tok.is_cut and not (isinstance(end, int) and end <= tok.record.tick)

@@ -1,3 +1,4 @@
+# cython: boundscheck=False
 """Walk over the log of a determined reactor: keys, ends and origins of its tokens, and of the children of their rules.
 
 Keys are given as the general engine gives them: in the order of time, the tokens of a tick before their children.
