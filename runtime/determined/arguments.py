@@ -7,8 +7,7 @@ from compiler.program import DomainConstant, ParameterCode, PredicateCode
 from runtime.determined.loading import ParameterShape, RegisterProgram, is_open, number_of
 from runtime.determined.machine import Machine
 from runtime.executive.messages import Arguments
-
-_INFINITY = 4503599627370495
+from runtime.plan.tags import INFINITY
 
 
 def given_block(
@@ -85,7 +84,7 @@ def _shape_of(program: RegisterProgram, parameter: ParameterCode) -> ParameterSh
 def _domain_of(names: Sequence[str], kind: str, type_name: str, value: float) -> DomainConstant:
     """What a register says of a variable; NaN leaves it open."""
     if value != value:
-        return DomainConstant(kind, type_name, (-_INFINITY, _INFINITY), None)
+        return DomainConstant(kind, type_name, (-INFINITY, INFINITY), None)
     if kind == "float":
         return DomainConstant(kind, type_name, (value + 0.0, value + 0.0), None)  # no negative zero
     if kind == "int":
