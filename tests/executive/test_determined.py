@@ -93,7 +93,9 @@ def test_numbers_whose_last_places_come_near_the_tolerance_are_left_to_the_gener
 ) -> None:
     model = f"""
     float DX = [-0.6 0.6];
-    class Motion extends AgentTimeline {{ predicate Step {{ float c; float c1; }} Motion(Mode m) {{ super(m, "Step"); }} }}
+    class Motion extends AgentTimeline {{
+      predicate Step {{ float c; float c1; }} Motion(Mode m) {{ super(m, "Step"); }}
+    }}
     Motion::Step {{
       duration == 1; float n; n == sampledParameter(DX);
       c1 == c - (n - c) * {factor}; meets(object.Step next); next.c == c1;
