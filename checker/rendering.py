@@ -110,7 +110,7 @@ def step_text(step: Step, story: Story) -> str:
 
 
 def step_label(step: Step) -> str:
-    """What marks the step to blame."""
+    """What marks the step of the culprit."""
     return "   <== the line to blame" if step.kind is StepKind.FAULT else ""
 
 

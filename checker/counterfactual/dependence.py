@@ -20,6 +20,7 @@ from compiler.program import (
     Assign,
     Call,
     Child,
+    ClassCode,
     Field,
     GlobalVariable,
     Guard,
@@ -32,6 +33,7 @@ from compiler.program import (
     ObjectLoop,
     Operand,
     Post,
+    PredicateCode,
     Program,
     Relate,
     RuleCode,
@@ -45,6 +47,7 @@ from nddl_lang.text.source import Span
 Key = tuple[object, ...]  # of a variable
 _TIMES = "times"
 _FREE = ("any", "contains", "starts", "met_by", "after")  # relations that leave the end of the origin free
+_RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
 _CROWD = 0.05  # what each further line that bears on a variable adds to the way through it
 
 
@@ -53,11 +56,13 @@ class LooseEnd:
     """A variable of a rule that at most one line speaks of, or the times of its token: one more line may be missing.
 
     `site` is the number of the line that declares it, of the child whose parameter it is, or of the head of the rule.
+    `is_local`: it is declared in the rule itself, so that nothing else can say what it is.
     """
 
     site: int
     variable: str
     is_set_elsewhere: bool = False  # by other rules of the same model
+    is_local: bool = False
 
 
 class Dependence:
@@ -126,10 +131,10 @@ class Dependence:
                 if not heads:
                     continue
                 links = _Links(number, program)
-                for span, variable, key in links.loose(rule, ("rule", number, index)):
+                for span, variable, key, is_local in links.loose(rule, ("rule", number, index)):
                     declared = [one for one in self.at(*self._line(span)) if not self.sites[one].is_rule]
                     site = declared[0] if span is not rule.span and declared else heads[0]
-                    found[LooseEnd(site, variable, bool(self._users.get(key)))] = None
+                    found[LooseEnd(site, variable, bool(self._users.get(key)), is_local)] = None
         return list(found)
 
     def _line(self, span: Span) -> tuple[str, int]:
@@ -146,6 +151,7 @@ class _Links:
         self._number = number
         self._program = program
         self._parameters = {each.name: [one.name for one in each.parameters] for each in program.predicates}
+        self._classes = {each.name: each for each in program.classes}
 
     def all(self) -> Iterator[tuple[Span, list[Key]]]:
         """Every instruction with a line."""
@@ -157,8 +163,11 @@ class _Links:
             yield from self._body(predicate.body, ("predicate", self._number, index), {0: predicate.name}, ())
         yield from self._body(self._program.script, ("script", self._number), {}, ())
 
-    def loose(self, rule: RuleCode, scope: Key) -> Iterator[tuple[Span, str, Key]]:
-        """What a rule leaves loose: where that is declared, its name, and under which key other rules speak of it."""
+    def loose(self, rule: RuleCode, scope: Key) -> Iterator[tuple[Span, str, Key, bool]]:
+        """What a rule leaves loose: where that is declared, its name, the key under which other rules speak of it.
+
+        The last says whether it is a local variable.
+        """
         lines: dict[Key, set[int]] = defaultdict(set)
         declared: dict[Key, tuple[Span, str]] = {}
         steps = list(_flat(rule.body))
@@ -178,12 +187,13 @@ class _Links:
         for name in self._parameters[marked[0]]:
             declared["token", marked[0], name] = (rule.span, name)
         for key, (span, name) in declared.items():
-            if len(lines[key]) < (2 if key[:1] != ("token",) else 1):
-                yield span, name, ("token", str(key[1]).partition("#")[0], name) if key[0] == "token" else ()
+            is_local = key[0] != "token"
+            if len(lines[key]) < (2 if is_local else 1):
+                yield span, name, () if is_local else ("token", str(key[1]).partition("#")[0], name), is_local
         if not lines["token", marked[0], _TIMES] and all(
             step.relation in _FREE for step in steps if isinstance(step, Child) and step.origin == 0
         ):
-            yield rule.span, "duration", ()
+            yield rule.span, "duration", (), False
 
     def _body(
         self, body: tuple[Instruction, ...], scope: Key, tokens: dict[int, str], inside: tuple[Key, ...]
@@ -233,13 +243,32 @@ class _Links:
                     yield from self._operand(copy_of, scope, tokens)
             case Assign(target=target, value=value):
                 yield from self._operand(target, scope, tokens)
-                if value is not None and not isinstance(value, NewObject):
+                if isinstance(value, NewObject):
+                    yield from self._object(value, scope, tokens)
+                elif value is not None:
                     yield from self._operand(value, scope, tokens)
+            case NewObject():
+                yield from self._object(step, scope, tokens)
             case Call(arguments=arguments, variable=variable):
                 for operand in (*arguments, *((variable,) if variable is not None else ())):
                     yield from self._operand(operand, scope, tokens)
             case _:
                 pass
+
+    def _object(self, new: NewObject, scope: Key, tokens: dict[int, str]) -> Iterator[Key]:
+        """What an object is made of bears on its members, and the limits of a resource on what uses it."""
+        for argument in new.arguments:
+            if not isinstance(argument, NewObject):
+                yield from self._operand(argument, scope, tokens)
+        owner: ClassCode | None = self._classes[new.class_name]
+        yield from (("member", member.name) for member in (owner.members if owner is not None else ()))
+        while owner is not None:
+            if owner.native in _RESOURCES:
+                yield from (("token", each.name, _TIMES) for each in self._predicates_of(owner.name))
+            owner = self._classes[owner.base] if owner.base is not None else None
+
+    def _predicates_of(self, owner: str) -> Iterator[PredicateCode]:
+        return (each for each in self._program.predicates if each.class_name == owner)
 
     def _operand(self, operand: Operand, scope: Key, tokens: dict[int, str]) -> Iterator[Key]:
         match operand:
@@ -255,7 +284,7 @@ class _Links:
                 elif FIRST_PARAMETER <= variable < FIRST_PARAMETER + len(names):
                     yield ("token", predicate, names[variable - FIRST_PARAMETER])
             case Field(base=base, members=members):
-                yield ("member", *members)
+                yield from (("member", member) for member in members[-1:])
                 if base is not None:
                     yield from self._operand(base, scope, tokens)
             case UnionOf(operands=operands):

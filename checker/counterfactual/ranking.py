@@ -15,7 +15,7 @@ from checker.mutation.edits import SmallEdit
 from checker.names import relative_name
 from runtime.executive.outcome import SourcePlace
 
-_MOST_LOOSE = 2
+_MOST_LOOSE = 3
 
 
 class Claim(StrEnum):
@@ -26,14 +26,15 @@ class Claim(StrEnum):
     PARTLY = "partly"  # some of them pass, or others that passed fail
     EVADES = "evades"  # they pass, but goals are lost
     LOOSE_END = "loose end"  # a line may be missing: nothing was flown
+    UNREAD = "unread"  # the same, by a constant that nothing reads
 
 
 @dataclass(frozen=True, slots=True)
 class RankedLine:
     """One line with its claim: the smallest `change` that helped, on how many of how many failed missions.
 
-    `spoilt` missions that passed fail with it. Of a loose end, `variable` is what too few lines speak of. `rule` is
-    what the line is a part of.
+    `spoilt` missions that passed fail with it. Of a loose end, `variable` is what too few lines speak of, or none
+    reads. `rule` is what the line is a part of.
     """
 
     place: SourcePlace
@@ -99,7 +100,8 @@ def _tried(trial: LineTrial, root: Path) -> RankedLine:
 
 def _loose(loose: Loose, root: Path) -> RankedLine:
     site = loose.candidate.site
-    return RankedLine(_place(loose.candidate, site.first, root), site.rule, Claim.LOOSE_END, variable=loose.variable)
+    claim = Claim.UNREAD if loose.is_unread else Claim.LOOSE_END
+    return RankedLine(_place(loose.candidate, site.first, root), site.rule, claim, variable=loose.variable)
 
 
 def _place(candidate: Candidate, line: int, root: Path) -> SourcePlace:

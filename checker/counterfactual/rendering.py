@@ -26,6 +26,8 @@ def claim_text(cause: RankedLine) -> str:
             return f"{change}: {_passes(cause)}, but goals are lost"
         case Claim.LOOSE_END:
             return f"hardly a line of this rule speaks of `{cause.variable}`: one may be missing (nothing was flown)"
+        case Claim.UNREAD:
+            return f"nothing reads `{cause.variable}`: a line that does may be missing here (nothing was flown)"
         case _:
             assert_never(cause.claim)
 

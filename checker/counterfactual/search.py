@@ -9,11 +9,12 @@ from pathlib import Path
 
 from checker.batch.pool import Flyer
 from checker.batch.result import MissionResult
-from checker.counterfactual.candidates import Candidate, candidates_of
+from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.dependence import Dependence
+from checker.counterfactual.loose_ends import loose_ends
 from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
 from checker.counterfactual.smallness import usage_of
-from checker.counterfactual.trials import HEAVY, Bounds, Loose, Missions, Trials, damage_of, try_out
+from checker.counterfactual.trials import HEAVY, Bounds, Missions, Trials, damage_of, try_out
 from checker.coverage import Universe
 from checker.losses import Limit
 from checker.mutation.edits import EditSite, SmallEdit, sites_of
@@ -22,8 +23,6 @@ from checker.oracle import Verdict, judge_losses
 from checker.sampling.sampler import with_point
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
-
-_SET_ELSEWHERE = 3.0  # how much farther off a variable is that other rules set
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -81,18 +80,7 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     usage = usage_of(sites, some_pass=bool(missions.passed))
     candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised)
     trials = try_out(candidates, missions, usage, partial(_fly, world), bounds)
-    return replace(trials, loose=_loose(graph, candidates))
-
-
-def _loose(graph: Dependence, candidates: Sequence[Candidate]) -> tuple[Loose, ...]:
-    """The loose ends near what ended the mission, the nearest first."""
-    near = {candidate.site: candidate for candidate in candidates}
-    found = [
-        (near[site].far + _SET_ELSEWHERE * one.is_set_elsewhere, number, Loose(near[site], one.variable))
-        for number, one in enumerate(graph.loose_ends())
-        if (site := graph.sites[one.site]) in near
-    ]
-    return tuple(loose for _, _, loose in sorted(found, key=lambda one: one[:2]))
+    return replace(trials, loose=loose_ends(graph, candidates, usage))
 
 
 def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult, most_seconds: float) -> MissionResult:

@@ -10,10 +10,12 @@ from collections import Counter
 from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
+from checker.counterfactual.affinity import Affinity
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
+_POINTS = re.compile(r"(\w+\.)?(start|end)\s*[<>=!]+\s*(\w+\.)?(start|end)\s*;")  # two ends of tokens
 _LOOSE = "any"  # the relation that demands nothing
 _SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 _UNEQUAL, _EQUAL = "!=", "=="
@@ -29,6 +31,12 @@ _UNUSUAL = 0.5  # how much the odds count that a word is meant
 _OCTAVE = 0.15  # for each doubling of a constant
 _DIGIT = 0.1  # for each digit that a constant has more
 _IDLE = 2.5  # odds of a constant that nothing uses any more, or where the range of a draw is used as a number
+_KIN = 0.6  # odds for each point of affinity that a constant has more for a line than another
+_LAST_USE = 2.0  # odds that a constant is not declared for nothing
+_KIN_SOON = -0.2  # when a constant is tried that belongs better into a line
+_TWIN = 1.0  # odds of a line that is then written as another line is
+_TWIN_SOON = 0.6  # and how much sooner that is tried
+_NAMED = 2.0  # odds of the comparison that a constant's name asks for
 _EDGE = 1.5  # odds that only some missions fail for a number, not for what is wrong in all of them
 
 # How often a word is meant, in lines of a sort, before any line of the model is read.
@@ -39,6 +47,7 @@ _RELATIONS = {
 _COMPARISONS = {
     "value": {"==": 6.0, "<=": 1.0, ">=": 1.0, "!=": 0.1},
     "time": {"==": 3.0, "<=": 3.0, ">=": 1.5, "!=": 0.05},
+    "point": {"==": 6.0, "<=": 2.0, ">=": 1.0, "!=": 0.05},
     "condition": {"==": 3.0, "<=": 2.0, ">=": 2.0, "<": 2.0, ">": 2.0, "!=": 0.7},
 }
 _RARE = 0.3  # all other words
@@ -58,6 +67,7 @@ class Usage:
     kinds: Counter[EditKind]
     meant: Counter[tuple[object, str]]
     sampled: Container[str]
+    affinity: Affinity
     some_pass: bool = False
 
     def is_swapped(self, edit: SmallEdit) -> bool:
@@ -68,12 +78,26 @@ class Usage:
         """Whether nothing uses a variable that somebody declared: another may have taken its place."""
         return name in self.named and not self.counts[name]
 
+    def gain(self, edit: SmallEdit, site: EditSite) -> float:
+        """How much better the new constant of a line belongs there than the old one."""
+        return self.affinity.of(edit.new, site) - self.affinity.of(edit.old, site)
+
+    def strands(self, edit: SmallEdit) -> bool:
+        """Whether a change leaves a declared constant without any use."""
+        return edit.old in self.named and edit.old not in self.sampled and self.counts[edit.old] == 1
+
+    def twins(self, edit: SmallEdit, site: EditSite) -> int:
+        """1 for a change after which a line is written as another is, less 1 for a line that is so already."""
+        return self.affinity.makes_twin(edit, site) - self.affinity.has_twin(site)
+
     def odds(self, edit: SmallEdit, site: EditSite) -> float:
         """Logarithm of how much likelier the old word of a relation or comparison is meant than the new one."""
         sort, prior = _sort(edit, site)
         old, new = _sign(edit.old), _sign(edit.new)
         before = prior.get(old, _RARE) + self.meant[sort, old] - 1  # but for this very line
         odds = math.log(before / (prior.get(new, _RARE) + self.meant[sort, new]))
+        wanted = self.affinity.sign_of(edit, site) if edit.kind is EditKind.COMPARISON else ""
+        odds += _NAMED * ((old[:1] == wanted[:1]) - (new[:1] == wanted[:1])) if wanted else 0.0
         return max(odds, _LEAST_ODDS) if sort == "condition" else odds
 
 
@@ -88,7 +112,8 @@ def usage_of(sites: Sequence[EditSite], *, some_pass: bool = False) -> Usage:
         words = {edit.begin: edit for edit in site.edits if edit.kind in (EditKind.RELATION, EditKind.COMPARISON)}
         meant.update((_sort(edit, site)[0], _sign(edit.old)) for edit in words.values())
     sampled = {name for site in sites for name in _SAMPLED.findall(site.text)}
-    return Usage(counts, {site.named for site in sites if site.named}, kinds, meant, sampled, some_pass)
+    named = {site.named for site in sites if site.named}
+    return Usage(counts, named, kinds, meant, sampled, Affinity(sites, named), some_pass)
 
 
 def is_loosening(edit: SmallEdit) -> bool:
@@ -103,7 +128,7 @@ def is_loosening(edit: SmallEdit) -> bool:
 def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     """How unlikely an edit is the repair; what takes a demand away altogether costs most."""
     form = _DROP if is_loosening(edit) else _form(edit, site, usage) + _structural(edit, usage)
-    return form + _KINDS * math.log(max(usage.kinds[edit.kind], 1))
+    return form + _KINDS * math.log(max(usage.kinds[edit.kind], 1)) - _TWIN * usage.twins(edit, site)
 
 
 def _structural(edit: SmallEdit, usage: Usage) -> float:
@@ -116,7 +141,8 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
         case EditKind.RELATION | EditKind.COMPARISON:
             return 1.0 + _UNUSUAL * usage.odds(edit, site)
         case EditKind.LIMIT:
-            return 1.5 - _IDLE * usage.is_swapped(edit)
+            belongs = _KIN * usage.gain(edit, site) - _LAST_USE * usage.strands(edit)
+            return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
             return 1.0 + _OCTAVE * _octaves(edit) + _DIGIT * (_digits(edit.new) - _digits(edit.old))
         case _:
@@ -128,9 +154,16 @@ def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
 
     What loosens most comes first: where it does not help, smaller ones seldom do.
     """
+    delay = _delay(edit, site, usage)
+    return None if delay is None else delay - _TWIN_SOON * usage.twins(edit, site)
+
+
+def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     match edit.kind:
+        case EditKind.LIMIT if usage.is_swapped(edit):
+            return -1.0
         case EditKind.LIMIT:
-            return -1.0 if usage.is_swapped(edit) else _LATE
+            return _KIN_SOON if usage.gain(edit, site) > 0.0 and not usage.strands(edit) else _LATE
         case EditKind.SIGN | EditKind.ARGUMENTS:
             return 0.5 + _LATER * usage.some_pass
         case EditKind.DROPPED_CONSTRAINT:
@@ -146,10 +179,18 @@ def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.COMPARISON:
             return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.some_pass
         case EditKind.CONSTANT:
-            octaves = _octaves(edit)
-            return None if octaves < 1.0 else 1.2 if octaves < 2.0 else -0.3
+            if float(edit.new) <= 0.0 < float(edit.old):
+                return _LATE
+            return -0.3 if _is_farthest(edit, site) else 1.2 if _octaves(edit) >= 1.0 else None
         case EditKind.OFF_BY_ONE:
             return 0.4 if abs(float(edit.old)) <= _FEW else None
+
+
+def _is_farthest(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether no edit changes the number more in this direction without a change of its sign."""
+    rivals = (one for one in site.edits if one.begin == edit.begin and one.kind is EditKind.CONSTANT)
+    same = [one for one in rivals if _direction(one) == _direction(edit) and float(one.new) * float(one.old) >= 0.0]
+    return _octaves(edit) >= max((_octaves(one) for one in same if float(one.new) != 0.0), default=0.0)
 
 
 def follow_ups(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdit]:
@@ -192,7 +233,8 @@ def _sort(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
         return between, _RELATIONS[between]
     before = site.text[: edit.begin - site.begin]
     is_demand = site.text.endswith(";") and before.count("(") == before.count(")")
-    sort = "condition" if not is_demand else "time" if _is_about_time(site) else "value"
+    is_point = _POINTS.fullmatch(site.text) is not None
+    sort = "condition" if not is_demand else "point" if is_point else "time" if _is_about_time(site) else "value"
     return sort, _COMPARISONS[sort]
 
 

@@ -77,10 +77,11 @@ class LineTrial:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Loose:
-    """A variable that too few lines speak of: a line may be missing there."""
+    """A variable that too few lines speak of, or a constant that `is_unread`: a line may be missing there."""
 
     candidate: Candidate
     variable: str
+    is_unread: bool = False
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -46,7 +46,7 @@ def _is_answer(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, tok: 
     if not tok.is_planned or not may_be_equal(tok.record.object, goal.timeline) or not bench.is_over(tok):
         return False
     spans = ((START, goal.start), (END, goal.end))
-    if any(given is not None and not lies_within(tok.values[place], *given) for place, given in spans):
+    if any(given is not None and not lies_within(tok.values[index], *given) for index, given in spans):
         return False
     names = [parameter.name for parameter in judge.predicates[tok.record.predicate].code.parameters]
     for name, given in goal.parameters:

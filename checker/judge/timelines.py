@@ -30,7 +30,7 @@ def _sequences(judge: ProgramJudge, bench: Bench, timelines: set[str]) -> dict[s
         if isinstance(thing, str) and bench.members.get(thing, ("",))[0] in judge.timelines:
             found.setdefault(thing, []).append(tok)
     for timeline, tokens in found.items():
-        found[timeline] = sorted(_not_replaced(tokens), key=_place)
+        found[timeline] = sorted(_not_replaced(tokens), key=_when)
     return found
 
 
@@ -43,7 +43,7 @@ def _not_replaced(tokens: list[Tok]) -> list[Tok]:
     return [tok for tok in tokens if not tok.is_cut or tok.record.tick == last[tok.record.start]]
 
 
-def _place(tok: Tok) -> tuple[int, float, int]:
+def _when(tok: Tok) -> tuple[int, float, int]:
     start, last = tok.record.start, tok.record.end
     assert isinstance(start, int)
     if isinstance(last, int):
@@ -161,9 +161,9 @@ def _agrees(judge: ProgramJudge, tok: Tok, one: Event, is_own: bool) -> bool:
     if not one.arguments:
         return True
     parameters = judge.predicates[tok.record.predicate].code.parameters
-    places = {parameter.name: k for k, parameter in enumerate(parameters)}
+    indices = {parameter.name: k for k, parameter in enumerate(parameters)}
     return all(
-        name not in places or may_be_equal(tok.values[FIRST_PARAMETER + places[name]], domain_value(domain))
+        name not in indices or may_be_equal(tok.values[FIRST_PARAMETER + indices[name]], domain_value(domain))
         for name, domain in one.arguments
     )
 

@@ -87,7 +87,8 @@ class EditSite:
     """A statement that may be mistaken, from its first line to its last: `rule` is what it is a part of.
 
     A branch has the lines of its condition. `scope` are the lines of the whole rule. `named` is the global variable
-    that is set here; `is_rule`: it is the head of a rule, for which something may be missing. `begin` is its offset.
+    that is set here, a number if `is_number`; `is_rule`: it is the head of a rule, for which something may be missing.
+    `begin` is its offset.
     """
 
     file: str
@@ -101,6 +102,7 @@ class EditSite:
     named: str = ""
     is_rule: bool = False
     begin: int = 0
+    is_number: bool = False
 
     def holds(self, file: str, line: int) -> bool:
         """Whether a place is one of its lines."""
@@ -208,6 +210,7 @@ class _Reader:
             (*edits, *branches),
             named,
             begin=node.span.begin,
+            is_number=named in self._limits,
         )
 
     def _dropped(self, span: Span) -> SmallEdit:
@@ -235,7 +238,8 @@ class _Reader:
         match node:
             case IntLiteral(value=value, span=span) if abs(value) < _INFINITE:
                 for factor in _FACTORS:
-                    yield EditKind.CONSTANT, span, str(round(value * factor))
+                    if round(value * factor):
+                        yield EditKind.CONSTANT, span, str(round(value * factor))
                 for step in (5, -5):
                     yield EditKind.CONSTANT, span, str(value + step)
                 for step in (1, -1):

@@ -1,0 +1,96 @@
+"""Lines of models in; out: how well a constant belongs into a line by its name, and whether a line has a twin.
+
+Who writes a model chooses names: `DELIVERY_MAX` bounds a rule of `Deliver`, `SPEED` sets a `speed`; and what is written
+twice is written alike. So a line speaks for or against a change of it before anything is flown.
+"""
+
+import re
+from collections import Counter, defaultdict
+from collections.abc import Container, Sequence
+
+from checker.mutation.edits import EditSite, SmallEdit
+
+_WORD = re.compile(r"[A-Za-z_]\w*")
+_PART = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
+_LEAST_STEM = 3  # letters
+_SUFFIX = 0.5  # share of the longer word that two words of one stem have in common
+_TOPIC, _COMPANY = 2.0, 1.0
+# Words that say nothing of what a line is about.
+_COMMON = frozenset(
+    (
+        *("any", "contains", "contained_by", "before", "after", "meets", "met_by", "starts", "ends", "equals"),
+        *("if", "else", "foreach", "in", "object", "state", "start", "end", "duration", "int", "float", "bool"),
+        *("string", "true", "false", "ceil", "floor", "abs", "max", "min", "eq", "neq", "leq", "lt", "addEq", "mulEq"),
+        "sampledParameter",
+    )
+)
+_MOST, _LEAST = frozenset(("max", "most", "limit", "latest")), frozenset(("min", "least", "earliest"))
+_MEASURES = frozenset(("worst", "best", "total")) | _MOST | _LEAST
+
+
+class Affinity:
+    """The words of all lines, by the constants among them; `named` are the global variables."""
+
+    def __init__(self, sites: Sequence[EditSite], named: Container[str]) -> None:
+        self._named = named
+        self._company: dict[str, Counter[str]] = defaultdict(Counter)
+        self._texts = Counter(_plain(site.text) for site in sites)
+        for site in sites:
+            words = self._words(site)
+            for name in set(_WORD.findall(site.text)):
+                if name in named and name != site.named:
+                    self._company[name].update(words)
+
+    def of(self, name: str, site: EditSite) -> float:
+        """How well a constant belongs into a line: by its topic, and by the words that it stands with elsewhere."""
+        words = self._words(site)
+        own = name in _WORD.findall(site.text)
+        has_company = any(self._company[name][word] > own for word in words)
+        return _TOPIC * self.is_about(name, site) + _COMPANY * has_company
+
+    def is_about(self, name: str, site: EditSite) -> bool:
+        """Whether a name and a line, or its rule, have a stem in common."""
+        there = {stem for word in (*self._words(site), site.rule.rpartition(".")[2]) for stem in _stems(word)}
+        return any(_is_kin(one, other) for one in _stems(name) for other in there)
+
+    def has_twin(self, site: EditSite) -> bool:
+        """Whether the line is written the same elsewhere."""
+        return self._texts[_plain(site.text)] > 1
+
+    def makes_twin(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether the line is then written as another line is."""
+        first, last = edit.begin - site.begin, edit.end - site.begin
+        is_inside = 0 <= first <= last <= len(site.text) and edit.new.strip()
+        return bool(is_inside) and self._texts[_plain(site.text[:first] + edit.new + site.text[last:])] > 0
+
+    def sign_of(self, edit: SmallEdit, site: EditSite) -> str:
+        """The comparison that a constant's name asks for, such as `<=` before `LEG_MAX`; empty where none does."""
+        signs = []
+        for found in _WORD.finditer(site.text):
+            parts = {part.lower() for part in _PART.findall(found.group())}
+            if found.group() in self._named and parts & (_MOST | _LEAST):
+                is_after = found.start() >= edit.end - site.begin
+                signs.append("<=" if bool(parts & _MOST) is is_after else ">=")
+        return signs[0] if len(set(signs)) == 1 else ""
+
+    def _words(self, site: EditSite) -> set[str]:
+        """What a line is about: its words but for constants and words of the language."""
+        words = set(_WORD.findall(site.text)) - _COMMON
+        return {word for word in words if word not in self._named}
+
+
+def _plain(text: str) -> str:
+    return "".join(text.split())
+
+
+def _stems(word: str) -> set[str]:
+    """The parts of a name, in lower case; `FIX_HITS` has two."""
+    parts = {part.lower() for part in _PART.findall(word)}
+    return {part for part in parts if len(part) >= _LEAST_STEM} - _MEASURES
+
+
+def _is_kin(one: str, other: str) -> bool:
+    """Whether two words are of one stem: `firing` and `fire`, `delivery` and `deliver`."""
+    common = next((k for k, (a, b) in enumerate(zip(one, other, strict=False)) if a != b), min(len(one), len(other)))
+    shorter, longer = sorted((len(one), len(other)))
+    return common >= max(_LEAST_STEM, shorter - 1) and common >= _SUFFIX * longer

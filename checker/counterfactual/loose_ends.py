@@ -1,0 +1,51 @@
+"""Candidates in, loose ends out, the likeliest first: where a line of a rule may be missing, though nothing was flown.
+
+A variable that too few lines speak of is one, and so is a constant that somebody declared and nothing reads: it is
+missed in the rule that its name speaks of.
+"""
+
+from collections.abc import Iterator, Sequence
+
+from checker.counterfactual.candidates import Candidate, Suspicion
+from checker.counterfactual.dependence import Dependence, LooseEnd
+from checker.counterfactual.smallness import Usage
+from checker.counterfactual.trials import Loose
+from checker.mutation.edits import EditSite
+
+_NOT_LOCAL = 2.0  # how much farther off a parameter counts than a local variable, and a time
+_SET_ELSEWHERE = 3.0  # how much farther off a variable is that other rules set
+_UNREAD = -4.0  # and a constant that bears the name of a rule: it seldom is declared for nothing
+_UNPLACED = 3.0  # of one whose rule its name does not tell
+
+
+def loose_ends(graph: Dependence, candidates: Sequence[Candidate], usage: Usage) -> tuple[Loose, ...]:
+    """The loose ends near what ended the mission."""
+    near = {candidate.site: candidate for candidate in candidates}
+    found = [
+        (near[site].far + _looseness(one), Loose(near[site], one.variable))
+        for one in graph.loose_ends()
+        if (site := graph.sites[one.site]) in near
+    ]
+    found += _unread(graph.sites, near, usage)
+    return tuple(loose for _, loose in sorted(found, key=lambda one: one[0]))
+
+
+def _looseness(end: LooseEnd) -> float:
+    """How much farther off a loose end counts that others may set: a local variable is its own rule's alone."""
+    return _SET_ELSEWHERE * end.is_set_elsewhere + _NOT_LOCAL * (not end.is_local)
+
+
+def _unread(sites: Sequence[EditSite], near: dict[EditSite, Candidate], usage: Usage) -> Iterator[tuple[float, Loose]]:
+    """The numbers that nothing reads, each with the rule that its name is about, else with its own line."""
+    for constant in sites:
+        if not (constant.is_number and usage.is_idle(constant.named)):
+            continue
+        about = {site.rule for site in sites if site.rule and usage.affinity.is_about(constant.named, site)}
+        heads = [one for one in near.values() if one.site.is_rule and one.site.rule in about]
+        heads.sort(key=lambda one: (not usage.affinity.is_about(constant.named, one.site), one.far))
+        if heads:
+            nearness = _UNREAD * usage.affinity.is_about(constant.named, heads[0].site)
+            yield heads[0].far + nearness, Loose(heads[0], constant.named, is_unread=True)
+        else:
+            own = Candidate(constant, 0.0, Suspicion.DEPENDENCE)
+            yield _UNPLACED, Loose(own, constant.named, is_unread=True)
