@@ -1,4 +1,4 @@
-"""Failed missions in, groups out: what the same line of the model is to blame for counts as one fault."""
+"""Failed missions in, groups out: failures with one culprit, a line of the model, count as one fault."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -68,7 +68,7 @@ def bucket_key(result: MissionResult) -> Key:
 
 
 def _culprit(result: MissionResult) -> Culprit:
-    """The line to blame: of the conflict that ended the mission, or of what was repaired too often."""
+    """The culprit: of the conflict that ended the mission, or of what was repaired too often."""
     abort = result.outcome.abort if result.outcome is not None else None
     if abort is None and result.judgement.exceeded is not None and result.judgement.exceeded.limit is Limit.REPAIRS:
         at: Repairs = max(result.losses.repairs, key=lambda one: one.count)

@@ -126,7 +126,7 @@ class Campaign:
         ended_by = None
         tasks = watch.schedule.more()
         if not watch.is_enough():
-            more = nothing_more if watch.schedule.is_settled else watch.schedule.more
+            more = nothing_more if watch.schedule.is_complete else watch.schedule.more
             if tasks:
                 agent, limit = self.models.agent, check.time_limit
                 ended_by = self.fly_batch(Batch(self.load, agent, tasks, workers, limit, more), watch)
@@ -291,6 +291,10 @@ class _Watch:
         self.campaign, self.run, self.store, self.enough, self.progress = campaign, run, store, enough, progress
         self.results = {number: campaign.judged(result) for number, result in kept.items()}
         self.kept = sum(number > 0 for number in kept)
+        self.counts: Counter[Verdict] = Counter()
+        self.has_interval = True  # missions are plain random ones
+        for result in self.results.values():
+            self._count(result)
         planned = campaign.mission.check.missions
         self.planned = min(planned, enough.missions or planned)
         self.begun = time.monotonic()
@@ -306,7 +310,14 @@ class _Watch:
         case = self.schedule.cases.get(result.number)
         if self.store is not None and (case is None or not case.is_promoted):
             self.store.add(self.run, result)
-        self.results[result.number] = self.campaign.judged(result)
+        self.results[result.number] = judged = self.campaign.judged(result)
+        self._count(judged)
+
+    def _count(self, result: MissionResult) -> None:
+        """Count a mission of the run; regression cases are none."""
+        if result.number > 0:
+            self.counts[result.verdict] += 1
+            self.has_interval = self.has_interval and is_random([result.point])
 
     def is_enough(self) -> bool:
         """Store what is due, tell how far it came, and say whether time is over or there are failures enough."""
@@ -326,11 +337,10 @@ class _Watch:
         return not self._wants_more() and len(self.schedule.flown_cases()) == len(self.schedule.cases)
 
     def _progress(self, seconds: float, most: float | None) -> Progress:
-        flown = [result for number, result in self.results.items() if number > 0]
-        failures = sum(result.verdict is Verdict.FAIL for result in flown)
-        errors = sum(result.verdict is Verdict.ERROR for result in flown)
-        has_interval = is_random([result.point for result in flown])
-        return Progress(self.planned, len(flown), self.kept, failures, errors, seconds, most, has_interval)
+        counts = self.counts
+        failures, errors = counts[Verdict.FAIL], counts[Verdict.ERROR]
+        flown = failures + errors + counts[Verdict.PASS]
+        return Progress(self.planned, flown, self.kept, failures, errors, seconds, most, self.has_interval)
 
     def _wants_more(self) -> bool:
         failures = self.enough.failures

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import networkx as nx
 
+from runtime.executive.events import causes_of, numbered
 from runtime.executive.outcome import Conflict, ConflictElement, Deadlock, ElementKind, Event, Outcome, SourcePlace
 from runtime.plan.readout.names import VariableName
 
@@ -50,7 +51,7 @@ class Culprit:
 
     @property
     def place(self) -> SourcePlace | None:
-        """The line to blame."""
+        """Its line in the model."""
         return self.element.place if self.element is not None else self.at
 
 
@@ -69,7 +70,7 @@ def failed_by(outcome: Outcome | None) -> Failed:
 
 
 def lines_that_rule_out(failed: Failed) -> list[ConflictElement]:
-    """The elements with a place, one for each line: the line to blame and what sets its limit first."""
+    """The elements with a place, one for each line: the culprit and what sets its limit first."""
     conflicts = [failed.conflict] if failed.conflict is not None else []
     conflicts += failed.deadlock.conflicts() if failed.deadlock is not None else ()
     culprit = culprit_of(failed.conflict)
@@ -147,8 +148,8 @@ def _event_graph(events: Sequence[Event]) -> "nx.DiGraph[int]":
     """The events of a trace by index, each with arrows to what it caused."""
     graph: nx.DiGraph[int] = nx.DiGraph()
     graph.add_nodes_from(range(len(events)))
-    for index, event in enumerate(events):
-        graph.add_edges_from((cause, index) for cause in event.causes)
+    for index, causes in enumerate(causes_of(events)):
+        graph.add_edges_from((cause, index) for cause in causes)
     return graph
 
 
@@ -164,9 +165,9 @@ def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int,
         return ()
     graph = _event_graph(outcome.events)
     ancestors: set[int] = nx.ancestors(graph, target)
-    draws = {index: _drawn(outcome.events[index]) for index in sorted(ancestors, reverse=True)}
+    draws = {index: name for index, name in reversed(_drawn(outcome.events)) if index in ancestors}
     wanted = [index for name in parameters for index, drawn in draws.items() if drawn == name]
-    wanted += [index for index, drawn in draws.items() if drawn is not None]
+    wanted += draws
     if wanted:
         way: list[int] = nx.shortest_path(graph, wanted[0], target)[:-1]
     else:
@@ -192,13 +193,12 @@ def draws_behind(outcome: Outcome) -> tuple[str, ...]:
     if names or outcome.abort is None or not outcome.events:
         return names
     ancestors: set[int] = nx.ancestors(_event_graph(outcome.events), outcome.abort.event)
-    drawn = (_drawn(outcome.events[index]) for index in sorted(ancestors))
-    return tuple(dict.fromkeys(name for name in drawn if name is not None))
+    return tuple(dict.fromkeys(name for index, name in _drawn(outcome.events) if index in ancestors))
 
 
-def _drawn(event: Event) -> str | None:
-    """The parameter that a sample event is about."""
-    return event.draw.parameter if event.draw is not None else None
+def _drawn(events: Sequence[Event]) -> list[tuple[int, str]]:
+    """The indices of draws, in order, with their parameters."""
+    return [(index, event.draw.parameter) for index, event in numbered(events) if event.draw is not None]
 
 
 def _roots(conflict: Conflict, kinds: tuple[ElementKind, ...]) -> list[int]:

@@ -43,7 +43,7 @@ def goals_out_of_time(agent: AgentConfiguration, text: MissionText) -> Iterator[
 
 
 def _out_of_time(goal: GoalConfiguration, final_tick: int) -> tuple[str, str, str] | None:
-    """The key that is to blame, why there is no time for a goal, and what to do."""
+    """The key at fault, why there is no time for a goal, and what to do."""
     over = f"the mission ends at tick {final_tick}"
     raise_it = "send it earlier, or let the mission end later (`final_tick`)"
     start, end, duration = goal.start or _ANY, goal.end or _ANY, goal.duration or _ANY

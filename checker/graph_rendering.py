@@ -59,8 +59,8 @@ def graph_text(graph: CausalGraph) -> str:
             node = by_number[number]
             when = f"tick {node.tick}, " if node.tick is not None else ""
             where = f"  {node.place.file}:{node.place.line}" if node.place is not None else ""
-            because = f"  <- {', '.join(map(str, before[number]))}" if before[number] else ""
-            lines.append(f"{number:>5}  {node.kind}: {when}{node_text(node)}{where}{because}")
+            causes = f"  <- {', '.join(map(str, before[number]))}" if before[number] else ""
+            lines.append(f"{number:>5}  {node.kind}: {when}{node_text(node)}{where}{causes}")
     return "\n".join(lines) + "\n"
 
 

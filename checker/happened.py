@@ -1,6 +1,7 @@
 """What happened in a mission, drawn in characters: a row per timeline, time from left to right."""
 
-from runtime.executive.outcome import EventKind, Outcome
+from runtime.executive.events import heads_of
+from runtime.executive.outcome import Outcome
 
 _WIDTH = 100
 _MOST = 40  # rows
@@ -9,9 +10,8 @@ _MOST = 40  # rows
 def gantt(outcome: Outcome, width: int = _WIDTH) -> str:
     """A row per timeline, each value with its name as far as there is room, `|` where it begins."""
     rows: dict[str, list[tuple[int, str]]] = {}
-    for event in outcome.events:
-        if event.kind is EventKind.OBSERVATION:
-            rows.setdefault(event.timeline, []).append((event.tick, event.predicate))
+    for _, tick, timeline, predicate in heads_of(outcome.events):
+        rows.setdefault(timeline, []).append((tick, predicate))
     if not rows:
         return ""
     last = max(outcome.last_tick, 1)

@@ -1,5 +1,6 @@
 """The models of a mission, read and checked: programs, what they sample, and all that is wrong with them."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -46,6 +47,16 @@ def examine(path: Path) -> tuple[Diagnostic, ...]:
     return found if mission is None else (*found, *load_models(mission).diagnostics)
 
 
+def _named_files(agent: AgentConfiguration, root: Path) -> Iterator[tuple[str, str]]:
+    """The files that settings of reactors in Python name: traces that they play, tables that they read."""
+    for name in dict.fromkeys(value for each in agent.coded for _, value in each.settings if isinstance(value, str)):
+        try:
+            if (root / name).is_file():
+                yield name, (root / name).read_bytes().decode("utf-8", "replace")
+        except (OSError, ValueError):
+            continue  # no name of a file
+
+
 def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
     """Read all models of a mission; every mistake in them is reported, once. `open_text` gives the texts of files.
 
@@ -61,6 +72,7 @@ def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:
         for source in analysis.loaded.sources
     }
     texts |= {each.file: (root / each.file).read_text(encoding="utf-8") for each in agent.coded if each.file}
+    texts |= dict(_named_files(agent, root))
     solvers = dict.fromkeys(each.solver for each in agent.reactors if each.solver is not None)
     texts |= {name: read_source(root / name).text for name in solvers}
     found: dict[tuple[str, int, str, str], Diagnostic] = {}

@@ -66,12 +66,12 @@ def judge(outcome: Outcome) -> Judgement:
     """Decide whether a finished mission holds what was promised."""
     if outcome.abort is not None:
         return Judgement(Verdict.FAIL, outcome.abort.code, outcome.abort.reason)
-    if outcome.ended_early:
-        reason = Reason(ReasonKind.NO_RECORD, tick=outcome.last_tick, limit=outcome.final_tick)
-        return Judgement(Verdict.FAIL, _NO_RECORD, reason)
     lost = next((event for event in single_events(outcome.events) if event.kind is EventKind.KILL), None)
     if lost is not None:
         return Judgement(Verdict.FAIL, lost.code, lost.reason)
+    if outcome.ended_early:
+        reason = Reason(ReasonKind.NO_RECORD, tick=outcome.last_tick, limit=outcome.final_tick)
+        return Judgement(Verdict.FAIL, _NO_RECORD, reason)
     if outcome.open_goals:
         return Judgement(Verdict.FAIL, _GOALS_OPEN, Reason(ReasonKind.GOALS_OPEN))
     broken = next((one for one in outcome.properties if not one.is_kept), None)

@@ -148,8 +148,8 @@ def _tokens_on(reactor: ReactorRecord, timeline: str) -> Iterator[TokenRecord]:
     tokens = reactor.tokens
     if isinstance(tokens, TokenColumns):
         if timeline in tokens.names:
-            places = (tokens.times.objects == tokens.names.index(timeline)).nonzero()[0]
-            yield from (tokens[int(place)] for place in places)
+            indices = (tokens.times.objects == tokens.names.index(timeline)).nonzero()[0]
+            yield from (tokens[int(index)] for index in indices)
     else:
         yield from (token for token in tokens if token.object == timeline)
 

@@ -16,7 +16,7 @@ from checker.statistics import DIGITS, Interval, confidence_sequence, exact_inte
 class Method(StrEnum):
     """How an interval was found."""
 
-    EXACT = "exact"  # Clopper and Pearson's, for a number of missions that was settled beforehand
+    EXACT = "exact"  # Clopper and Pearson's, for a number of missions that was fixed beforehand
     SEQUENCE = "confidence sequence"  # for missions that were looked at while they flew
     WEIGHTED = "weighted"  # bets on weighted missions: at any time, for any adaptive choice
     NONE = "none"  # refused: the missions are not independent, and no weights are known

@@ -33,7 +33,7 @@ def _trial_of(result: MissionResult) -> Trial:
 
 
 class Schedule:
-    """Knows the points of missions 1 to n as far as these are settled, and which of them are still to be flown."""
+    """Knows the points of missions 1 to n as far as these are chosen, and which of them are still to be flown."""
 
     def __init__(
         self,
@@ -52,13 +52,13 @@ class Schedule:
         self._is_begun = False
 
     @property
-    def is_settled(self) -> bool:
-        """Whether all points are known."""
+    def is_complete(self) -> bool:
+        """Whether all points are chosen."""
         return len(self.points) >= self.planned
 
     def more(self) -> list[Task]:
         """The tasks of the next generation of which something is still to be flown; none at the end."""
-        while not self.is_settled:
+        while not self.is_complete:
             first = len(self.points)
             trials = [_trial_of(self._results[number]) for number in range(1, first + 1)]
             self.points += self._sampler.choose(trials, self.planned - first)[: self.planned - first]
@@ -72,7 +72,7 @@ class Schedule:
         return []
 
     def task(self, number: int) -> Task:
-        """Mission `number`, of a generation that is settled."""
+        """Mission `number`, of a generation that was chosen."""
         return make_task(self._agent, number, mission_seed(self._seed, number), self.points[number - 1])
 
     def is_flown(self, task: Task) -> bool:

@@ -1,7 +1,7 @@
 """Shrinking: a failed mission in, the simplest one that fails alike out.
 
 Fewest off-nominal parameters (the middle of a range is nominal), then the simplest values for these, the fewest goals,
-the shortest mission. Every step is a flight, and is kept only if the same line is to blame.
+the shortest mission. Every step is a flight, and is kept only if the culprit is the same.
 """
 
 import math

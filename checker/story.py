@@ -12,6 +12,7 @@ from checker.oracle import Judgement
 from checker.proofs.conflict import Confirmation, confirm, needed_elements
 from checker.proofs.places import ModelText
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
+from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import (
     Abort,
     Conflict,
@@ -37,7 +38,7 @@ class StepKind(StrEnum):
     LINE = "line"  # of the model, on the way of the draw
     EVENT = "event"
     CAUSE = "cause"  # an element of the conflict
-    FAULT = "fault"  # the element to blame
+    FAULT = "fault"  # the culprit
     TRIED = "tried"  # what the search tried in vain
     ABORT = "abort"
 
@@ -121,7 +122,7 @@ def _lost(outcome: Outcome, limit: Limit) -> list[Event]:
     """The events in which a mission lost more than it may, the first ones."""
     wanted = (EventKind.RELAX,) if limit is Limit.REPAIRS else (EventKind.REFUSE, EventKind.REJECT)
     is_about_goals = limit in (Limit.REJECTED, Limit.LATE)
-    found = [event for event in outcome.events if event.kind in wanted]
+    found = [event for event in single_events(outcome.events) if event.kind in wanted]
     if limit is not Limit.REPAIRS:
         found = [one for one in found if (one.request is not None and one.request < 0) == is_about_goals]
     return found[:_MOST_LOST]
@@ -138,12 +139,7 @@ def _tokens_of(outcome: Outcome, influence: Influence, parameters: tuple[str, ..
     """The last observations of the tokens whose rules the draws act through: where a draw shows outside its reactor."""
     found: list[int] = []
     for predicate in dict.fromkeys(line.predicate for name in parameters for line in influence.get(name, ())):
-        shown = [
-            index
-            for index, event in enumerate(outcome.events)
-            if event.kind is EventKind.OBSERVATION and event.predicate == predicate
-        ]
-        found += shown[-1:]
+        found += [index for index, *_, seen in heads_of(outcome.events) if seen == predicate][-1:]
     return found
 
 
@@ -174,7 +170,7 @@ def _sampled_at(outcome: Outcome, name: str) -> SourcePlace | None:
 
 
 def _conflict(conflict: Conflict | None, confirmation: Confirmation | None) -> list[Step]:
-    """The elements of the conflict that its contradiction needs, from the draw outwards, the line to blame last."""
+    """The elements of the conflict that its contradiction needs, from the draw outwards, the culprit last."""
     if conflict is None or confirmation is None:
         return []
     culprit = culprit_of(conflict)

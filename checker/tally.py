@@ -37,7 +37,7 @@ class GoalTally:
 
 @dataclass(frozen=True, slots=True)
 class RepairTally:
-    """Repairs for one reason at one line (None: no line is to blame), and in how many missions; the first of these."""
+    """Repairs for one reason at one line (None: it has no culprit), and in how many missions; the first of these."""
 
     reactor: str
     kind: ReasonKind | None

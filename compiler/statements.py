@@ -92,14 +92,14 @@ def _charge(
 ) -> tuple[Operand, ...]:
     """The operands of `uses` with a real quantity and whole times: a number of the other type is equated with one."""
     charged = list(operands)
-    for place, kind in _CHARGED:
-        argument = node.arguments[place]
+    for index, kind in _CHARGED:
+        argument = node.arguments[index]
         type_ = constants.basic(kind)
         if (domain := body.model.constant(argument)) is not None and kind is Kind.FLOAT:
-            charged[place] = Constant(constants.converted(domain, type_))
+            charged[index] = Constant(constants.converted(domain, type_))
         elif body.model.type_of(argument).kind is not kind:
-            charged[place] = body.implicit(type_, node.span)
-            body.emit(Post("eq", (charged[place], operands[place]), message, node.span))
+            charged[index] = body.implicit(type_, node.span)
+            body.emit(Post("eq", (charged[index], operands[index]), message, node.span))
     return tuple(charged)
 
 

@@ -183,6 +183,8 @@ def _words(*words: str) -> Callable[[_Place], _Items]:
 
 
 _VALUES = (_variables, _tokens, _values, _globals, _functions, _words("new", "true", "false", "inf", "inff"))
+_THINGS = (_tokens, _variables, _own_predicates, _globals)
+_STATEMENTS = (_classes, _types, _relations, _constraints, _functions)
 _GROUPS: dict[Situation, tuple[Callable[[_Place], _Items], ...]] = {
     Situation.TOP: (
         _words("class", "enum", "typedef", "#include", "goal", "fact", "rejectable", "new", "close", "enforce"),
@@ -197,16 +199,9 @@ _GROUPS: dict[Situation, tuple[Callable[[_Place], _Items], ...]] = {
     Situation.MEMBER: (_words("predicate", "action", "filter", "#include"), _types, _classes),
     Situation.PARAMETER: (_variables, _types, _classes, _constraints, _functions, _words("filter")),
     Situation.RULE: (
-        _tokens,
-        _variables,
-        _own_predicates,
-        _globals,
+        *_THINGS,
         _values,
-        _classes,
-        _types,
-        _relations,
-        _constraints,
-        _functions,
+        *_STATEMENTS,
         _words("if", "else", "foreach", "enforce", "this", "filter"),
     ),
     Situation.BUILDING: (_words("super", "this"), _variables, _own_members, *_VALUES),
@@ -216,20 +211,7 @@ _GROUPS: dict[Situation, tuple[Callable[[_Place], _Items], ...]] = {
     Situation.VALUE: (*_VALUES, _own_members, _goals, _classes),
     Situation.RELATION: (_relations,),
     Situation.NOTHING: (),
-    Situation.ANYTHING: (
-        _tokens,
-        _variables,
-        _own_predicates,
-        _globals,
-        _goals,
-        _values,
-        _classes,
-        _types,
-        _relations,
-        _constraints,
-        _functions,
-        _words(*WORDS),
-    ),
+    Situation.ANYTHING: (*_THINGS, _goals, _values, *_STATEMENTS, _words(*WORDS)),
 }
 
 

@@ -61,7 +61,7 @@ class Documents:
     def edit(self, uri: str, version: int, edits: list[tuple[Range | None, str]]) -> bool:
         """A text was edited: each edit stands in the text that the ones before left; without a range it is all.
 
-        It is analysed when somebody asks: `settle`. Whether there is such a text.
+        It is analysed when somebody asks: `analyse`. Whether there is such a text.
         """
         document = self.find(uri)
         if document is None:
@@ -73,14 +73,14 @@ class Documents:
         self._edited[document.key] = None
         return True
 
-    def settle(self) -> list[Publication]:
+    def analyse(self) -> list[Publication]:
         """Analyse what was edited since; of several edits only the newest text counts."""
         return self._follow(set(), None) if self._edited else []
 
     def change(self, uri: str, version: int, edits: list[tuple[Range | None, str]]) -> list[Publication]:
         """A text was edited, and is analysed at once."""
         self.edit(uri, version, edits)
-        return self.settle()
+        return self.analyse()
 
     def save(self, uri: str) -> list[Publication]:
         """A text was saved; other files may have changed as well."""
@@ -91,7 +91,7 @@ class Documents:
         """Files may have changed on the disk."""
         return self._follow({member for project in self._projects.values() for member in project.members}, None)
 
-    def resettle(self, settings: ServerSettings) -> list[Publication]:
+    def configure(self, settings: ServerSettings) -> list[Publication]:
         """Other settings hold from now on: all models are read anew."""
         if settings == self.settings:
             return []

@@ -92,7 +92,7 @@ def _answer_edits(session: Session) -> None:
         if (mission := session.missions.change(document.uri, document.version, edits)) is not None:
             session.judge_soon(mission)
         elif session.documents.edit(document.uri, document.version, edits):
-            session.settle_soon()
+            session.analyse_soon()
 
     @session.feature(types.TEXT_DOCUMENT_DID_SAVE)
     def did_save(params: types.DidSaveTextDocumentParams) -> None:
@@ -127,4 +127,4 @@ def _answer_surroundings(session: Session) -> None:
         told = params.settings if isinstance(params.settings, dict) else {}
         told = told["nddlc"] if isinstance(told.get("nddlc"), dict) else told
         session.configure(told)
-        session.publish(session.documents.resettle(_settings(session.settings, told)))
+        session.publish(session.documents.configure(_settings(session.settings, told)))

@@ -124,28 +124,28 @@ class Session(LanguageServer):
             if support is not None and support.diagnostics is not None and support.diagnostics.refresh_support:
                 self.workspace_diagnostic_refresh(None)
 
-    def settle(self) -> None:
+    def analyse(self) -> None:
         """Analyse what was edited since, and tell what is wrong now."""
         self._is_due = False
         try:
-            self.publish(self.documents.settle())
+            self.publish(self.documents.analyse())
             due, self._due_missions = self._due_missions, {}
             for mission in due.values():
                 self.judge_mission(mission)
         except Exception as mistake:
             self.report_server_error(mistake, None)
 
-    def settle_soon(self) -> None:
-        """Settle after whatever has arrived by now."""
+    def analyse_soon(self) -> None:
+        """Analyse after whatever has arrived by now."""
         if not self._is_due:
             self._is_due = True
-            asyncio.get_running_loop().call_soon(self.settle)
+            asyncio.get_running_loop().call_soon(self.analyse)
 
     async def turn(self) -> None:
-        """Let what has arrived by now be looked at first, then settle."""
+        """Let what has arrived by now be looked at first, then analyse."""
         await asyncio.sleep(0)
         if self._is_due:
-            self.settle()
+            self.analyse()
 
     async def view(self, uri: str) -> DocumentContext | None:
         """An open text with its model, in the newest state."""
@@ -165,7 +165,7 @@ class Session(LanguageServer):
     def judge_soon(self, mission: OpenMission) -> None:
         """Judge a mission file after whatever has arrived by now."""
         self._due_missions[mission.uri] = mission
-        self.settle_soon()
+        self.analyse_soon()
 
     def close_mission(self, uri: str) -> bool:
         """A mission file is no longer open; whether it was one."""

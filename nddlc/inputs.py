@@ -142,6 +142,8 @@ def _readable(name: str) -> Path:
         raise Unusable(f"no file `{name}`", _alike(path)) from None
     except OSError as problem:
         raise Unusable(f"cannot read `{name}`: {problem.strerror or problem}") from None
+    except ValueError as problem:  # a name that no file can have
+        raise Unusable(f"cannot read `{name}`: {problem}") from None
     return path
 
 

@@ -20,6 +20,7 @@ from runtime.constraints.domains.tags import HALF_INF, INF
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.level_profile import LevelProfile, level_profiles
+from runtime.plan.readout.open_levels import open_levels
 from runtime.plan.readout.readout import live_tokens, read_state, span_of, token_names
 from runtime.plan.tags import FLAG_GOAL, FLAG_REJECTABLE, REJECTED
 from runtime.solver.configuration.configuration import Configuration, default_configuration
@@ -147,6 +148,7 @@ def command(
         frozenset(_goals(database)),
         explain,
         _creeping(database),
+        list(open_levels(database)) if ended == "plan" else [],
     )
     profiles = level_profiles(database, limits.start)
     if as_json:
@@ -196,6 +198,7 @@ def _data(
     if report.is_exhausted:
         data["solve"]["is_complete"] = report.is_complete
     data["solve"]["creeping"] = list(report.creeping) if report.result == "plan" else []
+    data["solve"]["open_levels"] = [each.as_data() for each in report.open_levels]
     data["solve"]["unplanned"] = report.beyond() if report.result == "plan" else []
     if report.is_explained:
         data["explanation"] = {name: reason_data(failure) for name, failure in reasons.items()}

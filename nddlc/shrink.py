@@ -77,7 +77,7 @@ def shrunk_mission(what: str, store_path: Path, is_trusted: bool) -> ShrunkMissi
 
 
 def _was(shrunk: Shrunk) -> str:
-    """Code and line to blame of a failure, else its reason."""
+    """Code and culprit of a failure, else its reason."""
     (bucket,) = group_failures((shrunk.result,))
     place = bucket.culprit.place
     if place is None:

@@ -16,6 +16,7 @@ from checker.judge.report import JudgeReport
 from checker.judge.trace_reading import plan_of_trace
 from checker.judge.written_values import DocumentError
 from checker.mission import read_mission
+from checker.one_flight import read_trace
 from checker.proofs.judgement import ProvedJudgement, judgement_data, judgement_text, prove_record
 from checker.proofs.operands import names_of
 from compiler.lower import compile_model
@@ -23,7 +24,7 @@ from compiler.program import Program
 from nddl_lang.analysis import analyse_file
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.render import render
-from nddlc.inputs import Unusable
+from nddlc.inputs import Unusable, readable
 from nddlc.mission_trust import models_of
 from nddlc.trust import trust_option
 from runtime.executive.configuration import AgentConfiguration, ReactorConfiguration
@@ -66,16 +67,14 @@ def command(
     """Judge PLAN against its model, by code that shares nothing with the planner.
 
     PLAN is a mission file (.toml), which is flown; a record or a plan (.json); or a trace (.jsonl), which needs
-    --mission. docs/validate.md describes the documents. The exit code is 1 where something breaks the model.
-    With --smt z3 judges the same values, by what the text of the model demands.
+    --mission unless it names its own. docs/validate.md describes the documents. The exit code is 1 where something
+    breaks the model. With --smt z3 judges the same values, by what the text of the model demands.
     """
     try:
         match plan.suffix:
             case ".toml":
                 judged = _flown(plan, seed, target, is_trusted)
             case ".jsonl":
-                if mission_path is None:
-                    raise Unusable("a trace does not say whose it is", "name the mission file with --mission")
                 judged = _traced(plan, mission_path, is_trusted)
             case _:
                 judged = _documented(plan, mission_path, is_trusted)
@@ -139,9 +138,14 @@ def _refuse(found: tuple[Diagnostic, ...]) -> None:
         raise Unusable("the model has errors")
 
 
-def _traced(path: Path, mission_path: Path, is_trusted: bool) -> _Judged:
-    agent, programs = _loaded(mission_path, is_trusted)
-    lines = path.read_text(encoding="utf-8").splitlines()
+def _traced(path: Path, mission_path: Path | None, is_trusted: bool) -> _Judged:
+    try:
+        whose = mission_path or read_trace(path).mission
+    except ValueError as problem:
+        raise Unusable(f"`{path}`: {problem}", "name the mission file with --mission") from None
+    readable((str(whose),), ())
+    agent, programs = _loaded(whose, is_trusted, is_named=mission_path is not None)
+    lines = _text(path).splitlines()
     reports, plans = [], []
     for place, program in zip(agent.reactors, programs.programs, strict=True):
         timelines = (*place.internal, *place.external)
@@ -159,11 +163,15 @@ def _traced(path: Path, mission_path: Path, is_trusted: bool) -> _Judged:
     return _Judged(report, agent, programs.programs, MissionRecord(tuple(plans)), None)
 
 
-def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> _Judged:
+def _text(path: Path) -> str:
     try:
-        data: Any = read_json(path.read_text(encoding="utf-8"))
+        return path.read_text(encoding="utf-8")
     except UnicodeDecodeError as problem:
         raise DocumentError(f"it is no text: {problem}") from None
+
+
+def _documented(path: Path, mission_path: Path | None, is_trusted: bool) -> _Judged:
+    data: Any = read_json(_text(path))
     if not isinstance(data, dict):
         raise DocumentError("it is no object of JSON")
     if "reactors" in data:

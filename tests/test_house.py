@@ -271,6 +271,14 @@ def doors(root: Path) -> Iterator[str]:
                 yield f"{place}:{line}: {name} is used in its own file only"
 
 
+def merge_marks(root: Path) -> Iterator[str]:
+    """Complain of marks that a merge left in a page, a model or a table: no parser looks there."""
+    for path in sorted(path for ending in ("md", "nddl", "toml") for path in root.glob(f"[dm]*/**/*.{ending}")):
+        for line, text in enumerate(path.read_text(encoding="utf-8").split("\n"), 1):
+            if text.startswith(("<<<<<<< ", ">>>>>>> ")):
+                yield f"{path.relative_to(root).as_posix()}:{line}: a merge that was left half done"
+
+
 CHECKS = [
     layer_breaks,
     import_cycles,
@@ -283,6 +291,7 @@ CHECKS = [
     lone_layouts,
     twins,
     doors,
+    merge_marks,
 ]
 
 
@@ -347,6 +356,7 @@ ALONE = "is used in its own file only"
         (doors, {"lsp/a.py": "def f(): ..."}, f"lsp/a.py:1: f {ALONE}"),
         (doors, {"lsp/a.py": "A = 1\n_B = A"}, f"lsp/a.py:1: A {ALONE}"),
         (doors, {"lsp/a.py": "class A: ...\ndef _f() -> A: ..."}, f"lsp/a.py:1: A {ALONE}"),
+        (merge_marks, {"docs/a.md": "A\n<<<<<<< HEAD\nB\n"}, "docs/a.md:2: a merge that was left half done"),
         (lone_layouts, {"runtime/a.pxd": ""}, "runtime/a.pxd: no .py beside it"),
         (lone_layouts, {"lsp/a.pxd": "", "lsp/a.py": ""}, "lsp/a.pxd: only runtime is compiled"),
     ],

@@ -82,12 +82,12 @@ class _Round:
 
     def fly(self, supervisor: Supervisor, signals: _Signals) -> None:
         """Give each result to `supervisor` until all are there, or there are enough."""
-        deadline = time.monotonic() + self._patience()
+        deadline = time.monotonic() + self._time_allowed()
         while self._futures and signals.seen is None and not supervisor.is_enough():
             finished = self._finished()
             for future in finished:
                 self._take(future, supervisor)
-                deadline = time.monotonic() + self._patience()
+                deadline = time.monotonic() + self._time_allowed()
             if not finished and time.monotonic() > deadline:
                 for chunk in self._futures.values():
                     for task in chunk:
@@ -95,7 +95,7 @@ class _Round:
                 break
         self._client.cancel(list(self._futures), force=True)
 
-    def _patience(self) -> float:
+    def _time_allowed(self) -> float:
         return self._batch.time_limit * (_LARGEST_CHUNK + 1)
 
     def _finished(self) -> list[Any]:
@@ -111,7 +111,7 @@ class _Round:
             for result in future.result():
                 supervisor.take(result)
         elif isinstance(problem, KilledWorker) and len(chunk) > 1:
-            for task in chunk:  # one of them is to blame: each by itself
+            for task in chunk:  # one of them kills it: each by itself
                 self._submit((task,))
         else:
             reason = "the process died" if isinstance(problem, KilledWorker) else f"{type(problem).__name__}: {problem}"

@@ -1,20 +1,23 @@
 """What is kept of one mission of a batch, and how it is written as JSON and read again."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from enum import Enum
-from functools import cache
+from functools import cache, partial
 from itertools import repeat
+from operator import attrgetter
 from types import UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
+from checker.batch.kept_trace import read_trace, write_trace
 from checker.losses import NO_LOSSES, Losses
 from checker.oracle import Judgement, Verdict
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint
 from runtime.executive.events import EventLog
 from runtime.executive.outcome import Draw, OpenGoal, Outcome
 
+_JSON = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"))
 _ATOMS = frozenset({str, int, float, bool, type(None)})  # that JSON says as they are
 
 
@@ -64,7 +67,7 @@ def condense(outcome: Outcome) -> Outcome:
 
 def write_result(result: MissionResult) -> str:
     """One line of JSON, the same for equal results."""
-    return json.dumps(_plain(result), ensure_ascii=False, separators=(",", ":"))
+    return _JSON.encode(_plain(result))
 
 
 def read_result(text: str) -> MissionResult:
@@ -76,7 +79,7 @@ def read_result(text: str) -> MissionResult:
 
 def write_point(point: SamplePoint) -> str:
     """A point as a line of JSON."""
-    return json.dumps(_plain(point), ensure_ascii=False, separators=(",", ":"))
+    return _JSON.encode(_plain(point))
 
 
 def read_point(text: str) -> SamplePoint:
@@ -91,14 +94,23 @@ def _plain(value: Any) -> Any:
     kind: Any = type(value)
     if kind in _ATOMS:
         return value
+    if kind is tuple:
+        return [item if type(item) in _ATOMS else _plain(item) for item in value]
     if _is_record(kind):
         found = {}
-        for name, default in _defaults(kind):
-            item = getattr(value, name)
-            if default is MISSING or default != item:
+        names, defaults, read = _fields(kind)
+        for name, default, item in zip(names, defaults, read(value), strict=True):
+            if item is default:
+                continue
+            if type(item) in _ATOMS:
+                if default != item:
+                    found[name] = item
+            elif default is MISSING or default is None or default != item:
                 found[name] = _plain(item)
         return found
-    if isinstance(value, tuple | EventLog):
+    if kind is EventLog:
+        return write_trace(value, _plain)
+    if isinstance(value, tuple):
         return [_plain(item) for item in value]
     return value.value if isinstance(value, Enum) else value
 
@@ -112,6 +124,8 @@ def _read(kind: Any, value: Any) -> Any:
         return kind(value)
     origin: Any = get_origin(kind)
     inner = get_args(kind)
+    if origin is Sequence and isinstance(value, dict):
+        return read_trace(value, partial(_read, inner[0]))
     if origin in (tuple, Sequence):
         kinds = repeat(inner[0]) if origin is Sequence or inner[-1] is Ellipsis else inner
         return tuple(_read(one, item) for one, item in zip(kinds, value, strict=False))
@@ -135,9 +149,11 @@ def _fits(kind: Any, value: Any) -> bool:
 
 
 @cache
-def _defaults(kind: Any) -> tuple[tuple[str, Any], ...]:
-    """The fields with their defaults, which may be MISSING."""
-    return tuple((one.name, one.default) for one in fields(kind))
+def _fields(kind: Any) -> tuple[tuple[str, ...], tuple[Any, ...], Callable[[Any], tuple[Any, ...]]]:
+    """Names and defaults of the fields, which may be MISSING, and what reads all of them."""
+    names = tuple(one.name for one in fields(kind))
+    read = attrgetter(*names) if len(names) > 1 else lambda value: tuple(getattr(value, name) for name in names)
+    return names, tuple(one.default for one in fields(kind)), read
 
 
 def _needed(kind: Any) -> set[str]:

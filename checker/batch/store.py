@@ -21,7 +21,7 @@ from checker.regression import RegressionCase
 
 LATEST = "latest"
 _FOLDER = ".nddlc"
-_VERSION = 4  # of the schema and of `write_result`; other versions are not read
+_VERSION = 5  # of the schema and of `write_result`; other versions are not read
 _MARK = 0x4E44444C  # `NDDL`: the application id of SQLite's file format
 _FLUSH_SECONDS = 0.5
 _MOST_FAILURES = 40  # kept of one mission file

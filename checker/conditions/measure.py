@@ -58,7 +58,8 @@ def measure(
 ) -> Quality | None:
     """Fly fresh missions; None where the tool failed in one, or none is to be had on a side."""
     if space.has_redrawn:
-        return _as_they_come(conjunctions, space, bucket, batch_seed, refly, flights)
+        rows = _as_they_come(space, bucket, batch_seed, refly, flights)
+        return None if rows is None else measured_on(rows, conjunctions)
     strata = _strata(conjunctions, space, batch_seed)
     for is_inside in (True, False):
         near, far = strata[is_inside, True], strata[is_inside, False]
@@ -94,13 +95,9 @@ def measured_on(rows: Sequence[tuple[Row, Ended]], conjunctions: Sequence[Conjun
 
 
 def _as_they_come(
-    conjunctions: Sequence[Conjunction],
-    space: Space,
-    bucket: Bucket,
-    batch_seed: int,
-    refly: Refly,
-    flights: int,
-) -> Quality | None:
+    space: Space, bucket: Bucket, batch_seed: int, refly: Refly, flights: int
+) -> list[tuple[Row, Ended]] | None:
+    """Fresh missions with their ends, whatever side they are on; None where the tool failed in one."""
     rows: list[tuple[Row, Ended]] = []
     for number in range(flights):
         result = refly(space.agent, _FIRST + number, mission_seed(batch_seed, _FIRST + number))
@@ -108,7 +105,7 @@ def _as_they_come(
         if label is None or row is None:
             return None
         rows.append((row, label))
-    return measured_on(rows, conjunctions)
+    return rows
 
 
 def _strata(conjunctions: Sequence[Conjunction], space: Space, batch_seed: int) -> dict[tuple[bool, bool], _Stratum]:

@@ -56,12 +56,12 @@ def is_consistent(points: int, edges: Sequence[RequirementEdge]) -> bool:
     """Whether a simple temporal network has a solution (Bellman and Ford)."""
     distance = [0] * points
     for _ in range(points + 1):
-        is_settled = True
+        is_stable = True
         for edge in edges:
             through = distance[edge.earlier] + edge.weight
             if through < distance[edge.later]:
                 distance[edge.later] = through
-                is_settled = False
-        if is_settled:
+                is_stable = False
+        if is_stable:
             return True
     return False

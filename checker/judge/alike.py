@@ -60,7 +60,7 @@ def alike_tokens(tokens: Sequence[TokenRecord], texts: Texts, wanted: Mask, fewe
         found.setdefault((one.predicate, tuple([_run_shape(run) for run in one.runs])), []).append(row)
     for (predicate, shape), rows in found.items():
         if len(rows) >= fewest:
-            runs = [_run_rows([tokens[row].runs[place] for row in rows], texts) for place in range(len(shape))]
+            runs = [_run_rows([tokens[row].runs[index] for row in rows], texts) for index in range(len(shape))]
             yield AlikeTokens(predicate, np.array(rows), runs)
 
 
@@ -119,11 +119,11 @@ def _in_columns(tokens: TokenColumns, texts: Texts, wanted: Mask, fewest: int) -
     """Of each group the tokens before the first one that is not wanted: it goes on when the mission ends."""
     numbers = SymbolNumbers(tokens.symbols, texts)
     for group in tokens.groups:
-        unwanted = np.flatnonzero(~wanted.take(group.places))
-        count = int(unwanted[0]) if len(unwanted) else len(group.places)
+        unwanted = np.flatnonzero(~wanted.take(group.indices))
+        count = int(unwanted[0]) if len(unwanted) else len(group.indices)
         if count >= fewest:
             runs = [_run_columns(run, numbers, count) for run in group.runs]
-            yield AlikeTokens(group.predicate, group.places[:count], runs)
+            yield AlikeTokens(group.predicate, group.indices[:count], runs)
 
 
 def _run_columns(run: RunColumns, numbers: SymbolNumbers, count: int) -> RunRows:

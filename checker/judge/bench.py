@@ -51,7 +51,7 @@ class _Toks:
     def __init__(self, tokens: Sequence[TokenRecord]) -> None:
         self._tokens = tokens
         self._keys: Array | None = tokens.times.keys if isinstance(tokens, TokenColumns) else None  # in order
-        self._places = {} if self._keys is not None else {one.key: place for place, one in enumerate(tokens)}
+        self._indices = {} if self._keys is not None else {one.key: index for index, one in enumerate(tokens)}
         self._on: dict[Value, list[TokenRecord]] | None = None  # by object
         self._made: dict[int, Tok] = {}
 
@@ -65,14 +65,14 @@ class _Toks:
 
     def _record(self, key: int) -> TokenRecord | None:
         if self._keys is None:
-            place = self._places.get(key)
-            return None if place is None else self._tokens[place]
+            index = self._indices.get(key)
+            return None if index is None else self._tokens[index]
         found = int(self._keys.searchsorted(key))
         return self._tokens[found] if found < len(self._keys) and self._keys[found] == key else None
 
     def records(self) -> Iterator[TokenRecord]:
         """What is on record of all tokens; of several with one key the last."""
-        return iter(self._tokens) if self._keys is not None else map(self._tokens.__getitem__, self._places.values())
+        return iter(self._tokens) if self._keys is not None else map(self._tokens.__getitem__, self._indices.values())
 
     def named(self, predicate: str) -> Iterator[TokenRecord]:
         """What is on record of the tokens of all predicates of a short name."""

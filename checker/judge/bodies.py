@@ -41,7 +41,7 @@ class StepMaker(Generic[_S]):
     child: Callable[[Child, VariableNames], _S]
     relate: Callable[[Relate], _S]
     use: Callable[[Post, VariableNames], _S]  # of a resource
-    define: Callable[[Post, int, int, VariableNames], _S]  # place and slot of the argument that a constraint defines
+    define: Callable[[Post, int, int, VariableNames], _S]  # index and slot of the argument that a constraint defines
     pass_over: Callable[[str], _S]  # a constraint that the judge does not know
     check: Callable[[Post, Meaning, VariableNames], _S]
     check_loose: Callable[[Post, Meaning, VariableNames], _S]  # a range in the text stands for any of its values
@@ -103,10 +103,10 @@ def _post(post: Post, names: VariableNames, written: Written, make: StepMaker[_S
         return []
     if name == "uses":
         return [make.use(post, names)]
-    for place, operand in enumerate(post.operands):
+    for index, operand in enumerate(post.operands):
         if isinstance(operand, LocalVariable) and operand.slot in undefined:
             undefined.discard(operand.slot)
-            return [make.define(post, place, operand.slot, names)]
+            return [make.define(post, index, operand.slot, names)]
     meaning = MEANINGS.get(name) or written.get(name)
     if meaning is None:
         return [make.pass_over(name)]

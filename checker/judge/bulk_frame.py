@@ -61,16 +61,16 @@ class RowTally:
         if not part.holds.all():
             self.holds[rows] &= part.holds
 
-    def settle(self, bench: Bench, holds: Mask) -> None:
+    def hand_over(self, bench: Bench, holds: Mask) -> None:
         """Add what was counted of the rows that hold."""
-        settled = int(np.count_nonzero(holds))
-        bench.judged += self.judged * settled + sum(int(np.count_nonzero(each & holds)) for each in self.more)
+        count = int(np.count_nonzero(holds))
+        bench.judged += self.judged * count + sum(int(np.count_nonzero(each & holds)) for each in self.more)
         bench.open += sum(int(np.count_nonzero(each & holds)) for each in self.open)
         for reason, times in self.skipped.items():
-            if settled:
-                bench.skip(reason, times * settled)
+            if count:
+                bench.skip(reason, times * count)
         for rows, part in self.parts:
-            part.settle(bench, holds.take(rows))
+            part.hand_over(bench, holds.take(rows))
 
 
 class RowFrame:
@@ -195,14 +195,14 @@ def _field_reader(base: RowRead, members: tuple[str, ...], names: VariableNames)
         if column.upper is not None or column.kind != TEXT:
             raise UnplainError
         texts = frame.tables.texts
-        things, places = distinct(column.lower)
+        things, indices = distinct(column.lower)
         found: list[Value] = []
         for number in things:
             value: Value = texts.names[number]
             for name in members:
                 value = member_of(frame.bench, names, value, name)
             found.append(value)
-        return column_of(found, texts).take(places)
+        return column_of(found, texts).take(indices)
 
     return read
 

@@ -41,9 +41,9 @@ def allowed(test: Domain, column: Column, frame: RowFrame) -> Mask:
     """Where a declaration plainly allows the values of a column."""
     frame.use(column)
     if column.kind == TEXT:
-        numbers, places = distinct(column.lower)
+        numbers, indices = distinct(column.lower)
         names = frame.tables.texts.names
-        return np.array([test(frame.bench, names[each]) is True for each in numbers], bool)[places]
+        return np.array([test(frame.bench, names[each]) is True for each in numbers], bool)[indices]
     holds = np.ones(len(column.lower), bool)
     for limit in test.limits:
         holds &= _lies_in(limit, column)
@@ -102,9 +102,9 @@ def _assign(given: Assign, names: VariableNames) -> RowStep:
         column = frame.use(target(frame))
         if limit is not None:
             if column.kind == TEXT:
-                numbers, places = distinct(column.lower)
+                numbers, indices = distinct(column.lower)
                 names = frame.tables.texts.names
-                holds = np.array([may_be_equal(names[each], limit) for each in numbers], bool)[places]
+                holds = np.array([may_be_equal(names[each], limit) for each in numbers], bool)[indices]
             else:
                 holds = _lies_in(limit, column)
             fixed = closed([column], frame.tally.count)
@@ -205,14 +205,14 @@ def _plain(name: str) -> Callable[[list[Column]], Mask | None] | None:
 
         return told
     if name in COMPUTED:
-        place = 0 if COMPUTED[name][0] == 0 else -1
+        index = 0 if COMPUTED[name][0] == 0 else -1
 
         def computed(columns: list[Column]) -> Mask | None:
-            inputs = columns[1:] if place == 0 else columns[:-1]
+            inputs = columns[1:] if index == 0 else columns[:-1]
             expected = value_of(name, inputs)
             if expected is None:
                 return None
-            holds = conforms(columns[place], expected)
+            holds = conforms(columns[index], expected)
             return holds if expected.bad is None else holds & ~expected.bad
 
         return computed
@@ -228,13 +228,13 @@ def _distance(earlier: Column, gap: Column, later: Column) -> Mask | None:
     return None if expected is None or expected.bad is not None else conforms(later, expected)
 
 
-def _define(post: Post, place: int, slot: int, names: VariableNames) -> RowStep:
+def _define(post: Post, index: int, slot: int, names: VariableNames) -> RowStep:
     """Compute a part of an expression from the constraint that defines it."""
-    solve = solver(post.name, place, len(post.operands))
-    others = [row_reader(each, names) for k, each in enumerate(post.operands) if k != place]
+    solve = solver(post.name, index, len(post.operands))
+    others = [row_reader(each, names) for k, each in enumerate(post.operands) if k != index]
     if solve is None:
         return _define_slot(slot, lambda frame: unknown())
-    quick = _solved(post.name, place, len(post.operands))
+    quick = _solved(post.name, index, len(post.operands))
 
     def make(frame: RowFrame) -> Column:
         columns = [frame.use(read(frame)) for read in others]
@@ -249,9 +249,9 @@ def _define(post: Post, place: int, slot: int, names: VariableNames) -> RowStep:
     return _define_slot(slot, make)
 
 
-def _solved(name: str, place: int, count: int) -> Callable[[list[Column], RowFrame], Column | None] | None:
+def _solved(name: str, index: int, count: int) -> Callable[[list[Column], RowFrame], Column | None] | None:
     """The value that a constraint gives one of its arguments, over columns without open values."""
-    if name in TRUTHS and place == 0:
+    if name in TRUTHS and index == 0:
         test = TRUTHS[name]
 
         def told(columns: list[Column], frame: RowFrame) -> Column:
@@ -260,13 +260,13 @@ def _solved(name: str, place: int, count: int) -> Callable[[list[Column], RowFra
             return Column(INT, holds.astype(np.int64))
 
         return told
-    if name in COMPUTED and place == (0 if COMPUTED[name][0] == 0 else count - 1):
+    if name in COMPUTED and index == (0 if COMPUTED[name][0] == 0 else count - 1):
         return lambda columns, frame: value_of(name, columns)
     if name in ("eq", "concurrent") and count == 2:
         return lambda columns, frame: columns[0]
     if name == "addEq":
         return lambda columns, frame: difference_of(columns[1], columns[0])
-    if name == "neg" and place == 0:
+    if name == "neg" and index == 0:
         return lambda columns, frame: value_of("neg", columns)
     return None
 

@@ -27,9 +27,9 @@ class Publications:
         """All up to a tick, in order; of several in one tick the last."""
         found: dict[int, Event] = {}
         for source, each in self.columns:
-            for tick, place in zip(each.ticks.tolist(), each.places.tolist(), strict=True):
+            for tick, index in zip(each.ticks.tolist(), each.indices.tolist(), strict=True):
                 if tick <= last_tick:
-                    found[tick] = source.event(place)
+                    found[tick] = source.event(index)
         found |= {one.tick: one for one in self.single if one.tick <= last_tick}
         return [found[tick] for tick in sorted(found)]
 
@@ -38,7 +38,7 @@ History = dict[str, Publications]  # by timeline
 
 
 class BulkTimelines:
-    """The tokens that have begun on each timeline of a reactor, in order: `rows` are places in the record."""
+    """The tokens that have begun on each timeline of a reactor, in order: `rows` are indices in the record."""
 
     def __init__(self, bench: Bench, tables: Tables, timelines: frozenset[str]) -> None:
         self.bench = bench
@@ -145,7 +145,7 @@ class BulkTimelines:
                 return True  # they are the same numbers
         numbers, own = SymbolNumbers(published.symbols, tables.texts), arguments.of(kind, rows)
         columns = enumerate(given._replace(first=given.first.take(told)).columns())
-        return all(_are_same(own.column(place), numbers.column(column)) for place, column in columns)
+        return all(_are_same(own.column(index), numbers.column(column)) for index, column in columns)
 
 
 def _is_same_store(one: Array, other: Array) -> bool:

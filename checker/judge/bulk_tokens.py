@@ -1,6 +1,6 @@
 """Judge tokens that are alike at once: of one predicate, with the same rules fired.
 
-What plainly holds is settled here. All other tokens are left to the judge of single tokens, whose answer is the same
+What plainly holds is judged here. All other tokens are left to the judge of single tokens, whose answer is the same
 and who finds the words; it is asked for few tokens where a mission is right.
 """
 
@@ -75,26 +75,26 @@ class BulkJudge:
 
 def judge_in_bulk(judge: BulkJudge, bench: Bench, tables: Tables) -> Iterator[TokenRecord]:
     """Judge what plainly holds; yield the tokens that are left, in their order."""
-    settled = ~(tables.is_active | tables.is_merged)
+    done = ~(tables.is_active | tables.is_merged)
     if tables.is_ordered and tables.count:
         starts = tables.times[START]
         latest = starts.lower if starts.upper is None else starts.upper
         fits = True if starts.bad is None else ~starts.bad
-        settled |= tables.is_active & (latest > bench.last_tick) & fits
-        _settle_merged(bench, tables, settled)
+        done |= tables.is_active & (latest > bench.last_tick) & fits
+        _judge_merged(bench, tables, done)
         with np.errstate(all="ignore"):
-            wanted = ~settled & tables.is_active & ~tables.is_cut
+            wanted = ~done & tables.is_active & ~tables.is_cut
             for each in (starts, tables.times[END]):
                 if each.open is not None:
                     wanted &= ~each.open
             for group in alike_tokens(tables.tokens, tables.texts, wanted, _FEWEST):
                 holds = _judge_group(judge, bench, tables, group)
-                settled[group.rows[holds]] = True
-    return (tables.tokens[row] for row in np.flatnonzero(~settled).tolist())
+                done[group.rows[holds]] = True
+    return (tables.tokens[row] for row in np.flatnonzero(~done).tolist())
 
 
-def _settle_merged(bench: Bench, tables: Tables, settled: Array) -> None:
-    """Merged tokens with the very values of the one that stands for them."""
+def _judge_merged(bench: Bench, tables: Tables, done: Array) -> None:
+    """Judge merged tokens with the very values of the one that stands for them."""
     rows = np.flatnonzero(tables.is_merged & ~tables.is_cut & (tables.standing != np.arange(tables.count)))
     others = tables.standing[rows]
     alike = tables.predicate[rows] == tables.predicate[others]
@@ -110,7 +110,7 @@ def _settle_merged(bench: Bench, tables: Tables, settled: Array) -> None:
             tables.tokens[row].arguments == tables.tokens[other].arguments
             for row, other in zip(rows[alike].tolist(), others[alike].tolist(), strict=True)
         ]
-    settled[rows[alike]] = True
+    done[rows[alike]] = True
     bench.judged += int(np.count_nonzero(alike))
 
 
@@ -132,18 +132,18 @@ def _judge_group(judge: BulkJudge, bench: Bench, tables: Tables, group: AlikeTok
             step(frame)
         if code.rules:
             tally.judged += 1  # that these rules have fired
-        for place, number in enumerate(code.rules):
+        for index, number in enumerate(code.rules):
             rule, steps = judge.rule(number)
             frame = RowFrame(bench, tok, [None] * rule.slots, [tok, *[None] * rule.tokens])
             frame.tally = tally
-            frame.follow(group.runs[place])
+            frame.follow(group.runs[index])
             for step in steps:
                 step(frame)
                 if not tally.holds.any():
                     return nothing
     except UnplainError:
         return nothing
-    tally.settle(bench, tally.holds)
+    tally.hand_over(bench, tally.holds)
     return tally.holds
 
 
@@ -163,8 +163,8 @@ def _judge_own(known: _PredicateRows, frame: RowFrame, tables: Tables, rows: Arr
         if each is not None and each.open is not None:
             tally.need(~each.open)
     tally.judge(length >= (0 if known.code.is_event else 1))
-    for place, test in known.tests:
-        tally.judge(allowed(test, frame.tok.column(place), frame))
+    for index, test in known.tests:
+        tally.judge(allowed(test, frame.tok.column(index), frame))
     things = frame.use(frame.tok.column(OBJECT))
     if things.kind != "s":
         raise UnplainError

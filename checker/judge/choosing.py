@@ -135,7 +135,7 @@ def _objects(tok: Tok, holder: Value) -> tuple[tuple[str, Value], ...]:
 
 def _missed(pairs: tuple[Demand, ...], origin: Tok, target: Tok) -> tuple[float, tuple[tuple[str, Value], ...]]:
     """By how many ticks two tokens miss a relation, and the times of which that is so."""
-    times = [(tok, place) for tok in (origin, target) for place in (START, END)]
+    times = [(tok, index) for tok in (origin, target) for index in (START, END)]
     most = 0.0
     found: tuple[tuple[str, Value], ...] = ()
     for first, second, lower, upper in pairs:

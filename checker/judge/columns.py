@@ -166,11 +166,11 @@ def unknown() -> Column:
 
 
 def distinct(numbers: Array) -> tuple[list[int], Array]:
-    """The small numbers, not below 0, that occur, in order; and the place in that order of each."""
+    """The small numbers, not below 0, that occur, in order; and the index in that order of each."""
     found = np.flatnonzero(np.bincount(numbers))
-    places = np.zeros(int(found[-1]) + 1 if len(found) else 0, np.int64)
-    places[found] = np.arange(len(found))
-    return found.tolist(), places[numbers]
+    indices = np.zeros(int(found[-1]) + 1 if len(found) else 0, np.int64)
+    indices[found] = np.arange(len(found))
+    return found.tolist(), indices[numbers]
 
 
 def joined(parts: Sequence[tuple[Mask, Column]], count: int) -> Column:

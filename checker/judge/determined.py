@@ -21,9 +21,9 @@ class Determined:
         self.slots = [operand.slot if isinstance(operand, LocalVariable) else -1 for operand in post.operands]
         self.solvers = [solver(post.name, k, len(post.operands)) for k in range(len(post.operands))]
         self.is_equality = post.name in _EQUALITIES
-        self.place = -1
+        self.index = -1
         if post.name in COMPUTED:
-            self.place = 0 if COMPUTED[post.name][0] == 0 else len(post.operands) - 1
+            self.index = 0 if COMPUTED[post.name][0] == 0 else len(post.operands) - 1
 
     def infer(self, frame: BodyFrame, values: list[Value]) -> None:
         """Give a local variable that nobody knows the value that the others determine."""
@@ -44,7 +44,7 @@ class Determined:
         own counts only where all others are its own too.
         """
         unfixed = [k for k, value in enumerate(values) if is_open(value)]
-        if len(unfixed) != 1 or (unfixed[0] != self.place and not self.is_equality):
+        if len(unfixed) != 1 or (unfixed[0] != self.index and not self.is_equality):
             return False
         if any(isinstance(value, (int, float)) and abs(value) >= _ENDLESS for value in values):
             return False  # what lies beyond the bounds of numbers is never fixed

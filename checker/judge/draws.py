@@ -90,10 +90,10 @@ def _values(parameter: ParameterConfiguration, seed: int, indices: Array) -> Arr
             values = np.full(len(parts), parameter.values[0], float)
         case _:
             return None
-    return _settled(parameter, values)
+    return _in_range(parameter, values)
 
 
-def _settled(parameter: ParameterConfiguration, values: Array) -> Array:
+def _in_range(parameter: ParameterConfiguration, values: Array) -> Array:
     """The values after rounding and clipping."""
     if parameter.is_whole:
         values = np.floor(values + 0.5)
@@ -110,8 +110,8 @@ def _quantiles(parts: Array) -> Array:
 def _picked(parameter: ParameterConfiguration, parts: Array) -> Array:
     weights = parameter.weights or (1.0,) * len(parameter.values)
     reached = np.add.accumulate(weights)
-    places = np.searchsorted(reached, parts * sum(weights), side="right")
-    return np.array(parameter.values, float)[np.minimum(places, len(weights) - 1)]
+    at = np.searchsorted(reached, parts * sum(weights), side="right")
+    return np.array(parameter.values, float)[np.minimum(at, len(weights) - 1)]
 
 
 @lru_cache(maxsize=256)
@@ -160,4 +160,4 @@ class Chance:
             return None
         scope = {"__builtins__": _CALLABLE}
         found = [float(eval(code, scope, dict(zip(given, row, strict=True)))) for row in zip(*rows, strict=True)]
-        return _settled(parameter, np.array(found, float))
+        return _in_range(parameter, np.array(found, float))

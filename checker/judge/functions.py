@@ -64,7 +64,7 @@ def _travel_ticks(xa: float, ya: float, xb: float, yb: float, speed: float) -> f
     return max(1, math.ceil(way / speed))
 
 
-# name -> (place of the result, function of the other arguments, whether it is monotone in each of them)
+# name -> (index of the result, function of the other arguments, whether it is monotone in each of them)
 COMPUTED: dict[str, tuple[int, Callable[..., float], bool]] = {
     "addEq": (-1, sum_of, True),
     "eqSum": (0, sum_of, True),

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from checker.judge.bench import Bench, Tok
+from checker.judge.timelines import is_cut_short
 from checker.judge.tokens import ProgramJudge
 from checker.judge.values import lies_within, may_be_equal
 from compiler.program import END, FIRST_PARAMETER, START
@@ -32,7 +33,7 @@ def _judge_goal(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, has_
     bench.judged += 1
     named = bench.tokens.of(bench.tokens.named(goal.predicate))
     fitting = [tok for tok in named if _is_answer(judge, bench, goal, tok)]
-    if any(not tok.is_cut or not has_ended for tok in fitting):
+    if any(not is_cut_short(tok) or not has_ended for tok in fitting):
         return
     values: tuple[tuple[str, Value], ...] = (("timeline", goal.timeline), ("asked from", goal.at))
     is_cut = bool(fitting)
@@ -45,7 +46,7 @@ def _is_answer(judge: ProgramJudge, bench: Bench, goal: GoalConfiguration, tok: 
     if not tok.is_planned or not may_be_equal(tok.record.object, goal.timeline) or not bench.is_over(tok):
         return False
     spans = ((START, goal.start), (END, goal.end))
-    if any(given is not None and not lies_within(tok.values[place], *given) for place, given in spans):
+    if any(given is not None and not lies_within(tok.values[index], *given) for index, given in spans):
         return False
     names = [parameter.name for parameter in judge.predicates[tok.record.predicate].code.parameters]
     for name, given in goal.parameters:

@@ -59,19 +59,21 @@ def judge_mission(
     repaired = {event.reactor: event.tick for event in events if event.kind is EventKind.RELAX}
     history = _Trace(outcome, events)
     desks: dict[str, tuple[ProgramJudge, Bench]] = {}
-    for place, program in zip(agent.reactors, programs, strict=True):
-        written = by_name.get(place.name)
+    for configuration, program in zip(agent.reactors, programs, strict=True):
+        written = by_name.get(configuration.name)
         if written is None:
             continue
         tables = Tables(written) if len(written.tokens) >= _FEWEST else None
         if tables is None:
             written = written._replace(tokens=tuple(written.tokens))
         judge = _judge_of(program, constraints)
-        bench = Bench(written, agent.final_tick, chance.draws, place.name in failed)
-        bench.last_repair = repaired.get(place.name, -1)
-        desks[place.name] = (judge, bench)
+        bench = Bench(written, agent.final_tick, chance.draws, configuration.name in failed)
+        bench.last_repair = repaired.get(configuration.name, -1)
+        desks[configuration.name] = (judge, bench)
         _judge_model(judge, bench, tables)
-        judge_timelines(judge, bench, tables, history.seen_by(place.name), place.internal, place.external)
+        judge_timelines(
+            judge, bench, tables, history.seen_by(configuration.name), configuration.internal, configuration.external
+        )
     judge_goals(agent, outcome, events, desks)
     return _summary([bench for _, bench in desks.values()])
 

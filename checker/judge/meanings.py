@@ -173,9 +173,9 @@ def _within_bounds(x: Value, lower: Value, upper: Value) -> bool | None:
     return None if ends[0] is None or ends[1] is None else lies_within(x, ends[0][0], ends[1][1]) or False
 
 
-def _computed(place: int, function: Callable[..., float], monotone: bool) -> Meaning:
-    """The constraint that the argument at `place` is the function of the others."""
-    if place == 0:
+def _computed(index: int, function: Callable[..., float], monotone: bool) -> Meaning:
+    """The constraint that the argument at `index` is the function of the others."""
+    if index == 0:
         return lambda result, *inputs: conforms(result, function, inputs, monotone)
     return lambda *values: conforms(values[-1], function, values[:-1], monotone)
 

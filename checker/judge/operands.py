@@ -171,10 +171,10 @@ def member_of(bench: Bench, names: VariableNames, thing: Value, name: str) -> Va
         if known is None:
             return UNKNOWN
         class_name, values = known
-        places = [k for k, one in enumerate(names.classes[class_name].members) if one.name == name]
-        if not places:
+        indices = [k for k, one in enumerate(names.classes[class_name].members) if one.name == name]
+        if not indices:
             return UNKNOWN
-        found.append(values[places[0]])
+        found.append(values[indices[0]])
     return _united(found)
 
 

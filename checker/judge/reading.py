@@ -77,7 +77,7 @@ def read_plan(data: Any, base: ReactorRecord, program: Program) -> ReactorRecord
     last = data.get("last_tick", max(ends, default=0))
     if not _is_whole(last):
         raise DocumentError(f"`last_tick` is a whole number, not {json.dumps(last)}")
-    script = tuple(data.get("script_tokens", ()))
+    script = _whole_numbers(data, "script_tokens", "the plan")
     return ReactorRecord(str(data.get("reactor", base.reactor)), last, worlds, things, script, tokens)
 
 
@@ -145,7 +145,7 @@ def read_token(data: Any, number: int, program: Program, types: TypedValues) -> 
         _one_of(data, "origin", _ORIGINS, where),
         _one_of(data, "fate", _FATES, where),
         _whole(data, "tick", 0, where),
-        tuple(_read_run(each, where, program, types) for each in data.get("runs", ())),
+        tuple(_read_run(each, where, program, types) for each in _optional_list(data, "runs", where)),
     )
 
 
@@ -180,12 +180,14 @@ def _read_run(data: Any, where: str, program: Program, types: TypedValues) -> Bo
         what = f"{where}: `rule` is a number from 0 to {len(program.rules) - 1}, not {json.dumps(number)}"
         raise DocumentError(what, "leave `runs` out, and they are found out")
     guards = []
-    for guard in data.get("guards", ()):
+    for guard in _optional_list(data, "guards", where):
         branch = _one_of(guard, "branch", _BRANCHES, f"{where}: a guard")
         run = None if guard.get("run") is None else _read_run(guard["run"], where, program, types)
         guards.append(GuardRun(branch, bool(guard.get("is_decided", True)), run))
-    named = tuple(types.read(each, _LOCAL, f"{where}: a local variable") for each in data.get("locals", ()))
-    return BodyRun(number, named, tuple(data.get("children", ())), tuple(guards))
+    named = tuple(
+        types.read(each, _LOCAL, f"{where}: a local variable") for each in _optional_list(data, "locals", where)
+    )
+    return BodyRun(number, named, _whole_numbers(data, "children", where), tuple(guards))
 
 
 # ---- keys ----
@@ -204,7 +206,7 @@ def _object(data: Any, where: str) -> dict[str, Any]:
 
 
 def _field(data: dict[str, Any], name: str, what: str, where: str) -> str:
-    if name not in data:
+    if name not in _object(data, where):
         raise DocumentError(f"{where} lacks `{name}`")
     if not isinstance(data[name], str):
         raise DocumentError(f"{where}: `{name}` is {what}, not {json.dumps(data[name])}")
@@ -218,6 +220,17 @@ def _list(data: Any, name: str, where: str) -> list[Any]:
         raise DocumentError(f"{where}: `{name}` is a list")
     found: list[Any] = data[name]
     return found
+
+
+def _optional_list(data: dict[str, Any], name: str, where: str) -> list[Any]:
+    return _list(data, name, where) if name in data else []
+
+
+def _whole_numbers(data: dict[str, Any], name: str, where: str) -> tuple[int, ...]:
+    numbers = _optional_list(data, name, where)
+    if not all(map(_is_whole, numbers)):
+        raise DocumentError(f"{where}: `{name}` is a list of whole numbers, not {json.dumps(numbers)[:40]}")
+    return tuple(numbers)
 
 
 def _one_of(data: Any, name: str, known: tuple[str, ...], where: str) -> str:

@@ -20,15 +20,15 @@ def _evaluate(function: Callable[..., float], inputs: tuple[Value, ...], monoton
     return ValueRange(lowest, highest)
 
 
-def solver(name: str, place: int, count: int) -> Callable[..., Value] | None:
-    """The function that gives argument `place` of constraint `name` from the other arguments; None if there is none."""
-    if name in TESTS and place == 0:
+def solver(name: str, index: int, count: int) -> Callable[..., Value] | None:
+    """The function that gives argument `index` of constraint `name` from the other arguments; None if there is none."""
+    if name in TESTS and index == 0:
         test = TESTS[name]
         return lambda *rest: _truth(test(*rest))
-    if name in COMPUTED and place == (COMPUTED[name][0] if COMPUTED[name][0] == 0 else count - 1):
+    if name in COMPUTED and index == (COMPUTED[name][0] if COMPUTED[name][0] == 0 else count - 1):
         _, function, monotone = COMPUTED[name]
         return lambda *rest: _evaluate(function, rest, monotone)
-    match name, place:
+    match name, index:
         case "addEq", _:  # of sum and the other term
             return lambda other, total: _evaluate(lambda a, b: b - a, (other, total), True)
         case "divEq", 2:

@@ -168,10 +168,10 @@ def _use(post: Post, names: VariableNames) -> Step:
     return step
 
 
-def _define(post: Post, place: int, slot: int, names: VariableNames) -> Step:
+def _define(post: Post, index: int, slot: int, names: VariableNames) -> Step:
     """Compute a part of an expression from the constraint that defines it."""
-    solve = solver(post.name, place, len(post.operands))
-    others = [reader(each, names) for k, each in enumerate(post.operands) if k != place]
+    solve = solver(post.name, index, len(post.operands))
+    others = [reader(each, names) for k, each in enumerate(post.operands) if k != index]
     if solve is None:
         return _blank(slot)
 
@@ -264,10 +264,10 @@ def _refuse(
     named = [(names.of(operand), value) for operand, value in zip(post.operands, values, strict=True)]
     frame.bench.judged += 1
     if post.name in COMPUTED:
-        place = 0 if COMPUTED[post.name][0] == 0 else len(values) - 1
-        solve = solver(post.name, place, len(values))
+        index = 0 if COMPUTED[post.name][0] == 0 else len(values) - 1
+        solve = solver(post.name, index, len(values))
         if solve is not None:
-            named.append(("computed", solve(*values[:place], *values[place + 1 :])))
+            named.append(("computed", solve(*values[:index], *values[index + 1 :])))
     if frame.within:
         named.append(("within", frame.within))
     _note(frame, "constraint", post.name, tuple(named), *said, post.span)

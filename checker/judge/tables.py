@@ -25,7 +25,7 @@ class _Arguments:
         self.tokens = tokens
         self.predicates = predicates  # NOBODY of those for which others stand
         self.texts = texts
-        self.places: Array = np.zeros(len(tokens), np.int64)  # of each token in the table of its predicate
+        self.indices: Array = np.zeros(len(tokens), np.int64)  # of each token in the table of its predicate
         self.read: dict[int, list[Column]] = {}
 
     def of(self, predicate: int, rows: Array) -> "_Picked":
@@ -33,9 +33,9 @@ class _Arguments:
         known = self.read.get(predicate)
         if known is None:
             own = np.flatnonzero(self.predicates == predicate)
-            self.places[own] = np.arange(len(own))
+            self.indices[own] = np.arange(len(own))
             known = self.read[predicate] = self._stored(predicate, own) or self._listed(own)
-        return _Picked(known, self.places.take(rows))
+        return _Picked(known, self.indices.take(rows))
 
     def _listed(self, rows: Array) -> list[Column]:
         """Arguments that are on record token by token."""
@@ -60,23 +60,23 @@ class _Arguments:
 class _Picked:
     """Rows of some columns, mostly such as stand one after the other."""
 
-    def __init__(self, columns: list[Column], places: Array) -> None:
+    def __init__(self, columns: list[Column], indices: Array) -> None:
         self.columns = columns
-        self.places = places
-        is_run = len(places) > 1 and bool((np.diff(places) == 1).all())
-        self.first = int(places[0]) if is_run else NOBODY
+        self.indices = indices
+        is_run = len(indices) > 1 and bool((np.diff(indices) == 1).all())
+        self.first = int(indices[0]) if is_run else NOBODY
 
     def column(self, number: int) -> Column:
         """An argument, by the number of its parameter; bad where there is none."""
-        count = len(self.places)
+        count = len(self.indices)
         if not 0 <= number < len(self.columns):
             return Column(TEXT, np.zeros(count, np.int64), None, np.ones(count, bool))
         column = self.columns[number]
-        return column.take(self.places) if self.first == NOBODY else column.part(self.first, self.first + count)
+        return column.take(self.indices) if self.first == NOBODY else column.part(self.first, self.first + count)
 
 
 class Tables:
-    """All tokens of a reactor; a row is a place in the record."""
+    """All tokens of a reactor; a row is an index in the record."""
 
     def __init__(self, record: ReactorRecord) -> None:
         self.texts = Texts()
@@ -164,7 +164,7 @@ class Tables:
 
 
 class RowTokens:
-    """One token per row of a group: `rows` are their places in the record."""
+    """One token per row of a group: `rows` are their indices in the record."""
 
     __slots__ = ("_arguments", "_columns", "_part", "_rows", "_standing", "_whole", "tables")
 
@@ -179,7 +179,7 @@ class RowTokens:
 
     @property
     def rows(self) -> Array:
-        """The places of these tokens in the record."""
+        """The indices of these tokens in the record."""
         if self._rows is None:
             assert self._whole is not None
             self._rows = self._whole.rows.take(self._part)
@@ -187,7 +187,7 @@ class RowTokens:
 
     @property
     def standing(self) -> Array:
-        """The places of those that stand for these tokens."""
+        """The indices of those that stand for these tokens."""
         if self._standing is None:
             whole = self._whole
             self._standing = self.tables.standing.take(self.rows) if whole is None else whole.standing.take(self._part)
@@ -220,9 +220,9 @@ class RowTokens:
 
     def _sort(self) -> list[tuple[Mask, _Picked]]:
         """The arguments by predicate, with the rows of each."""
-        kinds, places = distinct(self.tables.predicate.take(self.standing))
+        kinds, indices = distinct(self.tables.predicate.take(self.standing))
         found = []
         for k, kind in enumerate(kinds):
-            rows = places == k
+            rows = indices == k
             found.append((rows, self.tables.arguments.of(kind, self.standing[rows])))
         return found

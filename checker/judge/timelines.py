@@ -30,7 +30,7 @@ def _sequences(judge: ProgramJudge, bench: Bench, timelines: set[str]) -> dict[s
         if isinstance(thing, str) and bench.members.get(thing, ("",))[0] in judge.timelines:
             found.setdefault(thing, []).append(tok)
     for timeline, tokens in found.items():
-        found[timeline] = sorted(_not_replaced(tokens), key=_place)
+        found[timeline] = sorted(_not_replaced(tokens), key=_when)
     return found
 
 
@@ -43,7 +43,7 @@ def _not_replaced(tokens: list[Tok]) -> list[Tok]:
     return [tok for tok in tokens if not tok.is_cut or tok.record.tick == last[tok.record.start]]
 
 
-def _place(tok: Tok) -> tuple[int, float, int]:
+def _when(tok: Tok) -> tuple[int, float, int]:
     start, last = tok.record.start, tok.record.end
     assert isinstance(start, int)
     if isinstance(last, int):
@@ -87,7 +87,7 @@ def _judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool
     before: Tok | None = None
     for tok in tokens:
         bench.judged += 1
-        if before is not None and not _is_cut_short(before):
+        if before is not None and not is_cut_short(before):
             start = tok.values[START]
             if before.values[END] == start:
                 before = tok
@@ -101,14 +101,14 @@ def _judge_order(bench: Bench, timeline: str, tokens: list[Tok], is_shared: bool
                 elif is_shared and ends[1] < start:
                     bench.report("gap", timeline, (before, tok), values, _GAPLESS, "nothing does")
         before = tok
-    if before is not None and is_shared and not _is_cut_short(before):
+    if before is not None and is_shared and not is_cut_short(before):
         ends = hull(before.values[END])
         if ends is not None and ends[1] <= bench.last_tick:
             values = ((f"{before.name}.end", before.values[END]), ("last tick", bench.last_tick))
             bench.report("gap", timeline, (before,), values, _GAPLESS, "nothing does")
 
 
-def _is_cut_short(tok: Tok) -> bool:
+def is_cut_short(tok: Tok) -> bool:
     """Whether a repair took a token away before its end, which then is not known."""
     end = tok.record.end
     return tok.is_cut and not (isinstance(end, int) and end <= tok.record.tick)
@@ -161,9 +161,9 @@ def _agrees(judge: ProgramJudge, tok: Tok, one: Event, is_own: bool) -> bool:
     if not one.arguments:
         return True
     parameters = judge.predicates[tok.record.predicate].code.parameters
-    places = {parameter.name: k for k, parameter in enumerate(parameters)}
+    indices = {parameter.name: k for k, parameter in enumerate(parameters)}
     return all(
-        name not in places or may_be_equal(tok.values[FIRST_PARAMETER + places[name]], domain_value(domain))
+        name not in indices or may_be_equal(tok.values[FIRST_PARAMETER + indices[name]], domain_value(domain))
         for name, domain in one.arguments
     )
 

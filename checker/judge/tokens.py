@@ -114,9 +114,9 @@ def _judge_token(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
     record, values = tok.record, tok.values
     known = judge.predicates[record.predicate]
     _judge_times(bench, tok, known.least_duration, known.code.span)
-    for place, name, test in known.tests:
-        if not bench.weigh(test(bench, values[place])):
-            what = ((name, values[place]),)
+    for index, name, test in known.tests:
+        if not bench.weigh(test(bench, values[index])):
+            what = ((name, values[index]),)
             bench.report("domain", name, (tok,), what, "its value", "outside of its declaration", known.code.span)
     thing = values[OBJECT]
     if isinstance(thing, str):
@@ -234,14 +234,14 @@ def _judge_merged(judge: ProgramJudge, bench: Bench, tok: Tok) -> None:
     is_early = mine.tick < theirs.tick and mine.tick <= bench.last_repair  # bounds of then may have been given up
     ours: tuple[tuple[int, Any], ...] = ((OBJECT, mine.object), (START, mine.start), (END, mine.end))
     ours += tuple((FIRST_PARAMETER + k, value) for k, value in enumerate(mine.arguments))
-    for place, value in ours:
+    for index, value in ours:
         if is_early and is_open(value):
             continue
-        if place < len(other.values) and not _are_one(value, other.values[place], is_strict):
-            name = BUILT_IN.get(place) or judge.predicates[mine.predicate].code.parameters[place - FIRST_PARAMETER].name
+        if index < len(other.values) and not _are_one(value, other.values[index], is_strict):
+            name = BUILT_IN.get(index) or judge.predicates[mine.predicate].code.parameters[index - FIRST_PARAMETER].name
             pair: tuple[tuple[str, Value], ...] = (
                 (f"{tok.name}.{name}", value),
-                (f"{other.name}.{name}", other.values[place]),
+                (f"{other.name}.{name}", other.values[index]),
             )
             bench.report("merge", name, (tok, other), pair, "they are one", "they differ")
 

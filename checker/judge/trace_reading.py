@@ -1,11 +1,14 @@
 """Traces as plans: what observations of a mission tell of each timeline."""
 
+from itertools import pairwise
 from typing import Any
 
 from checker.judge.reading import read_json, read_token
 from checker.judge.written_values import DocumentError, TypedValues
 from compiler.program import Program
 from runtime.executive.record import ReactorRecord, TokenRecord
+
+_FORM = "one event a line, each with tick, kind, timeline, predicate"
 
 
 def plan_of_trace(lines: list[str], timelines: tuple[str, ...], base: ReactorRecord, program: Program) -> ReactorRecord:
@@ -18,7 +21,8 @@ def plan_of_trace(lines: list[str], timelines: tuple[str, ...], base: ReactorRec
     for timeline in timelines:
         seen = {event["tick"]: event for event in events if _is_observation(event, timeline)}
         ticks = sorted(seen)
-        for tick, following in zip(ticks, [*ticks[1:], None], strict=True):
+        for tick, following in pairwise([*ticks, None]):
+            assert tick is not None
             event = seen[tick]
             end = {"between": [last + 1, None]} if following is None else following
             written = {name: _argument(value) for name, value in event.get("arguments", {}).items()}
@@ -33,10 +37,13 @@ def plan_of_trace(lines: list[str], timelines: tuple[str, ...], base: ReactorRec
 
 def _event(text: str, number: int) -> dict[str, Any]:
     event = read_json(text, f"line {number}")
-    if not isinstance(event, dict) or not isinstance(event.get("tick"), int):
-        raise DocumentError(
-            f"line {number} has no `tick`", "one event a line, each with tick, kind, timeline, predicate"
-        )
+    if not isinstance(event, dict) or type(event.get("tick")) is not int:
+        raise DocumentError(f"line {number} has no `tick`", _FORM)
+    if event.get("kind") == "observation":
+        if not isinstance(event.get("predicate"), str):
+            raise DocumentError(f"line {number} has no `predicate`", _FORM)
+        if not isinstance(event.get("arguments", {}), dict):
+            raise DocumentError(f"line {number}: its `arguments` are no object of JSON", _FORM)
     return event
 
 

@@ -33,6 +33,7 @@ _MOST_STRUCTURES = 24
 _MOST_CORNERS = 64
 _NUDGES = 3
 _MOST_DRAWN = 8
+_UNSEEN = "but for points within a billionth of a limit, where doubles round"
 
 
 class Certainty(Enum):
@@ -138,7 +139,7 @@ class Certifier:
             yield from self.box.drawn(_MOST_DRAWN, 0)
 
     def _flown(self, point: Point) -> Outcome | None:
-        """_Fly a point; the outcome if it fails. What passes gives a structure."""
+        """Fly a point; the outcome if it fails. What passes gives a structure."""
         outcome, record, passes = self.fly(point)
         self.flights += 1
         if not passes:
@@ -229,7 +230,7 @@ class Certifier:
         return Ranges(sides)
 
     def _doubtful(self, claims: Sequence[Claim], ranges: Ranges) -> list[Claim]:
-        """The claims that do not hold in the whole box, as far as intervals and, one by one, z3 can tell."""
+        """The claims that may fail somewhere in the box, as far as intervals tell; the others hold in all of it."""
         return [each for each in claims if not ranges.holds(each)]
 
     def _apart(self, name: str, value: float) -> Claim:
@@ -334,9 +335,6 @@ class Certifier:
             sum(found.open for found in self.dated),
             tuple(sorted(untold.items())),
         )
-
-
-_UNSEEN = "but for points within a billionth of a limit, where doubles round"
 
 
 def _same(one: Dated, other: Dated) -> bool:

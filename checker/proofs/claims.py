@@ -1,4 +1,4 @@
-"""What each named constraint of the language means, as a claim of z3 over exact numbers.
+"""What each named constraint of the language, and a bound, means as a claim of z3 over exact numbers.
 
 Written from the language's table (nddl_lang/semantics/constraints.py), not from the engine. Truth values are 0 and 1,
 names are whole numbers. A constraint that is not here has no translation, and is named by whoever asked.
@@ -10,6 +10,11 @@ from typing import Any
 
 import z3
 
+from runtime.plan.readout.names import VariableName
+from runtime.plan.readout.statements import Argument, Term
+
+ENDLESS = 2**51  # bounds from here on are none (docs/engine.md)
+_NAMED = ("symbol", "object", "string")  # kinds whose values are names
 Number = Any  # z3.ArithRef: z3 tells type checkers nothing
 Claim = Any  # z3.BoolRef
 Meaning = Callable[[Sequence[Number]], Claim | None]
@@ -19,6 +24,20 @@ def claim_of(name: str, numbers: Sequence[Number]) -> Claim | None:
     """What the constraint `name` demands of its arguments; None where it has no translation."""
     meaning = _MEANINGS.get(name)
     return None if meaning is None else meaning(numbers)
+
+
+def bounds_claim(term: Term, number: Callable[[Argument], Number]) -> Claim:
+    """What the bounds of a variable demand, by its numbers."""
+    variable, lower, upper = term.arguments
+    target = number(variable)
+    if term.values and isinstance(variable, VariableName) and variable.kind in _NAMED:
+        return z3.Or(*[target == number(value) for value in term.values])
+    parts = []
+    if not (isinstance(lower, int | float) and lower <= -ENDLESS):
+        parts.append(target >= number(lower))
+    if not (isinstance(upper, int | float) and upper >= ENDLESS):
+        parts.append(target <= number(upper))
+    return z3.And(*parts)
 
 
 def is_silent(name: str) -> bool:

@@ -11,7 +11,7 @@ from enum import Enum
 
 import z3
 
-from checker.proofs.claims import Claim, Number, claim_of
+from checker.proofs.claims import Claim, Number, bounds_claim, claim_of
 from checker.proofs.instructions import assign_claim, domain_claim, object_claim, post_claim, relation_claim
 from checker.proofs.operands import BodyLayout, ProgramNames, Symbols, variable_name
 from checker.proofs.places import ModelText, WrittenLine
@@ -36,8 +36,6 @@ from runtime.plan.readout.statements import Argument, Term
 
 # Work in z3's own unit, not in seconds, so that the answer does not depend on the machine; about two seconds here.
 EFFORT = 20_000_000
-_ENGINE_INFINITY = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
-_NAMED = ("symbol", "object", "string")  # kinds whose values are names
 
 
 class Finding(Enum):
@@ -196,7 +194,7 @@ class _Reader:
 
     def _term(self, term: Term) -> Claim | None:
         if term.name == "bounds":
-            return self._bounds(term)
+            return bounds_claim(term, self.number)
         if term.name == "sampledParameter":
             return self.number(term.arguments[0]) == self.number(term.arguments[2])
         if any(isinstance(one, float) and not math.isfinite(one) for one in term.arguments):
@@ -205,18 +203,6 @@ class _Reader:
         if term.name == "precedence":
             return numbers[1] - numbers[0] <= numbers[2]
         return claim_of(term.name, numbers)
-
-    def _bounds(self, term: Term) -> Claim:
-        variable, lower, upper = term.arguments
-        target = self.number(variable)
-        if term.values and isinstance(variable, VariableName) and variable.kind in _NAMED:
-            return z3.Or(*[target == self.number(value) for value in term.values])
-        parts = []
-        if not (isinstance(lower, int | float) and lower <= -_ENGINE_INFINITY):
-            parts.append(target >= self.number(lower))
-        if not (isinstance(upper, int | float) and upper >= _ENGINE_INFINITY):
-            parts.append(target <= self.number(upper))
-        return z3.And(*parts)
 
     def number(self, operand: Argument) -> Number:
         """A variable, a number, or the number of a name."""

@@ -15,7 +15,7 @@ import z3
 
 from checker.proofs.claims import Claim, Number
 from checker.proofs.demands import Demand
-from checker.proofs.operands import name_of, rational
+from checker.proofs.operands import name_of, rational, variables_of
 from checker.proofs.solving import fraction, solved
 from checker.proofs.structure import Structure
 
@@ -108,14 +108,14 @@ class _Dating:
             unknown = [k for k, name in enumerate(names) if name and not self._is_known(name)]
             if len(unknown) != 1 or names.count(names[unknown[0]]) > 1:
                 continue
-            place = unknown[0]
+            index = unknown[0]
             numbers = [self._value(name, each) for name, each in zip(names, demand.numbers, strict=True)]
-            value = solved(demand.name, place, numbers, demand.numbers[place])
+            value = solved(demand.name, index, numbers, demand.numbers[index])
             if value is not None:
                 self.sources.add(demand)
-                if demand.name == "mulEq" and place < 2:
-                    self.divisors.append((demand, numbers[1 - place]))
-                self._know(names[place], value)
+                if demand.name == "mulEq" and index < 2:
+                    self.divisors.append((demand, numbers[1 - index]))
+                self._know(names[index], value)
 
     def _is_known(self, name: str) -> bool:
         return name in self.known or name.startswith("sampled ")
@@ -232,7 +232,7 @@ class _Dating:
     def _evaluated(self, expression: Number) -> float | None:
         """An expression over sampled values, at those of the flight."""
         pairs = []
-        for each in _variables(expression):
+        for each in variables_of(expression):
             value = self.structure.values.get(name_of(each))
             if not isinstance(value, int | float):
                 return None
@@ -267,7 +267,7 @@ class _Dating:
                 if name in self.known
             ]
             if not demand.name:
-                named = [name_of(each) for each in _variables(demand.claim)]
+                named = [name_of(each) for each in variables_of(demand.claim)]
             if any(not self._is_known(name) for name in named):
                 left += 1
                 continue
@@ -280,19 +280,3 @@ class _Dating:
             Requirement(demand, divisor != 0) for demand, divisor in self.divisors if fraction(divisor) is None
         ]  # what is divided by may be 0 elsewhere
         return Dated(tuple(found), left, self.lags, self.known)
-
-
-def _variables(expression: Number) -> list[Number]:
-    """The variables of an expression, each once."""
-    found: dict[str, Number] = {}
-    seen: set[int] = set()
-    pending = [expression]
-    while pending:
-        each = pending.pop()
-        if each.get_id() in seen:
-            continue
-        seen.add(each.get_id())
-        if name_of(each):
-            found[name_of(each)] = each
-        pending.extend(each.children())
-    return list(found.values())

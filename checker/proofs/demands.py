@@ -7,7 +7,7 @@ from math import isinf
 import z3
 
 from checker.judge.relations import demands as relation_demands
-from checker.proofs.claims import Claim, Number, claim_of, is_silent
+from checker.proofs.claims import ENDLESS, Claim, Number, claim_of, is_silent
 from checker.proofs.operands import ProgramNames, Symbols, name_of, number, token_number
 from compiler.program import (
     END,
@@ -26,7 +26,7 @@ from compiler.program import (
     Sample,
 )
 from nddl_lang.text.source import Span
-from runtime.executive.record import NOBODY, BodyRun, ObjectRecord, OpenValues, Value, ValueRange
+from runtime.executive.record import NOBODY, BodyRun, GuardRun, ObjectRecord, OpenValues, Value, ValueRange
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -125,10 +125,10 @@ class RunReader:
             if known is None:
                 return None
             code = next(each for each in self.names.program.classes if each.name == known.class_name)
-            place = next((k for k, each in enumerate(code.members) if each.name == name), None)
-            if place is None:
+            index = next((k for k, each in enumerate(code.members) if each.name == name), None)
+            if index is None:
                 return None
-            thing, kind = known.members[place], code.members[place].type.kind
+            thing, kind = known.members[index], code.members[index].type.kind
         return None if thing is None or isinstance(thing, tuple) else self.symbols.constant(thing, kind)
 
     def value(self, operand: Operand) -> Value | None:
@@ -200,7 +200,7 @@ class RunReader:
                 ends = number(first, self, []), number(last, self, [])
                 if ends[0] is not None and ends[1] is not None:
                     lower, upper = (
-                        float("inf") * (1 if each > 0 else -1) if abs(each) >= 2**51 else each
+                        float("inf") * (1 if each > 0 else -1) if abs(each) >= ENDLESS else each
                         for each in domain.interval
                     )
                     yield gap(*ends, lower, upper, post.span, self.token_name, self.reactor)
@@ -255,12 +255,12 @@ class RunReader:
             if value is not None and not base:
                 yield self._demand("eq", (target, value), target == value, given.span)
 
-    def _guard(self, guard: Guard, reached: "object") -> Iterator[Demand]:
-        branch, run = getattr(reached, "branch", "waiting"), getattr(reached, "run", None)
-        condition = number(guard.condition, self, [])
-        if branch == "waiting":
+    def _guard(self, guard: Guard, reached: GuardRun | None) -> Iterator[Demand]:
+        if reached is None or reached.branch == "waiting":
             self._omit("a guard that waits")
             return
+        branch, run = reached.branch, reached.run
+        condition = number(guard.condition, self, [])
         if condition is not None and (z3.is_int(condition) or z3.is_real(condition)):
             claim = condition != 0 if branch == "then" else condition == 0
             yield Demand("", (condition,), claim, guard.span, self.token_name, self.reactor, is_structure=True)

@@ -16,7 +16,7 @@ from checker.judge.rendering import place_text, statement_of, value_text
 from checker.judge.values import slack
 from checker.proofs.claims import Claim, Number
 from checker.proofs.demands import Demand
-from checker.proofs.operands import name_of, rational
+from checker.proofs.operands import name_of, rational, variables_of
 from checker.proofs.structure import Structure, structure_of
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
@@ -88,7 +88,7 @@ class _Asked:
         """The variables of a demand."""
         found = self._variables.get(id(demand.claim))
         if found is None:
-            found = self._variables[id(demand.claim)] = (demand.claim, tuple(_variables_in(demand.claim)))
+            found = self._variables[id(demand.claim)] = (demand.claim, variables_of(demand.claim))
         return found[1]
 
     def exact(self, variable: Number) -> Number | None:
@@ -163,23 +163,6 @@ class _Asked:
         """The known values in some demands, by variable."""
         names = dict.fromkeys(name_of(each) for demand in demands for each in self.variables(demand))
         return tuple((name, self.known[name]) for name in names if name in self.known)
-
-
-def _variables_in(claim: Claim) -> list[Number]:
-    """The variables of a claim, in the order in which they occur."""
-    found: dict[int, Number] = {}
-    seen: set[int] = set()
-    waiting = [claim]
-    while waiting:
-        each = waiting.pop()
-        if each.get_id() in seen:
-            continue
-        seen.add(each.get_id())
-        if name_of(each):
-            found[each.get_id()] = each
-        else:
-            waiting.extend(reversed(each.children()))
-    return list(found.values())
 
 
 # ---- in words ----

@@ -11,7 +11,7 @@ from typing import Protocol, assert_never
 
 import z3
 
-from checker.proofs.claims import Claim, Number
+from checker.proofs.claims import ENDLESS, Claim, Number
 from compiler.program import (
     FIRST_PARAMETER,
     TOKEN_VARIABLES,
@@ -35,7 +35,6 @@ from compiler.program import (
     UnionOf,
 )
 
-_ENDLESS = 2**51  # bounds from here on are none
 _KINDS = {"state": "symbol", "object": "object", "duration": "int", "start": "int", "end": "int"}
 Scalar = float | int | bool | str
 
@@ -76,9 +75,9 @@ class Symbols:
         assert domain.interval is not None
         lower, upper = domain.interval
         bounds = []
-        if lower > -_ENDLESS:
+        if lower > -ENDLESS:
             bounds.append(number >= self.constant(lower, domain.kind))
-        if upper < _ENDLESS:
+        if upper < ENDLESS:
             bounds.append(number <= self.constant(upper, domain.kind))
         return z3.And(*bounds)
 
@@ -104,6 +103,23 @@ def name_of(number: Number | None) -> str:
     ):
         return ""
     return str(number.decl().name())
+
+
+def variables_of(expression: Number) -> tuple[Number, ...]:
+    """The variables of an expression or a claim, each once, in the order in which they occur."""
+    found: list[Number] = []
+    seen: set[int] = set()
+    waiting = [expression]
+    while waiting:
+        each = waiting.pop()
+        if each.get_id() in seen:
+            continue
+        seen.add(each.get_id())
+        if name_of(each):
+            found.append(each)
+        else:
+            waiting.extend(reversed(each.children()))
+    return tuple(found)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -196,10 +212,10 @@ def token_number(name: str, predicate: str, variable: int, names: ProgramNames, 
         known = TOKEN_VARIABLES[variable]
         return symbols.variable(f"{name}.{known}", _KINDS[known])
     code = names.predicates.get(predicate)
-    place = variable - FIRST_PARAMETER
-    if code is None or place >= len(code.parameters):
+    index = variable - FIRST_PARAMETER
+    if code is None or index >= len(code.parameters):
         return None
-    parameter = code.parameters[place]
+    parameter = code.parameters[index]
     return symbols.variable(f"{name}.{parameter.name}", parameter.type.kind)
 
 

@@ -33,7 +33,7 @@ from compiler.program import (
     Relate,
     RuleCode,
 )
-from nddl_lang.text.diagnostic import Diagnostic, Note
+from nddl_lang.text.diagnostic import Code, Diagnostic, Note
 from nddl_lang.text.source import Span
 
 _EFFORT = 2_000_000  # of one question, in z3's own unit
@@ -138,7 +138,7 @@ class _RuleProof:
         lines = [*base, *self._lines(self.rule.body)]
         core = self._contradiction(lines, None)
         if core:
-            yield _finding(IMPOSSIBLE_RULE.at, core, self.rule.span, predicate=self.rule.predicate)
+            yield _finding(IMPOSSIBLE_RULE, core, self.rule.span, predicate=self.rule.predicate)
             return
         yield from self._branches(self.rule.body, lines)
 
@@ -163,7 +163,7 @@ class _RuleProof:
                 whole = [*inside, *self._lines(branch)]
                 core = self._contradiction(whole, branch[0].span)
                 if core and not _is_forbidden(core):
-                    yield _finding(IMPOSSIBLE_BRANCH.at, core, branch[0].span)
+                    yield _finding(IMPOSSIBLE_BRANCH, core, branch[0].span)
                 elif not core:
                     yield from self._branches(branch, whole)
                 self.binding.predicates, self.binding.labels, self.binding.slots = kept
@@ -292,13 +292,11 @@ def _notes(core: Sequence[_Line], where: Span, condition: Span) -> tuple[Note, .
     return (head, *(Note("this holds there too", span) for span in ordered if span is not where))
 
 
-def _finding(make: object, core: Sequence[_Line], own: Span, **names: str) -> Diagnostic:
+def _finding(code: Code, core: Sequence[_Line], own: Span, predicate: str = "") -> Diagnostic:
     """At the last line of the core that the rule has; notes for the others."""
     spans = list(dict.fromkeys(each.span for each in core if each.span is not None))
     mine = [span for span in spans if _inside(span, own)] or spans
     last = max(mine, key=lambda span: span.begin)
     ordered = sorted((span for span in spans if span is not last), key=lambda span: (span.source.name, span.begin))
     notes = tuple(Note("this contradicts it", span) for span in ordered)
-    assert callable(make)
-    found: Diagnostic = make(last, notes=notes, **names)
-    return found
+    return code.at(last, notes=notes, predicate=predicate)

@@ -10,15 +10,15 @@ from checker.proofs.claims import Number, claim_of
 from checker.proofs.operands import rational
 
 
-def solved(name: str, place: int, numbers: Sequence[Number], unknown: Number) -> Number | None:
-    """What argument `place` of the constraint is, where the others are known (None stands at its place)."""
-    others = [each for k, each in enumerate(numbers) if k != place]
+def solved(name: str, index: int, numbers: Sequence[Number], unknown: Number) -> Number | None:
+    """What argument `index` of the constraint is, where the others are known; `unknown` is its variable."""
+    others = [each for k, each in enumerate(numbers) if k != index]
     if name in ("eq", "concurrent"):
         return _as(others[0], unknown)
     if name.startswith(("test", "cond")):
-        return _tested(name, numbers, place)
-    found = _inverse(name, place, numbers)
-    if found is None and name in COMPUTED and place == (0 if COMPUTED[name][0] == 0 else len(numbers) - 1):
+        return _tested(name, numbers, index)
+    found = _inverse(name, index, numbers)
+    if found is None and name in COMPUTED and index == (0 if COMPUTED[name][0] == 0 else len(numbers) - 1):
         found = _function(name, others)
     return None if found is None else _as(found, unknown)
 
@@ -44,8 +44,8 @@ def _as(value: Number, like: Number) -> Number | None:
     return z3.ToReal(value) if z3.is_real(like) and z3.is_int(value) else value
 
 
-def _tested(name: str, numbers: Sequence[Number], place: int) -> Number | None:
-    if place != 0:
+def _tested(name: str, numbers: Sequence[Number], index: int) -> Number | None:
+    if index != 0:
         return None
     truth = z3.Int("truth")
     claim = claim_of(name, [truth, *numbers[1:]])
@@ -55,8 +55,8 @@ def _tested(name: str, numbers: Sequence[Number], place: int) -> Number | None:
     return z3.If(holds, z3.IntVal(1), z3.IntVal(0))
 
 
-def _inverse(name: str, place: int, numbers: Sequence[Number]) -> Number | None:
-    match name, place:
+def _inverse(name: str, index: int, numbers: Sequence[Number]) -> Number | None:
+    match name, index:
         case "addEq", 0:
             return numbers[2] - numbers[1]
         case "addEq", 1:
@@ -68,15 +68,15 @@ def _inverse(name: str, place: int, numbers: Sequence[Number]) -> Number | None:
         case "temporalDistance", 0:
             return numbers[2] - numbers[1]
         case "mulEq", 0 | 1:
-            return _quotient(numbers[2], numbers[1 - place])
+            return _quotient(numbers[2], numbers[1 - index])
         case "divEq", 2:
             return _quotient(numbers[0], numbers[1])
         case "divEq", 0:
             return numbers[1] * numbers[2]
         case "neg", 0:
             return -numbers[1]
-        case "eqSum", _ if place > 0:
-            rest = [each for k, each in enumerate(numbers) if k not in (0, place)]
+        case "eqSum", _ if index > 0:
+            rest = [each for k, each in enumerate(numbers) if k not in (0, index)]
             return numbers[0] - sum(rest[1:], start=rest[0])
         case _:
             return None

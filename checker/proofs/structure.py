@@ -44,10 +44,10 @@ def structure_of(agent: AgentConfiguration, programs: Sequence[Program], record:
     redrawn = frozenset(each.name for each in agent.parameters if each.mode == "intra")
     readers = []
     by_name = {each.reactor: each for each in record.reactors}
-    for place, program in zip(agent.reactors, programs, strict=True):
-        written = by_name.get(place.name)
+    for configuration, program in zip(agent.reactors, programs, strict=True):
+        written = by_name.get(configuration.name)
         if written is not None:
-            readers.append(_ReactorReader(place, program, written, symbols, found, redrawn, agent.final_tick))
+            readers.append(_ReactorReader(configuration, program, written, symbols, found, redrawn, agent.final_tick))
     for reader in readers:
         reader.read()
     for reader in readers:
@@ -61,7 +61,7 @@ class _ReactorReader:
 
     def __init__(
         self,
-        place: ReactorConfiguration,
+        configuration: ReactorConfiguration,
         program: Program,
         record: ReactorRecord,
         symbols: Symbols,
@@ -69,7 +69,7 @@ class _ReactorReader:
         redrawn: frozenset[str],
         final_tick: int,
     ) -> None:
-        self.place = place
+        self.configuration = configuration
         self.names: ProgramNames = names_of(program)
         self.record = record
         self.symbols = symbols
@@ -95,15 +95,13 @@ class _ReactorReader:
         predicates = {key: self.flown[to].predicate for key, to in standing.items() if to in self.flown}
         objects = {each.name: each for each in self.record.objects}
         reader = RunReader(
-            self.names, self.symbols, self.place.name, predicates, objects, self.found.values, self.redrawn
+            self.names, self.symbols, self.configuration.name, predicates, objects, self.found.values, self.redrawn
         )
         program = self.names.program
-        for demand in reader.bare(program.script, NOBODY):
-            self.found.demands.append(demand)
+        self._add(reader.bare(program.script, NOBODY))
         for token in self.flown.values():
             reader.token_name = f"{token.predicate}#{token.key}"
-            for demand in reader.bare(self.names.predicates[token.predicate].body, token.key):
-                self.found.demands.append(demand)
+            self._add(reader.bare(self.names.predicates[token.predicate].body, token.key))
             for run in token.runs:
                 self._add(reader.follow(program.rules[run.rule].body, run, token.key))
         for name, count in reader.untold.items():
@@ -112,6 +110,7 @@ class _ReactorReader:
         self._order()
 
     def _add(self, demands: Iterator[Demand]) -> None:
+        """Add the demands of a body, and note what it samples."""
         for demand in demands:
             self.found.demands.append(demand)
             for each in demand.numbers:
@@ -133,23 +132,25 @@ class _ReactorReader:
     def number(self, key: int, variable: int) -> Number:
         """A variable of a token."""
         predicate = self.tokens[key].predicate
-        found = token_number(f"{self.place.name}:{key}", predicate, variable, self.names, self.symbols)
+        found = token_number(f"{self.configuration.name}:{key}", predicate, variable, self.names, self.symbols)
         assert found is not None
         return found
 
     def _token(self, token: TokenRecord) -> None:
         start, end = self.number(token.key, START), self.number(token.key, END)
-        length = self.symbols.variable(f"{self.place.name}:{token.key}.duration", "int")
+        length = self.symbols.variable(f"{self.configuration.name}:{token.key}.duration", "int")
         self._value(start, token.start)
         self._value(end, token.end)
         self._value(length, token.duration)
-        self._value(self.symbols.variable(f"{self.place.name}:{token.key}.object", "object"), token.object)
+        self._value(self.symbols.variable(f"{self.configuration.name}:{token.key}.object", "object"), token.object)
         name = f"{token.predicate}#{token.key}"
         self.found.demands.append(Demand("temporalDistance", (start, length, end), end - start == length, None, name))
         least = 0 if self.names.predicates[token.predicate].is_event else 1
-        self.found.demands.append(gap(start, end, least, inf, None, name, self.place.name))
+        self.found.demands.append(gap(start, end, least, inf, None, name, self.configuration.name))
         if isinstance(token.end, int):
-            self.found.demands.append(gap(z3.IntVal(0), end, -inf, self.final_tick, None, name, self.place.name))
+            self.found.demands.append(
+                gap(z3.IntVal(0), end, -inf, self.final_tick, None, name, self.configuration.name)
+            )
         code = self.names.predicates[token.predicate]
         for k, parameter in enumerate(code.parameters):
             target = self.number(token.key, FIRST_PARAMETER + k)
@@ -158,9 +159,13 @@ class _ReactorReader:
             domains = [each for each in (parameter.type.domain, parameter.domain) if each is not None]
             if domains:
                 claim = z3.And(*[self.symbols.within(target, each) for each in domains])
-                self.found.demands.append(Demand("", (target,), claim, parameter.span, name, self.place.name))
-        if token.origin != "observation" and str(token.object) in self.place.external and isinstance(token.end, int):
-            self.found.asked.append((self.place.name, f"{self.place.name}:{token.key}", name))
+                self.found.demands.append(Demand("", (target,), claim, parameter.span, name, self.configuration.name))
+        if (
+            token.origin != "observation"
+            and str(token.object) in self.configuration.external
+            and isinstance(token.end, int)
+        ):
+            self.found.asked.append((self.configuration.name, f"{self.configuration.name}:{token.key}", name))
         if isinstance(token.end, int):
             self.found.times.append((name_of(start), name_of(end), name_of(length)))
         else:
@@ -176,10 +181,10 @@ class _ReactorReader:
         names = [name for name, _ in self.names.program.globals]
         for (name, code), value in zip(self.names.program.globals, self.record.globals, strict=True):
             if name != "AGENT_CLOCK":
-                self._value(self.symbols.variable(f"{self.place.name}:{name}", code.kind), value)
+                self._value(self.symbols.variable(f"{self.configuration.name}:{name}", code.kind), value)
         for made in self.names.program.script:
             if isinstance(made, NewGlobal) and made.domain is not None and names[made.index] != "AGENT_CLOCK":
-                target = self.symbols.variable(f"{self.place.name}:{made.name}", made.type.kind)
+                target = self.symbols.variable(f"{self.configuration.name}:{made.name}", made.type.kind)
                 values = made.domain.values
                 if values is not None and len(values) == 1:
                     value = self.symbols.constant(values[0], made.domain.kind)
@@ -192,21 +197,21 @@ class _ReactorReader:
                 continue
             for variable in (START, END):
                 first = token_number(
-                    f"{self.place.name}:{key}", self.flown[to].predicate, variable, self.names, self.symbols
+                    f"{self.configuration.name}:{key}", self.flown[to].predicate, variable, self.names, self.symbols
                 )
                 self._equal(first, self.number(to, variable))
             code = self.names.predicates[self.flown[to].predicate]
             for k in range(len(code.parameters)):
                 first = token_number(
-                    f"{self.place.name}:{key}",
+                    f"{self.configuration.name}:{key}",
                     self.flown[to].predicate,
                     FIRST_PARAMETER + k,
                     self.names,
                     self.symbols,
                 )
                 self._equal(first, self.number(to, FIRST_PARAMETER + k))
-            length = self.symbols.variable(f"{self.place.name}:{key}.duration", "int")
-            self._equal(length, self.symbols.variable(f"{self.place.name}:{to}.duration", "int"))
+            length = self.symbols.variable(f"{self.configuration.name}:{key}.duration", "int")
+            self._equal(length, self.symbols.variable(f"{self.configuration.name}:{to}.duration", "int"))
 
     def _equal(self, a: Number, b: Number) -> None:
         self.found.variables[name_of(a)] = a
@@ -220,7 +225,7 @@ class _ReactorReader:
         timelines: dict[str, list[TokenRecord]] = {}
         for token in self.flown.values():
             timelines.setdefault(str(token.object), []).append(token)
-        for name in (*self.place.internal, *self.place.external):
+        for name in (*self.configuration.internal, *self.configuration.external):
             tokens = sorted(timelines.get(name, ()), key=lambda one: (ends_of(one.start)[0], one.key))
             for first, second in pairwise(tokens):
                 if first.end == second.start:
@@ -234,7 +239,7 @@ class _ReactorReader:
     def link(self, others: "Sequence[_ReactorReader]") -> None:
         """What is observed is what its owner does."""
         for other in others:
-            shared = set(self.place.external) & set(other.place.internal)
+            shared = set(self.configuration.external) & set(other.configuration.internal)
             owned = {(str(each.object), each.start): each for each in other.flown.values()}
             for token in self.flown.values():
                 theirs = owned.get((str(token.object), token.start))
@@ -250,7 +255,7 @@ class _ReactorReader:
     def ask(self, goals: Sequence[GoalConfiguration]) -> None:
         """Tokens that the mission file asks for start no earlier than it says."""
         for token in self.flown.values():
-            if token.origin == "rule" or str(token.object) not in self.place.internal:
+            if token.origin == "rule" or str(token.object) not in self.configuration.internal:
                 continue
             own = token.predicate.rpartition(".")[2]
             for goal in goals:

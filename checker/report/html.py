@@ -16,11 +16,11 @@ from checker.rendering import confirmation_text, failure_text, step_text
 from checker.report.losses import damage_words, goal_line, goal_text, repair_text, request_line, unmet_text
 from checker.report.paths import plan_figure, section_figure, space_figure
 from checker.report.sentences import (
-    blamed,
     case_lines,
     decision,
     explained_by,
     missions,
+    origin_of_errors,
     percent,
     rate_line,
     sensitivity_line,
@@ -83,7 +83,7 @@ def _head(findings: Findings) -> list[str]:
     tiles = [(flown, "missions flown"), (str(rate.failures), "failed"), (percent(rate.observed), "failure rate")]
     tiles.append((percent(rate.limit), "accepted"))
     if findings.errors:
-        tiles.append((str(len(findings.errors)), f"errors {blamed(findings)}"))
+        tiles.append((str(len(findings.errors)), f"errors {origin_of_errors(findings)}"))
     further = (stop_line(findings), *case_lines(findings), sensitivity_line(findings))
     return [
         f'<span class="verdict {word}">{word}</span>',

@@ -6,12 +6,12 @@ from checker.findings import Fault, Findings
 from checker.rendering import failure_text
 from checker.report.losses import goal_line, goal_text, repair_text, request_line, unmet_text
 from checker.report.sentences import (
-    blamed,
     case_lines,
     decision,
     explained_by,
     fault_title,
     headline,
+    origin_of_errors,
     percent,
     rate_line,
     verdict_word,
@@ -40,7 +40,7 @@ def markdown_report(findings: Findings, excerpts: Excerpts) -> str:
     if len(findings.faults) > _MOST_FAULTS:
         lines += ["", f"{len(findings.faults) - _MOST_FAULTS} more kinds of failure are in the JSON report."]
     if findings.errors:
-        lines += ["", f"### Errors {blamed(findings)}", ""]
+        lines += ["", f"### Errors {origin_of_errors(findings)}", ""]
         for error in findings.errors[:_MOST_LINES]:
             lines.append(f"* mission {error.number} (seed {error.seed}): {_plain(failure_text(error.judgement))}")
     lines += ["", "### What it cost", "", *(f"* {_plain(line)}" for line in _costs(findings, excerpts))]

@@ -1,4 +1,4 @@
-"""Findings in, SARIF 2.1.0 out: one result per fault, at the line to blame, for code hosts that annotate lines."""
+"""Findings in, SARIF 2.1.0 out: one result per fault, at its culprit, for code hosts that annotate lines."""
 
 from typing import Any
 

@@ -50,11 +50,11 @@ def headline(findings: Findings) -> str:
     elif findings.ending is not Ending.COMPLETE:
         flown += f" of {findings.planned} ({_ENDINGS[findings.ending]})"
     errors = len(findings.errors)
-    broken = f", {errors} not flown to the end because of an error {blamed(findings)}" if errors else ""
+    broken = f", {errors} not flown to the end because of an error {origin_of_errors(findings)}" if errors else ""
     return f"{name}: {flown}, {rate.failures} failed{broken}"
 
 
-def blamed(findings: Findings) -> str:
+def origin_of_errors(findings: Findings) -> str:
     """Whose error kept missions from being flown."""
     is_ours = any(result.judgement.code != USER_CODE for result in findings.errors)
     return "of the tool" if is_ours else "in a constraint of the project"

@@ -131,10 +131,12 @@ def _circle(dot: Dot, x: float, y: float, value: str) -> str:
 
 
 def text(kind: str, x: float, y: float, words: str, anchor: str = "middle", *, turned: bool = False) -> str:
+    """Words at a point, in a class of the style sheet; turned, they are read from below."""
     turn = f' transform="rotate(-90 {x:.1f} {y:.1f})"' if turned else ""
     return f'<text class="{kind}" x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{turn}>{escape(words)}</text>'
 
 
 def svg(caption: str, height: float, parts: Sequence[str]) -> str:
+    """A picture of the usual width, of its parts."""
     head = f'<svg viewBox="0 0 {_WIDTH:.0f} {height:.0f}" role="img" aria-label="{escape(caption)}">'
     return "\n".join([head, *parts, "</svg>"])

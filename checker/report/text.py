@@ -8,12 +8,12 @@ from checker.findings import Findings
 from checker.rendering import confirmation_text, failure_text
 from checker.report.losses import damage_words, loss_lines
 from checker.report.sentences import (
-    blamed,
     case_lines,
     decision,
     explained_by,
     fault_title,
     headline,
+    origin_of_errors,
     rate_line,
     sensitivity_line,
     stop_line,
@@ -51,7 +51,7 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
     if len(findings.faults) > _MOST_FAULTS:
         lines += ["", f"{len(findings.faults) - _MOST_FAULTS} more kinds of failure are in the report"]
     if findings.errors:
-        lines += ["", f"errors {blamed(findings)}, counted nowhere: {len(findings.errors)}"]
+        lines += ["", f"errors {origin_of_errors(findings)}, counted nowhere: {len(findings.errors)}"]
         for error in findings.errors[:_MOST_ERRORS]:
             lines.append(f"   mission {error.number} (seed {error.seed}): {failure_text(error.judgement)}")
     return "\n".join(lines) + "\n"

@@ -7,7 +7,8 @@ from html import escape
 from checker.batch.result import MissionResult
 from checker.sampling.rendering import number
 from checker.story import StepKind, Story
-from runtime.executive.outcome import Event, EventKind, Outcome
+from runtime.executive.events import heads_of
+from runtime.executive.outcome import Event, Outcome
 from runtime.view.axis import ticks
 
 _WIDTH, _LABEL, _ROW, _TOP, _FOOT = 420.0, 78.0, 19.0, 22.0, 22.0
@@ -62,9 +63,9 @@ def pair_plot(pair: Pair, story: Story) -> str:
 def _timelines(one: Outcome, other: Outcome) -> list[str]:
     """The timelines on which something changed, those with little first: what changes each tick tells least."""
     counts: dict[str, int] = {}
-    for event in (*one.events, *other.events):
-        if event.kind is EventKind.OBSERVATION:
-            counts[event.timeline] = counts.get(event.timeline, 0) + 1
+    for outcome in (one, other):
+        for _, _, timeline, _ in heads_of(outcome.events):
+            counts[timeline] = counts.get(timeline, 0) + 1
     order = list(counts)
     return sorted(counts, key=lambda name: (counts[name] > _MOST_BARS * 2, order.index(name)))[:_MOST_TIMELINES]
 
@@ -122,16 +123,16 @@ def _mission_plot(
 def _stretches(outcome: Outcome, names: Sequence[str]) -> dict[str, list[_Stretch]]:
     """What held on each timeline, from one observation to the next."""
     found: dict[str, list[_Stretch]] = {name: [] for name in names}
-    for event in outcome.events:
-        own = found.get(event.timeline) if event.kind is EventKind.OBSERVATION else None
+    for _, tick, timeline, predicate in heads_of(outcome.events):
+        own = found.get(timeline)
         if own is None:
             continue
-        if own and own[-1].end > event.tick:
-            own[-1] = _Stretch(own[-1].start, event.tick, own[-1].predicate)
-        if own and own[-1].predicate == event.predicate and own[-1].end == event.tick and len(own) > _MOST_BARS:
-            own[-1] = _Stretch(own[-1].start, outcome.last_tick, event.predicate)
+        if own and own[-1].end > tick:
+            own[-1] = _Stretch(own[-1].start, tick, own[-1].predicate)
+        if own and own[-1].predicate == predicate and own[-1].end == tick and len(own) > _MOST_BARS:
+            own[-1] = _Stretch(own[-1].start, outcome.last_tick, predicate)
         else:
-            own.append(_Stretch(event.tick, outcome.last_tick, event.predicate))
+            own.append(_Stretch(tick, outcome.last_tick, predicate))
     return found
 
 

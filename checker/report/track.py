@@ -6,7 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from checker.figures import Figures
+from runtime.executive.columns import PublishedColumns
+from runtime.executive.events import EventLog, events_on, single_events
 from runtime.executive.outcome import Event, EventKind, Outcome
+
+_ENDLESS = 2.0**52  # what is wider is bounded on one side at most
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -36,21 +40,20 @@ class Track:
 
 def track_of(outcome: Outcome, figures: Figures) -> Track | None:
     """The path of a mission whose events were kept; None where it never says where the vehicle is."""
-    wanted = {figures.path, figures.feature, figures.samples, figures.phases, figures.during} - {""}
+    wanted = {figures.feature, figures.samples, figures.phases, figures.during} - {""}
     seen: dict[str, list[Event]] = {name: [] for name in wanted}
     targets: list[tuple[int, str]] = []
-    for event in outcome.events:
+    for event in events_on(outcome.events, {*wanted, figures.targets} - {""}):
         if event.kind is EventKind.OBSERVATION:
             if event.timeline in seen:
                 seen[event.timeline].append(event)
-        elif event.timeline == figures.targets and figures.targets:
+        elif event.timeline == figures.targets:
             if event.kind in (EventKind.REQUEST, EventKind.RECALL):
                 word = "asked" if event.kind is EventKind.REQUEST else "recalled"
                 targets.append((event.tick, f"{event.predicate} {word}"))
     first, last = _drawn(seen.get(figures.during, []), outcome.last_tick)
-    rows = [(event.tick, *(_number(event, name) for name in figures.position)) for event in seen[figures.path]]
-    table = np.array([row for row in rows if first <= row[0] <= last], dtype=float).reshape(-1, 4)
-    table = table[np.isfinite(table).all(axis=1)]
+    table = _way(outcome.events, figures.path, figures.position)
+    table = table[(first <= table[:, 0]) & (table[:, 0] <= last) & np.isfinite(table).all(axis=1)]
     if len(table) < 2:
         return None
     probabilities = np.zeros(len(table))
@@ -63,6 +66,32 @@ def track_of(outcome: Outcome, figures: Figures) -> Track | None:
         table[:, 0].astype(int), table[:, 1:], probabilities, tuple(tick for tick in fired if first <= tick <= last),
         tuple(one for one in spans if one.end > first), tuple(one for one in targets if one[0] <= last), last,
     )  # fmt: skip
+
+
+def _way(events: Sequence[Event], timeline: str, names: Sequence[str]) -> np.ndarray:
+    """Tick and numeric arguments of the observations on a timeline, in order; NaN where there is no number."""
+    tables = [
+        np.array([(one.tick, *(_number(one, name) for name in names))])
+        for one in single_events(events)
+        if one.kind is EventKind.OBSERVATION and one.timeline == timeline
+    ]
+    if isinstance(events, EventLog):
+        for _, each in events.published():
+            if each.timeline == timeline:
+                tables.append(_columns(each, names))
+    table = np.vstack([np.empty((0, 1 + len(names))), *tables])
+    return table[np.argsort(table[:, 0], kind="stable")]
+
+
+def _columns(told: PublishedColumns, names: Sequence[str]) -> np.ndarray:
+    """Tick and numeric arguments of observations that are kept as columns."""
+    known = dict(zip(told.parameters, told.arguments.columns(), strict=True))
+    table = np.full((len(told.ticks), 1 + len(names)), np.nan)
+    table[:, 0] = told.ticks
+    for place, name in enumerate(names, 1):
+        if name in known and known[name].kind in ("int", "float"):
+            table[:, place] = known[name].numbers
+    return table
 
 
 def _drawn(events: Sequence[Event], last_tick: int) -> tuple[int, int]:
@@ -79,8 +108,8 @@ def _spans(events: Sequence[Event], last_tick: int) -> list[Band]:
 
 
 def _number(event: Event, name: str) -> float:
-    """The value of a numeric argument, NaN where there is none."""
+    """The value of a numeric argument, NaN where there is none, or where nothing bounds it."""
     for argument, value in event.arguments:
-        if argument == name and value.interval is not None:
+        if argument == name and value.interval is not None and value.interval[1] - value.interval[0] < _ENDLESS:
             return (float(value.interval[0]) + float(value.interval[1])) / 2.0
     return float("nan")

@@ -11,8 +11,9 @@ from fractions import Fraction
 import z3
 
 from checker.proofs.conflict import EFFORT
+from checker.proofs.operands import rational
 from checker.simplest import simplest_between
-from checker.smt.terms import Terms, rational
+from checker.smt.terms import Terms
 from runtime.executive.outcome import Conflict
 
 _HALVINGS = 48

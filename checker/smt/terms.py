@@ -7,19 +7,15 @@ symbols, objects and texts are whole numbers. A term that has no translation is 
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
 
 import z3
 
+from checker.proofs.claims import Claim, Number, bounds_claim
+from checker.proofs.operands import rational
 from runtime.constraints.propagators.registry import BY_NAME
 from runtime.executive.outcome import Conflict
 from runtime.plan.readout.names import VariableName
 from runtime.plan.readout.statements import Argument, Term
-
-_ENGINE_INFINITY = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
-_NAMED = ("symbol", "object", "string")  # kinds whose values are names
-Number = Any  # z3.ArithRef: z3 tells type checkers nothing
-Claim = Any  # z3.BoolRef
 
 
 class Terms:
@@ -56,7 +52,7 @@ class Terms:
     def encode(self, term: Term) -> Claim | None:
         """What `term` demands; None where it has no translation."""
         if term.name == "bounds":
-            return self._bounds(term)
+            return bounds_claim(term, self.number)
         if term.name == "sampledParameter":
             variable, name, value = term.arguments[:3]
             target = self.number(variable)
@@ -68,23 +64,6 @@ class Terms:
             return numbers[1] - numbers[0] <= numbers[2]
         row = BY_NAME.get(term.name)
         return row.claim(_Z3(), numbers) if row is not None and row.claim is not None else None
-
-    def _bounds(self, term: Term) -> Claim:
-        variable, lower, upper = term.arguments
-        number = self.number(variable)
-        if term.values and isinstance(variable, VariableName) and variable.kind in _NAMED:
-            return z3.Or(*[number == self.number(value) for value in term.values])
-        parts = []
-        if not (isinstance(lower, int | float) and lower <= -_ENGINE_INFINITY):
-            parts.append(number >= self.number(lower))
-        if not (isinstance(upper, int | float) and upper >= _ENGINE_INFINITY):
-            parts.append(number <= self.number(upper))
-        return z3.And(*parts)
-
-
-def rational(value: Fraction) -> Number:
-    """An exact real."""
-    return z3.Q(value.numerator, value.denominator)
 
 
 class _Z3:

@@ -34,7 +34,7 @@ class _Knowledge:
 
     def copy(self) -> "_Knowledge":
         """The same, to be tried out."""
-        return _Knowledge({register: list(places) for register, places in self.known.items()}, set(self.closed))
+        return _Knowledge({register: list(contexts) for register, contexts in self.known.items()}, set(self.closed))
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,7 +33,7 @@ def mend(text: str, check: Check, *, unsafe: bool = False) -> Mended:
         after = _applied(text, [fix for _, fix in chosen])
         result = check(after)
         if after in seen or _has_new_error(found, result):
-            if len(chosen) > 1:  # one of them is to blame: carry out the first alone
+            if len(chosen) > 1:  # one of them is at fault: carry out the first alone
                 chosen = chosen[:1]
                 after = _applied(text, [chosen[0][1]])
                 result = check(after)

@@ -61,7 +61,7 @@ def read_named(path: Path) -> bytes:
 
 
 def real_path(path: Path) -> Path:
-    """The one name of a file, however it was reached; never raises, of links in a circle it is one of them."""
+    """The one name of a file, however it was reached; never raises, of links in a cycle it is one of them."""
     return Path(os.path.realpath(path))
 
 

@@ -3,7 +3,11 @@
 cimport cython
 
 
-@cython.locals(k="long long", kind=str, known=dict, name=str, shapes=list, told=list, type_name=str, value="double")
 cpdef tuple arguments_of(program, predicate, list values)
 
-cpdef object _domain_of(program, str kind, str type_name, double value)
+cpdef list shapes_of(program, predicate)
+
+@cython.locals(k="long long", kind=str, known=dict, name=str, told=list, type_name=str, value="double")
+cpdef tuple arguments_from(list shapes, names, list values)
+
+cpdef object _domain_of(names, str kind, str type_name, double value)

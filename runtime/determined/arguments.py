@@ -50,15 +50,25 @@ def _values_of(program: RegisterProgram, predicate: PredicateCode, arguments: Ar
 
 def arguments_of(program: RegisterProgram, predicate: PredicateCode, values: Sequence[float]) -> Arguments:
     """Parameters as others read them."""
+    return arguments_from(shapes_of(program, predicate), program.all_names(), values)
+
+
+def shapes_of(program: RegisterProgram, predicate: PredicateCode) -> list[ParameterShape]:
+    """The parameters of a predicate."""
     shapes = program.shapes.get(predicate.name)
     if shapes is None:
         shapes = program.shapes[predicate.name] = [_shape_of(program, each) for each in predicate.parameters]
+    return shapes
+
+
+def arguments_from(shapes: list[ParameterShape], names: Sequence[str], values: Sequence[float]) -> Arguments:
+    """Values of parameters as others read them; `names` are those that numbers stand for."""
     told = []
     for k, (name, kind, type_name, known) in enumerate(shapes):
         value = values[k]
         domain = None if known is None else known.get(value)
         if domain is None:
-            domain = _domain_of(program, kind, type_name, value)
+            domain = _domain_of(names, kind, type_name, value)
             if known is not None and value == value:
                 known[value] = domain
         told.append((name, domain))
@@ -72,7 +82,7 @@ def _shape_of(program: RegisterProgram, parameter: ParameterCode) -> ParameterSh
     return parameter.name, kind, type_name, known
 
 
-def _domain_of(program: RegisterProgram, kind: str, type_name: str, value: float) -> DomainConstant:
+def _domain_of(names: Sequence[str], kind: str, type_name: str, value: float) -> DomainConstant:
     """What a register says of a variable; NaN leaves it open."""
     if value != value:
         return DomainConstant(kind, type_name, (-_INFINITY, _INFINITY), None)
@@ -82,4 +92,4 @@ def _domain_of(program: RegisterProgram, kind: str, type_name: str, value: float
         return DomainConstant(kind, type_name, (int(value), int(value)), None)
     if kind == "bool":
         return DomainConstant(kind, type_name, None, (bool(value),))
-    return DomainConstant(kind, type_name, None, (program.name_of(int(value)),))
+    return DomainConstant(kind, type_name, None, (names[int(value)],))

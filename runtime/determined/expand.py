@@ -47,9 +47,9 @@ class _Expansion:
         keys = np.concatenate([self.keys, self.merged[:, 0], awaited])
         is_key = np.zeros(self.walk.next_key + 1, bool)
         is_key[keys] = True
-        self.places = (np.cumsum(is_key) - 1)[keys]
-        self.order = np.empty(len(keys), np.int64)  # the row of each place
-        self.order[self.places] = np.arange(len(keys))
+        self.indices = (np.cumsum(is_key) - 1)[keys]
+        self.order = np.empty(len(keys), np.int64)  # the row of each index
+        self.order[self.indices] = np.arange(len(keys))
         self.all_keys = np.flatnonzero(is_key)
         self.slots = self._slots()
 
@@ -107,9 +107,9 @@ class _Expansion:
 
     # ---- single tokens ----
 
-    def token(self, place: int) -> TokenRecord:
+    def token(self, index: int) -> TokenRecord:
         """One token of the record."""
-        row, count = int(self.order[place]), self.walk.count
+        row, count = int(self.order[index]), self.walk.count
         if row < count:
             return self._started(row)
         if row < count + len(self.merged):
@@ -157,10 +157,10 @@ class _Expansion:
         reading = readings[number]
         if not reading.bodies:
             return ()
-        shown = self.program.shown_places[self.rows[root, 3] & (WISHED - 1)]
+        shown = self.program.shown_indices[self.rows[root, 3] & (WISHED - 1)]
         first = int(self.rows[root, SHOWN])
         logged = self.machine.log.values_from(first, len(shown))
-        registers = {register: logged[place] for register, place in shown.items()}
+        registers = {register: logged[index] for register, index in shown.items()}
         base = int(self.walk.children[root])
         children = {
             (each.token.parent, each.token.rule, each.token.slot): int(self.walk.child_keys[base + each.number])
@@ -242,7 +242,7 @@ class _Expansion:
                 yield TokenGroup(
                     reading.token.predicate.name,
                     self.program.model.lines[reading.token.line].name,
-                    self.places[rows if which is None else rows[which]],
+                    self.indices[rows if which is None else rows[which]],
                     tuple(runs.run(body, which) for body in reading.bodies),
                 )
 
@@ -253,8 +253,8 @@ class _BlockRuns:
     def __init__(self, expansion: _Expansion, block: int, first: Array, shown: Array) -> None:
         self.keys = np.asarray(expansion.walk.child_keys)
         self.first = first
-        self.places = expansion.program.shown_places[block]
-        self.table = table_of(expansion.values, shown, len(self.places))
+        self.indices = expansion.program.shown_indices[block]
+        self.table = table_of(expansion.values, shown, len(self.indices))
         self.numbers = {
             (each.token.parent, each.token.rule, each.token.slot): each.number
             for each in expansion.program.readings(block)
@@ -271,7 +271,7 @@ class _BlockRuns:
         )
 
     def _register(self, register: int, rows: Array | None) -> Array:
-        found: Array = self.table[self.places[register]]
+        found: Array = self.table[self.indices[register]]
         return found if rows is None else found.take(rows)
 
     def _guard(self, guard: GuardReading, rows: Array | None) -> GuardColumns:
@@ -308,7 +308,7 @@ def record_of(frame: ReactorRecord, name: str, tokens: TokenColumns, tick: int) 
     """The record of a reactor; `frame` is that of its script, whose facts are found again by their timelines."""
     fact = ORIGINS.index("fact")
     found = np.flatnonzero(tokens.times.origins == fact).tolist()
-    facts = {tokens.names[tokens.times.objects[place]]: int(tokens.times.keys[place]) for place in found}
+    facts = {tokens.names[tokens.times.objects[index]]: int(tokens.times.keys[index]) for index in found}
     lines = {token.key: str(token.object) for token in frame.tokens}
     script = tuple(facts.get(lines.get(key, ""), NOBODY) for key in frame.script_tokens)
     return frame._replace(reactor=name, last_tick=tick, script_tokens=script, tokens=tokens)

@@ -56,7 +56,7 @@ class RegisterProgram:
     tokens: BlockTokens = field(default_factory=BlockTokens)
     shown: "array[int]" = field(default_factory=lambda: array("q"))  # registers, block after block
     shown_first: "array[int]" = field(default_factory=lambda: array("q", [0, 0]))
-    shown_places: list[dict[int, int]] = field(default_factory=lambda: [{}])
+    shown_indices: list[dict[int, int]] = field(default_factory=lambda: [{}])
     told: dict[tuple[str, str], dict[float, DomainConstant]] = field(default_factory=dict)  # by type: what others heard
     shapes: dict[str, list[ParameterShape]] = field(default_factory=dict)  # the parameters of a predicate
 
@@ -91,18 +91,18 @@ class RegisterProgram:
         self.read.append(readings)
         registers = [k for each in readings for body in each.bodies for k in body.registers()]
         registers += [k for token in made.tokens for k, _ in token.context]
-        places = {register: place for place, register in enumerate(dict.fromkeys(registers))}
-        self.shown.extend(places)
+        indices = {register: index for index, register in enumerate(dict.fromkeys(registers))}
+        self.shown.extend(indices)
         self.shown_first.append(len(self.shown))
-        self.shown_places.append(places)
+        self.shown_indices.append(indices)
         for token in made.tokens:
             self.tokens.how.append(_FOUND.get(token.how, IS_TOGETHER))
             self.tokens.line.append(token.line)
             self.tokens.predicate.append(self.model.number(token.predicate))
             for register, truth in token.context:
-                self.tokens.places.append(places[register])
+                self.tokens.indices.append(indices[register])
                 self.tokens.truths.append(truth)
-            self.tokens.context.append(len(self.tokens.places))
+            self.tokens.context.append(len(self.tokens.indices))
         self.tokens.first.append(len(self.tokens.how))
 
     def readings(self, number: int) -> tuple[TokenReading, ...]:

@@ -1,3 +1,4 @@
+# cython: boundscheck=False
 """Compact log of a determined reactor: tokens that started, with their parameters, and draws, oldest first."""
 
 import weakref

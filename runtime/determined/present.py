@@ -1,3 +1,4 @@
+# cython: boundscheck=False
 """What holds on each timeline of a determined reactor: current tokens, the bounds of their ends, what is to come.
 
 The end of a token is a pair of bounds in a slot; tokens that end together share one. Orders of two ends are pairs of

@@ -16,14 +16,6 @@ cdef class Samples:
     cpdef bint draw(self, Machine machine, long long parameter, long long tick) except -1
 
 
-cdef class _Told:
-    cdef public str name
-    cdef public object program
-    cdef public Log log
-
-    cpdef object event(self, long long place)
-
-
 cdef class Publisher:
     cdef public str name
     cdef public object program, trace, columns

@@ -3,18 +3,15 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numpy as np
-
 from runtime.determined.arguments import arguments_of
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.log import Log
 from runtime.determined.machine import Machine
 from runtime.determined.tags import FAR, ROW, WISHED
-from runtime.executive.columns import PublishedColumns, StoredValues
+from runtime.determined.told import Told
 from runtime.executive.messages import Observation, Request
-from runtime.executive.outcome import Draw, Event, EventKind, Phase
+from runtime.executive.outcome import Draw, EventKind, Phase
 from runtime.executive.trace import Trace
-from runtime.plan.readout.names import TokenName
 
 _NOTHING = -1
 
@@ -52,51 +49,6 @@ class Samples:
         return True
 
 
-class _Told:
-    """What was told of a log, as the columns that a trace expands."""
-
-    def __init__(self, name: str, program: RegisterProgram, log: Log) -> None:
-        self.name = name
-        self.program = program
-        self.log = log
-
-    def event(self, place: int) -> Event:
-        """An event of the trace, by its place among those that were told."""
-        row = self.log.told[place]
-        tick, line, predicate, _, first, _, cause = self.log.row(row)
-        code = self.program.model.program.predicates[predicate]
-        return Event(
-            tick,
-            Phase.OBSERVE,
-            EventKind.OBSERVATION,
-            self.name,
-            self.program.model.lines[line].name,
-            self.program.model.short_names[predicate],
-            arguments_of(self.program, code, self.log.values_from(first, len(code.parameters))),
-            (cause,) if cause >= 0 else (),
-            TokenName(code.name, row),
-        )
-
-    def published(self) -> tuple[PublishedColumns, ...]:
-        """All observations that were told, by timeline and predicate."""
-        log, program = self.log, self.program
-        rows = ROW * np.asarray(log.told)[: log.told_count]  # where each begins
-        log_rows = np.asarray(log.rows)
-        values, symbols = np.asarray(log.values), program.all_names()
-        found = []
-        kinds = log_rows.take(rows + 1) * len(program.model.short_names) + log_rows.take(rows + 2)
-        for kind in np.flatnonzero(np.bincount(kinds)).tolist():
-            line, predicate = divmod(kind, len(program.model.short_names))
-            places = np.flatnonzero(kinds == kind)
-            parameters = program.model.program.predicates[predicate].parameters
-            at = rows.take(places)
-            arguments = StoredValues(values, log_rows.take(at + 4), tuple([each.type.kind for each in parameters]))
-            name, short = program.model.lines[line].name, program.model.short_names[predicate]
-            given = tuple([each.name for each in parameters])
-            found.append(PublishedColumns(name, short, log_rows.take(at), given, arguments, places, symbols))
-        return tuple(found)
-
-
 class Publisher:
     """Tells the log of one reactor, each row once."""
 
@@ -106,7 +58,7 @@ class Publisher:
         self.log = log
         self.samples = samples
         self.trace = trace
-        self.columns = _Told(name, program, log)
+        self.columns = Told(name, program, log)
         for k, line in enumerate(program.internal):
             log.order[k] = line
         log.shown = len(program.internal)

@@ -258,6 +258,8 @@ class DeterminedReactor:
         """The next tick that others can see, or at which the machine stops."""
         if self.general is not None:
             return self.general.next_tick(tick)
+        if self.news:
+            return tick + 1  # an owner was killed after this tick was synchronised
         return max(tick + 1, min(self.machine.log.next_change(self.watched), self.reached, self.final_tick))
 
     # ---- requests ----

@@ -10,7 +10,7 @@ cdef long long ROW, SHOWN, WISHED
 cdef class TokenWalk:
     cdef public Log log
     cdef public long long count, merged_count, next_key
-    cdef public long long[::1] first, how, line, predicate, context, places, truths, is_fact, is_used
+    cdef public long long[::1] first, how, line, predicate, context, indices, truths, is_fact, is_used
     cdef public long long[::1] keys, ends, origins, children, child_keys, child_rows, merged
     cdef public long long[::1] current, before, awaited, follower
 

@@ -1,3 +1,4 @@
+# cython: boundscheck=False
 """Walk over the log of a determined reactor: keys, ends and origins of its tokens, and of the children of their rules.
 
 Keys are given as the general engine gives them: in the order of time, the tokens of a tick before their children.
@@ -35,7 +36,7 @@ class BlockTokens:
         self.line = array("q")
         self.predicate = array("q")
         self.context = array("q", [0])
-        self.places = array("q")  # among the values that the block shows
+        self.indices = array("q")  # among the values that the block shows
         self.truths = array("q")
 
 
@@ -50,7 +51,7 @@ class TokenWalk:
         self.line = self._filled(tokens.line)
         self.predicate = self._filled(tokens.predicate)
         self.context = self._filled(tokens.context)
-        self.places = self._filled(tokens.places)
+        self.indices = self._filled(tokens.indices)
         self.truths = self._filled(tokens.truths)
         self.is_fact = array("q", bytes(8 * lines))
         self.is_used = array("q", bytes(8 * lines))
@@ -130,7 +131,7 @@ class TokenWalk:
         for t in range(first, self.first[block + 1]):
             holds = True
             for c in range(self.context[t], self.context[t + 1]):
-                if (self.log.values[shown + self.places[c]] != 0.0) != (self.truths[c] != 0):
+                if (self.log.values[shown + self.indices[c]] != 0.0) != (self.truths[c] != 0):
                     holds = False
                     break
             if not holds:

@@ -245,6 +245,7 @@ class Agent:
             abort = self._recall(number, busy)
             if abort is not None:
                 return abort
+        self.trace.phase = _DISPATCH  # to take something back may have woken its owner
         for request in reactor.requests(self.tick):
             self.senders[request.number] = reactor
             self.made[request.number] = request

@@ -7,7 +7,7 @@ cdef class CodedReactor:
     cdef public str name
     cdef public tuple internal, external, files
     cdef public long long latency, lookahead, due, count
-    cdef public object caller, make, kinds, trace, code, wakes_at
+    cdef public object caller, make, kinds, trace, code, wakes
     cdef public dict seen, events, news, numbers
     cdef public list refused_numbers, published, asked, recalled, given_up
 

@@ -46,7 +46,7 @@ class CodedReactor:
         self.events: dict[str, int] = {}
         self.news: dict[str, Observation] = {}
         self.refused_numbers: list[int] = []
-        self.wakes_at = 0
+        self.wakes = {0}  # the ticks at which the code wants to be called
         self.published: list[Published] = []
         self.asked: list[Asked] = []
         self.recalled: list[int] = []
@@ -69,7 +69,7 @@ class CodedReactor:
 
     def next_tick(self, tick: int) -> int:
         """When the code wants to be called."""
-        return tick + 1 if self.refused_numbers else max(tick + 1, min(self.wakes_at, _NEVER))
+        return tick + 1 if self.refused_numbers else max(tick + 1, min(self.wakes, default=_NEVER))
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published."""
@@ -78,7 +78,7 @@ class CodedReactor:
 
     def synchronise(self, tick: int) -> Failure | None:
         """Let the code speak, if there is anything new."""
-        if not self.news and not self.refused_numbers and tick < self.wakes_at:
+        if not self.news and not self.refused_numbers and tick < min(self.wakes, default=_NEVER):
             return None
         for timeline, observation in self.news.items():
             arguments = {name: _shown(domain) for name, domain in observation.arguments}
@@ -89,7 +89,7 @@ class CodedReactor:
         self.news.clear()
         if self.refused_numbers:
             self.refused_numbers = []
-        self.wakes_at = _NEVER
+        self.wakes = {wake for wake in self.wakes if wake > tick}
         try:
             self._call(now)
         except BaseException as problem:
@@ -136,10 +136,10 @@ class CodedReactor:
         for number in now.recalled:
             if not 0 <= number < self.count + len(now.asked):
                 raise ValueError(f"it took back request {number!r}, which it never made")
-        if now.wakes_at is not None:
-            if not isinstance(now.wakes_at, int) or now.wakes_at <= now.tick:
-                raise ValueError(f"it wants to be woken at {now.wakes_at!r}, which is not later than {now.tick}")
-            self.wakes_at = now.wakes_at
+        for tick in now.wakes:
+            if not isinstance(tick, int) or tick <= now.tick:
+                raise ValueError(f"it wants to be woken at {tick!r}, which is not later than {now.tick}")
+        self.wakes.update(now.wakes)
         self.published, self.recalled = now.published, now.recalled
         self.asked = [asked for asked in now.asked if asked.number not in now.recalled]
         self.count += len(now.asked)

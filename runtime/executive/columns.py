@@ -36,7 +36,7 @@ class StoredValues(NamedTuple):
 
 
 def table_of(store: Array, first: Array, width: int) -> Array:
-    """A row for each of `width` numbers that stand side by side in a store, at each place of `first`."""
+    """A row for each of `width` numbers that stand side by side in a store, from each of `first` on."""
     table = np.empty((width, len(first)))
     if width and len(first):
         view = sliding_window_view(store, width)
@@ -63,18 +63,18 @@ class RunColumns(NamedTuple):
 
 
 class TokenGroup(NamedTuple):
-    """Active tokens of one predicate on one timeline, by their places in the record."""
+    """Active tokens of one predicate on one timeline, by their indices in the record."""
 
     predicate: str
     object: str
-    places: Array
+    indices: Array
     runs: tuple[RunColumns, ...]
 
 
 class PublishedColumns(NamedTuple):
     """Observations of one predicate on one timeline: ticks, and the arguments by the names of the parameters.
 
-    `places` are those in the columns of the trace; names of values are numbers into `symbols`.
+    `indices` are those in the columns of the trace; names of values are numbers into `symbols`.
     """
 
     timeline: str
@@ -82,12 +82,12 @@ class PublishedColumns(NamedTuple):
     ticks: Array
     parameters: tuple[str, ...]
     arguments: StoredValues
-    places: Array
+    indices: Array
     symbols: Sequence[str]
 
 
 class TokenTimes(NamedTuple):
-    """What every token of a record has, by place.
+    """What every token of a record has, by index.
 
     `states` are 0 active, 1 merged, 2 inactive; `latest` is the latest end, infinite if nothing bounds it; `values`
     tells where the store has the arguments of a token that has begun (of the other half, if it is merged), NOBODY of
@@ -138,14 +138,14 @@ class TokenColumns(Sequence[TokenRecord]):
         return self._groups
 
     def named(self, short: str) -> list[int]:
-        """The places of tokens of all predicates of a short name."""
+        """The indices of tokens of all predicates of a short name."""
         numbers = [k for k, name in enumerate(self.names) if name.rpartition(".")[2] == short]
-        return [int(place) for place in np.flatnonzero(np.isin(self.times.predicates, numbers))]
+        return [int(index) for index in np.flatnonzero(np.isin(self.times.predicates, numbers))]
 
     def on(self, timeline: str) -> list[int]:
-        """The places of tokens on a timeline."""
+        """The indices of tokens on a timeline."""
         numbers = [k for k, name in enumerate(self.names) if name == timeline]
-        return [int(place) for place in np.flatnonzero(np.isin(self.times.objects, numbers))]
+        return [int(index) for index in np.flatnonzero(np.isin(self.times.objects, numbers))]
 
     def __len__(self) -> int:
         return len(self.times.keys)
@@ -157,10 +157,10 @@ class TokenColumns(Sequence[TokenRecord]):
     def __getitem__(self, index: int | slice) -> TokenRecord | tuple[TokenRecord, ...]:
         if isinstance(index, slice):
             return tuple(map(self._token, range(*index.indices(len(self)))))
-        place = index + len(self) if index < 0 else index
-        if not 0 <= place < len(self):
+        at = index + len(self) if index < 0 else index
+        if not 0 <= at < len(self):
             raise IndexError(index)
-        return self._token(place)
+        return self._token(at)
 
     def __iter__(self) -> Iterator[TokenRecord]:
         return map(self._token, range(len(self)))

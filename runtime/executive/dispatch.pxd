@@ -12,13 +12,14 @@ cdef class Dispatch:
     cdef public Workbench bench
     cdef public list timelines
     cdef public object trace
-    cdef public dict owner_windows, sent, sent_tokens, refused
+    cdef public dict owner_windows, sent, sent_tokens, refused, begun
+    cdef public bint is_repaired
 
     cpdef bint is_asked(self, long long token) except -1
 
     cpdef bint is_refused(self, long long token) except -1
 
-    cpdef int forgive(self) except -1
+    cpdef int note_begun(self) except -1
 
     cpdef tuple refusals(self)
 
@@ -38,13 +39,19 @@ cdef class Dispatch:
     @cython.locals(token="long long")
     cpdef long long next_request(self, TimelineState line) except? -1
 
-    @cython.locals(bench=Workbench, earliest="long long", is_command=bint, other=TimelineState)
+    @cython.locals(bench=Workbench, other=TimelineState)
     cpdef object _ask(self, TimelineState line, long long token, long long tick)
+
+    @cython.locals(bench=Workbench, earliest="long long", is_command=bint)
+    cpdef object _bounds(self, str timeline, long long token, long long tick)
 
     cpdef list open_requests(self)
 
-    @cython.locals(is_placed=bint, numbers=list, token="long long")
+    @cython.locals(numbers=list, token="long long")
     cpdef list recalls(self, long long tick)
+
+    @cython.locals(bench=Workbench, earliest="long long", is_same=bint)
+    cpdef bint _is_void(self, request, long long token, long long key, long long tick) except -1
 
 
 cpdef long long _whole(double bound) except? -1

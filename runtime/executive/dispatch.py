@@ -21,6 +21,8 @@ class Dispatch:
         self.sent: dict[int, Request] = {}  # by the key of the token that was sent, until it is over
         self.sent_tokens: dict[int, int] = {}
         self.refused: dict[int, int] = {}  # by number: the event in which an owner gave a request up
+        self.begun: dict[int, None] = {}  # numbers of requests whose owners have begun what they were asked for
+        self.is_repaired = False  # the plan was repaired since requests were last compared with it
         bench.asked = self.sent
 
     def is_asked(self, token: int) -> bool:
@@ -43,15 +45,16 @@ class Dispatch:
         tokens = [self.sent_tokens[key] for key in self.sent if self.bench.is_alive(self.sent_tokens[key], key)]
         return [token for token in tokens if any(self.is_answered(token, event) for event in news)]
 
-    def forgive(self) -> int:
-        """Forget refusals of what owners have now begun all the same: there was room for it again."""
-        if not self.refused:
+    def note_begun(self) -> int:
+        """Note what owners begin of what they were asked for; if it had been refused, there was room for it again."""
+        if not self.sent:
             return 0
         for line in self.timelines:
             if line.news is not None:
                 for cause in self.trace.events[line.news.event].causes:
                     for request in self.sent.values():
                         if request.event == cause:
+                            self.begun[request.number] = None
                             self.refused.pop(request.number, None)
         return 0
 
@@ -125,12 +128,7 @@ class Dispatch:
         predicate = bench.short_name(token)
         arguments = bench.arguments(token)
         causes = tuple([other.event for other in self.timelines if not other.is_internal and other.event != NOTHING])
-        # To the world a request is a command: when to begin is the sender's business, how long it takes is not.
-        is_command = self.owner_windows.get(line.name, (0, 1))[1] <= 1
-        end = _INFINITY if is_command else _whole(bench.upper(bench.end(token)))
-        earliest = max(tick + 1, _whole(bench.lower(bench.start(token))))
-        start = (earliest, _whole(bench.upper(bench.start(token))))
-        bounds = TimeBounds(start, (-_INFINITY, end), (1, _INFINITY))
+        bounds = self._bounds(line.name, token, tick)
         event = self.trace.record(
             EventKind.REQUEST,
             self.name,
@@ -146,17 +144,28 @@ class Dispatch:
             event, line.name, predicate, arguments, bounds.start, bounds.end, bounds.duration, self.name, event
         )
 
+    def _bounds(self, timeline: str, token: int, tick: int) -> TimeBounds:
+        """When the owner of a timeline may carry out a token.
+
+        To the world a request is a command: when to begin is the sender's business, how long it takes is not.
+        """
+        bench = self.bench
+        is_command = self.owner_windows.get(timeline, (0, 1))[1] <= 1
+        end = _INFINITY if is_command else _whole(bench.upper(bench.end(token)))
+        earliest = max(tick + 1, _whole(bench.lower(bench.start(token))))
+        start = (earliest, _whole(bench.upper(bench.start(token))))
+        return TimeBounds(start, (-_INFINITY, end), (1, _INFINITY))
+
     def open_requests(self) -> list[int]:
         """Numbers of the requests that have been made and are not over."""
         return [request.number for request in self.sent.values()]
 
     def recalls(self, tick: int) -> list[int]:
-        """Numbers of the requests whose token left the plan, begun or not; what is over is forgotten."""
+        """Numbers of the requests that the plan does not wait for any more, begun or not; what is over is forgotten."""
         numbers = []
         for key, request in list(self.sent.items()):
             token = self.sent_tokens[key]
-            is_placed = self.bench.is_alive(token, key) and self.bench.is_active(token)
-            if not is_placed:
+            if self._is_void(request, token, key, tick):
                 self.trace.record(
                     EventKind.RECALL,
                     self.name,
@@ -169,9 +178,30 @@ class Dispatch:
             elif not self.bench.is_over(token, tick):
                 continue
             self.refused.pop(request.number, None)
+            self.begun.pop(request.number, None)
             del self.sent[key]
             del self.sent_tokens[key]
+        self.is_repaired = False
         return numbers
+
+    def _is_void(self, request: Request, token: int, key: int, tick: int) -> bool:
+        """Whether the plan does not wait for a request: its token is gone, or is to begin anew or otherwise.
+
+        A repair may have cut a token loose from the observation that it had met, or planned it for another time.
+        """
+        bench = self.bench
+        if not (bench.is_alive(token, key) and bench.is_active(token)):
+            return True
+        if bench.is_started(token, tick):
+            return False
+        if request.number in self.begun:
+            return True
+        if not self.is_repaired:
+            return False
+        now = self._bounds(request.timeline, token, tick)
+        earliest = max(tick + 1, request.start[0])
+        is_same = now.start == (earliest, request.start[1]) and now.end == request.end
+        return not is_same or bench.arguments(token) != request.arguments
 
 
 def _whole(bound: float) -> int:

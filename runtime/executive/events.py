@@ -1,26 +1,37 @@
 """Events of a mission in order: single ones, and runs of a simulator's observations that are expanded when read."""
 
 from bisect import bisect_right
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Container, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Protocol, overload
 
 from runtime.executive.columns import PublishedColumns
-from runtime.executive.outcome import Event
+from runtime.executive.outcome import Event, EventKind
+
+Head = tuple[int, int, str, str]  # of an observation: index, tick, timeline and predicate
 
 
 class EventColumns(Protocol):
     """Observations that are kept as columns."""
 
+    def head(self, place: int) -> tuple[int, str, str]:
+        """Tick, timeline and predicate of the observation at a place of the columns."""
+
     def event(self, place: int) -> Event:
-        """The observation at a place of the columns."""
+        """The observation at a place."""
 
     def published(self) -> tuple[PublishedColumns, ...]:
         """All observations, by timeline and predicate."""
 
+    def causes(self, place: int) -> tuple[int, ...]:
+        """What caused the observation at a place."""
+
+    def stored(self) -> "EventColumns":
+        """The same apart from what else the mission leaves behind."""
+
 
 @dataclass(eq=False, slots=True)
-class _Run:
+class EventRun:
     """`count` observations in columns, from a place on."""
 
     columns: EventColumns
@@ -29,12 +40,15 @@ class _Run:
 
 
 class EventLog(Sequence[Event]):
-    """A sequence of events, equal to the tuple of them; it is pickled as that."""
+    """A sequence of events, equal to the tuple of them."""
 
-    def __init__(self) -> None:
-        self._parts: list[Event | _Run] = []
+    def __init__(self, parts: Sequence[Event | EventRun] = ()) -> None:
+        self._parts = list(parts)
         self._starts: list[int] = []  # the index of the first event of each part
         self._length = 0
+        for part in parts:
+            self._starts.append(self._length)
+            self._length += part.count if isinstance(part, EventRun) else 1
 
     def append(self, event: Event) -> int:
         """Add an event; its index."""
@@ -46,12 +60,17 @@ class EventLog(Sequence[Event]):
     def extend(self, columns: EventColumns, place: int, count: int) -> None:
         """Add the observations at `place` and after."""
         last = self._parts[-1] if self._parts else None
-        if isinstance(last, _Run) and last.columns is columns and last.place + last.count == place:
+        if isinstance(last, EventRun) and last.columns is columns and last.place + last.count == place:
             last.count += count
         else:
-            self._parts.append(_Run(columns, place, count))
+            self._parts.append(EventRun(columns, place, count))
             self._starts.append(self._length)
         self._length += count
+
+    @property
+    def parts(self) -> Sequence[Event | EventRun]:
+        """Single events and runs, in order."""
+        return self._parts
 
     def single(self) -> list[Event]:
         """All events but those in runs."""
@@ -61,16 +80,45 @@ class EventLog(Sequence[Event]):
         """The observations in runs, as columns, each with what expands them."""
         sources: dict[int, EventColumns] = {}
         for part in self._parts:
-            if isinstance(part, _Run):
+            if isinstance(part, EventRun):
                 sources[id(part.columns)] = part.columns
         return [(source, each) for source in sources.values() for each in source.published()]
 
     def changed(self, change: Callable[[Event], Event]) -> "EventLog":
         """The same events, single ones changed."""
-        found = EventLog()
-        found._parts = [change(part) if isinstance(part, Event) else part for part in self._parts]
-        found._starts, found._length = self._starts, self._length
-        return found
+        return EventLog([change(part) if isinstance(part, Event) else part for part in self._parts])
+
+    def heads(self) -> Iterator[Head]:
+        """Each observation in short, in order."""
+        index = 0
+        for part in self._parts:
+            if isinstance(part, EventRun):
+                for place in range(part.place, part.place + part.count):
+                    yield index, *part.columns.head(place)
+                    index += 1
+                continue
+            if part.kind is EventKind.OBSERVATION:
+                yield index, part.tick, part.timeline, part.predicate
+            index += 1
+
+    def causes(self) -> Iterator[tuple[int, ...]]:
+        """The causes of each event, in order."""
+        for part in self._parts:
+            if isinstance(part, EventRun):
+                yield from map(part.columns.causes, range(part.place, part.place + part.count))
+            else:
+                yield part.causes
+
+    def on(self, timelines: Container[str]) -> Iterator[Event]:
+        """The events on some timelines, in order."""
+        for part in self._parts:
+            if isinstance(part, Event):
+                if part.timeline in timelines:
+                    yield part
+                continue
+            for place in range(part.place, part.place + part.count):
+                if part.columns.head(place)[1] in timelines:
+                    yield part.columns.event(place)
 
     def __len__(self) -> int:
         return self._length
@@ -105,8 +153,8 @@ class EventLog(Sequence[Event]):
     def __repr__(self) -> str:
         return repr(tuple(self))
 
-    def __reduce__(self) -> tuple[type, tuple[tuple[Event, ...]]]:
-        return tuple, (tuple(self),)
+    def __reduce__(self) -> tuple[type, tuple[list[Event | EventRun]]]:
+        return EventLog, (self._parts,)
 
 
 def single_events(events: Sequence[Event]) -> Sequence[Event]:
@@ -117,3 +165,37 @@ def single_events(events: Sequence[Event]) -> Sequence[Event]:
 def changed_events(events: Sequence[Event], change: Callable[[Event], Event]) -> Sequence[Event]:
     """The same trace, its single events changed."""
     return events.changed(change) if isinstance(events, EventLog) else tuple(map(change, events))
+
+
+def numbered(events: Sequence[Event]) -> Iterator[tuple[int, Event]]:
+    """The same with their indices."""
+    if not isinstance(events, EventLog):
+        yield from enumerate(events)
+        return
+    index = 0
+    for part in events.parts:
+        if isinstance(part, Event):
+            yield index, part
+        index += part.count if isinstance(part, EventRun) else 1
+
+
+def causes_of(events: Sequence[Event]) -> Iterator[tuple[int, ...]]:
+    """The causes of each event of a trace, in order."""
+    return events.causes() if isinstance(events, EventLog) else (one.causes for one in events)
+
+
+def heads_of(events: Sequence[Event]) -> Iterator[Head]:
+    """Each observation of a trace in short, in order."""
+    if isinstance(events, EventLog):
+        yield from events.heads()
+        return
+    for index, one in enumerate(events):
+        if one.kind is EventKind.OBSERVATION:
+            yield index, one.tick, one.timeline, one.predicate
+
+
+def events_on(events: Sequence[Event], timelines: Container[str]) -> Iterator[Event]:
+    """The events of a trace that are on some timelines, in order."""
+    return (
+        events.on(timelines) if isinstance(events, EventLog) else (one for one in events if one.timeline in timelines)
+    )

@@ -158,19 +158,18 @@ class Goals:
             self.given_up.append(goal)
 
     def note_repair(self, repair: Repair, watched: tuple[Watched, ...] = ()) -> None:
-        """Keep why the plan is repaired: where a mandatory goal is at stake, told on through the other reactors."""
+        """Keep why the plan is repaired: where a goal is at stake, told on through the other reactors."""
         conflict = repair.conflict
-        if conflict is not None and watched and any(goal.request.is_mandatory for goal in self.live()):
+        if conflict is not None and watched and self.live():
             conflict = self.trace.tell_on(conflict, watched)
         self.repair = replace(repair, conflict=conflict)
 
     def missed(self) -> list[int]:
-        """The mandatory goals that the planner has just rejected."""
+        """The goals that the planner has just rejected, whoever asked."""
         return [
             goal.token
             for goal in self.posted
-            if goal.request.is_mandatory
-            and not (goal.is_closed or goal.is_rejected)
+            if not (goal.is_closed or goal.is_rejected)
             and self.bench.is_alive(goal.token, goal.token_key)
             and self.bench.is_rejected(goal.token)
         ]

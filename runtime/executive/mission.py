@@ -154,7 +154,7 @@ def _make_reactors(
         reactors.append(reactor)
     kinds_of = partial(_parameter_kinds, configuration, programs)
     for coded, cls in zip(configuration.coded, programs.code, strict=True):
-        make = partial(cls, {**dict(coded.settings), "seed": seed})
+        make = partial(cls, {"folder": configuration.root, **dict(coded.settings), "seed": seed})
         reactors.append(CodedReactor(coded, make, kinds_of, trace))
     return reactors
 

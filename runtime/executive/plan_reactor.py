@@ -153,7 +153,7 @@ class PlanReactor:
         events = tuple([line.event for line in self.timelines if line.event != NOTHING and not line.is_internal])
         failures: list[SyncFailure] = []
         watched: tuple[Watched, ...] = ()
-        self.dispatch.forgive()
+        self.dispatch.note_begun()
         for attempt in range(3):
             if attempt:
                 self.trace.phase = Phase.REPAIR
@@ -169,6 +169,7 @@ class PlanReactor:
                 broke = failures[0]
                 self.goals.note_repair(Repair(tick, event, broke.reason, broke.conflict, broke.deadlock), watched)
                 self.relaxes += 1
+                self.dispatch.is_repaired = True
                 if attempt == 1:
                     self.bench.recorder.agreed = None
                 if not relax(self.bench, self.timelines, self.goals.live(), tick, forget=attempt == 2):
@@ -309,6 +310,7 @@ class PlanReactor:
         if self.relaxed_at != tick:
             self.relaxed_at = tick
             self.relaxes += 1
+            self.dispatch.is_repaired = True
             stage = RepairStage.REPLAN
             event = self.trace.record(EventKind.RELAX, self.name, stage=stage, reason=what, conflict=conflict)
             self.goals.note_repair(Repair(tick, event, what, conflict))

@@ -45,7 +45,7 @@ class _Window(PlanningScope):
         """Whether flaws of `t` are to be mended now."""
         bench = self.bench
         start = bench.start(t)
-        if bench.upper(bench.end(t)) < self.tick:
+        if bench.upper(bench.end(t)) <= self.tick:
             return self._is_left_over(t)
         if self.is_present:
             if self.tick == self.final and bench.lower(start) == self.tick and bench.is_goal(t):
@@ -104,7 +104,7 @@ class Planner:
         self.max_depth = max_depth
         self.is_fresh = True
         self.resolved = _NEVER  # the propagation after which the present had no flaws, without a decision
-        self.missed: Callable[[], list[int]] = list  # the mandatory goals that are rejected and that nobody was told of
+        self.missed: Callable[[], list[int]] = list  # the goals that are rejected and that nobody was told of
         self.rejections: dict[int, Deadlock] = {}  # why, by token
 
     def deliberate(self, tick: int, end: int) -> int:
@@ -178,7 +178,7 @@ class Planner:
         return log
 
     def _explain_rejections(self) -> None:
-        """Find out why mandatory goals were rejected: the search is made with a log, then once more as it was."""
+        """Find out why goals were rejected: the search is made with a log, then once more as it was."""
         missed = self.missed()
         if not missed:
             return

@@ -116,7 +116,7 @@ def trace_line(event: Event) -> str:
 
 def reason_text(reason: Reason) -> str:
     """A reason as a clause, and what it came of."""
-    because = f" ({reason_text(reason.because)})" if reason.because is not None else ""
+    origin = f" ({reason_text(reason.because)})" if reason.because is not None else ""
     text = _REASONS[reason.kind].format(
         token=reason.token,
         predicate=reason.predicate,
@@ -125,7 +125,7 @@ def reason_text(reason: Reason) -> str:
         limit=reason.limit,
         message=reason.message,
     )
-    return text + because
+    return text + origin
 
 
 def goal_text(goal: OpenGoal) -> str:

@@ -198,7 +198,7 @@ class SearchLog:
             FailedChoice(
                 attempt.resolver,
                 Conflict(tuple(self._element(cause) for cause in attempt.causes)) if attempt.causes else None,
-                None if attempt.because is None else self._deadlock(attempt.because),
+                None if attempt.dead_end is None else self._deadlock(attempt.dead_end),
             )
             for attempt in failed.attempts
         ]

@@ -122,7 +122,7 @@ class _Search:
             max_tries *= 2
             # What nothing fits comes first from now on: either it is synchronised, or there is no present at all.
             self.bench.rewind_to(mark)
-            order = {name: place for place, name in enumerate(reversed(stuck))}
+            order = {name: k for k, name in enumerate(reversed(stuck))}
             self.lines.sort(key=lambda line: order.get(line.name, len(order)))
 
     def _walk(self, max_tries: int, stuck: dict[str, None]) -> SyncFailure | None:

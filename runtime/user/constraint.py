@@ -36,7 +36,7 @@ class Constraint:
     signature: str = ""
     # One sentence, shown by editors and beside complaints.
     meaning: str = ""
-    # The place of the argument that the others determine, -1 for the last; None where there is no such argument.
+    # The position of the argument that the others determine, -1 for the last; None where there is no such argument.
     result: int | None = None
     # Whether nothing follows for the other arguments from the result.
     forward_only: bool = False
@@ -49,10 +49,8 @@ class Constraint:
         """Narrow the arguments; False if it cannot hold any more. Without an own one, `holds` is asked at the end.
 
         Never take away a value that belongs to a solution. When all arguments have single values, the answer must be
-        right.
+        right. A constraint that has neither is refused where it is loaded.
         """
-        if type(self).holds is Constraint.holds:
-            raise NotImplementedError(f"`{self.name}` has neither `propagate` nor `holds`")
         return True
 
     def holds(self, values: Sequence[Value]) -> bool:

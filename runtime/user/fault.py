@@ -30,7 +30,7 @@ class StoppedError(BaseException):
 def failed(
     what: str, problem: BaseException, files: tuple[str, ...], line: int = 1, verb: str = "failed"
 ) -> UserCodeError:
-    """Blame the deepest line in one of `files`, or `line` in the first of them, for an exception."""
+    """Name the deepest line in one of `files`, or `line` in the first of them, for an exception."""
     frames = [(frame.f_code.co_filename, line) for frame, line in traceback.walk_tb(problem.__traceback__)]
     place = place_in(frames, files, line)
     if isinstance(problem, StoppedError):

@@ -9,13 +9,17 @@ from runtime.user.reactor import Argument, Now, Reactor, Ticks, Value
 
 
 class LogPlayer(Reactor):
-    """Stands in for the reactor `reactor` (a setting) of the trace at `trace`: same values, goals and recalls."""
+    """Stands in for the reactor `reactor` (a setting) of the trace at `trace`: same values, goals and recalls.
+
+    Where the trace ends before the mission, what it said last goes on.
+    """
 
     def __init__(self, settings: Mapping[str, Value]) -> None:
         super().__init__(settings)
         self.events: dict[int, list[dict[str, Any]]] = {}
         self.numbers: dict[int, int] = {}
-        for line in Path(str(settings["trace"])).read_text(encoding="utf-8").splitlines():
+        trace = Path(str(settings["folder"])) / str(settings["trace"])
+        for line in trace.read_text(encoding="utf-8").splitlines():
             event = json.loads(line)
             if event.get("reactor") == settings["reactor"] and event["kind"] in ("observation", "request", "recall"):
                 self.events.setdefault(event["tick"], []).append(event)

@@ -2,4 +2,4 @@
 
 
 cdef class Now:
-    cdef public object tick, seen, news, refused, first_number, published, asked, recalled, wakes_at
+    cdef public object tick, seen, news, refused, first_number, published, asked, recalled, wakes

@@ -62,7 +62,7 @@ class Now:
         self.published: list[Published] = []
         self.asked: list[Asked] = []
         self.recalled: list[int] = []
-        self.wakes_at: int | None = None
+        self.wakes: list[int] = []
 
     def publish(self, timeline: str, predicate: str, /, **arguments: Argument) -> None:
         """Have an own timeline hold a value from this tick on."""
@@ -88,16 +88,16 @@ class Now:
         self.recalled.append(number)
 
     def wake(self, tick: int) -> None:
-        """Have `tick` called at a later tick even if nothing is new then; the earliest of several counts."""
-        self.wakes_at = tick if self.wakes_at is None else min(self.wakes_at, tick)
+        """Have `tick` called at a later tick even if nothing is new then, whatever it is called for before."""
+        self.wakes.append(tick)
 
 
 class Reactor:
     """A controller written in Python; one object flies one mission.
 
     `tick` is called at tick 0, whenever a timeline that it uses has begun to hold something, when something that it
-    asked for is refused, and when it wanted to be woken. What it does must follow from what it was told: no clock, no
-    random numbers but those it makes from its settings, or missions cannot be flown again.
+    asked for is refused, and at each tick at which it wanted to be woken. What it does must follow from what it was
+    told: no clock, no random numbers but those it makes from its settings, or missions cannot be flown again.
     """
 
     def __init__(self, settings: Mapping[str, Value]) -> None:

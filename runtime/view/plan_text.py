@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from runtime.plan.readout.open_levels import OpenLevel
 from runtime.plan.readout.state import PlanState, TokenState
 from runtime.plan.store.domain_texts import DomainText
 from runtime.solver.configuration.limits import Limits
@@ -36,6 +37,7 @@ class PlanReport:
     goals: frozenset[str]  # what was asked for and may not be given up
     is_explained: bool
     creeping: Sequence[str]  # places of constraints whose bounds still move: nobody knows whether values remain
+    open_levels: Sequence[OpenLevel]  # of a plan that was found
 
     @property
     def is_exhausted(self) -> bool:
@@ -130,6 +132,8 @@ def verdict(report: PlanReport) -> Iterator[str]:
         if rejected:
             advice = "" if report.is_explained else " (--explain says why)"
             yield f"rejected: {_listed(rejected)}{advice}"
+        for each in report.open_levels:
+            yield f"not decided: {each.text()}; a ResourceThreatManager in --config mends this"
     yield _ending(report)
 
 
@@ -154,6 +158,9 @@ def _ending(report: PlanReport) -> str:
             if report.creeping:
                 yet = f"bounds still move at {_listed(report.creeping)}, so values may not exist"
                 return f"no plan known: all flaws are resolved after {count}, {force}, but {yet}"
+            if loose := len(report.open_levels):
+                may = f"{loose} resource{'' if loose == 1 else 's'} may leave {'its' if loose == 1 else 'their'} limits"
+                return f"plan found after {count}, {force}, but {may}"
             return f"plan found after {count}, {force}"
         case "timeout":
             return f"no plan found yet: stopped after {count}, {force}"

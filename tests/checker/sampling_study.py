@@ -4,7 +4,7 @@
 
 The true rates are known: they are the volumes of the failing regions. A batch ends with its last mission, when a rule
 to stop by has its answer, with its third failure, or when time is over, where missions that fail take a tenth of the
-time of others. Of samplers with plain random missions at settled places only these count: they are drawn as arrays.
+time of others. Of samplers with plain random missions in fixed places only these count: they are drawn as arrays.
 """
 
 import sys
@@ -28,6 +28,7 @@ RULE = parse_rule("p<0.05@95%")
 CONFIDENCE = 0.95
 LIMIT = 0.01
 FAILURES = 3  # after which a batch ends
+_RULED = 20  # batches in which the rule itself is asked as well
 FAST = 0.1  # time of a mission that fails, of that of one that passes
 
 
@@ -106,11 +107,13 @@ class Coverage:
         return self.covered >= self.count * CONFIDENCE - 4.0 * sqrt(self.count * CONFIDENCE * (1.0 - CONFIDENCE))
 
 
-def settled_roles(name: str, missions: int) -> list[MissionRole] | None:
+def fixed_roles(name: str, missions: int) -> list[MissionRole] | None:
     """The roles of a batch's missions where these are the same whatever fails; None where weights are chosen."""
     world, found = WORLDS["half"], set()
     for batch, _ in batches(name, world, missions, 3):
         found.add(tuple(point.role for _, point in batch.flown))
+        # Plain random missions are drawn from seeds of their own: no sampler has a say.
+        assert not any(point.shares for _, point in batch.flown if point.role is MissionRole.RANDOM)
     if len(found) != 1 or any(role is MissionRole.WEIGHTED for roles in found for role in roles):
         return None
     return list(found.pop())
@@ -135,7 +138,7 @@ def first(hits: np.ndarray) -> np.ndarray:
 
 def coverages(name: str, world: World, missions: int, count: int) -> dict[End, Coverage]:
     """The coverage of one sampler's intervals, by what ends a batch; none where it refuses to state one."""
-    roles = settled_roles(name, missions)
+    roles = fixed_roles(name, missions)
     if roles is None:
         return _weighted_coverages(name, world, missions, count)
     plain = sum(role is MissionRole.RANDOM for role in roles)
@@ -154,7 +157,11 @@ def _random_coverage(failed: np.ndarray, world: World, end: End, *, is_plain: bo
         case End.MISSIONS:
             ends = np.full(count, plain)
         case End.RULE:
-            ends = first(decision_table(plain)[np.arange(1, plain + 1), sums])
+            decided = decision_table(plain)[np.arange(1, plain + 1), sums]
+            ends = first(decided)
+            for row in range(min(_RULED, count)):
+                flown = [(bool(one), SamplePoint()) for one in failed[row, : ends[row]]]
+                assert _is_decided(flown, 1.0) == decided[row].any()
         case End.FAILURES:
             ends = first(sums >= FAILURES)
         case End.SECONDS:
@@ -173,6 +180,12 @@ def _random_coverage(failed: np.ndarray, world: World, end: End, *, is_plain: bo
     found = [judged(int(failures), int(flown)) for failures, flown in zip(hits, ends, strict=True)]
     seen = np.array([observed for _, observed, _ in found])
     return Coverage(found[0][2], sum(hit for hit, _, _ in found), count, float(seen.mean()), float(seen.std()))
+
+
+def _is_decided(flown: list[tuple[bool, SamplePoint]], most_weight: float) -> bool:
+    """Whether the rule itself has its answer."""
+    assert RULE is not None
+    return RULE.outcome(flown, most_weight) is not None
 
 
 def _covers(interval: tuple[float, float], world: World) -> bool:
@@ -208,7 +221,10 @@ def _end_of(batch: Batch, sampler: Sampler, end: End) -> int:
             assert RULE is not None
             values = [point.weight if failed else 0.0 for failed, point in batch.flown]
             above, below = log_wealth(values, sampler.most_weight, RULE.rate)
-            return int(first((np.maximum(above, below) >= log_stake(RULE.confidence))[None, :])[0])
+            decided = np.maximum(above, below) >= log_stake(RULE.confidence)
+            count = int(first(decided[None, :])[0])
+            assert _is_decided(batch.flown[:count], sampler.most_weight) == decided.any()
+            return count
         case End.FAILURES:
             return int(first(failed.cumsum(axis=1) >= FAILURES)[0])
         case End.SECONDS:

@@ -168,7 +168,7 @@ def test_a_store_of_another_version_is_refused_by_its_name(tmp_path: Path) -> No
     connection.execute("PRAGMA user_version = 0")
     connection.close()
     with (
-        pytest.raises(StoreError, match=r"of an older nddlc: it has format 1, this one reads format 4"),
+        pytest.raises(StoreError, match=r"of an older nddlc: it has format 1, this one reads format 5"),
         open_store(path),
     ):
         pass

@@ -1,4 +1,4 @@
-"""Failures are grouped by the line to blame, and tied to the parameter values that bring them about."""
+"""Failures are grouped by their culprit, and tied to the parameter values that bring them about."""
 
 from dataclasses import replace
 from pathlib import Path

@@ -10,6 +10,7 @@ import z3
 from runtime.constraints.domains import tags
 from runtime.constraints.engine import Engine
 from runtime.constraints.explanation.cause import Cause, CauseKind
+from runtime.constraints.explanation.support_walk import SupportWalk
 from runtime.constraints.minimisation.case_split import Budget
 from runtime.constraints.minimisation.minimise import Scratch, minimise
 from runtime.constraints.propagators import opcodes
@@ -181,6 +182,22 @@ def test_a_late_observation_is_explained_back_to_its_causes() -> None:
     assert chain[0].variable == end and chain[0].value == 12
     assert {link.cause.span for link in chain} >= {4, 5, 6, 7, 8}
     assert all(link.cause.owner == 42 for link in chain if link.cause.kind is CauseKind.CONSTRAINT)
+
+
+def test_a_walk_by_itself_goes_back_as_far_as_the_trail_and_visits_each_change_once() -> None:
+    engine = Engine()
+    a, b, c = (engine.new_interval(tags.KIND_INT, 0, 99, 1, -1) for _ in range(3))
+    engine.post(opcodes.OP_EQ, [a, b, c], 2, -1)
+    assert engine.propagate()
+    engine.mark()
+    engine.restrict_base(a, 7, 99, 3, -1)
+    assert engine.propagate() and engine.lower(c) == 7
+    walk = SupportWalk(engine)
+    walk.start()
+    walk.ask(c, tags.SIDE_LOWER, 2**60)
+    walk.walk()
+    asked = {walk.asked_key[k] >> 2 for k in range(walk.asked_count)}
+    assert a in asked and walk.answered == walk.asked_count < 20
 
 
 def test_a_set_is_among_the_causes_of_what_it_leaves_out() -> None:

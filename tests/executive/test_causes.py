@@ -1,7 +1,7 @@
 """Failures of the planner name the lines of the model that rule out what had to hold: F3, F4 and F10."""
 
 from runtime.executive.configuration import GoalConfiguration
-from runtime.executive.outcome import Deadlock, Outcome
+from runtime.executive.outcome import Deadlock, EventKind, Outcome
 from tests.executive.flying import fly, open_goals, planner, simulator
 
 PLANNER = """
@@ -58,6 +58,30 @@ def test_a_rejected_mandatory_goal_names_the_wrong_constant() -> None:
     (goal,) = outcome.open_goals
     assert {"duration >= LEG_MIN", "duration <= RUN_MAX"} <= lines_of(goal.deadlock)
     assert outcome.events[goal.event].deadlock == goal.deadlock
+
+
+def test_a_goal_that_nobody_must_achieve_names_the_wrong_constant_too() -> None:
+    model = f"{PLANNER}{RULES.replace('RUN_MAX = 30', 'RUN_MAX = 12')}{OBJECTS}"
+    goals = (GoalConfiguration("survey", "Transect", mandatory=False, start=(5, 8)),)
+    outcome = fly(planner("planner", model, "survey motor", lookahead=60), until=50, goals=goals)
+    (reject,) = [event for event in outcome.events if event.kind is EventKind.REJECT]
+    assert {"duration >= LEG_MIN", "duration <= RUN_MAX"} <= lines_of(reject.deadlock)
+
+
+def test_a_request_that_its_owner_rejects_leads_from_the_abort_to_the_owners_lines() -> None:
+    gps = 'class Gps extends AgentTimeline { predicate Off { } predicate Fix { } Gps(Mode m) { super(m, "Off"); } }'
+    owner = (
+        f"int LIMIT = 4; {gps} Gps::Fix {{ duration >= 6; duration <= LIMIT; }} Gps gps = new Gps(Internal); close();"
+    )
+    user = f"{PLANNER}{gps} Survey::Transect {{ duration <= 20; contains(Gps.Fix f); }}"
+    user += "Survey survey = new Survey(Internal); Gps gps = new Gps(External); close();"
+    flyers = simulator("sim", owner, "gps"), planner("top", user, "survey", "gps")
+    outcome = fly(*flyers, until=50, goals=(GoalConfiguration("survey", "Transect", start=(5, 8)),))
+    assert outcome.abort is not None and outcome.abort.code == "F6"
+    causes = [outcome.events[number] for number in outcome.events[outcome.abort.event].causes]
+    (reject,) = [event for event in causes if event.kind is EventKind.REJECT]
+    assert reject.reactor == "sim"
+    assert {"duration >= 6", "duration <= LIMIT", "LIMIT = 4"} <= lines_of(reject.deadlock)
 
 
 def test_what_now_demands_and_has_no_place_names_the_lines() -> None:

@@ -1,16 +1,22 @@
 """Columns: what a simulator did is kept as numbers, and reads as the tokens and events that they stand for."""
 
 import pickle
+from dataclasses import replace
 from functools import lru_cache
 from math import inf
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from checker.batch.result import MissionResult, read_result, write_result
+from checker.figures import Figures
 from checker.flight import programs_of
 from checker.mission import read_mission
+from checker.oracle import judge
+from checker.report.track import track_of
 from runtime.executive.columns import GuardColumns, RunColumns, StoredValues, TokenColumns, ValueColumn
-from runtime.executive.events import EventLog, single_events
+from runtime.executive.events import EventLog, causes_of, events_on, heads_of, numbered, single_events
 from runtime.executive.mission import record_mission
 from runtime.executive.outcome import EventKind, Outcome
 from runtime.executive.record import BodyRun, GuardRun, MissionRecord, Value, ValueRange
@@ -47,13 +53,13 @@ def run_of(run: RunColumns, row: int, names: list[str]) -> BodyRun:
 def guard_of(guard: GuardColumns, row: int, names: list[str]) -> GuardRun:
     is_true = bool(guard.is_true[row])
     run = guard.then if is_true else guard.otherwise
-    place = int((guard.is_true[:row] == is_true).sum())  # among the rows that took the same branch
-    return GuardRun("then" if is_true else "else", True, None if run is None else run_of(run, place, names))
+    index = int((guard.is_true[:row] == is_true).sum())  # among the rows that took the same branch
+    return GuardRun("then" if is_true else "else", True, None if run is None else run_of(run, index, names))
 
 
-def arguments_of(tokens: TokenColumns, place: int, names: list[str]) -> tuple[Value, ...]:
-    kinds = tokens.kinds[tokens.times.predicates[place]]
-    stored = StoredValues(tokens.store, tokens.times.values[place : place + 1], kinds)
+def arguments_of(tokens: TokenColumns, index: int, names: list[str]) -> tuple[Value, ...]:
+    kinds = tokens.kinds[tokens.times.predicates[index]]
+    stored = StoredValues(tokens.store, tokens.times.values[index : index + 1], kinds)
     return tuple(value(column, 0, names) for column in stored.columns())
 
 
@@ -62,13 +68,13 @@ def compare(tokens: TokenColumns) -> int:
     names = list(tokens.symbols)
     seen: set[int] = set()
     for group in tokens.groups:
-        for row, place in enumerate(group.places.tolist()):
-            token = tokens[place]
+        for row, index in enumerate(group.indices.tolist()):
+            token = tokens[index]
             assert (token.predicate, token.object, token.state) == (group.predicate, group.object, "active")
-            assert token.arguments == arguments_of(tokens, place, names)
+            assert token.arguments == arguments_of(tokens, index, names)
             assert token.runs == tuple(run_of(each, row, names) for each in group.runs)
-            seen.add(place)
-    active = {place for place, token in enumerate(tokens) if token.state == "active"}
+            seen.add(index)
+    active = {index for index, token in enumerate(tokens) if token.state == "active"}
     assert seen == active
     return len(seen)
 
@@ -91,13 +97,13 @@ def test_times_of_columns_are_those_of_the_tokens() -> None:
     tokens = flown()[1].reactors[2].tokens
     assert isinstance(tokens, TokenColumns)
     times, names = tokens.times, tokens.names
-    for place, token in enumerate(tokens):
-        assert token.key == times.keys[place]
-        assert (token.predicate, token.object) == (names[times.predicates[place]], names[times.objects[place]])
-        assert token.merged_into == times.merged_into[place]
-        assert (token.fate == "over", token.tick) == (bool(times.is_over[place]), times.ticks[place])
-        assert not isinstance(token.start, int) or token.start == times.starts[place]
-        assert not isinstance(token.end, int) or token.end == times.ends[place] == times.latest[place]
+    for index, token in enumerate(tokens):
+        assert token.key == times.keys[index]
+        assert (token.predicate, token.object) == (names[times.predicates[index]], names[times.objects[index]])
+        assert token.merged_into == times.merged_into[index]
+        assert (token.fate == "over", token.tick) == (bool(times.is_over[index]), times.ticks[index])
+        assert not isinstance(token.start, int) or token.start == times.starts[index]
+        assert not isinstance(token.end, int) or token.end == times.ends[index] == times.latest[index]
 
 
 def test_events_read_by_index_are_those_that_are_passed_by() -> None:
@@ -125,7 +131,43 @@ def test_each_cause_of_an_event_came_before_it() -> None:
 
 def test_a_sent_trace_is_the_same_trace() -> None:
     events = flown()[0].events
-    assert pickle.loads(pickle.dumps(events)) == events
+    sent = pickle.loads(pickle.dumps(events))
+    assert isinstance(sent, EventLog) and sent == events
+    assert pickle.loads(pickle.dumps(sent)) == events
+
+
+def test_a_kept_trace_is_the_same_trace() -> None:
+    outcome = flown()[0]
+    sent = replace(outcome, events=pickle.loads(pickle.dumps(outcome.events)))
+    texts = {write_result(MissionResult(1, 3, judge(each), each, True)) for each in (outcome, sent)}
+    assert len(texts) == 1
+    found = read_result(texts.pop()).outcome
+    assert found == outcome
+
+
+def test_questions_about_a_trace_are_answered_as_by_its_events() -> None:
+    events = flown()[0].events
+    passed = tuple(events)
+    for each in (events, pickle.loads(pickle.dumps(events))):
+        assert list(heads_of(each)) == list(heads_of(passed))
+        assert list(causes_of(each)) == [event.causes for event in passed]
+        assert list(events_on(each, {"helm", "motion"})) == list(events_on(passed, {"helm", "motion"}))
+        assert list(numbered(each)) == [(index, passed[index]) for index, _ in numbered(each)]
+        assert [event for _, event in numbered(each)] == single_events(events)
+
+
+def test_the_way_read_off_columns_is_that_of_the_events() -> None:
+    outcome = flown()[0]
+    figures = Figures("motion", ("x", "y", "z"), "", "", "", "helm", "Run", "path", "survey")
+    one, other = (track_of(each, figures) for each in (outcome, replace(outcome, events=tuple(outcome.events))))
+    assert one is not None and other is not None
+    assert np.array_equal(one.ticks, other.ticks) and np.array_equal(one.positions, other.positions)
+    assert (one.samples, one.targets, len(one.phases)) == (other.samples, other.targets, len(other.phases))
+    assert one.samples and one.targets
+
+
+def test_single_events_are_all_but_those_of_the_simulator() -> None:
+    events = flown()[0].events
     assert single_events(events) == [event for event in events if event in single_events(events)]
     assert len(single_events(events)) < len(events) / 4
 

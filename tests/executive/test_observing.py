@@ -68,14 +68,19 @@ def test_early_and_late_answers_within_the_slack_need_no_repair(duration: int) -
 
 def test_one_tick_past_the_bound_there_are_two_repairs() -> None:
     outcome = shone(11)
-    assert lines(outcome, "relax", "reject") == [
+    # What runs stays; what it needs is asked for anew, and lasts too long again.
+    assert lines(outcome, "relax", "reject", "request") == [
+        "0 request user Busy",
+        "2 request user lamp On(n=[-inf +inf])",
         "13 relax user keeping the past: Lamp.On#4 goes on at tick 13, later than the plan allows",
         "13 relax user forgetting the past: Lamp.On#4 goes on at tick 13, later than the plan allows",
+        "13 request user lamp On(n=[-inf +inf])",
+        "24 relax user keeping the past: Lamp.On#4 goes on at tick 24, later than the plan allows",
+        "24 relax user forgetting the past: Lamp.On#4 goes on at tick 24, later than the plan allows",
     ]
-    # What runs stays; what it needs is asked for anew.
     assert outcome.abort is None and open_goals(outcome) == [
         "Busy: it began, and a repair has cut it loose from what was to end it"
-        " (Lamp.On#4 goes on at tick 13, later than the plan allows)"
+        " (Lamp.On#4 goes on at tick 24, later than the plan allows)"
     ]
 
 

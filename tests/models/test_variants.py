@@ -65,6 +65,20 @@ def test_the_model_without_the_mistake_does_not_fail_there(variant: Variant) -> 
     assert outcome.abort is None
 
 
+def test_a_message_that_a_waypoint_cuts_off_is_sent_once_more() -> None:
+    # The third leg begins at tick 1501: the message of tick 1500, which takes two ticks, may slide by thirty.
+    values = {"DX_NOISE": 0.2, "GPS_HIT_RATE": 1.1}
+    outcome = fly(BUGS / "../inl/standard.toml", Case(values, None), 1600)
+    assert outcome.abort is None
+    sent = [e for e in outcome.events if e.kind is EventKind.OBSERVATION and e.timeline == "outbox"]
+    assert [(e.tick, e.predicate) for e in sent if 1500 <= e.tick < 1600] == [
+        (1500, "Send"),
+        (1501, "Hush"),
+        (1506, "Send"),
+        (1508, "Idle"),
+    ]
+
+
 def test_an_edit_that_finds_no_place_is_refused(tmp_path: Path) -> None:
     first = VARIANTS[0]
     with pytest.raises(ValueError, match="0 places"):

@@ -19,7 +19,7 @@ def only_attempt(folder: Path, text: str) -> Attempt:
     failure = log.end
     while failure is not None:
         (attempt,) = failure.attempts
-        failure = attempt.because
+        failure = attempt.dead_end
     return attempt
 
 

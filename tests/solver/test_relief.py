@@ -126,3 +126,18 @@ def test_a_goal_beyond_the_horizon_is_a_finding(tmp_path: Path, capsys: pytest.C
     assert planned(tmp_path, late.replace("goal(", "rejectable("), capsys)["code"] == 0
     capsys.readouterr()
     assert planned(tmp_path, text + "goal(l.P);\n", capsys)["code"] == 1
+
+
+ROVERS = "Rover r = new Rover();\nRover other = new Rover();\nclose();\n"
+TAKES = HEAD.format("10.0", BOTH) + TAKE.replace("60.0", "8.0") + GIVE.replace("60.0", "8.0") + ROVERS
+TAKES += "goal(r.Take a);\ngoal(r.Take b);\na.end = [1 5];\nb.end = [20 20];\ngoal(other.Give f);\nf.end = LATE;\n"
+
+
+def test_a_level_that_the_times_leave_open_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    found = planned(tmp_path, TAKES.replace("LATE", "[6 100]"), capsys)
+    # 10 - 8 by tick 5, and from tick 20 on 8 less; what is given may come as late as 100.
+    assert found["open_levels"] == [{"resource": "tank", "tick": 20, "minimum": 0.0, "level": -6.0}]
+    run(["plan", str(tmp_path / "model.nddl")])
+    told = capsys.readouterr().out
+    assert "the level of tank may fall to -6 at tick 20 (limit 0)" in told and "but 1 resource may leave" in told
+    assert planned(tmp_path, TAKES.replace("LATE", "[6 20]"), capsys)["open_levels"] == []

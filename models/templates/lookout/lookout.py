@@ -15,7 +15,7 @@ class Lookout(Reactor):
             self.chance = Random(int(self.settings["seed"]))
         if now.tick % every == 0:
             self.look_out(now)
-        now.wake(now.tick - now.tick % every + every)  # holds until the next call only, so it is said each time
+        now.wake(now.tick - now.tick % every + every)
 
     def look_out(self, now: Now) -> None:
         """Say what is seen, and ask for what it demands."""

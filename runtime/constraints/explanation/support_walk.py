@@ -2,7 +2,7 @@
 
 The walk goes back in time: a support is asked what it read, and of each bound that it read the state before the support
 acted counts, as the trail remembers it. Of what was committed only the last state is known, which is at least as tight.
-Each change is visited once, so the walk ends. Who walks decides at each change what is noted, and how far it goes.
+Each change is visited once, so the walk ends. A subclass notes what it is after, and may end the walk sooner.
 """
 
 from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
@@ -28,12 +28,14 @@ class SupportWalk:
         self.overwritten = -1
 
     def visit(self, support: int, v: int, side: int, when: int) -> bool:
-        """Note that `support` changed a side of `v` at a time; True to go on to what it read."""
-        raise NotImplementedError
+        """Note that `support` changed a side of `v` at a time; True to go on to what it read.
+
+        A walk that notes nothing goes back as far as the trail remembers.
+        """
+        return when >= self.engine.trail_base
 
     def visit_support(self, support: int) -> None:
         """Note an edge, constraint or restriction by itself."""
-        raise NotImplementedError
 
     def visit_set(self, v: int) -> None:
         """Note a variable with a bit set: what it lacked from the start is in no log."""

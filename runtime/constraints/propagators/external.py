@@ -1,5 +1,6 @@
 """What a constraint written outside the engine looks like: resources, and users' relations in Python."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
 from runtime.constraints.domains.narrow import raise_to, reduce_to, remove_value
@@ -7,7 +8,7 @@ from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import CONFLICT_CONSTRAINT, SUPPORT_CONSTRAINT
 
 
-class External:
+class External(ABC):
     """A constraint whose meaning is a Python (or compiled) class; subclass it and write `propagate`.
 
     `propagate` is called after posting and whenever a domain of an argument has changed, any number of times, in any
@@ -23,9 +24,9 @@ class External:
     # Temporal edges that it read beside the bounds of its arguments.
     edges: Sequence[int] = ()
 
+    @abstractmethod
     def propagate(self, s: Store, c: int) -> bool:
         """Narrow the arguments of constraint `c`; False on a conflict."""
-        raise NotImplementedError
 
 
 def argument(s: Store, c: int, position: int) -> int:

@@ -62,5 +62,4 @@ cpdef bint _finish(Plan plan, _Sweep sweep) except -1
 cpdef int _forget_foreign(Plan plan, list gone) except -1
 
 
-@cython.locals(v="long long")
 cpdef int _drop_held(Plan plan, long long s, set edges, set constraints, set restrictions) except -1

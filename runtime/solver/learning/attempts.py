@@ -69,7 +69,7 @@ class Attempt:
 
     resolver: Resolver
     causes: tuple[FoundCause, ...]
-    because: "FailedFlaw | None" = None
+    dead_end: "FailedFlaw | None" = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -68,18 +68,18 @@ def resolver_words(resolver: Resolver) -> str:
 
 def _story(failed: FailedFlaw, depth: int) -> Iterator[str]:
     margin = "  " * depth
-    while len(failed.attempts) == 1 and failed.attempts[0].because is not None:
+    while len(failed.attempts) == 1 and failed.attempts[0].dead_end is not None:
         yield f"{margin}{flaw_words(failed.flaw)}: {resolver_words(failed.attempts[0].resolver)}"
-        failed = failed.attempts[0].because
+        failed = failed.attempts[0].dead_end
     yield f"{margin}{flaw_words(failed.flaw)}"
     if not failed.attempts:
         yield f"{margin}  there is nothing to choose from"
     for attempt in failed.attempts:
         yield f"{margin}  {resolver_words(attempt.resolver)}:"
-        if attempt.because is None:
+        if attempt.dead_end is None:
             yield from (f"{margin}    {_cause_line(cause)}" for cause in attempt.causes)
         elif depth < _DEEPEST:
-            yield from _story(attempt.because, depth + 2)
+            yield from _story(attempt.dead_end, depth + 2)
         else:
             yield f"{margin}    ..."
 
@@ -104,5 +104,5 @@ def _attempt_data(attempt: Attempt) -> dict[str, Any]:
         }
         for cause in attempt.causes
     ]
-    because = None if attempt.because is None else as_data(attempt.because)
-    return {"choice": resolver_words(attempt.resolver), "lines": lines, "because": because}
+    dead_end = None if attempt.dead_end is None else as_data(attempt.dead_end)
+    return {"choice": resolver_words(attempt.resolver), "lines": lines, "because": dead_end}

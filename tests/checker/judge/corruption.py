@@ -43,18 +43,18 @@ def altered(value: Any, dice: Random) -> Any:
     return OTHER.get(value, "nothing")
 
 
-def put(mission: Flown, reactor: int, place: int, token: TokenRecord | None) -> Flown:
-    """The mission with another token record at a place, or none."""
+def put(mission: Flown, reactor: int, index: int, token: TokenRecord | None) -> Flown:
+    """The mission with another token record at an index, or none."""
     old = mission.record.reactors[reactor]
     tokens = list(old.tokens)
-    tokens[place : place + 1] = [] if token is None else [token]
+    tokens[index : index + 1] = [] if token is None else [token]
     reactors = list(mission.record.reactors)
     reactors[reactor] = old._replace(tokens=tuple(tokens))
     return mission._replace(record=MissionRecord(tuple(reactors)))
 
 
 def chosen(mission: Flown, dice: Random, accepts: Callable[[TokenRecord], bool]) -> tuple[int, int, TokenRecord] | None:
-    """A token that was executed, and its place."""
+    """A token that was executed, and its index."""
     found = [
         (r, k, record.tokens[k])
         for r, record in enumerate(mission.record.reactors)
@@ -203,16 +203,16 @@ def undone(mission: Flown, dice: Random) -> Flown | None:
 def silence(mission: Flown, dice: Random) -> Flown | None:
     """An observation that nobody published."""
     events = list(mission.outcome.events)
-    places = [k for k, event in enumerate(events) if event.kind is EventKind.OBSERVATION]
-    del events[dice.choice(places)]
+    indices = [k for k, event in enumerate(events) if event.kind is EventKind.OBSERVATION]
+    del events[dice.choice(indices)]
     return mission._replace(outcome=replace(mission.outcome, events=tuple(events)))
 
 
 def rumour(mission: Flown, dice: Random) -> Flown | None:
     """An observation that came at another time."""
     events = list(mission.outcome.events)
-    places = [k for k, event in enumerate(events) if event.kind is EventKind.OBSERVATION]
-    at = dice.choice(places)
+    indices = [k for k, event in enumerate(events) if event.kind is EventKind.OBSERVATION]
+    at = dice.choice(indices)
     events[at] = replace(events[at], tick=max(0, events[at].tick + dice.choice((-1, 1))))
     return mission._replace(outcome=replace(mission.outcome, events=tuple(events)))
 

@@ -178,8 +178,8 @@ def test_a_single_value_stands_for_all_rows() -> None:
 
 
 def test_distinct_numbers_are_those_that_occur() -> None:
-    numbers, places = distinct(np.array([7, 2, 7, 0]))
-    assert numbers == [0, 2, 7] and places.tolist() == [2, 1, 2, 0]
+    numbers, indices = distinct(np.array([7, 2, 7, 0]))
+    assert numbers == [0, 2, 7] and indices.tolist() == [2, 1, 2, 0]
     assert distinct(np.array([], np.int64))[0] == []
 
 

@@ -69,12 +69,12 @@ def test_altered_columns_are_found_out_as_altered_tokens_are(flown: Flown) -> No
     chance = random.Random(5)
     found = 0
     for _ in range(24):
-        place = chance.randrange(machine.log.value_count)
-        before = machine.log.values[place]
-        machine.log.values[place] = before + chance.choice((1.0, -2.0, 0.01))
+        index = chance.randrange(machine.log.value_count)
+        before = machine.log.values[index]
+        machine.log.values[index] = before + chance.choice((1.0, -2.0, 0.01))
         tokens = expand(program, machine, tick)
         report = judged(flown, tokens)
-        assert report == judged(flown, tuple(tokens)), place
+        assert report == judged(flown, tuple(tokens)), index
         found += bool(report.disagreements)
-        machine.log.values[place] = before
+        machine.log.values[index] = before
     assert found > 12

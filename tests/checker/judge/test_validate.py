@@ -207,3 +207,13 @@ def test_a_trace_is_judged(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -
     assert run(["validate", str(path), "--mission", MISSION]) == 1
     assert "does not hold" in capsys.readouterr().out
     assert run(["validate", str(path)]) == 2
+
+
+def test_a_trace_names_its_mission(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "trace.jsonl"
+    assert run(["run", MISSION, "--until", "60", "--trace", str(path)]) in (0, 1)
+    assert run(["validate", str(path)]) == 0
+    capsys.readouterr()
+    path.write_text(path.read_text(encoding="utf-8").replace("mission.toml", "elsewhere.toml", 1), encoding="utf-8")
+    assert run(["validate", str(path)]) == 2
+    assert "no file" in capsys.readouterr().err
