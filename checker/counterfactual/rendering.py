@@ -99,7 +99,7 @@ def causes_data(causes: Causes) -> dict[str, Any]:
 def _passes(cause: RankedLine) -> str:
     if cause.missions == 1:
         return "the mission passes"
-    return f"all {cause.missions} failed missions tried pass"
+    return f"{'both' if cause.missions == 2 else f'all {cause.missions}'} failed missions tried pass"
 
 
 def _short(text: str) -> str:
