@@ -8,8 +8,8 @@ from runtime.determined.loading import ParameterShape, RegisterProgram, is_open,
 from runtime.determined.log import Log
 from runtime.determined.machine import Machine
 from runtime.executive.messages import Arguments
+from runtime.plan.tags import INFINITY
 
-_INFINITY = 4503599627370495
 _NEW = object.__new__
 _PUT_KIND, _PUT_TYPE, _PUT_INTERVAL, _PUT_VALUES = [
     DomainConstant.__dict__[name].__set__ for name in ("kind", "type_name", "interval", "values")
@@ -99,7 +99,7 @@ def _shape_of(program: RegisterProgram, parameter: ParameterCode) -> ParameterSh
 def _domain_of(names: Sequence[str], kind: str, type_name: str, value: float) -> DomainConstant:
     """What a register says of a variable; NaN leaves it open."""
     if value != value:
-        return _made(kind, type_name, (-_INFINITY, _INFINITY), None)
+        return _made(kind, type_name, (-INFINITY, INFINITY), None)
     if kind == "float":
         number = value + 0.0  # no negative zero
         return _made(kind, type_name, (number, number), None)

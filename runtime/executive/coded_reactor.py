@@ -11,11 +11,11 @@ from runtime.executive.outcome import Conflict, EventKind, OpenGoal, Reason, Rea
 from runtime.executive.reactor import Failure, Refusal
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import VariableName
+from runtime.plan.tags import INFINITY
 from runtime.user.fault import failed
 from runtime.user.limit import WATCH, Plain
 from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen, Ticks
 
-_INFINITY = 4503599627370495
 _NEVER = 2**62
 _MOST_CAUSES = 3
 _NOBODY: frozenset[int] = frozenset()
@@ -321,13 +321,13 @@ def _domain(name: str, value: object, kind: tuple[str, str] | None) -> DomainCon
 def _number(name: str, value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or isnan(value):
         raise ValueError(f"`{name}` is {value!r}, which is no value of a parameter")
-    return float(max(-_INFINITY, min(value, _INFINITY)))
+    return float(max(-INFINITY, min(value, INFINITY)))
 
 
 def _bounds(given: Ticks) -> tuple[int, int]:
     """Bounds of a time; raises ValueError or TypeError for what are none."""
     if given is None:
-        return (-_INFINITY, _INFINITY)
+        return (-INFINITY, INFINITY)
     lower, upper = (given, given) if isinstance(given, int) else given
     if not isinstance(lower, int) or not isinstance(upper, int) or lower > upper:
         raise ValueError(f"{given!r} are no ticks")
