@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from checker.batch.pool import FlyBatch
+from checker.batch.pool import FlyBatch, keeping_a_worker
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
 from checker.conditions.record import write_condition
@@ -126,6 +126,7 @@ def command(
         return _HOLDS
     promoted = _promoted(campaign, file)
     count, enough = workers or cores(), Enough(seconds, max_failures, rule)
+    ctx.with_resource(keeping_a_worker())
     try:
         with ExitStack() as stack:
             store = None if no_store else stack.enter_context(open_store(store_path))
