@@ -62,7 +62,7 @@ def shapes_of(program: RegisterProgram, predicate: PredicateCode) -> list[Parame
 
 
 def arguments_at(shapes: list[ParameterShape], names: Sequence[str], log: Log, first: int) -> Arguments:
-    """The same of values that stand in a log, from a place on."""
+    """The same of values that stand in a log, from an index on."""
     told = []
     for k, (name, kind, type_name, known) in enumerate(shapes):
         value = log.values[first + k]
