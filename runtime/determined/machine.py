@@ -4,9 +4,8 @@
 At a tick the machine finds what must end (its latest end is now, or something that was asked for may start) and runs
 the block of what starts in its place, timelines in causal order. It stops at whatever the code does not foresee: a
 value that is not known, a constraint that does not hold, bounds without a value. What it has written by then is void;
-who runs it goes back to a snapshot, or hands over to the general engine.
-
-The operations are those of `compiler.determined.code`, by numbers of which the C compiler makes a jump table.
+who runs it goes back to a snapshot, or hands over to the general engine. The operations are those of
+`compiler.determined.code`, by numbers of which the C compiler makes a jump table.
 """
 
 import math
