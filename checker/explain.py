@@ -1,5 +1,6 @@
 """A story in, text for people or plain data for programs out."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from checker.batch.result import MissionResult
@@ -10,7 +11,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Fault
 from checker.oracle import CODE_NAMES
 from checker.proofs.conflict import Confirmation
-from checker.rendering import confirmation_text, failure_text, step_label, step_text
+from checker.rendering import cause_number, confirmation_text, failure_text, step_label, step_text
 from checker.sampling.rendering import number
 from checker.story import Step, StepKind, Story
 from runtime.executive.outcome import SourcePlace
@@ -30,8 +31,9 @@ def story_text(story: Story, run_id: str, excerpts: Excerpts, most: int = MOST_C
     ]
     if story.fault is not None and story.fault.causes.tried:
         lines += [*_cause_lines(story.fault.causes, excerpts, most), "", "what happened:"]
+    causes = [cause.place for cause in story.fault.causes.ranked[:most]] if story.fault is not None else []
     for index, step in enumerate(story.steps, 1):
-        lines += _step_lines(index, step, story, excerpts)
+        lines += _step_lines(index, step, story, excerpts, causes)
         if index < len(story.steps):
             lines.append(_ARROW)
     found = [f"z3 {confirmation_text(story.confirmation)}"] if story.confirmation is not None else []
@@ -52,13 +54,15 @@ def _cause_lines(causes: Causes, excerpts: Excerpts, most: int) -> list[str]:
     return lines
 
 
-def _step_lines(index: int, step: Step, story: Story, excerpts: Excerpts) -> list[str]:
+def _step_lines(index: int, step: Step, story: Story, excerpts: Excerpts, causes: Sequence[SourcePlace]) -> list[str]:
     when = f"tick {step.tick}: " if step.tick is not None else ""
-    lines = [f"{index:>4}  {when}{step_text(step, story)}{step_label(step)}"]
+    lines = [f"{index:>4}  {when}{step_text(step, story)}{step_label(step, causes)}"]
     if step.place is not None:
         lines += excerpt_lines(step.place, excerpts, marked=step.kind is StepKind.FAULT)
     for limit in step.limits:
-        lines += ["      where the limit is set:", *excerpt_lines(limit, excerpts, marked=True)]
+        cause = cause_number(limit, causes)
+        mark = f" (cause {cause})" if cause else ""
+        lines += [f"      where the limit is set{mark}:", *excerpt_lines(limit, excerpts, marked=True)]
     return lines
 
 

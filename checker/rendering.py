@@ -22,6 +22,7 @@ from runtime.executive.outcome import (
     EventKind,
     OpenGoal,
     ReasonKind,
+    SourcePlace,
 )
 from runtime.executive.rendering import (
     choice_text,
@@ -109,9 +110,23 @@ def step_text(step: Step, story: Story) -> str:
             assert_never(step.subject)
 
 
-def step_label(step: Step) -> str:
-    """What marks the step of the culprit."""
-    return "   <== the line to blame" if step.kind is StepKind.FAULT else ""
+def step_label(step: Step, causes: Sequence[SourcePlace]) -> str:
+    """What marks the step at which it breaks, and those at the lines that were found to be causes, the likeliest first.
+
+    Where none was found, the line that breaks is the one to blame.
+    """
+    number = cause_number(step.place, causes)
+    marks = [f"cause {number}"] if number else []
+    if step.kind is StepKind.FAULT:
+        marks.insert(0, "where it breaks" if causes else "the line to blame")
+    return f"   <== {', '.join(marks)}" if marks else ""
+
+
+def cause_number(place: SourcePlace | None, causes: Sequence[SourcePlace]) -> int:
+    """Which of the causes stands at the line of a place, from 1; 0 for none."""
+    if place is None:
+        return 0
+    return next((k for k, one in enumerate(causes, 1) if (one.file, one.line) == (place.file, place.line)), 0)
 
 
 def confirmation_text(found: Confirmation, condition: Condition | None = None) -> str:

@@ -46,7 +46,9 @@ from nddl_lang.text.source import Span
 
 Key = tuple[object, ...]  # of a variable
 _TIMES = "times"
-_FREE = ("any", "contains", "starts", "met_by", "after")  # relations that leave the end of the origin free
+_DURATION = "duration"
+# Relations that leave the end of the origin free, where nothing says when the target begins.
+_FREE = ("any", "contains", "starts", "met_by", "after", "meets", "before")
 _RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
 _CROWD = 0.05  # what each further line that bears on a variable adds to the way through it
 
@@ -122,8 +124,17 @@ class Dependence:
         return found
 
     def loose_ends(self) -> list[LooseEnd]:
-        """The loose ends of all rules: locals, parameters of the own token and of children, and times."""
+        """The loose ends of all rules: locals, parameters of the own token and of children, and times.
+
+        Of an observed token the reactor that owns it says how long it lasts.
+        """
         found: dict[LooseEnd, None] = {}
+        timed = {
+            rule.predicate
+            for number, program in enumerate(self._programs)
+            for index, rule in enumerate(program.rules)
+            if all(one != _DURATION for _, one, _, _ in _Links(number, program).loose(rule, ("rule", number, index)))
+        }
         for number, program in enumerate(self._programs):
             for index, rule in enumerate(program.rules):
                 file, line = self._line(rule.span)
@@ -132,6 +143,8 @@ class Dependence:
                     continue
                 links = _Links(number, program)
                 for span, variable, key, is_local in links.loose(rule, ("rule", number, index)):
+                    if variable == _DURATION and rule.predicate in timed:
+                        continue
                     declared = [one for one in self.at(*self._line(span)) if not self.sites[one].is_rule]
                     site = declared[0] if span is not rule.span and declared else heads[0]
                     found[LooseEnd(site, variable, bool(self._users.get(key)), is_local)] = None
@@ -193,7 +206,7 @@ class _Links:
         if not lines["token", marked[0], _TIMES] and all(
             step.relation in _FREE for step in steps if isinstance(step, Child) and step.origin == 0
         ):
-            yield rule.span, "duration", (), False
+            yield rule.span, _DURATION, (), False
 
     def _body(
         self, body: tuple[Instruction, ...], scope: Key, tokens: dict[int, str], inside: tuple[Key, ...]
@@ -232,6 +245,7 @@ class _Links:
                     yield from self._operand(copy_of, scope, tokens)
             case Child(slot=slot, origin=origin) | Relate(target=slot, origin=origin):
                 yield from (("token", tokens[one], _TIMES) for one in (slot, origin) if one in tokens)
+                yield (*scope, "child", slot)
             case NewToken(predicate=predicate):
                 yield ("token", predicate, _TIMES)
             case Guard(condition=condition, decided_by=deciders):
@@ -264,7 +278,9 @@ class _Links:
         yield from (("member", member.name) for member in (owner.members if owner is not None else ()))
         while owner is not None:
             if owner.native in _RESOURCES:
-                yield from (("token", each.name, _TIMES) for each in self._predicates_of(owner.name))
+                for each in self._predicates_of(owner.name):
+                    yield ("token", each.name, _TIMES)
+                    yield from (("token", each.name, parameter.name) for parameter in each.parameters)
             owner = self._classes[owner.base] if owner.base is not None else None
 
     def _predicates_of(self, owner: str) -> Iterator[PredicateCode]:
@@ -283,6 +299,8 @@ class _Links:
                     yield ("token", predicate, _TIMES)
                 elif FIRST_PARAMETER <= variable < FIRST_PARAMETER + len(names):
                     yield ("token", predicate, names[variable - FIRST_PARAMETER])
+                if token:
+                    yield (*scope, "child", token)
             case Field(base=base, members=members):
                 yield from (("member", member) for member in members[-1:])
                 if base is not None:

@@ -24,7 +24,7 @@ class Claim(StrEnum):
     MENDS = "mends"  # a small change makes the missions pass
     LOOSENS = "loosens"  # without what it demands, or with much less of it, they pass
     PARTLY = "partly"  # some of them pass, or others that passed fail
-    EVADES = "evades"  # they pass, but goals are lost
+    EVADES = "evades"  # they pass, but goals are lost, or what happens in all other missions does not
     LOOSE_END = "loose end"  # a line may be missing: nothing was flown
     UNREAD = "unread"  # the same, by a constant that nothing reads
 
@@ -85,7 +85,7 @@ def rank(trials: Trials, root: Path) -> Causes:
 
 
 def _claim(trial: LineTrial) -> Claim:
-    if trial.damage >= HEAVY:
+    if trial.damage >= HEAVY or trial.is_evasive:
         return Claim.EVADES
     if trial.helped < trial.missions or trial.spoilt:
         return Claim.PARTLY

@@ -23,7 +23,8 @@ def claim_text(cause: RankedLine) -> str:
                 return f"{change}: {_passes(cause)}, but missions that passed fail"
             return f"{change}: {tried} pass then, the others do not"
         case Claim.EVADES:
-            return f"{change}: {_passes(cause)}, but goals are lost"
+            less = "but it does less then" if cause.missions == 1 else "but they do less then"
+            return f"{change}: {_passes(cause)}, {less}"
         case Claim.LOOSE_END:
             return f"hardly a line of this rule speaks of `{cause.variable}`: one may be missing (nothing was flown)"
         case Claim.UNREAD:
@@ -98,7 +99,7 @@ def causes_data(causes: Causes) -> dict[str, Any]:
 def _passes(cause: RankedLine) -> str:
     if cause.missions == 1:
         return "the mission passes"
-    return f"all {cause.missions} failed missions tried pass"
+    return f"{'both' if cause.missions == 2 else f'all {cause.missions}'} failed missions tried pass"
 
 
 def _short(text: str) -> str:

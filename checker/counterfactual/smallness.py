@@ -16,6 +16,7 @@ from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
 _POINTS = re.compile(r"(\w+\.)?(start|end)\s*[<>=!]+\s*(\w+\.)?(start|end)\s*;")  # two ends of tokens
+_REAL = re.compile(r"\d\.\d|\d\.(?!\w)")
 _LOOSE = "any"  # the relation that demands nothing
 _SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 _UNEQUAL, _EQUAL = "!=", "=="
@@ -48,6 +49,7 @@ _COMPARISONS = {
     "value": {"==": 6.0, "<=": 1.0, ">=": 1.0, "!=": 0.1},
     "time": {"==": 3.0, "<=": 3.0, ">=": 1.5, "!=": 0.05},
     "point": {"==": 6.0, "<=": 2.0, ">=": 1.0, "!=": 0.05},
+    "real condition": {"==": 0.2, "<=": 1.5, ">=": 1.5, "<": 2.0, ">": 2.0, "!=": 0.05},
     "condition": {"==": 3.0, "<=": 2.0, ">=": 2.0, "<": 2.0, ">": 2.0, "!=": 0.7},
 }
 _RARE = 0.3  # all other words
@@ -234,7 +236,10 @@ def _sort(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
     before = site.text[: edit.begin - site.begin]
     is_demand = site.text.endswith(";") and before.count("(") == before.count(")")
     is_point = _POINTS.fullmatch(site.text) is not None
-    sort = "condition" if not is_demand else "point" if is_point else "time" if _is_about_time(site) else "value"
+    if is_demand:
+        sort = "point" if is_point else "time" if _is_about_time(site) else "value"
+    else:
+        sort = "real condition" if _REAL.search(site.text) else "condition"
     return sort, _COMPARISONS[sort]
 
 

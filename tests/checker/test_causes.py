@@ -68,7 +68,7 @@ def test_the_wrong_constant_is_named(
     assert len(found) == 1, "one fault is one bucket"
     assert run(["explain", found[0]]) == 0
     story = capsys.readouterr().out
-    blamed = story[story.index("<== the line to blame") :]
+    blamed = story[story.index("<== where it breaks") :]
     assert "planner.nddl:14" in blamed and "planner.nddl:10" in blamed
     assert "planner.nddl:10" in story[: story.index("what happened:")], "the constant is among the causes"
     assert story[story.index("what happened:") :].count("RUN_MAX = 12") == 1

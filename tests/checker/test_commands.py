@@ -49,7 +49,7 @@ def test_a_failing_model_ends_with_findings_and_a_reason(agent: None, capsys: py
     places = [happened.find(words.strip()) for words in order]
     assert -1 not in places
     assert places == sorted(places)
-    assert "<== the line to blame" in story
+    assert "<== where it breaks" in story
     assert run(["explain", "latest", "--format", "json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["condition"]["text"] == "GPS_HIT_RATE > 3.8"

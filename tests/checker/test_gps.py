@@ -37,7 +37,7 @@ def test_the_fault_is_found_and_explained(workshop: Path, capsys: pytest.Capture
         "sampledParameter(GPS_HIT_RATE)",
         "gpsHitRate * minHits",
         "gps = Active",
-        "<== the line to blame",
+        "<== where it breaks",
         "gives up",
     ]
     places = [story.find(words) for words in chain]

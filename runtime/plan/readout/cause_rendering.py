@@ -56,23 +56,24 @@ def _constraint(name: str, texts: list[str]) -> str:
 
 def _violation(found: ResourceTerm) -> str:
     """What is wrong with a resource, and who uses it."""
-    name, at, amount, limit = found.resource, found.at, found.amount, found.limit
+    name, amount, limit = found.resource, found.amount, found.limit
+    when = f"at {found.at}" if found.at < tags.INFINITY else "in the end"
     users = ", ".join(f"{user} {used:g}" for user, used in found.users)
     users = f": {users}" if users else ""
     if found.in_any_order:
         side = "falls below its least" if found.wrong == tags.TOO_LOW else "rises above its greatest"
-        return f"the level of {name} {side}, {limit:g}, by {at} in any order{users}"
+        return f"the level of {name} {side}, {limit:g}, by {found.at} in any order{users}"
     match found.wrong:
         case tags.TOO_LOW if found.has_helper:
-            return f"the level of {name} falls to {limit - amount:g} at {at}, its least is {limit:g}{users}"
+            return f"the level of {name} falls to {limit - amount:g} {when}, its least is {limit:g}{users}"
         case tags.TOO_LOW:
-            return f"{name} needs {found.room + amount:g} of {found.room:g} available at {at}{users}"
+            return f"{name} needs {found.room + amount:g} of {found.room:g} available {when}{users}"
         case tags.TOO_HIGH:
-            return f"the level of {name} rises to {limit + amount:g} at {at}, its greatest is {limit:g}{users}"
+            return f"the level of {name} rises to {limit + amount:g} {when}, its greatest is {limit:g}{users}"
         case tags.TOO_TIGHT:
-            have = found.room * (found.until - at)
+            have = found.room * (found.until - found.at)
             unit = "ticks" if found.room == 1.0 else "amount times ticks"
-            return f"{name} needs {have + amount:g} of {have:g} {unit} available in [{at}, {found.until}]{users}"
+            return f"{name} needs {have + amount:g} of {have:g} {unit} available in [{found.at}, {found.until}]{users}"
         case tags.TOO_FAST:
-            return f"too much of {name} flows at {at}, by {amount:g}{users}"
+            return f"too much of {name} flows {when}, by {amount:g}{users}"
     return f"too much of {name} is used altogether, by {amount:g}{users}"
