@@ -37,8 +37,7 @@ from runtime.determined.tags import (
     WISHED,
 )
 
-_NAN = float("nan")
-_TOLERANCE = 1e-5  # that of the engine's floats
+_NAN, _TOLERANCE = float("nan"), 1e-5  # the tolerance is that of the engine's floats
 _LARGEST = 2.0**51  # what is larger counts as infinite
 _COARSE = 2.0**32  # beyond it the last places of sums come near the tolerance, where an interval engine decides
 
