@@ -14,6 +14,7 @@ from itertools import count
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import Candidate
 from checker.counterfactual.smallness import Usage, alternatives, cost_of, delay_of, follow_ups
+from checker.coverage import left_out
 from checker.losses import GoalFate
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.oracle import Verdict
@@ -25,6 +26,7 @@ _TURN = 0.3  # how much later each further edit of one line is tried
 _CONFIRMED = 3  # causes that are tried on other missions too
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 HEAVY = 10.0  # damage of a mission that passes without a goal
+_STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
 _CONSTANT = 0.5  # how much nearer a constant counts: a number that somebody chose, and one that is often wrong
 _SLOW = 8.0  # times the slowest flight before that passed or failed: a change may leave a search without an end
 _LEAST_SECONDS = 3.0  # that a flight may take
@@ -133,7 +135,7 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
         result = trials.fly(edit, failed[0])
         if result.verdict is not Verdict.PASS:
             continue
-        trial = LineTrial(candidate, edit, damage_of(result), cost)
+        trial = LineTrial(candidate, edit, damage_of(result) + _strayed(result, failed[0]), cost)
         if known is None or trial.damage + trial.cost < known.damage + known.cost:
             best[site] = trial
         for other in follow_ups(edit, site, usage) if trial.damage < HEAVY else ():
@@ -163,6 +165,13 @@ def damage_of(result: MissionResult) -> float:
     losses = result.losses
     goals = len(losses.goals) - losses.count(GoalFate.ACHIEVED)
     return 10.0 * goals + 1.0 * (losses.lost + losses.dropped) + 0.5 * losses.repaired
+
+
+def _strayed(result: MissionResult, failed: MissionResult) -> float:
+    """What a mission that passes no longer does of what the failed one did before it failed."""
+    if result.outcome is None or failed.outcome is None:
+        return 0.0
+    return min(_STRAYED * left_out(failed.outcome.behaviour, result.outcome.behaviour), _MOST_STRAYED)
 
 
 class _Trials:
@@ -216,7 +225,7 @@ class _Trials:
             missions += 1
             if result.verdict is Verdict.PASS:
                 helped += 1
-                damage = max(damage, damage_of(result))
+                damage = max(damage, damage_of(result) + _strayed(result, mission))
             else:
                 unhelped.append(mission)
         site = trial.candidate.site
@@ -226,5 +235,6 @@ class _Trials:
             again = self.fly(other, first)
             if again.verdict is Verdict.PASS:
                 cost = cost_of(other, site, usage)
-                return LineTrial(trial.candidate, other, damage_of(again), cost, missions, missions)
+                damage = damage_of(again) + _strayed(again, first)
+                return LineTrial(trial.candidate, other, damage, cost, missions, missions)
         return LineTrial(trial.candidate, trial.edit, damage, trial.cost, helped, missions, spoilt)
