@@ -142,6 +142,11 @@ class Universe:
         return (*sorted(found), *sorted(_EVENTS + zlib.crc32("\0".join(shape).encode()) for shape in shapes))
 
 
+def is_event(feature: int) -> bool:
+    """Whether a feature is a kind of event, whose number does not depend on what else the programs have."""
+    return feature >= _EVENTS
+
+
 def _runs(reactor: ReactorRecord) -> Iterator[BodyRun | RunColumns]:
     """The runs of rules of a reactor; of tokens that are alike, one for all."""
     tokens = reactor.tokens
@@ -151,12 +156,14 @@ def _runs(reactor: ReactorRecord) -> Iterator[BodyRun | RunColumns]:
 
 
 def _held(reactor: ReactorRecord) -> set[tuple[str, str]]:
-    """Which predicates were on which timelines."""
+    """Which predicates began on which timelines."""
     tokens = reactor.tokens
     if not isinstance(tokens, TokenColumns):
-        return {(str(token.object), token.predicate) for token in tokens}
+        begun = (one for one in tokens if isinstance(one.start, int) and one.start <= reactor.last_tick)
+        return {(str(token.object), token.predicate) for token in begun}
     count = len(tokens.names)
-    pairs = np.flatnonzero(np.bincount(tokens.times.objects * count + tokens.times.predicates))
+    pairs = tokens.times.objects * count + tokens.times.predicates
+    pairs = np.flatnonzero(np.bincount(pairs[tokens.times.starts <= reactor.last_tick]))
     return {(tokens.names[pair // count], tokens.names[pair % count]) for pair in pairs.tolist()}
 
 

@@ -158,17 +158,8 @@ def assess(
         rate = replace(rate, exceeds=True, is_certain=True)
     faults: list[Fault] = []
     buckets = _alike(group_failures(ordered), conditions or {})
-    if seeker is None:
-        sought = [(bucket, NO_CAUSES) for bucket in buckets]
-    elif focus is None:
-        sought = faults_of(buckets, ordered, seeker)
-    else:
-        sought = [
-            (one, seeker.causes(missions_of(one, ordered, focus)) if focus in one.missions else NO_CAUSES)
-            for one in buckets
-        ]
-    sought.sort(key=lambda one: -len(one[0].missions))
-    for position, (bucket, causes) in enumerate(sought):
+    sought = _with_causes(buckets, ordered, seeker, focus)
+    for position, (bucket, causes) in enumerate(sorted(sought, key=lambda one: -len(one[0].missions))):
         is_wanted = position < MOST_SOUGHT if focus is None else focus in bucket.missions
         members = set(bucket.missions)
         interval, _ = rate_interval(
@@ -183,6 +174,20 @@ def assess(
         run_id, mission, agent, seed, planned, ordered, rate, tuple(faults), tally(mission, ordered), ending,
         sampling, sensitivities(agent, ordered, check.confidence), cases,
     )  # fmt: skip
+
+
+def _with_causes(
+    buckets: tuple[Bucket, ...], results: tuple[MissionResult, ...], seeker: Seeker | None, focus: int | None
+) -> list[tuple[Bucket, Causes]]:
+    """Buckets, those of one fault joined, with the causes that a seeker finds; with a focus only for its bucket."""
+    if seeker is None:
+        return [(bucket, NO_CAUSES) for bucket in buckets]
+    if focus is None:
+        return faults_of(buckets, results, seeker)
+    return [
+        (one, seeker.causes(missions_of(one, results, focus)) if focus in one.missions else NO_CAUSES)
+        for one in buckets
+    ]
 
 
 def _fault(

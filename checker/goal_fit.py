@@ -9,9 +9,9 @@ from checker.mission_table import MissionText
 from compiler.program import DomainConstant, ParameterCode, Program
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.nearest import nearest
+from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.configuration import AgentConfiguration, Bounds, GoalConfiguration, Value
 
-_INFINITE = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
 _MOST_NAMED = 12
 
 
@@ -117,9 +117,9 @@ def _strange_number(value: Value | Bounds, domains: list[DomainConstant], *, is_
 
 
 def _range(least: float, most: float) -> str:
-    if most >= _INFINITE:
+    if most >= HALF_INF:
         return f"of at least {least:g}"
-    return f"of at most {most:g}" if least <= -_INFINITE else f"from {least:g} to {most:g}"
+    return f"of at most {most:g}" if least <= -HALF_INF else f"from {least:g} to {most:g}"
 
 
 def _strange_name(value: Value | Bounds, known: list[str] | None, what: str) -> Strange | None:

@@ -19,11 +19,11 @@ from checker.mission_table import describe
 from compiler.program import DomainConstant, ParameterSite, PredicateCode, Program
 from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.nearest import nearest
+from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.configuration import AgentConfiguration, ParameterConfiguration
 from runtime.executive.expression import parse_expression
 
 _Bounds = tuple[float, float]
-_INFINITE = 2.0**51  # bounds beyond count as infinite (docs/engine.md)
 
 
 def find_misfits(mission: Mission, programs: Mapping[str, Program]) -> Iterator[Diagnostic]:
@@ -154,6 +154,6 @@ def _bounds(domain: DomainConstant | None) -> _Bounds | None:
         return None
     if domain.interval is not None:
         lower, upper = domain.interval
-        return (float(lower), float(upper)) if max(abs(lower), abs(upper)) < _INFINITE else None
+        return (float(lower), float(upper)) if max(abs(lower), abs(upper)) < HALF_INF else None
     numbers = [float(value) for value in domain.values or () if isinstance(value, int | float)]
     return (min(numbers), max(numbers)) if numbers and len(numbers) == len(domain.values or ()) else None

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from checker.batch.pool import FlyBatch
+from checker.batch.pool import FlyBatch, keeping_a_worker
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
 from checker.conditions.record import write_condition
@@ -31,6 +31,7 @@ from checker.report.sarif import sarif_report
 from checker.report.text import text_report
 from checker.stopping import parse_rule
 from nddl_lang.analysis import analyse_file
+from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
 from nddl_lang.text.render import as_dict, render
@@ -108,13 +109,7 @@ def command(
     path = mission_here(path)
     (file,) = readable((path,), ())
     if file.suffix == ".nddl":
-        settings = configured(file)
-        callables, gaps = known_callables(settings, is_trusted=is_trusted)
-        analysis = analyse_file(file, chosen_dialect(ctx, None), callables=callables)
-        _tell((*gaps, *analysis.diagnostics), style)
-        if style == "text" and not analysis.has_errors:
-            click.echo(f"the text of `{path}` is in order; missions are flown from a mission file (.toml)")
-        return _UNUSABLE if analysis.has_errors else _HOLDS
+        return _check_text(file, chosen_dialect(ctx, None), style, path, is_trusted)
     rule = parse_rule(stop_when) if stop_when is not None else None
     if stop_when is not None and rule is None:
         raise Unusable(f"`{stop_when}` is no rule to stop by", 'write it as "p<0.01@95%" or "p>0.05@99%"')
@@ -131,6 +126,7 @@ def command(
         return _HOLDS
     promoted = _promoted(campaign, file)
     count, enough = workers or cores(), Enough(seconds, max_failures, rule)
+    ctx.with_resource(keeping_a_worker())
     try:
         with ExitStack() as stack:
             store = None if no_store else stack.enter_context(open_store(store_path))
@@ -151,6 +147,16 @@ def command(
         _keep(findings, store_path)
     code = _report(campaign, findings, style, output, coverage=coverage)
     return code if flown.ended_by is None else _SIGNALLED + flown.ended_by
+
+
+def _check_text(file: Path, dialect: Dialect | None, style: str, name: str, is_trusted: bool) -> int:
+    """Tell what is wrong with the text of a model that is called `name`; the exit code."""
+    callables, gaps = known_callables(configured(file), is_trusted=is_trusted)
+    analysis = analyse_file(file, dialect, callables=callables)
+    _tell((*gaps, *analysis.diagnostics), style)
+    if style == "text" and not analysis.has_errors:
+        click.echo(f"the text of `{name}` is in order; missions are flown from a mission file (.toml)")
+    return _UNUSABLE if analysis.has_errors else _HOLDS
 
 
 def _promoted(campaign: Campaign, file: Path) -> tuple[RegressionCase, ...]:

@@ -77,9 +77,23 @@ def fly_all(batch: Batch, supervisor: Supervisor) -> signal.Signals | None:
         count = batch.workers if batch.more is not nothing_more else min(batch.workers, len(tasks))
         pool = _Pool(replace(batch, tasks=tasks, workers=count), supervisor)
         try:
-            return pool.run(signalled)
+            ended_by = pool.run(signalled)
+            if ended_by is None:
+                pool.spare()
+            return ended_by
         finally:
             pool.stop()
+
+
+@contextlib.contextmanager
+def keeping_a_worker() -> Iterator[None]:
+    """Within this, a worker that has nothing left to do waits for who needs one next: starting one takes a second."""
+    _SPARE.is_wanted = True
+    try:
+        yield
+    finally:
+        _SPARE.is_wanted = False
+        _SPARE.dismiss()
 
 
 class Flyer:
@@ -92,8 +106,12 @@ class Flyer:
     def __enter__(self) -> "Flyer":
         return self
 
-    def __exit__(self, *_: object) -> None:
-        if self._worker is not None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if self._worker is None:
+            return
+        if kind is None:
+            _SPARE.keep(self._load, self._agent, self._worker)
+        else:
             self._worker.kill()
 
     def fly(
@@ -112,6 +130,8 @@ class Flyer:
         """
         limit = min(self._time_limit, most_seconds)
         task = Task(number, seed, agent, keeps_trace=keeps_trace, load=load)
+        if self._worker is None:
+            self._worker = _SPARE.take(self._load, self._agent)
         if self._worker is None:
             self._worker = _Worker(self._load, self._agent)
             if not self._worker.connection.poll(_START_LIMIT):
@@ -169,6 +189,38 @@ class _Worker:
         self.connection.close()
 
 
+class _Spare:
+    """A worker without missions, with what it has loaded; the latest one."""
+
+    def __init__(self) -> None:
+        self.is_wanted = False
+        self._kept: tuple[Load, AgentConfiguration, _Worker] | None = None
+
+    def keep(self, load: Load, agent: AgentConfiguration, worker: _Worker) -> None:
+        """Keep a worker, or end it where none is wanted."""
+        self.dismiss()
+        if self.is_wanted:
+            self._kept = (load, agent, worker)
+        else:
+            worker.kill()
+
+    def take(self, load: Load, agent: AgentConfiguration) -> _Worker | None:
+        """The worker that has loaded this."""
+        if self._kept is None or self._kept[0] is not load or self._kept[1] != agent:
+            return None
+        worker, self._kept = self._kept[2], None
+        return worker
+
+    def dismiss(self) -> None:
+        """End the one that is kept."""
+        if self._kept is not None:
+            self._kept[2].kill()
+            self._kept = None
+
+
+_SPARE = _Spare()
+
+
 class _Pool:
     def __init__(self, batch: Batch, supervisor: Supervisor) -> None:
         self.batch, self.supervisor = batch, supervisor
@@ -206,6 +258,13 @@ class _Pool:
             if worker.is_ready and not worker.owed:
                 self._feed(worker)
         return bool(tasks)
+
+    def spare(self) -> None:
+        """Leave a worker that has nothing to do to others, where that is wanted."""
+        idle = next((worker for worker in self.workers if worker.is_ready and not worker.owed), None)
+        if idle is not None and _SPARE.is_wanted:
+            self.workers.remove(idle)
+            _SPARE.keep(self.batch.load, self.batch.agent, idle)
 
     def stop(self) -> None:
         """End every worker; idle ones have nothing to lose, busy ones are not waited for."""

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from checker.batch.result import MissionResult
 from checker.counterfactual.trials import Missions
+from checker.coverage import is_event
 
 _MOST_FAILED = 3
 _MOST_PASSED = 2
@@ -27,7 +28,7 @@ def examples_of(failed: Sequence[MissionResult], passed: Sequence[MissionResult]
         return -sum(shares)
 
     chosen = sorted(passed, key=lambda one: (nearness(one), one.number))[:_MOST_PASSED]
-    return Missions(failed[:_MOST_FAILED], chosen, _only_exercised_by(failed, passed))
+    return Missions(failed[:_MOST_FAILED], chosen, _only_exercised_by(failed, passed), _usual(passed))
 
 
 def _only_exercised_by(failed: Sequence[MissionResult], passed: Sequence[MissionResult]) -> frozenset[int]:
@@ -37,6 +38,12 @@ def _only_exercised_by(failed: Sequence[MissionResult], passed: Sequence[Mission
     if not others:
         return frozenset()
     return frozenset.intersection(*behaviours) - frozenset[int]().union(*others)
+
+
+def _usual(passed: Sequence[MissionResult]) -> frozenset[int]:
+    """The kinds of events of all missions that passed."""
+    behaviours = [frozenset(filter(is_event, one.outcome.behaviour)) for one in passed if one.outcome is not None]
+    return frozenset.intersection(*behaviours) if behaviours else frozenset()
 
 
 def _drawn(result: MissionResult) -> dict[str, float]:

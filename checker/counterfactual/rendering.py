@@ -18,12 +18,15 @@ def claim_text(cause: RankedLine) -> str:
             return f"{change}: {_passes(cause)}"
         case Claim.LOOSENS:
             return f"{change}, which takes a demand away: {_passes(cause)}"
+        case Claim.CODED:
+            return f"{change}: {_passes(cause)}, so what the Python of `{cause.variable}` says may be mistaken"
         case Claim.PARTLY:
             if cause.spoilt:
                 return f"{change}: {_passes(cause)}, but missions that passed fail"
             return f"{change}: {tried} pass then, the others do not"
         case Claim.EVADES:
-            return f"{change}: {_passes(cause)}, but goals are lost"
+            less = "but it does less then" if cause.missions == 1 else "but they do less then"
+            return f"{change}: {_passes(cause)}, {less}"
         case Claim.LOOSE_END:
             return f"hardly a line of this rule speaks of `{cause.variable}`: one may be missing (nothing was flown)"
         case Claim.UNREAD:

@@ -7,7 +7,7 @@ to the least likely and end after so many flights or seconds: what could not be 
 import heapq
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from itertools import count
 
@@ -59,7 +59,7 @@ class Bounds:
 class LineTrial:
     """A change that makes the mission pass: what is still lost then, and on how many failed missions it helps.
 
-    `spoilt` missions passed before and do not with the change.
+    `spoilt` missions passed before and do not with the change; `is_evasive`: what is usual does not happen then.
     """
 
     candidate: Candidate
@@ -69,11 +69,17 @@ class LineTrial:
     helped: int = 1
     missions: int = 1
     spoilt: int = 0
+    is_evasive: bool = False
+
+    @property
+    def toll(self) -> float:
+        """What is lost with the change, and how unlikely it is."""
+        return self.damage + self.cost + (HEAVY if self.is_evasive else 0.0)
 
     @property
     def weight(self) -> tuple[float, float, float]:
         """What causes are ranked by: missions that fail with it; what is lost, how likely it is, and how far off."""
-        change = self.damage + self.cost + _FAR * self.candidate.far
+        change = self.toll + _FAR * self.candidate.far
         return self.spoilt + 1.0 - self.helped / self.missions, change, self.cost
 
 
@@ -102,12 +108,18 @@ class Trials:
 class Missions:
     """Missions of one fault, of which the first is what trials are made on; and some that passed.
 
-    `exercised` are the rules and branches (by number, see `checker.coverage`) that only missions of the fault reached.
+    `exercised` are the rules and branches (by number, see `checker.coverage`) that only missions of the fault reached;
+    `usual` is what happened in all missions that passed.
     """
 
     failed: Sequence[MissionResult]
     passed: Sequence[MissionResult] = ()
     exercised: frozenset[int] = frozenset()
+    usual: frozenset[int] = frozenset()
+
+    def is_evasive(self, result: MissionResult) -> bool:
+        """Whether a mission lacks what happened in all missions that passed."""
+        return result.outcome is not None and not self.usual.issubset(result.outcome.behaviour)
 
 
 def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, fly: Try, bounds: Bounds) -> Trials:
@@ -129,14 +141,15 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
         site = candidate.site
         cost = cost_of(edit, site, usage)
         known = best.get(site)
-        if (site, edit) in tried or (known is not None and known.damage + known.cost <= cost):
+        if (site, edit) in tried or (known is not None and known.toll <= cost):
             continue
         tried.add((site, edit))
         result = trials.fly(edit, failed[0])
         if result.verdict is not Verdict.PASS:
             continue
-        trial = LineTrial(candidate, edit, damage_of(result) + _strayed(result, failed[0]), cost)
-        if known is None or trial.damage + trial.cost < known.damage + known.cost:
+        damage = damage_of(result) + _strayed(result, failed[0])
+        trial = LineTrial(candidate, edit, damage, cost, is_evasive=missions.is_evasive(result))
+        if known is None or trial.toll < known.toll:
             best[site] = trial
         for other in follow_ups(edit, site, usage) if trial.damage < HEAVY else ():
             heapq.heappush(queue, (at * _FOLLOWED, next(order), candidate, other))
@@ -236,5 +249,6 @@ class _Trials:
             if again.verdict is Verdict.PASS:
                 cost = cost_of(other, site, usage)
                 damage = damage_of(again) + _strayed(again, first)
-                return LineTrial(trial.candidate, other, damage, cost, missions, missions)
-        return LineTrial(trial.candidate, trial.edit, damage, trial.cost, helped, missions, spoilt)
+                is_evasive = self.missions.is_evasive(again)
+                return LineTrial(trial.candidate, other, damage, cost, missions, missions, is_evasive=is_evasive)
+        return replace(trial, damage=damage, helped=helped, missions=missions, spoilt=spoilt)

@@ -13,6 +13,7 @@ from runtime.executive.columns import GuardColumns, RunColumns, TokenColumns, Va
 from runtime.executive.record import BodyRun, GuardRun, TokenRecord
 
 _KINDS = {"float": FLOAT, "int": INT, "bool": INT, "name": TEXT}
+_BLOCK = 8192  # rows
 _Shape = tuple["_RunShape", ...]  # of all runs of a token
 _RunShape = tuple[int, int, int, int]  # rule, how many locals, children and guards
 
@@ -116,34 +117,43 @@ class SymbolNumbers:
 
 
 def _in_columns(tokens: TokenColumns, texts: Texts, wanted: Mask, fewest: int) -> Iterator[AlikeTokens]:
-    """Of each group the tokens before the first one that is not wanted: it goes on when the mission ends."""
+    """Of each group the tokens before the first one that is not wanted: it goes on when the mission ends.
+
+    Large groups come in blocks, so that what is computed of them takes little memory.
+    """
     numbers = SymbolNumbers(tokens.symbols, texts)
     for group in tokens.groups:
         unwanted = np.flatnonzero(~wanted.take(group.indices))
         count = int(unwanted[0]) if len(unwanted) else len(group.indices)
         if count >= fewest:
-            runs = [_run_columns(run, numbers, count) for run in group.runs]
-            yield AlikeTokens(group.predicate, group.indices[:count], runs)
+            for first in range(0, count, _BLOCK):
+                last = min(first + _BLOCK, count)
+                runs = [_run_columns(run, numbers, first, last) for run in group.runs]
+                yield AlikeTokens(group.predicate, group.indices[first:last], runs)
 
 
-def _run_columns(run: RunColumns, numbers: SymbolNumbers, count: int) -> RunRows:
-    """The first runs of many."""
+def _run_columns(run: RunColumns, numbers: SymbolNumbers, first: int, last: int) -> RunRows:
+    """The runs from one on to before another."""
     return RunRows(
         run.rule,
-        [numbers.column(each).part(0, count) for each in run.locals],
-        [each[:count] for each in run.children],
-        [_branches(each, numbers, count) for each in run.guards],
+        [numbers.column(each._replace(numbers=each.numbers[first:last])) for each in run.locals],
+        [each[first:last] for each in run.children],
+        [_branches(each, numbers, first, last) for each in run.guards],
     )
 
 
-def _branches(guard: GuardColumns, numbers: SymbolNumbers, count: int) -> GuardRows:
-    """Both branches of a guard in the first runs."""
-    is_true = guard.is_true[:count]
+def _branches(guard: GuardColumns, numbers: SymbolNumbers, first: int, last: int) -> GuardRows:
+    """Both branches of a guard in the runs from one on to before another."""
+    is_true = guard.is_true[first:last]
+    before = int(np.count_nonzero(guard.is_true[:first]))  # runs that took the first branch
     parts = []
-    for branch, rows, run in (("then", is_true, guard.then), ("else", ~is_true, guard.otherwise)):
+    for branch, rows, run, past in (
+        ("then", is_true, guard.then, before),
+        ("else", ~is_true, guard.otherwise, first - before),
+    ):
         taken = np.flatnonzero(rows)
         if len(taken):
-            which = None if len(taken) == count else taken
-            inner = None if run is None else _run_columns(run, numbers, len(taken))
+            which = None if len(taken) == last - first else taken
+            inner = None if run is None else _run_columns(run, numbers, past, past + len(taken))
             parts.append(BranchRows(branch, True, which, inner))
     return parts

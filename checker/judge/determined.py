@@ -3,12 +3,11 @@
 from checker.judge.functions import COMPUTED
 from checker.judge.operands import BodyFrame, VariableNames
 from checker.judge.solving import solver
-from checker.judge.values import UNKNOWN, is_open
+from checker.judge.values import ENDLESS, UNKNOWN, is_open
 from compiler.program import Constant, GlobalVariable, LocalVariable, Operand, Post, TokenVariable
 from runtime.executive.record import Value
 
 _OWN, _CHILD, _OTHER = range(3)
-_ENDLESS = 2**51  # bounds from here on are none
 _EQUALITIES = ("eq", "concurrent")
 
 
@@ -46,7 +45,7 @@ class Determined:
         unfixed = [k for k, value in enumerate(values) if is_open(value)]
         if len(unfixed) != 1 or (unfixed[0] != self.index and not self.is_equality):
             return False
-        if any(isinstance(value, (int, float)) and abs(value) >= _ENDLESS for value in values):
+        if any(isinstance(value, (int, float)) and abs(value) >= ENDLESS for value in values):
             return False  # what lies beyond the bounds of numbers is never fixed
         k = unfixed[0]
         if self.owners[k] == _CHILD:

@@ -5,7 +5,7 @@ from math import inf
 from typing import Any, assert_never
 
 from checker.judge.bench import Bench, Tok, clock, duration_of
-from checker.judge.values import UNKNOWN, hull, is_open
+from checker.judge.values import ENDLESS, UNKNOWN, hull, is_open
 from compiler.program import (
     DURATION,
     END,
@@ -26,7 +26,6 @@ from compiler.program import (
 from runtime.executive.record import BodyRun, GuardRun, OpenValues, Value, ValueRange
 
 BUILT_IN = {STATE: "state", OBJECT: "object", DURATION: "duration", START: "start", END: "end"}
-_ENDLESS = 2**51
 
 
 class BodyFrame:
@@ -105,7 +104,7 @@ def domain_value(domain: DomainConstant) -> Value:
     lower, upper = domain.interval
     if lower == upper:
         return float(lower) if domain.kind == "float" else lower
-    return ValueRange(-inf if lower <= -_ENDLESS else lower, inf if upper >= _ENDLESS else upper)
+    return ValueRange(-inf if lower <= -ENDLESS else lower, inf if upper >= ENDLESS else upper)
 
 
 def reader(operand: Operand, names: VariableNames) -> Read:

@@ -2,6 +2,8 @@
 
 from math import inf
 
+from checker.judge.values import ENDLESS
+
 # Times of the origin and of the target; a demand is: lower <= second - first <= upper.
 OS, OE, _TS, TE = range(4)
 Demand = tuple[int, int, float, float]
@@ -44,8 +46,6 @@ DEMANDS: dict[str, tuple[Demand, ...]] = {
     "contains_end": (_earlier(OS, TE), _not_after(TE, OE)),
 }
 
-_ENDLESS = 2**51  # bounds from here on are none
-
 
 def demands(relation: str, bounds: tuple[tuple[int, int], ...]) -> tuple[Demand, ...]:
     """The demands of a relation, with the bounds that were written behind it in place of its own."""
@@ -53,5 +53,5 @@ def demands(relation: str, bounds: tuple[tuple[int, int], ...]) -> tuple[Demand,
     for k, (first, second, lower, upper) in enumerate(DEMANDS[relation]):
         if k < len(bounds):
             lower, upper = bounds[k]
-        found.append((first, second, -inf if lower <= -_ENDLESS else lower, inf if upper >= _ENDLESS else upper))
+        found.append((first, second, -inf if lower <= -ENDLESS else lower, inf if upper >= ENDLESS else upper))
     return tuple(found)

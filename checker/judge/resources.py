@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import inf
+from math import inf, isnan, nan
 
 from checker.judge.bench import Bench, Tok
 from checker.judge.report import ResourceProfile
@@ -17,9 +17,13 @@ _RESOURCES = frozenset({"Reservoir", "Reusable", "CBReusable", "Unary"})
 
 @dataclass(frozen=True, slots=True)
 class _ResourceUse:
-    """Something that changes a level: `amount` is added at `start` and, if it is given back, taken away at `end`."""
+    """Something that changes a level: `amount` is added at `start` and, if it is given back, taken away at `end`.
 
-    start: int
+    Where its time was left open it begins at `earliest` or later, and at `start` at the latest.
+    """
+
+    earliest: float
+    start: float
     end: int | None
     amount: float
     tok: Tok | None
@@ -99,37 +103,44 @@ def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
 def _use(
     bench: Bench, kind: str, quantity: Value, start: Value, end: Value, tok: Tok | None, span: Span | None
 ) -> Iterator[_ResourceUse]:
-    if not isinstance(start, int):
-        bench.skip("a use whose start was never fixed")
-    elif start > bench.last_tick:
+    earliest, latest = start if isinstance(start, ValueRange) else (_number(start), _number(start))
+    if earliest > bench.last_tick:
         return
-    elif isinstance(quantity, (tuple, str)):
-        bench.skip("a use whose quantity was never fixed")
-    elif kind in ("produce", "consume"):
-        yield _ResourceUse(start, None, float(quantity) if kind == "produce" else -float(quantity), tok, span)
+    amount = nan if isinstance(quantity, (tuple, str)) else float(quantity)
+    if kind in ("produce", "consume"):
+        yield _ResourceUse(earliest, latest, None, amount if kind == "produce" else -amount, tok, span)
     else:
-        yield _ResourceUse(start, end if isinstance(end, int) else bench.last_tick + 1, -float(quantity), tok, span)
+        yield _ResourceUse(earliest, latest, end if isinstance(end, int) else bench.last_tick + 1, -amount, tok, span)
+
+
+def _number(value: Value) -> float:
+    return value if isinstance(value, int) else nan
 
 
 def _judge_level(bench: Bench, resource: str, limits: _ResourceLimits, uses: list[_ResourceUse]) -> None:
-    """Judge the level at each instant at which it changes, and the flows."""
-    changes: dict[int, float] = {}
-    drawn: dict[int, float] = {}
-    made: dict[int, float] = {}
+    """Judge the level at each instant at which it changes, and the flows; open times may be any of theirs."""
+    if any(isnan(use.amount) or isnan(use.start) for use in uses):
+        bench.skip("a resource with a use whose quantity or time was never fixed")
+        return
+    drawn: dict[float, float] = {}
+    made: dict[float, float] = {}
     for use in uses:
-        changes[use.start] = changes.get(use.start, 0.0) + use.amount
-        flow = drawn if use.amount < 0 else made
-        flow[use.start] = flow.get(use.start, 0.0) + abs(use.amount)
-        if use.end is not None:
-            changes[use.end] = changes.get(use.end, 0.0) - use.amount
-    levels = _levels(limits.initial, changes, bench.last_tick)
+        if use.start <= bench.last_tick:
+            flow = drawn if use.amount < 0 else made
+            flow[use.start] = flow.get(use.start, 0.0) + abs(use.amount)
+    levels = _levels(limits.initial, _changes(uses, 0), bench.last_tick)
     first = () if levels and levels[0][0] <= 0 else ((0, limits.initial),)
     bench.profiles.append(ResourceProfile(bench.reactor, resource, limits.least, limits.most, (*first, *levels)))
-    for tick, level in levels:
-        bench.judged += 1
-        if not limits.least - TOLERANCE <= level <= limits.most + TOLERANCE:
-            _exceeded(bench, resource, "level", level, limits.least, limits.most, tick, uses)
-            return
+    lowest = highest = levels
+    if any(use.earliest != use.start for use in uses):
+        lowest, highest = (_levels(limits.initial, _changes(uses, sign), bench.last_tick) for sign in (-1, 1))
+    bench.judged += len(levels)
+    too_low = next(((tick, level) for tick, level in highest if level < limits.least - TOLERANCE), None)
+    too_high = next(((tick, level) for tick, level in lowest if level > limits.most + TOLERANCE), None)
+    broken = min((one for one in (too_low, too_high) if one is not None), default=None)
+    if broken is not None:
+        _exceeded(bench, resource, "level", broken[1], limits.least, limits.most, broken[0], uses)
+        return
     for name, flow, rate, total in (
         ("consumption", drawn, limits.consumption_rate, limits.consumption),
         ("production", made, limits.production_rate, limits.production),
@@ -142,12 +153,23 @@ def _judge_level(bench: Bench, resource: str, limits: _ResourceLimits, uses: lis
             _exceeded(bench, resource, f"{name} altogether", sum(flow.values()), 0.0, total, bench.last_tick, uses)
 
 
-def _levels(level: float, changes: Mapping[int, float], last_tick: int) -> list[tuple[int, float]]:
+def _changes(uses: list[_ResourceUse], sign: int) -> dict[float, float]:
+    """What is added at each time; what has the `sign` comes as early as it may, all else as late as it may."""
+    changes: dict[float, float] = {}
+    for use in uses:
+        time = use.earliest if use.amount * sign > 0 else use.start
+        changes[time] = changes.get(time, 0.0) + use.amount
+        if use.end is not None:
+            changes[use.end] = changes.get(use.end, 0.0) - use.amount
+    return changes
+
+
+def _levels(level: float, changes: Mapping[float, float], last_tick: int) -> list[tuple[int, float]]:
     """The level after each change, from the one before all."""
     levels = []
     for tick in sorted(tick for tick in changes if tick <= last_tick):
         level += changes[tick]
-        levels.append((tick, level))
+        levels.append((int(tick) if tick > -inf else 0, level))
     return levels
 
 
@@ -158,11 +180,11 @@ def _exceeded(
     amount: float,
     least: float,
     most: float,
-    tick: int,
+    tick: float,
     uses: list[_ResourceUse],
 ) -> None:
     users = tuple(use.tok for use in uses if use.tok is not None and use.start <= tick)[-4:]
     span = next((use.span for use in reversed(uses) if use.span is not None and use.start <= tick), None)
-    values: tuple[tuple[str, Value], ...] = ((what, amount), ("tick", tick))
+    values: tuple[tuple[str, Value], ...] = ((what, amount), ("tick", int(tick)))
     found = f"above {most:g}" if amount > most else f"below {least:g}"
     bench.report("level", resource, users, values, what, found, span)

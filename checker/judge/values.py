@@ -10,6 +10,7 @@ from runtime.executive.record import OpenValues, Value, ValueRange
 
 TOLERANCE = 1e-5
 RELATIVE = 1e-9  # what sums and products of doubles may lose
+ENDLESS = 2**51  # bounds from here on are none (docs/engine.md)
 
 _Scalar = float | int | bool | str
 Hull = tuple[float, float]

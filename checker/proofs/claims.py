@@ -10,10 +10,10 @@ from typing import Any
 
 import z3
 
+from checker.judge.values import ENDLESS
 from runtime.plan.readout.names import VariableName
 from runtime.plan.readout.statements import Argument, Term
 
-ENDLESS = 2**51  # bounds from here on are none (docs/engine.md)
 _NAMED = ("symbol", "object", "string")  # kinds whose values are names
 Number = Any  # z3.ArithRef: z3 tells type checkers nothing
 Claim = Any  # z3.BoolRef

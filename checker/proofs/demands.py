@@ -7,7 +7,8 @@ from math import isinf
 import z3
 
 from checker.judge.relations import demands as relation_demands
-from checker.proofs.claims import ENDLESS, Claim, Number, claim_of, is_silent
+from checker.judge.values import ENDLESS
+from checker.proofs.claims import Claim, Number, claim_of, is_silent
 from checker.proofs.operands import ProgramNames, Symbols, name_of, number, token_number
 from compiler.program import (
     END,

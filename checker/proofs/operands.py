@@ -11,7 +11,8 @@ from typing import Protocol, assert_never
 
 import z3
 
-from checker.proofs.claims import ENDLESS, Claim, Number
+from checker.judge.values import ENDLESS
+from checker.proofs.claims import Claim, Number
 from compiler.program import (
     FIRST_PARAMETER,
     TOKEN_VARIABLES,

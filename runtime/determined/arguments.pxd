@@ -1,13 +1,17 @@
 # The C types of `arguments.py`.
 
 cimport cython
+from runtime.determined.log cimport Log
 
-
-cpdef tuple arguments_of(program, predicate, list values)
 
 cpdef list shapes_of(program, predicate)
 
 @cython.locals(k="long long", kind=str, known=dict, name=str, told=list, type_name=str, value="double")
 cpdef tuple arguments_from(list shapes, names, list values)
+
+@cython.locals(k="long long", kind=str, known=dict, name=str, told=list, type_name=str, value="double")
+cpdef tuple arguments_at(list shapes, names, Log log, long long first)
+
+cpdef object _made(str kind, str type_name, interval, values)
 
 cpdef object _domain_of(names, str kind, str type_name, double value)

@@ -35,7 +35,6 @@ cdef class Log:
 
     cpdef long long row_of(self, long long line, long long row) except? -1
 
-    @cython.locals(more="long long[::1]")
     cpdef int tell_row(self, long long row, long long event, long long cause) except -1
 
     @cython.locals(at="long long")
@@ -44,8 +43,6 @@ cdef class Log:
     @cython.locals(k="long long")
     cpdef list values_from(self, long long first, long long count)
 
-    @cython.locals(more="long long[::1]")
     cpdef int grow_rows(self) except -1
 
-    @cython.locals(more="double[::1]")
     cpdef int grow_values(self) except -1

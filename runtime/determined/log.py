@@ -34,6 +34,14 @@ class _Stock:
         del self.owned[:-_MOST_KEPT]
         return lease.data
 
+    def more(self, old: "memoryview[Any]", used: int) -> "memoryview[Any]":
+        """Room for twice as many numbers, with those of `old`, whose memory is not kept: it has proved too small."""
+        room = self.room(2 * len(old))
+        room[:used] = old[:used]
+        outgrown = getattr(old, "base", old).obj  # compiled, an attribute gives a view of the view
+        self.owned = [one for one in self.owned if one[1]() is not outgrown]
+        return room
+
 
 def _size(one: tuple[_Array, object]) -> int:
     return len(one[0])
@@ -164,9 +172,7 @@ class Log:
     def tell_row(self, row: int, event: int, cause: int) -> int:
         """Number one token."""
         if self.told_count == len(self.told):
-            more = _WHOLE.room(2 * self.told_count)
-            more[: self.told_count] = self.told
-            self.told = more
+            self.told = _WHOLE.more(self.told, self.told_count)
         self.told[self.told_count] = row
         self.told_count += 1
         self.rows[ROW * row + EVENT] = event
@@ -193,16 +199,12 @@ class Log:
 
     def grow_rows(self) -> int:
         """Make room for twice as many tokens."""
-        more = _WHOLE.room(ROW * 2 * self.row_capacity)
-        more[: ROW * self.row_capacity] = self.rows[: ROW * self.row_capacity]
-        self.rows = more
-        self.row_capacity = len(more) // ROW
+        self.rows = _WHOLE.more(self.rows, ROW * self.row_capacity)
+        self.row_capacity = len(self.rows) // ROW
         return 0
 
     def grow_values(self) -> int:
         """Make room for twice as many parameters."""
-        more = _REAL.room(2 * self.value_capacity)
-        more[: self.value_capacity] = self.values
-        self.values = more
-        self.value_capacity = len(more)
+        self.values = _REAL.more(self.values, self.value_capacity)
+        self.value_capacity = len(self.values)
         return 0

@@ -7,7 +7,7 @@ from runtime.determined.present cimport Present
 
 cdef long long CHANGES, DUE, ENDING, FOLLOWER, LEAST, MOST, NONE, OWNER, PREDICATE, ROW, RUNS_ON, SLOT, START, STOPS, WISHED
 cdef long long WISH, WISH_END_FROM, WISH_END_UNTIL, WISH_FROM, WISH_LEAST, WISH_MOST
-cdef double _LARGEST, _NAN, _TOLERANCE
+cdef double _COARSE, _LARGEST, _NAN, _TOLERANCE
 
 
 cdef class Machine:

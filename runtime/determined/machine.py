@@ -41,6 +41,7 @@ from runtime.determined.tags import (
 _NAN = float("nan")
 _TOLERANCE = 1e-5  # that of the engine's floats
 _LARGEST = 2.0**51  # what is larger counts as infinite
+_COARSE = 2.0**32  # beyond it the last places of sums come near the tolerance, where an interval engine decides
 
 
 class Machine:
@@ -203,8 +204,8 @@ class Machine:
             first = self.current[line]
             for j in range(self.width[line]):
                 value = self.registers[first + j]
-                if value >= _LARGEST or value <= -_LARGEST:
-                    return False  # as good as infinite
+                if value >= _COARSE or value <= -_COARSE:
+                    return False
                 log.values[at + j] = value
         if self.shows:
             first = self.shown_first[block]

@@ -1,11 +1,11 @@
 # The C types of `publish.py`.
 
 cimport cython
-from runtime.determined.arguments cimport arguments_of
+from runtime.determined.arguments cimport arguments_at, shapes_of
 from runtime.determined.log cimport Log
 from runtime.determined.machine cimport Machine
 
-cdef long long FAR, ROW, WISHED, _NOTHING
+cdef long long EVENT, FAR, ROW, WISHED, _NOTHING
 
 
 cdef class Samples:
@@ -22,7 +22,7 @@ cdef class Publisher:
     cdef public Samples samples
     cdef public Log log
     cdef public dict asked
-    cdef public list wishes
+    cdef public list wishes, line_names, short_names, shapes
     cdef public long long busy
 
     @cython.locals(log=Log, first="long long", count="long long")
@@ -33,6 +33,7 @@ cdef class Publisher:
     @cython.locals(found=list, log=Log, place="long long")
     cpdef list _seen(self, long long tick, long long watched)
 
+    @cython.locals(at="long long", log=Log, predicate="long long", shapes=list, tick="long long")
     cpdef object _observation(self, long long row)
 
     @cython.locals(log=Log, rows=dict)

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from runtime.determined.arguments import arguments_of
-from runtime.determined.loading import RegisterProgram
+from runtime.determined.arguments import arguments_at, shapes_of
+from runtime.determined.loading import ParameterShape, RegisterProgram
 from runtime.determined.log import Log
 from runtime.determined.machine import Machine
-from runtime.determined.tags import FAR, ROW, WISHED
+from runtime.determined.tags import EVENT, FAR, ROW, WISHED
 from runtime.determined.told import Told
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Draw, EventKind, Phase
@@ -59,6 +59,9 @@ class Publisher:
         self.samples = samples
         self.trace = trace
         self.columns = Told(name, program, log)
+        self.line_names = [line.name for line in program.model.lines]
+        self.short_names = list(program.model.short_names)
+        self.shapes: list[list[ParameterShape] | None] = [None] * len(self.short_names)  # by predicate
         for k, line in enumerate(program.internal):
             log.order[k] = line
         log.shown = len(program.internal)
@@ -100,12 +103,14 @@ class Publisher:
         return found
 
     def _observation(self, row: int) -> Observation:
-        tick, line, predicate, _, first, event, _ = self.log.row(row)
-        program = self.program
-        code = program.model.program.predicates[predicate]
-        arguments = arguments_of(program, code, self.log.values_from(first, len(code.parameters)))
-        name, short = program.model.lines[line].name, program.model.short_names[predicate]
-        return Observation(tick, name, short, arguments, event, self.name, row, tick)
+        log, at = self.log, ROW * row
+        predicate = log.rows[at + 2]
+        shapes = self.shapes[predicate]
+        if shapes is None:
+            shapes = self.shapes[predicate] = shapes_of(self.program, self.program.model.program.predicates[predicate])
+        arguments = arguments_at(shapes, self.program.all_names(), log, log.rows[at + 4])
+        name, short, tick = self.line_names[log.rows[at + 1]], self.short_names[predicate], log.rows[at]
+        return Observation(tick, name, short, arguments, log.rows[at + EVENT], self.name, row, tick)
 
     def _tell_tick(self, tick: int) -> None:
         """Put a tick on record in which something was drawn, or something that was asked for begins or ends."""

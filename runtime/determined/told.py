@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from runtime.determined.arguments import arguments_from, arguments_of, shapes_of
+from runtime.determined.arguments import arguments_at, arguments_from, shapes_of
 from runtime.determined.loading import ParameterShape, RegisterProgram
 from runtime.determined.log import Log
 from runtime.determined.tags import CAUSE, ROW
@@ -51,7 +51,7 @@ class Told:
         row = self.log.told[place]
         _, _, predicate, _, first, *_ = self.log.row(row)
         code = self.program.model.program.predicates[predicate]
-        arguments = arguments_of(self.program, code, self.log.values_from(first, len(code.parameters)))
+        arguments = arguments_at(shapes_of(self.program, code), self.program.all_names(), self.log, first)
         return _observation(self.name, self.head(place), arguments, self.causes(place), TokenName(code.name, row))
 
     def published(self) -> tuple[PublishedColumns, ...]:

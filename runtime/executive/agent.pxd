@@ -27,6 +27,7 @@ cdef class Agent:
     @cython.locals(busy=list)
     cpdef object _deliberate(self)
 
+    @cython.locals(most=double, urgency=double)
     cpdef object _most_urgent(self, list busy)
 
     cpdef object _post_goals(self, list busy)

@@ -219,8 +219,12 @@ class Agent:
         """Who comes next; of equal ones the first."""
         if len(busy) == 1:
             return busy[0]
-        urgencies = [reactor.urgency(self.tick) for reactor in busy]
-        return busy[urgencies.index(max(urgencies))]
+        first, most = busy[0], busy[0].urgency(self.tick)
+        for reactor in busy[1:]:
+            urgency = reactor.urgency(self.tick)
+            if urgency > most:
+                first, most = reactor, urgency
+        return first
 
     def _post_goals(self, busy: list[TeleoReactor]) -> Abort | None:
         """Hand the goals of the mission file that are due to the owners of their timelines, or take them back."""

@@ -1,11 +1,14 @@
 # The C types of `coded_reactor.py`.
 
+cimport cython
+
 cdef long long _NEVER
 
 
 cdef class CodedReactor:
     cdef public str name
-    cdef public tuple internal, external, files
+    cdef public tuple internal, external, files, wakes_on
+    cdef public bint is_stirred
     cdef public long long latency, lookahead, due, count
     cdef public object caller, make, kinds, trace, code, wakes
     cdef public dict seen, events, news, numbers
@@ -21,6 +24,7 @@ cdef class CodedReactor:
 
     cpdef object notify(self, observation)
 
+    @cython.locals(arguments=dict, told=list)
     cpdef object synchronise(self, long long tick)
 
     cpdef object _call(self, now)

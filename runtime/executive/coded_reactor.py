@@ -11,11 +11,11 @@ from runtime.executive.outcome import Conflict, EventKind, OpenGoal, Reason, Rea
 from runtime.executive.reactor import Failure, Refusal
 from runtime.executive.trace import Trace
 from runtime.plan.readout.names import VariableName
+from runtime.plan.tags import INFINITY
 from runtime.user.fault import failed
 from runtime.user.limit import WATCH, Plain
 from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen, Ticks
 
-_INFINITY = 4503599627370495
 _NEVER = 2**62
 _MOST_CAUSES = 3
 _NOBODY: frozenset[int] = frozenset()
@@ -28,7 +28,12 @@ class CodedReactor:
     runs_ahead = False
 
     def __init__(
-        self, configuration: CodeConfiguration, make: Callable[[], Reactor], kinds: _Kinds, trace: Trace
+        self,
+        configuration: CodeConfiguration,
+        make: Callable[[], Reactor],
+        kinds: _Kinds,
+        trace: Trace,
+        wakes_on: tuple[str, ...] | None = None,
     ) -> None:
         self.name = configuration.name
         self.internal = configuration.internal
@@ -45,6 +50,8 @@ class CodedReactor:
         self.seen: dict[str, Seen] = {}
         self.events: dict[str, int] = {}
         self.news: dict[str, Observation] = {}
+        self.wakes_on = self.external if wakes_on is None else tuple(wakes_on)
+        self.is_stirred = False  # something has begun to hold on one of these
         self.refused_numbers: list[int] = []
         self.wakes = {0}  # the ticks at which the code wants to be called
         self.published: list[Published] = []
@@ -74,19 +81,31 @@ class CodedReactor:
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published."""
         self.news[observation.timeline] = observation
-        self.due = observation.tick
+        if observation.timeline in self.wakes_on:
+            self.is_stirred = True
+            self.due = observation.tick
 
     def synchronise(self, tick: int) -> Failure | None:
         """Let the code speak, if there is anything new."""
-        if not self.news and not self.refused_numbers and tick < min(self.wakes, default=_NEVER):
+        if not self.is_stirred and not self.refused_numbers and tick < min(self.wakes, default=_NEVER):
             return None
+        told: list[str] = []
         for timeline, observation in self.news.items():
-            arguments = {name: _shown(domain) for name, domain in observation.arguments}
+            arguments: dict[str, Argument] = {}
+            for name, domain in observation.arguments:
+                interval = domain.interval  # mostly of a single number
+                if interval is not None and interval[0] == interval[1]:
+                    arguments[name] = interval[0]
+                else:
+                    arguments[name] = _shown(domain)
             self.seen[timeline] = Seen(observation.predicate, arguments, observation.tick)
             self.events[timeline] = observation.event
+            if observation.tick == tick or timeline in self.wakes_on:
+                told.append(timeline)
         refused = frozenset(self.refused_numbers) if self.refused_numbers else _NOBODY
-        now = Now(tick, dict(self.seen), frozenset(self.news), refused, self.count)
+        now = Now(tick, dict(self.seen), frozenset(told), refused, self.count)
         self.news.clear()
+        self.is_stirred = False
         if self.refused_numbers:
             self.refused_numbers = []
         self.wakes = {wake for wake in self.wakes if wake > tick}
@@ -124,6 +143,9 @@ class CodedReactor:
 
     def _take(self, now: Now) -> None:
         """Check what the code has said; raises ValueError and its like for what makes no sense."""
+        for name in self.wakes_on:
+            if name not in self.external:
+                raise ValueError(f"it wants to be woken by `{name}`, which it does not use")
         for one in now.published:
             if one.timeline not in self.internal:
                 raise ValueError(f"it published on `{one.timeline}`, which it does not own")
@@ -141,7 +163,9 @@ class CodedReactor:
                 raise ValueError(f"it wants to be woken at {tick!r}, which is not later than {now.tick}")
         self.wakes.update(now.wakes)
         self.published, self.recalled = now.published, now.recalled
-        self.asked = [asked for asked in now.asked if asked.number not in now.recalled]
+        self.asked = now.asked
+        if now.recalled:
+            self.asked = [asked for asked in now.asked if asked.number not in now.recalled]
         self.count += len(now.asked)
 
     def observations(self, tick: int) -> list[Observation]:
@@ -177,7 +201,9 @@ class CodedReactor:
 
     def requests(self, tick: int) -> list[Request]:
         """What the code has asked for in this tick."""
-        found = []
+        found: list[Request] = []
+        if not self.asked:
+            return found
         for one in self.asked:
             arguments = self._arguments(one.timeline, one.predicate, one.arguments)
             bounds = TimeBounds(_bounds(one.start), _bounds(one.end), _bounds(one.duration))
@@ -208,7 +234,9 @@ class CodedReactor:
 
     def recalls(self) -> list[int]:
         """Numbers of the requests that the code takes back."""
-        found = []
+        found: list[int] = []
+        if not self.recalled:
+            return found
         for own in self.recalled:
             number = self.numbers.pop(own, None)
             if number is not None:
@@ -222,7 +250,9 @@ class CodedReactor:
 
     def refusals(self) -> list[Refusal]:
         """What it was asked for and does not do, which is all."""
-        found, self.given_up = self.given_up, []
+        found = self.given_up
+        if found:
+            self.given_up = []
         return found
 
     def refused(self, refusal: Refusal) -> None:
@@ -289,13 +319,13 @@ def _domain(name: str, value: object, kind: tuple[str, str] | None) -> DomainCon
 def _number(name: str, value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or isnan(value):
         raise ValueError(f"`{name}` is {value!r}, which is no value of a parameter")
-    return float(max(-_INFINITY, min(value, _INFINITY)))
+    return float(max(-INFINITY, min(value, INFINITY)))
 
 
 def _bounds(given: Ticks) -> tuple[int, int]:
     """Bounds of a time; raises ValueError or TypeError for what are none."""
     if given is None:
-        return (-_INFINITY, _INFINITY)
+        return (-INFINITY, INFINITY)
     lower, upper = (given, given) if isinstance(given, int) else given
     if not isinstance(lower, int) or not isinstance(upper, int) or lower > upper:
         raise ValueError(f"{given!r} are no ticks")

@@ -8,13 +8,13 @@ the last two enter the plan, as if the reactor had been woken by each; the other
 from math import inf
 
 from compiler.program import DomainConstant, PredicateCode
+from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.messages import Observation
 from runtime.executive.record import NOBODY, TokenRecord, Value
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.view import SPAN_EXECUTIVE, SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
 
-_LARGEST = 2.0**51  # what is larger counts as infinite
 _KEPT = 2  # the current token, and the one before it for rules that say "met by"
 
 
@@ -158,7 +158,7 @@ class Deferral:
 
 def _is_unlimited(domain: DomainConstant | None) -> bool:
     return domain is None or (
-        domain.interval is not None and domain.interval[0] <= -_LARGEST and domain.interval[1] >= _LARGEST
+        domain.interval is not None and domain.interval[0] <= -HALF_INF and domain.interval[1] >= HALF_INF
     )
 
 

@@ -2,9 +2,10 @@
 
 cimport cython
 from runtime.executive.timelines cimport TimelineState
+from runtime.executive.view cimport whole_bound
 from runtime.executive.workbench cimport Workbench
 
-cdef long long NOTHING, _INFINITY
+cdef long long NOTHING, INFINITY
 
 
 cdef class Dispatch:
@@ -52,6 +53,3 @@ cdef class Dispatch:
 
     @cython.locals(bench=Workbench, earliest="long long", is_same=bint)
     cpdef bint _is_void(self, request, long long token, long long key, long long tick) except -1
-
-
-cpdef long long _whole(double bound) except? -1

@@ -4,9 +4,9 @@ from runtime.executive.messages import Request
 from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.trace import Trace
+from runtime.executive.view import whole_bound
 from runtime.executive.workbench import Workbench
-
-_INFINITY = 4503599627370495
+from runtime.plan.tags import INFINITY
 
 
 class Dispatch:
@@ -151,10 +151,10 @@ class Dispatch:
         """
         bench = self.bench
         is_command = self.owner_windows.get(timeline, (0, 1))[1] <= 1
-        end = _INFINITY if is_command else _whole(bench.upper(bench.end(token)))
-        earliest = max(tick + 1, _whole(bench.lower(bench.start(token))))
-        start = (earliest, _whole(bench.upper(bench.start(token))))
-        return TimeBounds(start, (-_INFINITY, end), (1, _INFINITY))
+        end = INFINITY if is_command else whole_bound(bench.upper(bench.end(token)))
+        earliest = max(tick + 1, whole_bound(bench.lower(bench.start(token))))
+        start = (earliest, whole_bound(bench.upper(bench.start(token))))
+        return TimeBounds(start, (-INFINITY, end), (1, INFINITY))
 
     def open_requests(self) -> list[int]:
         """Numbers of the requests that have been made and are not over."""
@@ -202,8 +202,3 @@ class Dispatch:
         earliest = max(tick + 1, request.start[0])
         is_same = now.start == (earliest, request.start[1]) and now.end == request.end
         return not is_same or bench.arguments(token) != request.arguments
-
-
-def _whole(bound: float) -> int:
-    """A whole bound; infinities as NDDL has them."""
-    return int(max(-_INFINITY, min(bound, _INFINITY)))

@@ -20,13 +20,13 @@ from runtime.executive.reactor import TeleoReactor
 from runtime.executive.record import MissionRecord
 from runtime.executive.stock import Loans
 from runtime.executive.trace import Trace
+from runtime.executive.view import whole_bound
 from runtime.executive.workbench import Workbench
 from runtime.plan.database import Environment, PlanDatabase
+from runtime.plan.tags import INFINITY
 from runtime.solver.configuration.configuration import Configuration
 from runtime.user.constraint import Constraint
 from runtime.user.reactor import Reactor as UserReactor
-
-_INFINITY = 4503599627370495
 
 
 class UnusableModelError(ValueError):
@@ -155,7 +155,7 @@ def _make_reactors(
     kinds_of = partial(_parameter_kinds, configuration, programs)
     for coded, cls in zip(configuration.coded, programs.code, strict=True):
         make = partial(cls, {"folder": configuration.root, **dict(coded.settings), "seed": seed})
-        reactors.append(CodedReactor(coded, make, kinds_of, trace))
+        reactors.append(CodedReactor(coded, make, kinds_of, trace, cls.wakes_on))
     return reactors
 
 
@@ -253,12 +253,8 @@ def request_of(goal: GoalConfiguration, number: int, kinds: Mapping[str, tuple[s
 
 def _bounds(given: tuple[float, float] | None) -> tuple[int, int]:
     if given is None:
-        return (-_INFINITY, _INFINITY)
-    return (_whole(given[0]), _whole(given[1]))
-
-
-def _whole(bound: float) -> int:
-    return int(max(-_INFINITY, min(bound, _INFINITY)))
+        return (-INFINITY, INFINITY)
+    return (whole_bound(given[0]), whole_bound(given[1]))
 
 
 def _domain(value: Value | tuple[float, float], kind: str, type_name: str) -> DomainConstant:

@@ -3,7 +3,15 @@
 from math import isinf
 
 from compiler.program import FIRST_PARAMETER, OBJECT, START
-from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT, KIND_OBJECT, KIND_STRING, KIND_SYMBOL
+from runtime.constraints.domains.tags import (
+    HALF_INF,
+    KIND_BOOL,
+    KIND_FLOAT,
+    KIND_INT,
+    KIND_OBJECT,
+    KIND_STRING,
+    KIND_SYMBOL,
+)
 from runtime.executive.outlines import (
     LOOSE,
     SHAPE_BOOL,
@@ -52,7 +60,6 @@ _OF_KIND = {
     KIND_OBJECT: SHAPE_OBJECT,
     KIND_STRING: SHAPE_STRING,
 }
-_LEAST_ENDLESS = 2.0**51  # integers from here on stand for infinity
 
 
 class Recorder:
@@ -291,6 +298,6 @@ class Recorder:
 
 def _bound(number: float) -> float:
     """A bound of whole numbers; NDDL's infinity is infinite."""
-    if number >= _LEAST_ENDLESS:
+    if number >= HALF_INF:
         return float("inf")
-    return float("-inf") if number <= -_LEAST_ENDLESS else number
+    return float("-inf") if number <= -HALF_INF else number

@@ -4,6 +4,7 @@ import json
 from typing import Any
 
 from compiler.program import DomainConstant
+from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.messages import Arguments
 from runtime.executive.outcome import (
     ChoiceKind,
@@ -24,7 +25,6 @@ from runtime.plan.readout.statements import Argument
 from runtime.solver.learning.attempts import Resolver
 from runtime.solver.learning.rendering import flaw_words, resolver_words
 
-_HALF_INFINITY = 2**51  # bounds beyond count as infinite (docs/engine.md)
 _REASONS = {
     ReasonKind.NO_LOOKAHEAD: "its owner does not look ahead and takes no goals",
     ReasonKind.NO_OWNER: "nobody owns `{timeline}` any more",
@@ -81,7 +81,7 @@ def _draw_text(draw: Draw) -> str:
 
 
 def _bound(value: float | int) -> str:
-    return "+inf" if value >= _HALF_INFINITY else "-inf" if value <= -_HALF_INFINITY else repr(value)
+    return "+inf" if value >= HALF_INF else "-inf" if value <= -HALF_INF else repr(value)
 
 
 def _value(value: float | int | bool | str) -> str:
@@ -280,4 +280,4 @@ def _argument_data(argument: Argument) -> Any:
 
 
 def _number_data(value: float | int) -> float | int | str:
-    return "inf" if value >= _HALF_INFINITY else "-inf" if value <= -_HALF_INFINITY else value
+    return "inf" if value >= HALF_INF else "-inf" if value <= -HALF_INF else value

@@ -5,6 +5,7 @@ from math import inf
 from compiler.program import NewGlobal
 from nddl_lang.text.source import Span
 from runtime.constraints.domains.tags import (
+    HALF_INF,
     KIND_BOOL,
     KIND_FLOAT,
     KIND_INT,
@@ -42,7 +43,6 @@ _ORIGINS = {
     SPAN_REQUEST: ElementKind.REQUEST,
     SPAN_MISSION: ElementKind.DECLARATION,
 }
-_ENDLESS = 2**51  # bounds beyond count as infinite (docs/engine.md)
 
 
 def conflict_of(bench: Workbench) -> Conflict | None:
@@ -69,8 +69,8 @@ def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
         elements[element] = None
         if link.side == SIDE_UPPER:
             tight += _used_up(element)
-    if not tight and bench.engine.upper(v) >= _ENDLESS:  # nothing ends it: it outlasts every tick
-        tight.append(Term("bounds", (reader.name(v), _ENDLESS, inf)))
+    if not tight and bench.engine.upper(v) >= HALF_INF:  # nothing ends it: it outlasts every tick
+        tight.append(Term("bounds", (reader.name(v), HALF_INF, inf)))
     token = bench.name_of(bench.database.plan.variable_owner[v])
     policy = ConflictElement(ElementKind.LONGEST, None, "", token, None, tuple(dict.fromkeys(tight)))
     chain = list(reversed(elements))

@@ -137,4 +137,4 @@ cdef class PlanView:
     cpdef list undecided(self)
 
 
-cpdef long long _whole(double bound) except? -1
+cpdef long long whole_bound(double bound) except? -1

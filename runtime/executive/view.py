@@ -25,6 +25,7 @@ from runtime.plan.tags import (
     HEAD_OPEN,
     HEAD_THREAT,
     INACTIVE,
+    INFINITY,
     LIST_OPEN,
     LIST_ORDER,
     LIST_THREAT,
@@ -37,12 +38,11 @@ from runtime.plan.tags import (
 
 # Spans of what no line of the model says: the executive's own reasons.
 SPAN_OBSERVATION, SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_REQUEST, SPAN_MISSION = -2, -3, -4, -5, -6
-_INFINITY = 4503599627370495
 
 
-def _whole(bound: float) -> int:
+def whole_bound(bound: float) -> int:
     """A whole bound; infinities as NDDL has them."""
-    return int(max(-_INFINITY, min(bound, _INFINITY)))
+    return int(max(-INFINITY, min(bound, INFINITY)))
 
 
 class _MissingTimelineError(ValueError):
@@ -164,10 +164,10 @@ class PlanView:
                     kind, type_name, None, tuple([bool(x) for x in range(int(lower), int(upper) + 1)])
                 )
             if shape == KIND_INT:
-                return DomainConstant(kind, type_name, (_whole(lower), _whole(upper)), None)
-            return DomainConstant(kind, type_name, (max(lower, -_INFINITY) + 0, min(upper, _INFINITY) + 0), None)
+                return DomainConstant(kind, type_name, (whole_bound(lower), whole_bound(upper)), None)
+            return DomainConstant(kind, type_name, (max(lower, -INFINITY) + 0, min(upper, INFINITY) + 0), None)
         if not engine.is_finite(v) and engine.lower(v) != engine.upper(v):
-            return DomainConstant(kind, type_name, (-_INFINITY, _INFINITY), None)
+            return DomainConstant(kind, type_name, (-INFINITY, INFINITY), None)
         single = engine.lower(v) == engine.upper(v)
         values = [int(engine.lower(v))] if single else [int(value) for value in engine.values_of(v)]
         if shape == KIND_STRING:

@@ -95,10 +95,13 @@ class Now:
 class Reactor:
     """A controller written in Python; one object flies one mission.
 
-    `tick` is called at tick 0, whenever a timeline that it uses has begun to hold something, when something that it
-    asked for is refused, and at each tick at which it wanted to be woken. What it does must follow from what it was
-    told: no clock, no random numbers but those it makes from its settings, or missions cannot be flown again.
+    `tick` is called at tick 0, whenever a timeline that it uses has begun to hold something (where `wakes_on` names
+    some, one of these), when something that it asked for is refused, and at each tick at which it wanted to be woken.
+    What it does must follow from what it was told: no clock, no random numbers but those it makes from its settings, or
+    missions cannot be flown again.
     """
+
+    wakes_on: tuple[str, ...] | None = None  # of the timelines that it uses; all of them if this is left out
 
     def __init__(self, settings: Mapping[str, Value]) -> None:
         self.settings = settings

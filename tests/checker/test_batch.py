@@ -1,5 +1,6 @@
 """A batch gives the same results however it is flown, and loses nothing whatever happens to it."""
 
+import multiprocessing
 import os
 import signal
 import sqlite3
@@ -9,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.pool import Batch, Flyer, WorkerError, fly_all
+from checker.batch.pool import Batch, Flyer, WorkerError, fly_all, keeping_a_worker
 from checker.batch.result import MissionResult, read_result, write_result
 from checker.batch.store import Run, StoreError, open_store
 from checker.batch.worker import Load, Task
@@ -104,6 +105,30 @@ def test_single_flights_survive_the_process_that_flies_them() -> None:
         verdicts = [flyer.fly(agent(), 1, seed).verdict for seed in (0, 1, 2, 3)]
     assert verdicts[:3] == [Verdict.ERROR] * 3
     assert verdicts[3] is not Verdict.ERROR
+
+
+def test_a_worker_is_kept_for_later_flights_where_that_is_wanted() -> None:
+    others = {process.pid for process in multiprocessing.active_children()}
+
+    def alive() -> set[int | None]:
+        return {process.pid for process in multiprocessing.active_children()} - others
+
+    configuration = agent()
+    with keeping_a_worker():
+        tasks = [Task(number, number) for number in range(1, 5)]
+        assert fly_all(Batch(load_linked, configuration, tasks, 2, 30.0), Taker()) is None
+        kept = alive()
+        assert len(kept) == 1
+        for seed in (1, 2):
+            with Flyer(load_linked, configuration, 30.0) as flyer:
+                assert flyer.fly(configuration, 1, seed).verdict is not Verdict.ERROR
+                assert alive() == kept
+        with Flyer(load_troubled, configuration, 30.0) as flyer:
+            assert flyer.fly(configuration, 1, 4).verdict is not Verdict.ERROR
+            assert alive() > kept
+    assert not alive()
+    assert fly_all(Batch(load_linked, configuration, tasks, 2, 30.0), Taker()) is None
+    assert not alive()
 
 
 def test_models_that_cannot_be_loaded_end_the_batch() -> None:

@@ -127,7 +127,7 @@ class World:
 
     def check(self) -> None:
         """Each value must be within its bounds, but for rounding and for what it was computed with."""
-        rounding = max(map(abs, self.values)) * Fraction(2) ** -46
+        rounding = max(map(abs, self.values), default=Fraction(0)) * Fraction(2) ** -46
         for v, value in enumerate(self.values):
             lo, hi = self.engine.lower(v), self.engine.upper(v)
             slack = Fraction(self.slack[v]) + rounding

@@ -6,7 +6,7 @@ from typing import Literal
 
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ParameterConfiguration
 from runtime.executive.mission import MissionPrograms, register_program, run_mission
-from runtime.executive.outcome import Event, EventKind, Outcome
+from runtime.executive.outcome import Event, EventKind, Outcome, Reason
 from runtime.solver.configuration.configuration import default_configuration
 from tests.executive.flying import Flyer, program, simulator
 
@@ -45,8 +45,15 @@ def told(outcome: Outcome) -> tuple[object, ...]:
     starts, so its own tick counts.
     """
     abort = outcome.abort and (outcome.abort.code, outcome.abort.tick, outcome.abort.reactor)
-    goals = [(goal.timeline, goal.predicate, goal.arguments, goal.reason) for goal in outcome.open_goals]
+    goals = [(goal.timeline, goal.predicate, goal.arguments, why(goal.reason)) for goal in outcome.open_goals]
     return sorted(filter(None, map(line, outcome.events))), outcome.last_tick, abort, goals
+
+
+def why(reason: Reason | None) -> tuple[object, ...]:
+    """A reason without the numbers of tokens."""
+    if reason is None:
+        return ()
+    return (reason.kind, reason.token and reason.token.predicate, reason.predicate, reason.tick, *why(reason.because))
 
 
 def line(event: Event) -> str:

@@ -69,6 +69,20 @@ class Odd(Reactor):
     def tick(self, now):
         now.publish("eye", "Bright", p=object())
 
+class Sleeps(Reactor):
+    wakes_on = ()
+
+    def tick(self, now):
+        if now.tick == 0:
+            now.publish("eye", "Dark")
+            now.ask("lamp", "On", start=(3, 8), n=4)
+            now.wake(10)
+        else:
+            now.publish("eye", "Bright", p=float(now.tick + 100 * len(now.news) + now.seen["lamp"].since))
+
+class Deaf(Reactor):
+    wakes_on = ("ear",)
+
 class Hangs(Reactor):
     def tick(self, now):
         while now.tick == 0:
@@ -108,7 +122,15 @@ def test_it_publishes_asks_and_takes_back(folder: Path) -> None:
     ]
 
 
-@pytest.mark.parametrize(("name", "code", "tick"), [("Raises", "F7", 4), ("Foreign", "F9", 0), ("Odd", "F9", 0)])
+def test_it_sleeps_through_what_it_does_not_want_to_be_woken_by(folder: Path) -> None:
+    outcome = flown(folder, "code.py:Sleeps")
+    assert history(outcome, "lamp") == ["0 Off", "3 On(n=4)", "8 Off"]
+    assert history(outcome, "eye") == ["0 Dark", "10 Bright(p=18.0)"]
+
+
+@pytest.mark.parametrize(
+    ("name", "code", "tick"), [("Raises", "F7", 4), ("Foreign", "F9", 0), ("Odd", "F9", 0), ("Deaf", "F9", 0)]
+)
 def test_what_it_does_wrong_ends_it(folder: Path, name: str, code: str, tick: int) -> None:
     outcome = flown(folder, f"code.py:{name}")
     assert outcome.abort is not None

@@ -87,6 +87,25 @@ def test_random_determined_models_fly_the_same(seed: int) -> None:
     agree(random_case(seed), seed)
 
 
+@pytest.mark.parametrize(("factor", "until"), [("0.02", 1400), ("0.5", 120), ("0.3", 160)])
+def test_numbers_whose_last_places_come_near_the_tolerance_are_left_to_the_general_engine(
+    factor: str, until: int
+) -> None:
+    model = f"""
+    float DX = [-0.6 0.6];
+    class Motion extends AgentTimeline {{
+      predicate Step {{ float c; float c1; }} Motion(Mode m) {{ super(m, "Step"); }}
+    }}
+    Motion::Step {{
+      duration == 1; float n; n == sampledParameter(DX);
+      c1 == c - (n - c) * {factor}; meets(object.Step next); next.c == c1;
+    }}
+    Motion motion = new Motion(Internal); close();
+    fact(motion.Step s0); s0.start == 0; eq(s0.c, 0.0);
+    """
+    agree(Case((simulator("psim", model, "motion"),), until=until))
+
+
 def test_the_missions_of_the_project_have_determined_reactors() -> None:
     compiled = 0
     for path in MISSIONS:

@@ -17,6 +17,8 @@ class Detector(Reactor):
     estimate enters as a likelihood ratio. Two thresholds keep it from going back and forth.
     """
 
+    wakes_on = ("water",)
+
     def __init__(self, settings: Mapping[str, Value]) -> None:
         super().__init__(settings)
         table = Path(__file__).with_name(str(settings["clusters"]))
@@ -52,6 +54,8 @@ class Surveyor(Reactor):
 
     It stands between `feature` and `survey`, so that who finds the feature does not depend on who plans surveys.
     """
+
+    wakes_on = ("feature",)
 
     def __init__(self, settings: Mapping[str, Value]) -> None:
         super().__init__(settings)

@@ -40,6 +40,7 @@ class _CauseWalk(SupportWalk):
 
     def __init__(self, engine: Store) -> None:
         super().__init__(engine)
+        self.notes_sets = True
         self.found: dict[Cause, None] = {}
         self.links: list[Link] = []
         self.committed: set[tuple[int, int, int]] = set()

@@ -9,7 +9,8 @@ cdef long long SIDE_HOLES, SIDE_LOWER, SUPPORT_EDGE
 
 cdef class SupportWalk:
     cdef public Store engine
-    cdef public long long stamp, asked_count, answered, support, when, overwritten
+    cdef public long long stamp, origin, asked_count, answered, support, when, overwritten
+    cdef public bint notes_sets
     cdef public long long[::1] seen, asked_key, asked_before
 
     cpdef bint visit(self, long long support, long long v, long long side, long long when) except -1
@@ -33,7 +34,7 @@ cdef class SupportWalk:
     @cython.locals(support="long long")
     cpdef int look_up(self, long long v, long long side, long long before) except -1
 
-    @cython.locals(hole="long long")
+    @cython.locals(at="long long", hole="long long", when="long long")
     cpdef int walk(self) except -1
 
     cpdef int follow(self, long long support, long long v, long long side, long long when, long long before) except -1

@@ -17,6 +17,8 @@ class SupportWalk:
     def __init__(self, engine: Store) -> None:
         self.engine = engine
         self.stamp = 0
+        self.origin = 0  # what was changed before needs no reason; declarations have no time
+        self.notes_sets = False
         self.seen = blank(256)
         self.asked_key = blank(256)  # bounds to explain, `v * 4 + side`, and the time before which their state counts
         self.asked_before = blank(256)
@@ -38,7 +40,7 @@ class SupportWalk:
         """Note an edge, constraint or restriction by itself."""
 
     def visit_set(self, v: int) -> None:
-        """Note a variable with a bit set: what it lacked from the start is in no log."""
+        """Note a variable with a bit set, where `notes_sets`: what it lacked from the start is in no log."""
 
     def ask_more(self) -> bool:
         """Ask for further bounds when all are answered; False if there are none."""
@@ -107,13 +109,18 @@ class SupportWalk:
             if engine.word[v] >= 0:  # a bound of a set is rounded to a value that is no hole
                 hole = engine.hole_head[v]
                 while hole >= 0:
-                    if engine.hole_when[hole] < before or engine.hole_when[hole] < engine.trail_base:
-                        self.follow(engine.hole_support[hole], v, SIDE_HOLES, engine.hole_when[hole], before)
+                    when = engine.hole_when[hole]
+                    at = when - engine.trail_base
+                    if at < 0 or (when < before and self.seen[at] != self.stamp):
+                        self.follow(engine.hole_support[hole], v, SIDE_HOLES, when, before)
                     hole = engine.hole_next[hole]
-                self.visit_set(v)
+                if self.notes_sets:
+                    self.visit_set(v)
 
     def follow(self, support: int, v: int, side: int, when: int, before: int) -> int:
         """Visit a change, unless that was done, and ask for what it read."""
+        if 0 <= when < self.origin:
+            return 0
         at = when - self.engine.trail_base
         if at >= 0:
             if self.seen[at] == self.stamp:

@@ -72,12 +72,17 @@ class HandlerMatching:
         self.classes: dict[str, ClassCode] = {code.name: code for code in program.classes}
         self.predicates: dict[str, PredicateCode] = {code.name: code for code in program.predicates}
         self.handlers: list[FlawHandler] = []
-        self.handlers_of: list[list[int]] = []
+        self.handlers_of: list[list[int]] = []  # of each manager, best first
         for kind, manager in zip(self.manager_kinds, configuration.managers, strict=True):
             last = FlawHandler(STANDARD[kind], priority=manager.handlers[0].priority if manager.handlers else 0.0)
             first = len(self.handlers)
             self.handlers += [last, *manager.handlers]
-            self.handlers_of.append(list(range(first, len(self.handlers))))
+            # The most specific first, then the lowest priority, then the last in the text; the standard one at the end.
+            given = sorted(range(first + 1, len(self.handlers)), key=self._rank)
+            self.handlers_of.append([*given, first])
+
+    def _rank(self, handler: int) -> tuple[int, float, int]:
+        return (-self.handlers[handler].specificity, self.handlers[handler].priority, -handler)
 
     @property
     def reads_parents(self) -> bool:
@@ -142,7 +147,7 @@ class HandlerMatching:
             is_counted = _COUNTED in self._ancestry(owner)
             return None if is_counted else self._match(manager, None, owner, None, _TOKEN_FILTERS)
         fitting = [h for h in self.handlers_of[manager] if self._fits(self.handlers[h].match, None, owner, None)]
-        return HandlerRow((), self._sorted(fitting))
+        return HandlerRow((), tuple(fitting))
 
     def _match(
         self, manager: int, token: TokenKind | None, owner: str | None, variable: str | None, tested: tuple[int, ...]
@@ -157,13 +162,7 @@ class HandlerMatching:
             if code in tested:
                 dynamic.append((code, _policy(one)))
         fitting = [h for h in self.handlers_of[manager] if self._fits(self.handlers[h].match, token, owner, variable)]
-        return HandlerRow(tuple(dict.fromkeys(dynamic)), self._sorted(fitting))
-
-    def _sorted(self, handlers: list[int]) -> tuple[int, ...]:
-        """The most specific first, then the lowest priority, then the last in the text; the standard one at the end."""
-        own, *given = handlers
-        given.sort(key=lambda h: (-self.handlers[h].specificity, self.handlers[h].priority, -h))
-        return (*given, own)
+        return HandlerRow(tuple(dict.fromkeys(dynamic)), tuple(fitting))
 
     def _fits(self, match: Match, token: TokenKind | None, owner: str | None, variable: str | None) -> bool:
         """Whether all that `match` gives holds."""

@@ -16,7 +16,7 @@ cdef double FLOAT_TOLERANCE
 cdef class ConflictAnalysis(SupportWalk):
     cdef public Agenda agenda
     cdef public Decisions stack
-    cdef public long long met_count, origin, opened
+    cdef public long long met_count, opened
     cdef public bint is_local
     cdef public long long[::1] marked, met
 

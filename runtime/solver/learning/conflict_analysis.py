@@ -50,7 +50,6 @@ class ConflictAnalysis(SupportWalk):
         self.marked = blank(64)
         self.met = blank(64)
         self.met_count = 0
-        self.origin = 0
         self.opened = 0
         self.is_local = False  # what was met counts only as long as nothing else is decided before
 
@@ -71,9 +70,7 @@ class ConflictAnalysis(SupportWalk):
             self.met_count += 1
 
     def visit(self, support: int, v: int, side: int, when: int) -> bool:
-        """Note the level of a change; changes older than the search go unnoted, declarations are read no further."""
-        if 0 <= when < self.origin:
-            return False
+        """Note the level of a change; declarations are read no further."""
         self.meet(self._level_of(support))
         return when >= 0
 
