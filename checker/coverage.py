@@ -167,6 +167,11 @@ def _held(reactor: ReactorRecord) -> set[tuple[str, str]]:
     return {(tokens.names[pair // count], tokens.names[pair % count]) for pair in pairs.tolist()}
 
 
+def left_out(behaviour: Sequence[int], other: Sequence[int]) -> int:
+    """How many rules and branches one mission exercised and another, of the same models, did not."""
+    return len({one for one in behaviour if one < _EVENTS}.difference(other))
+
+
 _KNOWN: list[Universe] = []  # the last one: a worker flies one set of programs
 
 

@@ -6,7 +6,8 @@ from enum import StrEnum
 
 from checker.statistics import Interval
 
-_PARTIAL_BELOW = 0.95  # a condition of less precision or recall is marked as partial
+# A condition of less precision or recall is marked as partial: one of 0.95 is not, and figures are those of a sample.
+_PARTIAL_BELOW = 0.97
 Span = tuple[float, float]  # the least and the greatest draw of a parameter; twice the same of one drawn once
 Row = Mapping[str, Span]  # what one mission drew, by parameter
 
@@ -101,7 +102,7 @@ class Condition:
 
     @property
     def is_partial(self) -> bool:
-        """Whether it leaves out, or takes in, more than a twentieth."""
+        """Whether it may leave out, or take in, more than a twentieth."""
         return min(self.precision.value, self.recall.value) < _PARTIAL_BELOW
 
     @property

@@ -23,6 +23,7 @@ class Claim(StrEnum):
 
     MENDS = "mends"  # a small change makes the missions pass
     LOOSENS = "loosens"  # without what it demands, or with much less of it, they pass
+    CODED = "coded"  # the same of a call of the project's Python, of which nothing smaller can be tried
     PARTLY = "partly"  # some of them pass, or others that passed fail
     EVADES = "evades"  # they pass, but goals are lost, or what happens in all other missions does not
     LOOSE_END = "loose end"  # a line may be missing: nothing was flown
@@ -44,7 +45,7 @@ class RankedLine:
     helped: int = 0
     missions: int = 0
     spoilt: int = 0
-    variable: str = ""
+    variable: str = ""  # of a call of Python, the constraint that is called
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +74,8 @@ NO_CAUSES = Causes()
 def rank(trials: Trials, root: Path) -> Causes:
     """All causes of a fault in order, each line once."""
     small = [one for one in trials.causes if _claim(one) is Claim.MENDS]
-    large = [one for one in trials.causes if _claim(one) is not Claim.MENDS]
+    small += [one for one in trials.causes if _claim(one) is Claim.CODED]
+    large = [one for one in trials.causes if one not in small]
     loose = list({one.candidate.site: one for one in trials.loose}.values())[:_MOST_LOOSE]
     last = [_tried(one, root) for one in large]
     missing = [_loose(one, root) for one in loose]
@@ -89,13 +91,15 @@ def _claim(trial: LineTrial) -> Claim:
         return Claim.EVADES
     if trial.helped < trial.missions or trial.spoilt:
         return Claim.PARTLY
-    return Claim.LOOSENS if is_loosening(trial.edit) else Claim.MENDS
+    if not is_loosening(trial.edit):
+        return Claim.MENDS
+    return Claim.CODED if trial.candidate.site.coded else Claim.LOOSENS
 
 
 def _tried(trial: LineTrial, root: Path) -> RankedLine:
     site, edit = trial.candidate.site, trial.edit
     place = _place(trial.candidate, edit.line, root)
-    return RankedLine(place, site.rule, _claim(trial), edit, trial.helped, trial.missions, trial.spoilt)
+    return RankedLine(place, site.rule, _claim(trial), edit, trial.helped, trial.missions, trial.spoilt, site.coded)
 
 
 def _loose(loose: Loose, root: Path) -> RankedLine:

@@ -18,6 +18,8 @@ def claim_text(cause: RankedLine) -> str:
             return f"{change}: {_passes(cause)}"
         case Claim.LOOSENS:
             return f"{change}, which takes a demand away: {_passes(cause)}"
+        case Claim.CODED:
+            return f"{change}: {_passes(cause)}, so what the Python of `{cause.variable}` says may be mistaken"
         case Claim.PARTLY:
             if cause.spoilt:
                 return f"{change}: {_passes(cause)}, but missions that passed fail"

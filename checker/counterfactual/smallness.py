@@ -20,6 +20,7 @@ _REAL = re.compile(r"\d\.\d|\d\.(?!\w)")
 _LOOSE = "any"  # the relation that demands nothing
 _SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 _UNEQUAL, _EQUAL = "!=", "=="
+_TRUTHS = ("true", "false")
 _TIMES = ("start", "end", "duration")
 _NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 _MOST_FOLLOW_UPS = 3
@@ -50,7 +51,8 @@ _COMPARISONS = {
     "time": {"==": 3.0, "<=": 3.0, ">=": 1.5, "!=": 0.05},
     "point": {"==": 6.0, "<=": 2.0, ">=": 1.0, "!=": 0.05},
     "real condition": {"==": 0.2, "<=": 1.5, ">=": 1.5, "<": 2.0, ">": 2.0, "!=": 0.05},
-    "condition": {"==": 3.0, "<=": 2.0, ">=": 2.0, "<": 2.0, ">": 2.0, "!=": 0.7},
+    "truth condition": {"==": 6.0, "<=": 0.1, ">=": 0.1, "<": 0.1, ">": 0.1, "!=": 0.5},
+    "condition": {"==": 2.0, "<=": 2.0, ">=": 2.0, "<": 2.0, ">": 2.0, "!=": 1.5},
 }
 _RARE = 0.3  # all other words
 _LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
@@ -239,7 +241,8 @@ def _sort(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
     if is_demand:
         sort = "point" if is_point else "time" if _is_about_time(site) else "value"
     else:
-        sort = "real condition" if _REAL.search(site.text) else "condition"
+        is_truth = any(word in _TRUTHS for word in _WORD.findall(site.text))
+        sort = "truth condition" if is_truth else "real condition" if _REAL.search(site.text) else "condition"
     return sort, _COMPARISONS[sort]
 
 

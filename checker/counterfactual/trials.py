@@ -14,6 +14,7 @@ from itertools import count
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import Candidate
 from checker.counterfactual.smallness import Usage, alternatives, cost_of, delay_of, follow_ups
+from checker.coverage import left_out
 from checker.losses import GoalFate
 from checker.mutation.edits import EditSite, SmallEdit
 from checker.oracle import Verdict
@@ -25,6 +26,7 @@ _TURN = 0.3  # how much later each further edit of one line is tried
 _CONFIRMED = 3  # causes that are tried on other missions too
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 HEAVY = 10.0  # damage of a mission that passes without a goal
+_STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
 _CONSTANT = 0.5  # how much nearer a constant counts: a number that somebody chose, and one that is often wrong
 _SLOW = 8.0  # times the slowest flight before that passed or failed: a change may leave a search without an end
 _LEAST_SECONDS = 3.0  # that a flight may take
@@ -145,7 +147,8 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
         result = trials.fly(edit, failed[0])
         if result.verdict is not Verdict.PASS:
             continue
-        trial = LineTrial(candidate, edit, damage_of(result), cost, is_evasive=missions.is_evasive(result))
+        damage = damage_of(result) + _strayed(result, failed[0])
+        trial = LineTrial(candidate, edit, damage, cost, is_evasive=missions.is_evasive(result))
         if known is None or trial.toll < known.toll:
             best[site] = trial
         for other in follow_ups(edit, site, usage) if trial.damage < HEAVY else ():
@@ -175,6 +178,13 @@ def damage_of(result: MissionResult) -> float:
     losses = result.losses
     goals = len(losses.goals) - losses.count(GoalFate.ACHIEVED)
     return 10.0 * goals + 1.0 * (losses.lost + losses.dropped) + 0.5 * losses.repaired
+
+
+def _strayed(result: MissionResult, failed: MissionResult) -> float:
+    """What a mission that passes no longer does of what the failed one did before it failed."""
+    if result.outcome is None or failed.outcome is None:
+        return 0.0
+    return min(_STRAYED * left_out(failed.outcome.behaviour, result.outcome.behaviour), _MOST_STRAYED)
 
 
 class _Trials:
@@ -228,7 +238,7 @@ class _Trials:
             missions += 1
             if result.verdict is Verdict.PASS:
                 helped += 1
-                damage = max(damage, damage_of(result))
+                damage = max(damage, damage_of(result) + _strayed(result, mission))
             else:
                 unhelped.append(mission)
         site = trial.candidate.site
@@ -238,8 +248,7 @@ class _Trials:
             again = self.fly(other, first)
             if again.verdict is Verdict.PASS:
                 cost = cost_of(other, site, usage)
+                damage = damage_of(again) + _strayed(again, first)
                 is_evasive = self.missions.is_evasive(again)
-                return LineTrial(
-                    trial.candidate, other, damage_of(again), cost, missions, missions, is_evasive=is_evasive
-                )
+                return LineTrial(trial.candidate, other, damage, cost, missions, missions, is_evasive=is_evasive)
         return replace(trial, damage=damage, helped=helped, missions=missions, spoilt=spoilt)

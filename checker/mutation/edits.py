@@ -88,7 +88,7 @@ class EditSite:
 
     A branch has the lines of its condition. `scope` are the lines of the whole rule. `named` is the global variable
     that is set here, a number if `is_number`; `is_rule`: it is the head of a rule, for which something may be missing.
-    `begin` is its offset.
+    `begin` is its offset. `coded` is the constraint of the project's own that it calls, which is Python.
     """
 
     file: str
@@ -103,6 +103,7 @@ class EditSite:
     is_rule: bool = False
     begin: int = 0
     is_number: bool = False
+    coded: str = ""
 
     def holds(self, file: str, line: int) -> bool:
         """Whether a place is one of its lines."""
@@ -211,6 +212,7 @@ class _Reader:
             named,
             begin=node.span.begin,
             is_number=named in self._limits,
+            coded=node.name.name if isinstance(node, CallConstraint) and node.name.name not in CONSTRAINTS else "",
         )
 
     def _dropped(self, span: Span) -> SmallEdit:
