@@ -199,9 +199,8 @@ class Machine:
         for row in range(self.root_row, log.row_count):
             line = log.rows[ROW * row + 1]
             at = log.take(row, self.width[line])
-            first = self.current[line]
             for j in range(self.width[line]):
-                value = self.registers[first + j]
+                value = self.registers[self.current[line] + j]
                 if value >= _COARSE or value <= -_COARSE:
                     return False
                 log.values[at + j] = value
