@@ -1,6 +1,6 @@
 # Python 3.11 or newer, make and a package index are all that is needed; `.venv` is made here and kept.
 #
-#   make check        check the missions of models/gps, say where the report is; exits 1 with findings
+#   make check        check the missions of models/auv/inl, say where the report is; exits 1 with findings
 #   make test         all that must hold: style, types, and the tests with the engine compiled and interpreted
 #
 #   make setup        install everything into .venv
@@ -27,7 +27,7 @@
 
 MUTATIONS ?= 1000000
 MUTANTS ?= 2000
-MISSION ?= models/gps/mission.toml
+MISSION ?= models/auv/inl/mission.toml
 PYTHON := python3.11 python3.12 python3.13 python3.14 python3 python
 BIN := .venv/bin
 PYTEST := $(BIN)/python -m pytest --numprocesses auto

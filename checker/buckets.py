@@ -61,7 +61,7 @@ def bucket_key(result: MissionResult) -> Key:
     if result.judgement.exceeded is not None:
         about += _lost(result, result.judgement.exceeded.limit)
     lost = next((goal.reason for goal in result.open_goals if goal.reason is not None), None)
-    for one in (reason, lost, lost.because if lost is not None else None):
+    for one in (reason, lost, lost.repair if lost is not None else None):
         if one is not None:
             about += [one.kind, one.token.predicate if one.token else "", one.predicate, one.timeline]
     return (result.judgement.code, "", 0, tuple(about))

@@ -182,11 +182,11 @@ def _buckets(data: dict[str, Any], root: Path) -> Iterator[_Bucket]:
         if spot is None:
             continue
         condition = fault.get("condition") or {}
-        because = f": {fault['because']}" if fault.get("because") else ""
+        why = f": {fault['because']}" if fault.get("because") else ""
         yield _Bucket(
             spot,
             str(fault.get("code")),
-            f"{fault.get('count')} of {flown} missions of `{data['name']}` fail here, {fault.get('meaning')}{because}",
+            f"{fault.get('count')} of {flown} missions of `{data['name']}` fail here, {fault.get('meaning')}{why}",
             condition.get("text") and f"{condition['text']}{' (in part)' if condition.get('partial') else ''}",
             tuple(each for limit in fault.get("limits") or () if (each := _spot(limit, root)) is not None),
         )

@@ -11,7 +11,7 @@ from runtime.determined.told import StoredKind, StoredObservations
 from runtime.executive.events import EventLog, EventRun
 from runtime.executive.outcome import Event
 
-_NUMBERS = ("places", "ticks", "rows", "causes")
+_NUMBERS = ("indices", "ticks", "rows", "causes")
 
 
 def write_trace(events: EventLog, plain: Callable[[Event], Any]) -> dict[str, Any]:
@@ -26,7 +26,7 @@ def write_trace(events: EventLog, plain: Callable[[Event], Any]) -> dict[str, An
                 columns = part.columns.stored()
                 assert isinstance(columns, StoredObservations)
                 stored.append(columns)
-            parts.append([sources[id(part.columns)], part.place, part.count])
+            parts.append([sources[id(part.columns)], part.first, part.count])
         else:
             parts.append(plain(part))
     return {"columns": [_write_columns(each) for each in stored], "parts": parts}
@@ -46,7 +46,7 @@ def _write_columns(columns: StoredObservations) -> dict[str, Any]:
     return {
         "name": columns.name,
         "symbols": columns.symbols,
-        "kinds": [[each.timeline, each.predicate, each.full_name, each.shapes, len(each.places)] for each in kinds],
+        "kinds": [[each.timeline, each.predicate, each.full_name, each.shapes, len(each.indices)] for each in kinds],
         "numbers": _packed(numbers, "<i8"),
         "values": _packed([each.values.ravel() for each in kinds], "<f8"),
     }
@@ -57,11 +57,11 @@ def _read_columns(text: dict[str, Any]) -> StoredObservations:
     numbers, values = _unpacked(text["numbers"], "<i8"), _unpacked(text["values"], "<f8")
     for timeline, predicate, full_name, written, count in text["kinds"]:
         shapes = tuple([tuple(shape) for shape in written])
-        places, ticks, rows, causes = (np.cumsum(numbers[k * count : (k + 1) * count]) for k in range(len(_NUMBERS)))
+        indices, ticks, rows, causes = (np.cumsum(numbers[k * count : (k + 1) * count]) for k in range(len(_NUMBERS)))
         numbers = numbers[len(_NUMBERS) * count :]
         own, values = np.split(values, [count * len(shapes)])
         table = own.reshape(count, len(shapes))
-        kinds.append(StoredKind(timeline, predicate, full_name, shapes, places, ticks, rows, causes, table))
+        kinds.append(StoredKind(timeline, predicate, full_name, shapes, indices, ticks, rows, causes, table))
     return StoredObservations(text["name"], tuple(kinds), tuple(text["symbols"]))
 
 

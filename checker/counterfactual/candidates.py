@@ -122,7 +122,7 @@ def _predicates(outcome: Outcome) -> set[str]:
     reason = outcome.abort.reason if outcome.abort is not None else None
     while reason is not None:
         found |= {reason.predicate, reason.token.predicate.rpartition(".")[2] if reason.token is not None else ""}
-        reason = reason.because
+        reason = reason.repair
     return found - {""}
 
 

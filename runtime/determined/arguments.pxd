@@ -6,11 +6,14 @@ from runtime.determined.log cimport Log
 
 cpdef list shapes_of(program, predicate)
 
-@cython.locals(k="long long", kind=str, known=dict, name=str, told=list, type_name=str, value="double")
+@cython.locals(k="long long", shape=tuple, told=list)
 cpdef tuple arguments_from(list shapes, names, list values)
 
-@cython.locals(k="long long", kind=str, known=dict, name=str, told=list, type_name=str, value="double")
+@cython.locals(k="long long", shape=tuple, told=list)
 cpdef tuple arguments_at(list shapes, names, Log log, long long first)
+
+@cython.locals(kind=str, known=dict, name=str, type_name=str)
+cpdef tuple _told(tuple shape, names, double value)
 
 cpdef object _made(str kind, str type_name, interval, values)
 

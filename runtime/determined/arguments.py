@@ -62,31 +62,30 @@ def shapes_of(program: RegisterProgram, predicate: PredicateCode) -> list[Parame
 
 
 def arguments_at(shapes: list[ParameterShape], names: Sequence[str], log: Log, first: int) -> Arguments:
-    """The same of values that stand in a log, from a place on."""
+    """The same of values that stand in a log, from an index on."""
     told = []
-    for k, (name, kind, type_name, known) in enumerate(shapes):
-        value = log.values[first + k]
-        domain = None if known is None else known.get(value)
-        if domain is None:
-            domain = _domain_of(names, kind, type_name, value)
-            if known is not None and value == value:
-                known[value] = domain
-        told.append((name, domain))
+    for k, shape in enumerate(shapes):
+        told.append(_told(shape, names, log.values[first + k]))
     return tuple(told)
 
 
 def arguments_from(shapes: list[ParameterShape], names: Sequence[str], values: Sequence[float]) -> Arguments:
     """Values of parameters as others read them; `names` are those that numbers stand for."""
     told = []
-    for k, (name, kind, type_name, known) in enumerate(shapes):
-        value = values[k]
-        domain = None if known is None else known.get(value)
-        if domain is None:
-            domain = _domain_of(names, kind, type_name, value)
-            if known is not None and value == value:
-                known[value] = domain
-        told.append((name, domain))
+    for k, shape in enumerate(shapes):
+        told.append(_told(shape, names, values[k]))
     return tuple(told)
+
+
+def _told(shape: ParameterShape, names: Sequence[str], value: float) -> tuple[str, DomainConstant]:
+    """A parameter by its name, with what a register says of it."""
+    name, kind, type_name, known = shape
+    domain = None if known is None else known.get(value)
+    if domain is None:
+        domain = _domain_of(names, kind, type_name, value)
+        if known is not None and value == value:
+            known[value] = domain
+    return name, domain
 
 
 def _shape_of(program: RegisterProgram, parameter: ParameterCode) -> ParameterShape:

@@ -4,9 +4,8 @@
 At a tick the machine finds what must end (its latest end is now, or something that was asked for may start) and runs
 the block of what starts in its place, timelines in causal order. It stops at whatever the code does not foresee: a
 value that is not known, a constraint that does not hold, bounds without a value. What it has written by then is void;
-who runs it goes back to a snapshot, or hands over to the general engine.
-
-The operations are those of `compiler.determined.code`, by numbers of which the C compiler makes a jump table.
+who runs it goes back to a snapshot, or hands over to the general engine. The operations are those of
+`compiler.determined.code`, by numbers of which the C compiler makes a jump table.
 """
 
 import math
@@ -38,8 +37,7 @@ from runtime.determined.tags import (
     WISHED,
 )
 
-_NAN = float("nan")
-_TOLERANCE = 1e-5  # that of the engine's floats
+_NAN, _TOLERANCE = float("nan"), 1e-5  # the tolerance is that of the engine's floats
 _LARGEST = 2.0**51  # what is larger counts as infinite
 _COARSE = 2.0**32  # beyond it the last places of sums come near the tolerance, where an interval engine decides
 

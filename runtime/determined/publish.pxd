@@ -30,7 +30,7 @@ cdef class Publisher:
 
     cpdef object look(self)
 
-    @cython.locals(found=list, log=Log, place="long long")
+    @cython.locals(found=list, log=Log, index="long long")
     cpdef list _seen(self, long long tick, long long watched)
 
     @cython.locals(at="long long", log=Log, predicate="long long", shapes=list, tick="long long")

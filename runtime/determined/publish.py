@@ -94,11 +94,11 @@ class Publisher:
         """What has started at a tick, the last that was told, on timelines that somebody uses."""
         found: list[Observation] = []
         log = self.log
-        place = log.told_count - 1
-        while place >= 0 and log.rows[ROW * log.told[place]] == tick:
-            if watched >> log.rows[ROW * log.told[place] + 1] & 1:
-                found.append(self._observation(log.told[place]))
-            place -= 1
+        index = log.told_count - 1
+        while index >= 0 and log.rows[ROW * log.told[index]] == tick:
+            if watched >> log.rows[ROW * log.told[index] + 1] & 1:
+                found.append(self._observation(log.told[index]))
+            index -= 1
         found.reverse()
         return found
 

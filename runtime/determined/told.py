@@ -36,46 +36,46 @@ class Told:
         self.program = program
         self.log = log
 
-    def head(self, place: int) -> tuple[int, str, str]:
-        """Tick, timeline and predicate of an observation, by its place among those that were told."""
-        tick, line, predicate, *_ = self.log.row(self.log.told[place])
+    def head(self, index: int) -> tuple[int, str, str]:
+        """Tick, timeline and predicate of an observation, by its index among those that were told."""
+        tick, line, predicate, *_ = self.log.row(self.log.told[index])
         return tick, self.program.model.lines[line].name, self.program.model.short_names[predicate]
 
-    def causes(self, place: int) -> tuple[int, ...]:
+    def causes(self, index: int) -> tuple[int, ...]:
         """What caused an observation: what the timeline held before, or a request."""
-        cause = self.log.rows[ROW * self.log.told[place] + CAUSE]
+        cause = self.log.rows[ROW * self.log.told[index] + CAUSE]
         return (cause,) if cause >= 0 else ()
 
-    def event(self, place: int) -> Event:
+    def event(self, index: int) -> Event:
         """An event of the trace."""
-        row = self.log.told[place]
+        row = self.log.told[index]
         _, _, predicate, _, first, *_ = self.log.row(row)
         code = self.program.model.program.predicates[predicate]
         arguments = arguments_at(shapes_of(self.program, code), self.program.all_names(), self.log, first)
-        return _observation(self.name, self.head(place), arguments, self.causes(place), TokenName(code.name, row))
+        return _observation(self.name, self.head(index), arguments, self.causes(index), TokenName(code.name, row))
 
     def published(self) -> tuple[PublishedColumns, ...]:
         """All observations that were told, by timeline and predicate."""
         program, values, symbols = self.program, np.asarray(self.log.values), self.program.all_names()
         found = []
-        for line, predicate, places, at in self._kinds():
+        for line, predicate, indices, at in self._kinds():
             rows = np.asarray(self.log.rows)
             parameters = program.model.program.predicates[predicate].parameters
             arguments = StoredValues(values, rows.take(at + 4), tuple([each.type.kind for each in parameters]))
             name, short = program.model.lines[line].name, program.model.short_names[predicate]
             given = tuple([each.name for each in parameters])
-            found.append(PublishedColumns(name, short, rows.take(at), given, arguments, places, symbols))
+            found.append(PublishedColumns(name, short, rows.take(at), given, arguments, indices, symbols))
         return tuple(found)
 
     def _kinds(self) -> list[tuple[int, int, Array, Array]]:
-        """What was told by timeline and predicate: places, and where the rows of the log begin."""
+        """What was told by timeline and predicate: indices, and where the rows of the log begin."""
         starts = ROW * np.asarray(self.log.told)[: self.log.told_count]
         rows, many = np.asarray(self.log.rows), len(self.program.model.short_names)
         kinds = rows.take(starts + 1) * many + rows.take(starts + 2)
         found = []
         for kind in np.flatnonzero(np.bincount(kinds)).tolist():
-            places = np.flatnonzero(kinds == kind)
-            found.append((*divmod(kind, many), places, starts.take(places)))
+            indices = np.flatnonzero(kinds == kind)
+            found.append((*divmod(kind, many), indices, starts.take(indices)))
         return found
 
     def __reduce__(self) -> tuple[type, tuple[object, ...]]:
@@ -86,7 +86,7 @@ class Told:
         """The same without the log."""
         program, rows, values = self.program, np.asarray(self.log.rows), np.asarray(self.log.values)
         kinds = []
-        for line, predicate, places, at in self._kinds():
+        for line, predicate, indices, at in self._kinds():
             code = program.model.program.predicates[predicate]
             shapes = tuple([shape[:3] for shape in shapes_of(program, code)])
             table = table_of(values, rows.take(at + 4), len(shapes))
@@ -96,7 +96,7 @@ class Told:
                     program.model.short_names[predicate],
                     code.name,
                     shapes,
-                    places,
+                    indices,
                     rows.take(at),
                     at // ROW,
                     rows.take(at + CAUSE),
@@ -113,7 +113,7 @@ class StoredKind(NamedTuple):
     predicate: str
     full_name: str
     shapes: tuple[tuple[str, str, str], ...]  # name, kind and type of each parameter
-    places: Array
+    indices: Array
     ticks: Array
     rows: Array
     causes: Array
@@ -127,42 +127,44 @@ class StoredObservations:
         self.name = name
         self.kinds = kinds
         self.symbols = symbols
-        count = sum(len(each.places) for each in kinds)
+        count = sum(len(each.indices) for each in kinds)
         self._kind_of = np.zeros(count, np.int64)
-        self._index = np.zeros(count, np.int64)
+        self._row = np.zeros(count, np.int64)
         for number, each in enumerate(kinds):
-            self._kind_of[each.places] = number
-            self._index[each.places] = np.arange(len(each.places))
+            self._kind_of[each.indices] = number
+            self._row[each.indices] = np.arange(len(each.indices))
         self._shapes: list[list[ParameterShape]] = [[(*shape, None) for shape in each.shapes] for each in kinds]
 
-    def head(self, place: int) -> tuple[int, str, str]:
+    def head(self, index: int) -> tuple[int, str, str]:
         """Tick, timeline and predicate of an observation."""
-        kind = self.kinds[self._kind_of[place]]
-        return int(kind.ticks[self._index[place]]), kind.timeline, kind.predicate
+        kind = self.kinds[self._kind_of[index]]
+        return int(kind.ticks[self._row[index]]), kind.timeline, kind.predicate
 
-    def causes(self, place: int) -> tuple[int, ...]:
+    def causes(self, index: int) -> tuple[int, ...]:
         """What caused an observation."""
-        cause = int(self.kinds[self._kind_of[place]].causes[self._index[place]])
+        cause = int(self.kinds[self._kind_of[index]].causes[self._row[index]])
         return (cause,) if cause >= 0 else ()
 
-    def event(self, place: int) -> Event:
+    def event(self, index: int) -> Event:
         """An event of the trace."""
-        number, index = int(self._kind_of[place]), int(self._index[place])
+        number, row = int(self._kind_of[index]), int(self._row[index])
         kind = self.kinds[number]
-        arguments = arguments_from(self._shapes[number], self.symbols, kind.values[index].tolist())
-        token = TokenName(kind.full_name, int(kind.rows[index]))
-        return _observation(self.name, self.head(place), arguments, self.causes(place), token)
+        arguments = arguments_from(self._shapes[number], self.symbols, kind.values[row].tolist())
+        token = TokenName(kind.full_name, int(kind.rows[row]))
+        return _observation(self.name, self.head(index), arguments, self.causes(index), token)
 
     def published(self) -> tuple[PublishedColumns, ...]:
         """All observations, by timeline and predicate."""
         found = []
         for each in self.kinds:
             width = len(each.shapes)
-            first = np.arange(len(each.places)) * width
+            first = np.arange(len(each.indices)) * width
             arguments = StoredValues(each.values.ravel(), first, tuple([kind for _, kind, _ in each.shapes]))
             given = tuple([name for name, _, _ in each.shapes])
             found.append(
-                PublishedColumns(each.timeline, each.predicate, each.ticks, given, arguments, each.places, self.symbols)
+                PublishedColumns(
+                    each.timeline, each.predicate, each.ticks, given, arguments, each.indices, self.symbols
+                )
             )
         return tuple(found)
 

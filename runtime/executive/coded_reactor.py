@@ -76,7 +76,7 @@ class CodedReactor:
 
     def next_tick(self, tick: int) -> int:
         """When the code wants to be called."""
-        return tick + 1 if self.refused_numbers else max(tick + 1, min(self.wakes, default=_NEVER))
+        return tick + 1 if self.refused_numbers else max(tick + 1, min(self.wakes) if self.wakes else _NEVER)
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published."""
@@ -87,7 +87,8 @@ class CodedReactor:
 
     def synchronise(self, tick: int) -> Failure | None:
         """Let the code speak, if there is anything new."""
-        if not self.is_stirred and not self.refused_numbers and tick < min(self.wakes, default=_NEVER):
+        is_due = bool(self.wakes) and min(self.wakes) <= tick
+        if not self.is_stirred and not self.refused_numbers and not is_due:
             return None
         told: list[str] = []
         for timeline, observation in self.news.items():
@@ -108,7 +109,8 @@ class CodedReactor:
         self.is_stirred = False
         if self.refused_numbers:
             self.refused_numbers = []
-        self.wakes = {wake for wake in self.wakes if wake > tick}
+        if self.wakes:
+            self.wakes = {wake for wake in self.wakes if wake > tick}
         try:
             self._call(now)
         except BaseException as problem:

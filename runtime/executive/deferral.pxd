@@ -13,6 +13,7 @@ cdef class Deferral:
     cdef public Workbench bench
     cdef public dict lines, waiting, _is_loose, _is_plain
     cdef public list passed
+    cdef public object past
 
     @cython.locals(line=TimelineState, predicate="long long")
     cpdef bint takes(self, observation) except -1
@@ -20,5 +21,5 @@ cdef class Deferral:
     @cython.locals(bench=Workbench, fact="long long", holds=bint, tick="long long")
     cpdef int _observe(self, TimelineState line, observation, long long end) except -1
 
-    @cython.locals(rows=Rows)
-    cpdef int _pass(self, TimelineState line, observation, long long end) except -1
+    @cython.locals(predicate="long long", rows=Rows)
+    cpdef object _pass(self, TimelineState line, observation, long long end)

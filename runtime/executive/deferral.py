@@ -10,6 +10,7 @@ from math import inf
 from compiler.program import DomainConstant, PredicateCode
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.messages import Observation
+from runtime.executive.past import OverToken, Past
 from runtime.executive.record import NOBODY, TokenRecord, Value
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.view import SPAN_EXECUTIVE, SPAN_OBSERVATION
@@ -21,8 +22,9 @@ _KEPT = 2  # the current token, and the one before it for rules that say "met by
 class Deferral:
     """The observations of one reactor that wait."""
 
-    def __init__(self, bench: Workbench, timelines: list[TimelineState]) -> None:
+    def __init__(self, bench: Workbench, timelines: list[TimelineState], past: Past) -> None:
         self.bench = bench
+        self.past = past
         self.lines = {line.name: line for line in timelines}
         self.waiting: dict[str, list[Observation]] = {}
         self.passed: list[TokenRecord] = []
@@ -67,12 +69,16 @@ class Deferral:
                 # When the token before it ended, if that is in the plan; else when it ends itself.
                 end = waiting[k + 1].tick if not is_kept else waiting[0 if k <= len(waiting) - _KEPT else k].tick
                 found.append((each.tick, order.index(name), each, end, is_kept))
+        gone: list[OverToken] = []
         # Keys are given in the order of time, as if each had been folded in when it came.
         for _, _, each, end, is_kept in sorted(found, key=lambda one: one[:2]):
             if is_kept:
                 self._observe(self.lines[each.timeline], each, end)
             else:
-                self._pass(self.lines[each.timeline], each, end)
+                gone.append(self._pass(self.lines[each.timeline], each, end))
+        for one in gone:
+            if one.predicate in self.past.predicates:
+                self.past.put_back(one)
         self.waiting.clear()
         return last
 
@@ -97,9 +103,10 @@ class Deferral:
         assert holds, "an observation that cannot matter contradicts the plan"
         line.current, line.event, line.source = fact, observation.event, observation
 
-    def _pass(self, line: TimelineState, observation: Observation, end: int) -> None:
+    def _pass(self, line: TimelineState, observation: Observation, end: int) -> OverToken:
         """Put an observation on record that begins, and at `end` is over, without entering the plan."""
-        code = self.bench.database.program.predicates[line.predicates[observation.predicate]]
+        predicate = line.predicates[observation.predicate]
+        code = self.bench.database.program.predicates[predicate]
         given = dict(observation.arguments)
         rows = self.bench.rows
         self.passed.append(
@@ -119,7 +126,9 @@ class Deferral:
                 (),
             )
         )
+        key = int(rows.next_key)
         rows.next_key += 1
+        return OverToken(NOTHING, key, predicate, line.object_id, observation.tick, end, observation.arguments)
 
     # ---- what cannot matter ----
 

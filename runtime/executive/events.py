@@ -14,17 +14,17 @@ Head = tuple[int, int, str, str]  # of an observation: index, tick, timeline and
 class EventColumns(Protocol):
     """Observations that are kept as columns."""
 
-    def head(self, place: int) -> tuple[int, str, str]:
-        """Tick, timeline and predicate of the observation at a place of the columns."""
+    def head(self, index: int) -> tuple[int, str, str]:
+        """Tick, timeline and predicate of the observation at an index of the columns."""
 
-    def event(self, place: int) -> Event:
-        """The observation at a place."""
+    def event(self, index: int) -> Event:
+        """The observation at an index."""
 
     def published(self) -> tuple[PublishedColumns, ...]:
         """All observations, by timeline and predicate."""
 
-    def causes(self, place: int) -> tuple[int, ...]:
-        """What caused the observation at a place."""
+    def causes(self, index: int) -> tuple[int, ...]:
+        """What caused the observation at an index."""
 
     def stored(self) -> "EventColumns":
         """The same apart from what else the mission leaves behind."""
@@ -32,10 +32,10 @@ class EventColumns(Protocol):
 
 @dataclass(eq=False, slots=True)
 class EventRun:
-    """`count` observations in columns, from a place on."""
+    """`count` observations in columns, from an index on."""
 
     columns: EventColumns
-    place: int
+    first: int
     count: int
 
 
@@ -57,13 +57,13 @@ class EventLog(Sequence[Event]):
         self._length += 1
         return self._length - 1
 
-    def extend(self, columns: EventColumns, place: int, count: int) -> None:
-        """Add the observations at `place` and after."""
+    def extend(self, columns: EventColumns, index: int, count: int) -> None:
+        """Add the observations at `index` and after."""
         last = self._parts[-1] if self._parts else None
-        if isinstance(last, EventRun) and last.columns is columns and last.place + last.count == place:
+        if isinstance(last, EventRun) and last.columns is columns and last.first + last.count == index:
             last.count += count
         else:
-            self._parts.append(EventRun(columns, place, count))
+            self._parts.append(EventRun(columns, index, count))
             self._starts.append(self._length)
         self._length += count
 
@@ -90,22 +90,22 @@ class EventLog(Sequence[Event]):
 
     def heads(self) -> Iterator[Head]:
         """Each observation in short, in order."""
-        index = 0
+        number = 0
         for part in self._parts:
             if isinstance(part, EventRun):
-                for place in range(part.place, part.place + part.count):
-                    yield index, *part.columns.head(place)
-                    index += 1
+                for index in range(part.first, part.first + part.count):
+                    yield number, *part.columns.head(index)
+                    number += 1
                 continue
             if part.kind is EventKind.OBSERVATION:
-                yield index, part.tick, part.timeline, part.predicate
-            index += 1
+                yield number, part.tick, part.timeline, part.predicate
+            number += 1
 
     def causes(self) -> Iterator[tuple[int, ...]]:
         """The causes of each event, in order."""
         for part in self._parts:
             if isinstance(part, EventRun):
-                yield from map(part.columns.causes, range(part.place, part.place + part.count))
+                yield from map(part.columns.causes, range(part.first, part.first + part.count))
             else:
                 yield part.causes
 
@@ -116,9 +116,9 @@ class EventLog(Sequence[Event]):
                 if part.timeline in timelines:
                     yield part
                 continue
-            for place in range(part.place, part.place + part.count):
-                if part.columns.head(place)[1] in timelines:
-                    yield part.columns.event(place)
+            for index in range(part.first, part.first + part.count):
+                if part.columns.head(index)[1] in timelines:
+                    yield part.columns.event(index)
 
     def __len__(self) -> int:
         return self._length
@@ -130,19 +130,19 @@ class EventLog(Sequence[Event]):
     def __getitem__(self, index: int | slice) -> Event | tuple[Event, ...]:
         if isinstance(index, slice):
             return tuple(self[k] for k in range(*index.indices(self._length)))
-        place = index + self._length if index < 0 else index
-        if not 0 <= place < self._length:
+        at = index + self._length if index < 0 else index
+        if not 0 <= at < self._length:
             raise IndexError(index)
-        number = bisect_right(self._starts, place) - 1
+        number = bisect_right(self._starts, at) - 1
         part = self._parts[number]
-        return part if isinstance(part, Event) else part.columns.event(part.place + place - self._starts[number])
+        return part if isinstance(part, Event) else part.columns.event(part.first + at - self._starts[number])
 
     def __iter__(self) -> Iterator[Event]:
         for part in self._parts:
             if isinstance(part, Event):
                 yield part
             else:
-                yield from map(part.columns.event, range(part.place, part.place + part.count))
+                yield from map(part.columns.event, range(part.first, part.first + part.count))
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, (EventLog, tuple)) and len(self) == len(other) and tuple(self) == tuple(other)

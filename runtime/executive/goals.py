@@ -137,7 +137,7 @@ class Goals:
         why = Reason(kind)
         if repair is not None:
             conflict, causes = repair.conflict, (request.event, repair.event)
-            deadlock, why = deadlock or repair.deadlock, Reason(kind, because=repair.reason)
+            deadlock, why = deadlock or repair.deadlock, Reason(kind, repair=repair.reason)
             if conflict is not None:
                 causes += self.trace.draw_events(conflict.parameters)
         event = self.trace.record(
@@ -295,7 +295,7 @@ class Goals:
         began = bench.start(bench.stands_for(goal.token))
         if bench.upper(began) > repair.tick or repair.event < goal.request.event:
             return found
-        why = Reason(ReasonKind.CUT_LOOSE, because=repair.reason)
+        why = Reason(ReasonKind.CUT_LOOSE, repair=repair.reason)
         return replace(found, reason=why, event=repair.event, conflict=repair.conflict, deadlock=repair.deadlock)
 
 

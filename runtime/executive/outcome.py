@@ -178,7 +178,7 @@ class ReasonKind(StrEnum):
 class Reason:
     """Why something happened, with what it is about; `limit` is a number of tries, steps or decisions.
 
-    `message` is text of others, such as that of an exception in a user's reactor. `because` is the reason of the repair
+    `message` is text of others, such as that of an exception in a user's reactor. `repair` is the reason of the repair
     in which a goal left the plan.
     """
 
@@ -189,7 +189,7 @@ class Reason:
     tick: int | None = None
     limit: int | None = None
     message: str = ""
-    because: "Reason | None" = None
+    repair: "Reason | None" = None
 
 
 class RepairStage(StrEnum):

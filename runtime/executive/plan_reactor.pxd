@@ -20,7 +20,7 @@ cdef class PlanReactor:
     cdef public Workbench bench
     cdef public Planner planner
     cdef public Dispatch dispatch
-    cdef public object trace, draws, max_steps, goals, broken
+    cdef public object trace, draws, max_steps, goals, broken, past
     cdef public Deferral deferral
     cdef public list timelines
     cdef public dict by_name

@@ -8,6 +8,7 @@ from runtime.executive.draws import Draws
 from runtime.executive.goals import Goals, Repair
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
+from runtime.executive.past import Past
 from runtime.executive.planning import EPISODE_DONE, EPISODE_MOVED, EPISODE_TOO_DEEP, Planner
 from runtime.executive.reactor import Failure, Refusal, SyncFailure, Watched
 from runtime.executive.record import ReactorRecord
@@ -71,7 +72,8 @@ class PlanReactor:
         self.decisions_made = 0
         self.work_since = 0
         self.broken: Failure | None = None
-        self.deferral = Deferral(bench, self.timelines)
+        self.past = Past(bench)
+        self.deferral = Deferral(bench, self.timelines, self.past)
         self.dispatch = Dispatch(self.name, bench, self.timelines, trace)
         self.is_stirred = False  # something came from outside after the present was synchronised
 
@@ -93,7 +95,7 @@ class PlanReactor:
     def start_tick(self, tick: int) -> None:
         """Set "now", and forget what is over."""
         self.tick = max(self.tick, self.deferral.fold(tick))
-        self.bench.archive(self.timelines, self.tick)
+        self.past.archive(self.timelines, self.tick)
         self.bench.tidy()
         if not self.bench.is_consistent():
             raise _HistoryError(f"what is over at tick {tick} contradicts the plan of `{self.name}`")
@@ -172,7 +174,7 @@ class PlanReactor:
                 self.dispatch.is_repaired = True
                 if attempt == 1:
                     self.bench.recorder.agreed = None
-                if not relax(self.bench, self.timelines, self.goals.live(), tick, forget=attempt == 2):
+                if not relax(self.bench, self.timelines, self.goals.live(), self.past, tick, forget=attempt == 2):
                     what = Reason(ReasonKind.CANNOT_RELAX)
                     failures.append(SyncFailure(failures[0].code, (), what, conflict_of(self.bench)))
                     continue
@@ -314,7 +316,7 @@ class PlanReactor:
             stage = RepairStage.REPLAN
             event = self.trace.record(EventKind.RELAX, self.name, stage=stage, reason=what, conflict=conflict)
             self.goals.note_repair(Repair(tick, event, what, conflict))
-            if relax(self.bench, self.timelines, self.goals.live(), tick + 1, forget=False):
+            if relax(self.bench, self.timelines, self.goals.live(), self.past, tick + 1, forget=False):
                 return True
         deadlock = self.planner.deadlock()
         self.broken = Failure("F4", what, self.internal, conflict, self.relaxes, deadlock=deadlock)

@@ -77,6 +77,7 @@ class Recorder:
         self.synchronised = NOBODY  # the last tick at which the plan agreed with the present
         self.agreed: dict[int, TokenRecord] | None = None  # what had begun, as the plan last agreed with the present
         self.is_lost = False  # no repair has helped: the plan as the last one left it is nobody's
+        self.kept: dict[int, None] = {}  # keys of tokens that are recorded, and in the plan again without their rules
         self.gone: dict[tuple[int, int], int] = {}  # (key of a parent, row of a child that left before it) -> its key
         self.script_tokens = self._script_tokens()
 
@@ -104,7 +105,9 @@ class Recorder:
         found = {
             rows.key[t]: self._token(t, "cut", self.synchronised)
             for t in range(rows.token_count)
-            if rows.status[t] in (ACTIVE, MERGED) and engine.upper(rows.var0[t] + START) <= self.synchronised
+            if rows.status[t] in (ACTIVE, MERGED)
+            and engine.upper(rows.var0[t] + START) <= self.synchronised
+            and rows.key[t] not in self.kept
         }
         self.tokens |= found
         if self.agreed is None:
@@ -114,7 +117,7 @@ class Recorder:
         """Record what the plan holds when the mission has ended."""
         rows, tick = self.rows, self.synchronised
         for t in range(rows.token_count):
-            if rows.status[t] != FREED:
+            if rows.status[t] != FREED and rows.key[t] not in self.kept:
                 self.tokens[rows.key[t]] = self._token(t, "end", tick)
         for key, one in (self.agreed or {}).items() if self.is_lost else ():
             left = self.tokens[key]

@@ -116,7 +116,7 @@ def trace_line(event: Event) -> str:
 
 def reason_text(reason: Reason) -> str:
     """A reason as a clause, and what it came of."""
-    origin = f" ({reason_text(reason.because)})" if reason.because is not None else ""
+    origin = f" ({reason_text(reason.repair)})" if reason.repair is not None else ""
     text = _REASONS[reason.kind].format(
         token=reason.token,
         predicate=reason.predicate,
@@ -236,8 +236,8 @@ def _reason_data(reason: Reason) -> dict[str, Any]:
     for name in ("predicate", "timeline", "tick", "limit", "message"):
         if (value := getattr(reason, name)) not in (None, ""):
             found[name] = value
-    if reason.because is not None:
-        found["because"] = _reason_data(reason.because)
+    if reason.repair is not None:
+        found["because"] = _reason_data(reason.repair)
     return found | {"words": reason_text(reason)}
 
 

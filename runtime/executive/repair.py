@@ -1,21 +1,27 @@
 """Repair a plan that no longer agrees with the world: undo what has not begun, and if need be forget the past."""
 
+from runtime.executive.past import Past
 from runtime.executive.timelines import NOTHING, Goal, TimelineState
 from runtime.executive.view import SPAN_CLOCK
 from runtime.executive.workbench import Workbench
 
 
-def relax(bench: Workbench, timelines: list[TimelineState], goals: list[Goal], tick: int, *, forget: bool) -> bool:
+def relax(
+    bench: Workbench, timelines: list[TimelineState], goals: list[Goal], past: Past, tick: int, *, forget: bool
+) -> bool:
     """Take back all decisions about tokens that have not begun before `tick`; goals become open again (T-REX 1.9).
 
     What holds now is fact, observed or not, and stays. With `forget`, what is over is dropped, with what follows from
-    it alone. Goals that are too late are removed. False if even that is inconsistent.
+    it alone; that it has happened is kept, for rules that look back. Goals that are too late are removed. False if even
+    that is inconsistent.
     """
     bench.recorder.cut()
     seen = hold_present(bench, timelines)
     if forget:
         present = {token for line in timelines for token in (line.current, seen.get(line.name, NOTHING))}
-        bench.remove([token for token in bench.all_tokens() if bench.is_over(token, tick) and token not in present])
+        happened = past.outlines(tick)
+        over = [token for token in bench.all_tokens() if bench.is_over(token, tick) and not bench.is_kept(token)]
+        bench.remove([token for token in over if token not in present])
     for token in bench.all_tokens():
         if not bench.is_freed(token) and bench.is_waiting(token, tick):
             bench.cancel(token)
@@ -31,6 +37,8 @@ def relax(bench: Workbench, timelines: list[TimelineState], goals: list[Goal], t
     if late:
         bench.remove([token for token in late if not bench.is_freed(token)])
         stand(bench, timelines, seen)
+    if forget:
+        past.keep(happened)
     return bench.is_consistent()
 
 

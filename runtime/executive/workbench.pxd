@@ -36,6 +36,8 @@ cdef class Workbench(PlanView):
 
     cpdef bint fix(self, long long v, double value, long long span, long long t) except -1
 
+    cpdef bint is_kept(self, long long t) except -1
+
     @cython.locals(was_decided=bint)
     cpdef bint _narrow(self, long long v, double lower, double upper, long long span, long long t) except -1
 

@@ -197,6 +197,10 @@ class Workbench(PlanView):
         holds = self.cancel(t) and self.activate(t)
         return holds and (o < 0 or self.place_after(o, t, before))
 
+    def is_kept(self, t: int) -> bool:
+        """Whether the token is over and in the plan without its rules, for others to look back at."""
+        return self.rows.key[t] in self.recorder.kept
+
     def archive(self, timelines: list[TimelineState], tick: int) -> int:
         """Take out of the plan what is over; of each timeline the token before the current one is kept.
 
@@ -209,6 +213,7 @@ class Workbench(PlanView):
                 kept.add(int(self.rows.link_before[LISTS * line.current + LIST_ORDER]))
         count = self.rows.token_count
         over = [t for t in range(count) if t not in kept and not self.is_freed(t) and self.is_over(t, tick)]
+        over = [t for t in over if not self.is_kept(t)]
         return archive(self.plan, over, tick, self.recorder.leave) if over and fire(self.plan) else 0
 
     def tidy(self) -> None:

@@ -44,12 +44,12 @@ def test_make_check_tells_findings_from_failures(tree: Path, ends_with: int, cod
     done = make(tree, "check", ends_with=ends_with)
     assert done.returncode == code, done.stderr
     build, _, check = done.stdout.splitlines()
-    assert (build, check) == ("python build_backend/build_in_place.py", "nddlc check models/gps/mission.toml")
+    assert (build, check) == ("python build_backend/build_in_place.py", "nddlc check models/auv/inl/mission.toml")
 
 
 def test_findings_are_forgotten_by_the_next_check(tree: Path) -> None:
     assert make(tree, "check", ends_with=1).returncode == 1
-    assert make(tree, "check", "MISSION=models/gps/mended.toml").returncode == 0
+    assert make(tree, "check", "MISSION=models/gps/mission.toml").returncode == 0
 
 
 def test_an_environment_that_came_with_a_copy_is_removed(tree: Path) -> None:

@@ -79,11 +79,11 @@ def test_without_flights_the_samples_must_do() -> None:
 def test_what_stays_open_does_not_split_a_bucket() -> None:
     mission = Outcome(1, 90, 90, None, (), (), ())
     failed = Judgement(Verdict.FAIL, "F10", reason=Reason(ReasonKind.GOALS_OPEN))
-    dropped = Reason(ReasonKind.DROPPED, because=Reason(ReasonKind.GOES_ON, TokenName("Nav.Go", 3), tick=7))
+    dropped = Reason(ReasonKind.DROPPED, repair=Reason(ReasonKind.GOES_ON, TokenName("Nav.Go", 3), tick=7))
     results = []
     for number, goals in enumerate((("map",), ("map", "sample"), ("sample",)), 1):
         token = TokenName("Nav.Go", number)
-        lost = replace(dropped, because=Reason(ReasonKind.GOES_ON, token, tick=7 + number))
+        lost = replace(dropped, repair=Reason(ReasonKind.GOES_ON, token, tick=7 + number))
         opened = tuple(OpenGoal(goal, "Visit", reason=lost) for goal in goals)
         results.append(MissionResult(number, number, failed, replace(mission, open_goals=opened), has_trace=True))
     (bucket,) = group_failures(tuple(results))

@@ -53,7 +53,7 @@ def why(reason: Reason | None) -> tuple[object, ...]:
     """A reason without the numbers of tokens."""
     if reason is None:
         return ()
-    return (reason.kind, reason.token and reason.token.predicate, reason.predicate, reason.tick, *why(reason.because))
+    return (reason.kind, reason.token and reason.token.predicate, reason.predicate, reason.tick, *why(reason.repair))
 
 
 def line(event: Event) -> str:

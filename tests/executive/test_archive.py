@@ -40,10 +40,10 @@ fact(stock.Holds first); first.start == 0; eq(first.y, 1.0);
 """
 
 
-def metronome(final_tick: int) -> PlanReactor:
+def metronome(final_tick: int, rules: str = "") -> PlanReactor:
     """A simulator whose every token asks for the next one, by itself."""
     place = ReactorConfiguration("clock", "clock.nddl", internal=("clock",))
-    database = PlanDatabase(program("clock.nddl", METRONOME), None)
+    database = PlanDatabase(program("clock.nddl", METRONOME.replace("Clock::Tick {", f"{rules} Clock::Tick {{")), None)
     assert database.run_script() is None
     bench = Workbench(database, "clock")
     bench.commit()
@@ -96,6 +96,16 @@ def test_the_plan_stays_small() -> None:
     seen = let_pass(reactor, 0, 2_000)
     assert seen[1] == seen[2]
     assert event_text(reactor.trace.events[-1]) == "Tick(n=200, x=100.0)"
+
+
+def test_of_what_rules_look_back_at_a_bounded_part_is_kept() -> None:
+    user = (
+        'class User extends AgentTimeline { predicate Idle { } predicate Busy { } User(Mode m) { super(m, "Idle"); } }'
+    )
+    reactor = metronome(3_000, f"{user} User::Busy {{ after(Clock.Tick t); }}")
+    seen = let_pass(reactor, 0, 3_000)
+    assert seen[1] == seen[3]
+    assert 60 < seen[1][0] < 75
 
 
 def test_what_is_visited_at_every_tick_stays_small_too() -> None:

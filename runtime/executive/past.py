@@ -1,0 +1,150 @@
+"""The past that rules look back at: what is over stays, as a bare fact, where a rule may ask for it later.
+
+Archiving and forgetting take a token out of the plan with all that its rules made. A rule of a token that begins later
+may ask for one that was over before, and what has happened is no less true for having been archived.
+"""
+
+from collections.abc import Iterable
+from math import inf
+from typing import NamedTuple
+
+from compiler.program import Child, Guard, Instruction, ObjectLoop, Program
+from nddl_lang.semantics.relations import RELATIONS, Point
+from runtime.executive.messages import Arguments
+from runtime.executive.timelines import TimelineState
+from runtime.executive.view import SPAN_OBSERVATION
+from runtime.executive.workbench import Workbench
+from runtime.plan.lifecycle import fire
+from runtime.plan.tokens.predicate_hierarchy import first_active, next_active
+from runtime.plan.tokens.tokens import activation
+
+_MOST = 64  # of each predicate on each timeline: the plan stays small in long missions
+
+
+class OverToken(NamedTuple):
+    """What is kept of a token that is over, and the row that it had."""
+
+    row: int
+    key: int
+    predicate: int
+    object: int
+    start: float
+    end: float
+    arguments: Arguments
+
+
+class Past:
+    """What one reactor keeps of what is over."""
+
+    def __init__(self, bench: Workbench) -> None:
+        self.bench = bench
+        self.predicates = _looked_back(bench.database.program)
+        self._kept: dict[tuple[int, int], list[tuple[int, int]]] = {}  # by timeline and predicate: rows and keys
+
+    def archive(self, timelines: list[TimelineState], tick: int) -> int:
+        """Take out of the plan what is over, but for what rules may look back at; how many tokens went."""
+        found = self.outlines(tick)
+        count = self.bench.archive(timelines, tick)
+        self.keep(found)
+        return count
+
+    def outlines(self, tick: int) -> list[OverToken]:
+        """What is over by `tick` on shared timelines and may be asked for later."""
+        bench = self.bench
+        found: dict[int, OverToken] = {}
+        for predicate in sorted(self.predicates):
+            t = first_active(bench.plan, predicate)
+            while t >= 0:
+                o, start, end = bench.object_of(t), bench.started_at(t), bench.upper(bench.end(t))
+                is_shared = o in bench.internal_objects or o in bench.external_objects
+                if is_shared and -inf < start and end <= tick and not bench.is_kept(t):
+                    key = bench.key(t)
+                    found[key] = OverToken(t, key, bench.predicate_of(t), o, start, end, bench.arguments(t))
+                t = next_active(bench.plan, t, predicate)
+        return list(found.values())
+
+    def keep(self, outlines: Iterable[OverToken]) -> int:
+        """Put back what has left the plan; of too many the oldest goes."""
+        bench = self.bench
+        for one in outlines:
+            if not bench.is_alive(one.row, one.key):
+                self.put_back(one)
+        return 0
+
+    def put_back(self, one: OverToken) -> None:
+        """Put one token that has left the plan, or never was in it, back as a fact without rules."""
+        bench, plan = self.bench, self.bench.plan
+        mark = bench.mark()
+        t = bench.new_token(one.predicate, one.object, True)
+        bench.rows.key[t] = one.key
+        holds = (
+            bench.fix(bench.start(t), one.start, SPAN_OBSERVATION, t)
+            and bench.fix(bench.end(t), one.end, SPAN_OBSERVATION, t)
+            and bench.restrict_parameters(t, one.arguments, SPAN_OBSERVATION)
+        )
+        if holds:
+            waiting = plan.stack_length
+            activation(plan, t, SPAN_OBSERVATION)
+            plan.stack_length = waiting  # its rules have had their say when it was executed
+            holds = fire(plan) and bench.stand_alone(t, one.object)
+        if not holds:
+            bench.rewind_to(mark)
+        bench.commit()
+        if not holds:
+            return
+        bench.rows.next_key -= 1  # no key was given
+        bench.recorder.kept[one.key] = None
+        line = self._kept.setdefault((one.object, one.predicate), [])
+        line.append((t, one.key))
+        if len(line) > _MOST:
+            oldest, key = line.pop(0)
+            if bench.is_alive(oldest, key) and bench.rows.merged[oldest] < 0:
+                bench.remove([oldest])
+
+
+_LOOKED_BACK: dict[int, tuple[Program, frozenset[int]]] = {}
+
+
+def _looked_back(program: Program) -> frozenset[int]:
+    """The predicates of which a rule may ask for a token that is over before the rule's own token begins."""
+    known = _LOOKED_BACK.get(id(program))
+    if known is None or known[0] is not program:
+        if len(_LOOKED_BACK) > 64:
+            _LOOKED_BACK.clear()
+        names = {name for rule in program.rules for name in _names(rule.body, set())}
+        found = [number for number, each in enumerate(program.predicates) if each.name.rpartition(".")[2] in names]
+        known = _LOOKED_BACK[id(program)] = (program, frozenset(found))
+    return known[1]
+
+
+def _names(body: Iterable[Instruction], early: set[int]) -> set[str]:
+    """The predicates, without their classes, that a body looks back at; `early` are the slots that do so far."""
+    found: set[str] = set()
+    for step in body:
+        match step:
+            case Child(slot=slot, predicate=predicate, relation=relation, origin=origin, bounds=bounds):
+                if origin in early or _may_precede(relation, bounds):
+                    early.add(slot)
+                    found.add(predicate.rpartition(".")[2])
+            case Guard(then=then, otherwise=otherwise):
+                found |= _names(then, early) | _names(otherwise, early)
+            case ObjectLoop(body=inner):
+                found |= _names(inner, early)
+            case _:
+                pass
+    return found
+
+
+def _may_precede(relation: str, bounds: tuple[tuple[int, int], ...]) -> bool:
+    """Whether the target of a relation may end before its origin begins, by what the relation says of their times."""
+    # Shortest distances from each point to the target's end; tokens last a tick at least.
+    least = dict.fromkeys(Point, -inf) | {Point.TARGET_END: 0.0}
+    steps: list[tuple[Point, Point, int]] = []
+    for k, each in enumerate(RELATIONS[relation].distances):
+        lower, upper = bounds[k] if k < len(bounds) else (each.lower, each.upper)
+        steps += [(each.earlier, each.later, lower), (each.later, each.earlier, -upper)]
+    steps += [(Point.ORIGIN_START, Point.ORIGIN_END, 1), (Point.TARGET_START, Point.TARGET_END, 1)]
+    for _ in Point:
+        for earlier, later, length in steps:
+            least[earlier] = max(least[earlier], least[later] + length)
+    return least[Point.ORIGIN_START] < 0
