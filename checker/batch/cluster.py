@@ -73,6 +73,8 @@ class _Round:
         lanes = max(1, sum(client.nthreads().values()))
         size = max(1, min(_LARGEST_CHUNK, len(tasks) // (lanes * 4)))
         self._futures: dict[Any, tuple[Task, ...]] = {}
+        self._suspects: list[Task] = []  # their worker died, which another task of its queue may have killed
+        self._alone: Task | None = None  # the suspect that flies while nothing else does
         for first in range(0, len(tasks), size):
             self._submit(tuple(tasks[first : first + size]))
 
@@ -83,7 +85,10 @@ class _Round:
     def fly(self, supervisor: Supervisor, signals: _Signals) -> None:
         """Give each result to `supervisor` until all are there, or there are enough."""
         deadline = time.monotonic() + self._time_allowed()
-        while self._futures and signals.seen is None and not supervisor.is_enough():
+        while (self._futures or self._suspects) and signals.seen is None and not supervisor.is_enough():
+            if not self._futures:
+                self._alone = self._suspects.pop(0)
+                self._submit((self._alone,))
             finished = self._finished()
             for future in finished:
                 self._take(future, supervisor)
@@ -113,6 +118,8 @@ class _Round:
         elif isinstance(problem, KilledWorker) and len(chunk) > 1:
             for task in chunk:  # one of them kills it: each by itself
                 self._submit((task,))
+        elif isinstance(problem, KilledWorker) and chunk[0] is not self._alone:
+            self._suspects.append(chunk[0])
         else:
             reason = "the process died" if isinstance(problem, KilledWorker) else f"{type(problem).__name__}: {problem}"
             for task in chunk:

@@ -15,6 +15,7 @@ from runtime.executive.record import NOBODY, TokenRecord, Value
 from runtime.executive.timelines import NOTHING, TimelineState
 from runtime.executive.view import SPAN_EXECUTIVE, SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
+from runtime.plan.tokens.tokens import take_key
 
 _KEPT = 2  # the current token, and the one before it for rules that say "met by"
 
@@ -108,10 +109,10 @@ class Deferral:
         predicate = line.predicates[observation.predicate]
         code = self.bench.database.program.predicates[predicate]
         given = dict(observation.arguments)
-        rows = self.bench.rows
+        key = take_key(self.bench.plan)
         self.passed.append(
             TokenRecord(
-                int(rows.next_key),
+                key,
                 code.name,
                 line.name,
                 "active",
@@ -126,8 +127,6 @@ class Deferral:
                 (),
             )
         )
-        key = int(rows.next_key)
-        rows.next_key += 1
         return OverToken(NOTHING, key, predicate, line.object_id, observation.tick, end, observation.arguments)
 
     # ---- what cannot matter ----

@@ -16,7 +16,7 @@ from runtime.executive.view import SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
 from runtime.plan.lifecycle import fire
 from runtime.plan.tokens.predicate_hierarchy import first_active, next_active
-from runtime.plan.tokens.tokens import activation
+from runtime.plan.tokens.tokens import activation, restore_key, return_key
 
 _MOST = 64  # of each predicate on each timeline: the plan stays small in long missions
 
@@ -76,7 +76,7 @@ class Past:
         bench, plan = self.bench, self.bench.plan
         mark = bench.mark()
         t = bench.new_token(one.predicate, one.object, True)
-        bench.rows.key[t] = one.key
+        restore_key(plan, t, one.key)
         holds = (
             bench.fix(bench.start(t), one.start, SPAN_OBSERVATION, t)
             and bench.fix(bench.end(t), one.end, SPAN_OBSERVATION, t)
@@ -92,7 +92,7 @@ class Past:
         bench.commit()
         if not holds:
             return
-        bench.rows.next_key -= 1  # no key was given
+        return_key(plan)
         bench.recorder.kept[one.key] = None
         line = self._kept.setdefault((one.object, one.predicate), [])
         line.append((t, one.key))

@@ -121,3 +121,20 @@ def activation(plan: Plan, t: int, span: int) -> bool:
         plan.push(plan.block_start[block], plan.block_end[block], s, NONE, NONE)
         s = rows.scope_next[s]
     return holds
+
+
+def take_key(plan: Plan) -> int:
+    """A key that no token of the plan has had."""
+    key = int(plan.rows.next_key)
+    plan.rows.next_key += 1
+    return key
+
+
+def restore_key(plan: Plan, t: int, key: int) -> None:
+    """Give a new token a key from before; its own is given back by undoing it, or by `return_key` once it stays."""
+    plan.rows.key[t] = key
+
+
+def return_key(plan: Plan) -> None:
+    """Give back the last key that was taken."""
+    plan.rows.next_key -= 1
