@@ -20,6 +20,7 @@ from multiprocessing.process import BaseProcess
 from types import FrameType
 from typing import Protocol
 
+import runtime.build_form
 from checker.batch.result import MissionResult
 from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result, work
 from checker.oracle import USER_CODE
