@@ -17,7 +17,8 @@ from distributed import CancelledError, Client, wait
 from distributed.scheduler import KilledWorker
 
 import runtime.build_form
-from checker.batch.pool import Batch, Flyer, Supervisor
+from checker.batch.pool import Batch, Supervisor
+from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.batch.worker import Load, Task, error_result
 from runtime.executive.configuration import AgentConfiguration
