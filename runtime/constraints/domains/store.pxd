@@ -61,6 +61,9 @@ cdef class Store:
 
     cpdef int save(self, long long name, long long code, long long value, long long support) except -1
 
+    @cython.final
+    cdef long long _push(self, long long key, long long value, long long support, long long when) except -1
+
     cpdef int write_lower(self, long long v, long long x, long long support) except -1
 
     cpdef int write_upper(self, long long v, long long x, long long support) except -1
@@ -81,5 +84,7 @@ cdef class Store:
     cpdef int queue_edges(self, long long v, long long side) except -1
 
     cpdef int queue_hull(self, long long v) except -1
+
+    cpdef int clear_woken(self) except -1
 
     cpdef int set_decided(self, long long v, long long flag) except -1
