@@ -59,7 +59,6 @@ class PlanDatabase:
         load_prototypes(self.plan, program, self.prototypes)
         load_relations(self.plan)
         load_predicates(self.plan, program, self.prototypes, self.code)
-        self.plan.set_globals(len(program.globals))
         self.objects = Objects(self.plan, program, self.prototypes, self.code)
         self.written.objects = self.objects.names
         self.script = Script(predicates, self.objects)

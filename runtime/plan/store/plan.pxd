@@ -38,8 +38,6 @@ cdef class Plan:
     cdef public object services, envelope
     cdef public Resources resources
 
-    cpdef int set_globals(self, long long count) except -1
-
     cpdef long long new_object(self, long long number, bint is_timeline) except? -1
 
     cpdef int push(self, long long start, long long end, long long scope, long long slot, long long value) except -1

@@ -1,6 +1,5 @@
 """Tables of the plan: engine, rows, bytecode, predicates, objects, agenda of rules and guards."""
 
-from array import array
 from typing import Protocol
 
 from runtime.constraints.domains.arrays import blank, lengthen
@@ -149,10 +148,6 @@ class Plan:
         self.services: _Services
         self.resources = Resources(engine)
         self.envelope: UseOrder
-
-    def set_globals(self, count: int) -> None:
-        """Make room for the global variables, none of which exists yet."""
-        self.globals = array("q", [NONE]) * (count + 1)
 
     def new_object(self, number: int, is_timeline: bool) -> int:
         """Take a row for an object of class `number`."""

@@ -28,10 +28,6 @@ cdef class Rows:
     cdef public long long[::1] scope_next, scope_at, scope_branch, scope_watch
     cdef public long long[::1] scope_inputs
 
-    cpdef int _make_tokens(self, long long capacity) except -1
-
-    cpdef int _grow_tokens(self) except -1
-
     @cython.locals(at="long long")
     cpdef long long new_token(
         self, long long predicate, long long flags, long long parent, long long creator, long long span
@@ -46,10 +42,6 @@ cdef class Rows:
     cpdef int set_merged(self, long long t, long long other) except -1
 
     cpdef int unset_merged(self, long long t) except -1
-
-    cpdef int _make_scopes(self, long long capacity) except -1
-
-    cpdef int _grow_scopes(self) except -1
 
     cpdef long long new_scope(
         self, long long kind, long long token, long long rule, long long parent, long long slots, long long size
