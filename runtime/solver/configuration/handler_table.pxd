@@ -2,7 +2,7 @@
 
 
 cdef long long FILTER_HORIZON, FILTER_HORIZON_VARIABLE, FILTER_INFINITE, FILTER_NOT_SINGLETON, NONE, ORDER_KEY
-cdef long long PREFER_EARLIEST, _FEW, _GLOBAL, _LOCAL, _MEMBER, _RESOURCE, _TOKEN, _UNKNOWN
+cdef long long PREFER_EARLIEST, _FEW, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, _ROLE_RESOURCE, _UNKNOWN
 
 
 cdef class HandlerTable:
@@ -28,17 +28,11 @@ cdef class HandlerTable:
     @cython.locals(at="long long")
     cpdef long long variable_row(self, long long manager, long long kind, long long number) except? -1
 
-    cpdef long long local_row(self, long long manager, long long kind, long long name) except? -1
-
     cpdef long long variable_number(self, long long predicate, object name) except? -1
-
-    cpdef long long member_row(self, long long manager, long long owner, long long name) except? -1
 
     cpdef long long resource_row(self, long long manager, long long owner) except? -1
 
-    cpdef long long global_row(self, long long manager, long long name) except? -1
-
     @cython.locals(key="long long")
-    cpdef long long _other_row(self, long long sort, long long manager, long long owner, long long name) except? -1
+    cpdef long long other_row(self, long long role, long long manager, long long owner, long long name) except? -1
 
-    cpdef long long _match(self, long long sort, long long manager, long long owner, long long name) except? -1
+    cpdef long long _match(self, long long role, long long manager, long long owner, long long name) except? -1

@@ -7,6 +7,7 @@ depend on more than their own bounds have none (NONE): they are dynamic, looked 
 from array import array
 
 from runtime.constraints.domains.arrays import grown
+from runtime.plan.tags import ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN
 from runtime.solver.configuration.configuration import FlawHandler
 from runtime.solver.configuration.handler_matching import HandlerMatching, HandlerRow, TokenKind
 from runtime.solver.configuration.vocabulary import PlanVocabulary
@@ -30,7 +31,7 @@ from runtime.solver.tags import (
 
 _UNKNOWN = -2  # a row that nobody has asked for yet
 _FEW = 32  # variables of a token whose rows are looked up by number
-_TOKEN, _LOCAL, _MEMBER, _RESOURCE, _GLOBAL = range(5)
+_ROLE_RESOURCE = 5  # behind the roles of variables
 
 
 class HandlerTable:
@@ -160,53 +161,41 @@ class HandlerTable:
     def variable_row(self, manager: int, kind: int, number: int) -> int:
         """The row of a manager for variable `number` of tokens of a kind."""
         if number >= _FEW:
-            return self._other_row(_TOKEN, manager, kind, number)
+            return self.other_row(ROLE_TOKEN, manager, kind, number)
         at = (kind * self.managers + manager) * _FEW + number
         if at >= len(self.variable_rows):
             self.variable_rows = grown(self.variable_rows, 2 * at, _UNKNOWN)
         if self.variable_rows[at] == _UNKNOWN:
-            self.variable_rows[at] = self._match(_TOKEN, manager, kind, number)
+            self.variable_rows[at] = self._match(ROLE_TOKEN, manager, kind, number)
         return self.variable_rows[at]
-
-    def local_row(self, manager: int, kind: int, name: int) -> int:
-        """The row of a manager for a local variable of the rules of tokens of a kind."""
-        return self._other_row(_LOCAL, manager, kind, name)
 
     def variable_number(self, predicate: int, name: str) -> int:
         """The number of the variable that tokens of a predicate call `name`; NONE if none."""
         return self.matching.variable_number(self.vocabulary.predicate_text(predicate), name)
 
-    def member_row(self, manager: int, owner: int, name: int) -> int:
-        """The row of a manager for a member of objects of class `owner`."""
-        return self._other_row(_MEMBER, manager, owner, name)
-
     def resource_row(self, manager: int, owner: int) -> int:
         """The row of a manager for resources of class `owner`."""
-        return self._other_row(_RESOURCE, manager, owner, 0)
+        return self.other_row(_ROLE_RESOURCE, manager, owner, 0)
 
-    def global_row(self, manager: int, name: int) -> int:
-        """The row of a manager for a global variable."""
-        return self._other_row(_GLOBAL, manager, 0, name)
-
-    def _other_row(self, sort: int, manager: int, owner: int, name: int) -> int:
-        """The row of a manager for a variable or resource, found by a sort of owner, the owner and the name."""
-        key = (((owner << 30) + name) * self.managers + manager) * 8 + sort
+    def other_row(self, role: int, manager: int, owner: int, name: int) -> int:
+        """The row of a manager for a variable of that role, or a resource; `owner` is a kind of token, or a class."""
+        key = (((owner << 30) + name) * self.managers + manager) * 8 + role
         row = self.other_rows.get(key)
         if row is None:
-            row = self._match(sort, manager, owner, name)
+            row = self._match(role, manager, owner, name)
             self.other_rows[key] = row
         return row
 
-    def _match(self, sort: int, manager: int, owner: int, name: int) -> int:
+    def _match(self, role: int, manager: int, owner: int, name: int) -> int:
         """The row that the configuration has for a variable or a resource; NONE for what is not to be decided."""
         matching, texts = self.matching, self.vocabulary
-        if sort == _GLOBAL:
+        if role == ROLE_GLOBAL:
             found = matching.global_variable(manager, texts.global_text(name))
-        elif sort == _MEMBER:
+        elif role == ROLE_MEMBER:
             found = matching.member(manager, texts.class_text(owner), texts.member_text(owner, name))
-        elif sort == _RESOURCE:
+        elif role == _ROLE_RESOURCE:
             found = matching.resource(manager, texts.class_text(owner))
-        elif sort == _LOCAL:
+        elif role == ROLE_LOCAL:
             found = matching.token_variable(manager, self.kind_texts[owner], texts.name_text(name), True)
         else:
             token = self.kind_texts[owner]
