@@ -67,8 +67,6 @@ cdef class Solver:
 
     cpdef bint _left_some(self, long long d, long long most) except -1
 
-    cpdef int _enter(self) except -1
-
     cpdef int _undo(self, long long d) except -1
 
     cpdef int _backjump(self, long long d, bint is_explained) except -1

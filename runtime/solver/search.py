@@ -12,7 +12,7 @@ from runtime.plan.tokens.retraction import withdraw_refusals
 from runtime.solver.configuration.configuration import Configuration, with_resources
 from runtime.solver.configuration.handler_matching import HandlerMatching
 from runtime.solver.configuration.handler_table import HandlerTable
-from runtime.solver.configuration.vocabulary import PlanVocabulary, grounded
+from runtime.solver.configuration.vocabulary import PlanVocabulary
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.agenda_updates import note_levels, rebuild, reopen, update
 from runtime.solver.flaws.decisions import Decisions
@@ -67,7 +67,7 @@ class Solver:
         supports = Supports(program, europa)
         in_order = europa or has_loops(program)
         self.may_restart = not europa and is_order_invariant(program, self.plan, table, supports)
-        self.agenda = Agenda(self.plan, table, self.filters, supports, europa, in_order, grounded(database))
+        self.agenda = Agenda(self.plan, table, self.filters, supports, europa, in_order)
         relief = None if europa else Relief(self.plan, supports)
         self.relief = relief if relief is not None and relief.is_possible else None
         self.agenda.relief = self.relief
@@ -187,7 +187,8 @@ class Solver:
                     if self._holds():
                         return PLAN
                     return FAILED if d > 0 else EXHAUSTED
-                self._enter()
+                stack.open(agenda, mark(self.plan))
+                self.has_active = True
             agenda.probing = (
                 self.steps - self.steps_floor >= self.max_steps or stack.depth - self.depth_floor > self.max_depth
             )
@@ -311,11 +312,6 @@ class Solver:
         if stack.kind[d] == OPEN_CONDITION:
             return self.agenda.table.handler_choice[stack.handler[d]] in (MERGE_ONLY, ACTIVATE_ONLY)
         return False
-
-    def _enter(self) -> None:
-        """Open a decision about the flaw that was found."""
-        self.stack.open(self.agenda, mark(self.plan))
-        self.has_active = True
 
     def _undo(self, d: int) -> None:
         """Undo decision `d` and drop it."""

@@ -1,7 +1,5 @@
 """Names of a configuration for numbers of the plan, and back."""
 
-from array import array
-
 from runtime.constraints.domains.tags import KIND_OBJECT, KIND_STRING
 from runtime.plan.database import PlanDatabase
 
@@ -53,16 +51,3 @@ class PlanVocabulary:
             return self.database.objects.numbers.get(text)
         names = self.database.prototypes.texts if kind == KIND_STRING else self.database.prototypes.symbols
         return names.numbers.get(text)
-
-
-def grounded(database: PlanDatabase) -> "array[int]":
-    """For each object, 1 if it is a resource whose profile is that of everything happening as early as it can."""
-    plan = database.plan
-    found = array("q", [0] * max(plan.object_count, 1))
-    for o in range(plan.object_count):
-        members = database.program.classes[plan.object_class[o]].members
-        for number, member in enumerate(members):
-            v = plan.object_var0[o] + number
-            if member.name == "profileType" and plan.engine.kind[v] == KIND_STRING and plan.engine.is_decided(v):
-                found[o] = 1 if database.prototypes.texts.text(int(plan.engine.lower(v))) == "GroundedProfile" else 0
-    return found

@@ -37,7 +37,6 @@ class Agenda:
         supports: Supports,
         exact: bool,
         in_order: bool,
-        grounded: "array[int]",
     ) -> None:
         self.plan = plan
         self.rows = plan.rows
@@ -47,7 +46,7 @@ class Agenda:
         self.supports = supports
         self.exact = exact  # makes EUROPA's steps
         self.distances = Distances(plan.engine, exact)
-        self.uses = Uses(plan, self.distances, grounded)
+        self.uses = Uses(plan, self.distances)
         self.restarts = Restarts(plan.engine)
         self.found_at = self.found_low = 0
         self.earliest = False  # goals come before what else is open, in the order of their starts

@@ -21,12 +21,11 @@ from runtime.solver.tags import NONE
 class Uses:
     """The timepoints of one resource at a time, over arrays that are used again."""
 
-    def __init__(self, plan: Plan, distances: Distances, grounded: "array[int]") -> None:
+    def __init__(self, plan: Plan, distances: Distances) -> None:
         self.plan = plan
         self.engine = plan.engine
         self.resources = plan.resources
         self.distances = distances
-        self.grounded = grounded  # per object: whether its level is that of everything happening early
         self.envelope = Envelope(plan.engine, plan.resources)
         self.events = Heap()
         self.found_at = 0
@@ -61,19 +60,12 @@ class Uses:
         self.amount_most[at] = most
         self.count = at + 1
 
-    def limit(self, o: int, which: int, side: int) -> float:
-        """A bound of one of the limits of resource `o`."""
-        v = self.resources.limits[o * LIMITS + which]
-        if v < 0:
-            return 0.0 if which == INITIAL else (-inf if which == MINIMUM else inf)
-        return self.engine.flo[v] if side == 0 else self.engine.fhi[v]
-
     # ---- flaws ----
 
-    def first_flaw(self, o: int) -> bool:
-        """The first instant at which resource `o` might be exceeded."""
-        if self.grounded[o]:
-            return self._sweep(o, 0)
+    def find_flaw(self, o: int, is_worst: bool) -> bool:
+        """The first instant at which resource `o` might be exceeded; of a grounded one, if asked, the worst instant."""
+        if self.resources.is_grounded(o):
+            return self._sweep(o, is_worst)
         if not self.envelope.find(o):
             return False
         self.found_at = self.envelope.at
@@ -81,12 +73,8 @@ class Uses:
         self.found_amount = self.envelope.amount
         return True
 
-    def worst_flaw(self, o: int) -> bool:
-        """The instant at which resource `o` might be exceeded most, the first of equals."""
-        return self._sweep(o, 1) if self.grounded[o] else self.first_flaw(o)
-
-    def _sweep(self, o: int, whole: int) -> bool:
-        """Sweep over the grounded profile for the first instant out of bounds, or for the worst one."""
+    def _sweep(self, o: int, is_worst: bool) -> bool:
+        """Sweep over the grounded profile for the first instant out of bounds, or for the first of the worst."""
         engine = self.engine
         events = self.events
         events.clear()
@@ -95,10 +83,10 @@ class Uses:
             events.push(engine.lb[self.point[k]], k, k)
         for k, step in enumerate(self.resources.steps.get(o, ())):
             events.push(step[0], self.count + k, -k - 1)
-        low = self.limit(o, INITIAL, 0)
-        high = self.limit(o, INITIAL, 1)
-        minimum = self.limit(o, MINIMUM, 0)
-        maximum = self.limit(o, MAXIMUM, 1)
+        low = self.resources.lower(o * LIMITS + INITIAL, 0.0)
+        high = self.resources.upper(o * LIMITS + INITIAL, 0.0)
+        minimum = self.resources.lower(o * LIMITS + MINIMUM, -inf)
+        maximum = self.resources.upper(o * LIMITS + MAXIMUM, inf)
         capacity_low = low
         capacity_high = high
         self.found_amount = 0.0
@@ -124,7 +112,7 @@ class Uses:
                 self.found_at = time
                 self.found_low = 1 if minimum - low >= high - maximum else 0
                 self.found_amount = amount
-                if not whole:
+                if not is_worst:
                     return True
         return self.found_amount > 0.0
 
@@ -137,7 +125,8 @@ class Uses:
             return False
         if not self.distances.admits(second, first, 0):
             return False
-        return self.distances.admits(first, second, -1) or not (self.grounded[o] or self._is_seen(first, second))
+        is_plain = self.resources.is_grounded(o)
+        return self.distances.admits(first, second, -1) or not (is_plain or self._is_seen(first, second))
 
     def _is_seen(self, first: int, second: int) -> bool:
         """Whether the envelope sees a precedence of the network: it follows no edges with a positive weight."""
