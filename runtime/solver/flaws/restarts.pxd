@@ -13,8 +13,6 @@ cdef class Restarts:
 
     cpdef int clear(self) except -1
 
-    cpdef int _reset(self) except -1
-
     cpdef long long rank(self, long long v, long long size) except? -1
 
     cpdef int _add(self, long long v) except -1

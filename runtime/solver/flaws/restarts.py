@@ -17,15 +17,10 @@ class Restarts:
 
     def __init__(self, engine: Store) -> None:
         self.engine = engine
-        self.failures = self.count = 0
-        self._reset()
+        self.clear()
 
     def clear(self) -> None:
         """Forget all weights: the plan was changed from outside."""
-        if self.failures or self.count:
-            self._reset()
-
-    def _reset(self) -> None:
         self.weight = array("q", [1]) * 64
         self.failures = 0  # since the last restart
         self.limit = FEW_FAILURES
