@@ -190,15 +190,11 @@ class HandlerMatching:
             wanted = _SIMILAR_RELATIONS.get(match.parent_relation, (match.parent_relation,))
             if relation not in wanted:
                 return False
-        if match.parent_class is None and match.parent_predicate is None:
-            return True
         if parent is None:
+            return match.parent_class is None and match.parent_predicate is None
+        if match.parent_class not in (None, *self._ancestry(self.predicates[parent].class_name)):
             return False
-        if match.parent_class is not None:
-            return match.parent_class in self._ancestry(self.predicates[parent].class_name) and (
-                match.parent_predicate is None or match.parent_predicate in _spellings(parent)
-            )
-        return match.parent_predicate in _spellings(parent)
+        return match.parent_predicate in (None, *_spellings(parent))
 
     def _ancestry(self, name: str) -> list[str]:
         """A class and all it extends."""
