@@ -33,7 +33,7 @@ cdef class Store:
     cdef public int[::1] table, table_length, hole_head, restriction_head
     cdef public int[::1] watch_head, mute_head, out_head, in_head
     cdef public int[::1] block_first, block_size, block_left, block_next
-    cdef public int[::1] block_free, word_free, table_free, hole_variable
+    cdef public int[::1] block_free, word_free, table_free
     cdef public int[::1] hole_word, hole_support, hole_next, trail_key, trail_support
     cdef public int[::1] slot_variable, slot_constraint, slot_next, slot_prev
     cdef public int[::1] edge_source, edge_target, out_next, out_prev

@@ -69,7 +69,6 @@ class Store:
         self.table_used = 0
         self.word_free = array("i", [-1]) * 65
         self.table_free = array("i", [-1]) * 65
-        self.hole_variable = array("i", [-1]) * room
         self.hole_word = array("i", [0]) * room
         self.hole_mask = array("Q", [0]) * room
         self.hole_support = array("i", [-1]) * room
