@@ -4,10 +4,9 @@ A use with an end takes at its start and gives at its end; a reservoir's event d
 a giver (or the other way round, where the level is too high): precedences are pairs of timepoints.
 """
 
-from array import array
 from math import inf
 
-from runtime.constraints.domains.arrays import lengthen
+from runtime.constraints.domains.arrays import blank, lengthen
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
@@ -33,10 +32,10 @@ class Uses:
         self.found_amount = 0.0
         # The timepoints of one resource: when something is taken (1) or given (0), and whose it is.
         self.count = 0
-        self.point = array("q", [0]) * 64
-        self.takes = array("q", [0]) * 64
-        self.amount_least = array("d", [0.0]) * 64
-        self.amount_most = array("d", [0.0]) * 64
+        self.point = blank(64)
+        self.takes = blank(64)
+        self.amount_least = blank(64, "d")
+        self.amount_most = blank(64, "d")
 
     def gather(self, o: int) -> int:
         """Collect the timepoints at which resource `o` is used."""
