@@ -82,7 +82,6 @@ def load_prototypes(plan: Plan, program: Program, prototypes: Prototypes) -> Non
     plan.time_prototype = plan.engine.new_interval(KIND_INT, -inf, inf, NONE, NONE)
     classes = [prototypes.of(TypeCode("object", class_.name, None), None) for class_ in program.classes]
     plan.class_prototype = _packed(classes)
-    plan.class_closed = _packed(0 for _ in classes)
 
 
 def _states(prototypes: Prototypes, *names: str) -> int:

@@ -79,7 +79,7 @@ def _proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
     plan.proxy_index[result] = index
     plan.proxy_member[result] = name
     c = plan.engine.post_element(result, index, keys, variables, span, plan.rows.scope_token[scope])
-    plan.rows.hold(scope, HOLDS_CONSTRAINT, c, 1)
+    plan.rows.hold(scope, HOLDS_CONSTRAINT, c)
     return result
 
 
@@ -113,5 +113,5 @@ def _unite(plan: Plan, scope: int, number: int, span: int) -> int:
                 plan.services.note_loose_item(span)
     v = engine.new_values(kind, values, span, owner)
     plan.note_variable(v, ROLE_INTERNAL, owner, NONE)
-    plan.rows.hold(scope, HOLDS_VARIABLES, v, 1)
+    plan.rows.hold(scope, HOLDS_VARIABLES, v)
     return v

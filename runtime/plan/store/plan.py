@@ -92,7 +92,6 @@ class Plan:
         self.instant_prototype = NONE
         self.time_prototype = NONE
         self.class_prototype = blank(1)
-        self.class_closed = blank(1)
         # Objects and their members.
         self.object_count = 0
         self.object_class = blank(64)

@@ -90,7 +90,6 @@ class Rows:
         self.free_hold = NONE
         self.hold_kind = blank(256)
         self.hold_id = blank(256)
-        self.hold_extent = blank(256)
         self.hold_next = blank(256)
         self.pair_count = 0
         self.free_pair = NONE
@@ -283,7 +282,7 @@ class Rows:
         """Put a variable or a token into a slot of the frame of `s`."""
         self.cells[self.scope_frame[s] + slot] = value
 
-    def hold(self, s: int, kind: int, identity: int, extent: int) -> int:
+    def hold(self, s: int, kind: int, identity: int) -> int:
         """Hang an edge, a constraint, variables or a decision on scope `s`; nothing hangs on that of the script."""
         if self.scope_token[s] < 0:
             return 0
@@ -292,12 +291,11 @@ class Rows:
             self.free_hold = self.hold_next[h]
         else:
             if self.hold_count == len(self.hold_kind):
-                lengthen(self, "hold_kind hold_id hold_extent hold_next")
+                lengthen(self, "hold_kind hold_id hold_next")
             h = self.hold_count
             self.hold_count += 1
         self.hold_kind[h] = kind
         self.hold_id[h] = identity
-        self.hold_extent[h] = extent
         self.hold_next[h] = self.scope_holds[s]
         self.scope_holds[s] = h
         if self.level:
