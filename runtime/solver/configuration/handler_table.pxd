@@ -6,8 +6,8 @@ cdef long long PREFER_EARLIEST, _FEW, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE
 
 
 cdef class HandlerTable:
-    cdef public object matching, vocabulary
-    cdef public long long managers, row_count, handlers, heaps
+    cdef public object matching, database, program
+    cdef public long long managers, handlers, heaps
     cdef public long long[::1] manager_kind, filter_first, filter_count, filter_code, filter_policy, first_handler
     cdef public long long[::1] handler_count, handler_of, heap_of, kind_of_predicate, handler_code, handler_most
     cdef public long long[::1] handler_choice, token_order, handler_constraint, handler_iterate, pairs_by_default
@@ -27,8 +27,6 @@ cdef class HandlerTable:
 
     @cython.locals(at="long long")
     cpdef long long variable_row(self, long long manager, long long kind, long long number) except? -1
-
-    cpdef long long variable_number(self, long long predicate, object name) except? -1
 
     cpdef long long resource_row(self, long long manager, long long owner) except? -1
 

@@ -7,10 +7,10 @@ depend on more than their own bounds have none (NONE): they are dynamic, looked 
 from array import array
 
 from runtime.constraints.domains.arrays import grown
+from runtime.plan.database import PlanDatabase
 from runtime.plan.tags import ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN
 from runtime.solver.configuration.configuration import FlawHandler
 from runtime.solver.configuration.handler_matching import HandlerMatching, HandlerRow, TokenKind
-from runtime.solver.configuration.vocabulary import PlanVocabulary
 from runtime.solver.configuration.words import (
     CHOICES,
     CONSTRAINTS,
@@ -37,14 +37,14 @@ _ROLE_RESOURCE = 5  # behind the roles of variables
 class HandlerTable:
     """Rows, found by numbers of the plan."""
 
-    def __init__(self, matching: HandlerMatching, vocabulary: PlanVocabulary, predicates: int) -> None:
+    def __init__(self, matching: HandlerMatching, database: PlanDatabase) -> None:
         self.matching = matching
-        self.vocabulary = vocabulary
+        self.database = database
+        self.program = database.program
         self.managers = len(matching.manager_kinds)
         self.manager_kind = array("q", matching.manager_kinds)
-        self.by_predicate = not (matching.reads_parents or matching.reads_names)
+        self.by_predicate = matching.is_by_predicate
         self._number_handlers()
-        self.row_count = 0
         self.filter_first = array("q")
         self.filter_count = array("q")
         self.filter_code = array("q")
@@ -56,7 +56,7 @@ class HandlerTable:
         self.rows: dict[tuple[int, HandlerRow], int] = {}
         self.kinds: dict[tuple[int, int, int, int], int] = {}
         self.kind_texts: list[TokenKind] = []
-        self.kind_of_predicate = array("q", [NONE] * max(predicates, 1))
+        self.kind_of_predicate = array("q", [NONE] * max(len(self.program.predicates), 1))
         self.token_rows = array("q", [_UNKNOWN]) * (8 * self.managers)  # by kind and manager
         self.variable_rows = array("q", [_UNKNOWN]) * (8 * self.managers * _FEW)  # those of the first variables, too
         self.other_rows: dict[int, int] = {}
@@ -121,8 +121,7 @@ class HandlerTable:
             while self.heap_priority[heap] != self.handler_priority[usable[0]]:
                 heap += 1
         self.heap_of = _longer(self.heap_of, heap)
-        row = self.row_count
-        self.row_count = row + 1
+        row = len(self.rows)
         self.rows[(manager, found)] = row
         return row
 
@@ -131,20 +130,20 @@ class HandlerTable:
         if self.by_predicate:
             if self.kind_of_predicate[predicate] == NONE:
                 self.kind_of_predicate[predicate] = len(self.kind_texts)
-                self.kind_texts.append(TokenKind(self.vocabulary.predicate_text(predicate)))
+                self.kind_texts.append(TokenKind(self.program.predicates[predicate].name))
             return self.kind_of_predicate[predicate]
         key = (predicate, parent, relation, label)
         kind = self.kinds.get(key)
         if kind is None:
             kind = len(self.kind_texts)
             self.kinds[key] = kind
-            texts = self.vocabulary
+            database = self.database
             self.kind_texts.append(
                 TokenKind(
-                    texts.predicate_text(predicate),
-                    texts.predicate_text(parent) if parent >= 0 else None,
-                    texts.relation_text(relation) if relation >= 0 else None,
-                    texts.name_text(label) if label >= 0 else "",
+                    self.program.predicates[predicate].name,
+                    self.program.predicates[parent].name if parent >= 0 else None,
+                    database.relation_names[relation] if relation >= 0 else None,
+                    database.names.text(label) if label >= 0 else "",
                 )
             )
         return kind
@@ -169,10 +168,6 @@ class HandlerTable:
             self.variable_rows[at] = self._match(ROLE_TOKEN, manager, kind, number)
         return self.variable_rows[at]
 
-    def variable_number(self, predicate: int, name: str) -> int:
-        """The number of the variable that tokens of a predicate call `name`; NONE if none."""
-        return self.matching.variable_number(self.vocabulary.predicate_text(predicate), name)
-
     def resource_row(self, manager: int, owner: int) -> int:
         """The row of a manager for resources of class `owner`."""
         return self.other_row(_ROLE_RESOURCE, manager, owner, 0)
@@ -188,15 +183,17 @@ class HandlerTable:
 
     def _match(self, role: int, manager: int, owner: int, name: int) -> int:
         """The row that the configuration has for a variable or a resource; NONE for what is not to be decided."""
-        matching, texts = self.matching, self.vocabulary
+        matching, program, texts = self.matching, self.program, self.database.names
         if role == ROLE_GLOBAL:
-            found = matching.global_variable(manager, texts.global_text(name))
+            found = matching.lasting_variable(manager, None, program.globals[name][0])
         elif role == ROLE_MEMBER:
-            found = matching.member(manager, texts.class_text(owner), texts.member_text(owner, name))
+            found = matching.lasting_variable(
+                manager, program.classes[owner].name, program.classes[owner].members[name].name
+            )
         elif role == _ROLE_RESOURCE:
-            found = matching.resource(manager, texts.class_text(owner))
+            found = matching.resource(manager, program.classes[owner].name)
         elif role == ROLE_LOCAL:
-            found = matching.token_variable(manager, self.kind_texts[owner], texts.name_text(name), True)
+            found = matching.token_variable(manager, self.kind_texts[owner], texts.text(name), True)
         else:
             token = self.kind_texts[owner]
             text = matching.variable_text(token.predicate, name)

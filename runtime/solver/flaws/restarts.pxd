@@ -20,6 +20,4 @@ cdef class Restarts:
     @cython.locals(k="long long")
     cpdef int note_failure(self) except -1
 
-    cpdef bint is_due(self) except -1
-
     cpdef int restart(self) except -1
