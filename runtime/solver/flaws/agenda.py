@@ -65,10 +65,6 @@ class Agenda:
         self.found_manager = self.found_kind = self.found_item = self.found_handler = NONE
         self.found_priority = 0.0
         self.zeros, self.nones, self.no_keys, self.unwatched = blank(1), blank(1), blank(1), blank(1, "b")
-        self._make_tables()
-
-    def _make_tables(self) -> None:
-        """Make the tables, empty."""
         self.token_row = array("q", [NONE]) * (64 * self.managers)
         self.token_key = array("q", [NO_KEY]) * (64 * self.managers)
         self.token_waiting = array("q", [NONE]) * 64
