@@ -20,6 +20,7 @@ from multiprocessing.process import BaseProcess
 from types import FrameType
 from typing import Protocol
 
+import runtime.build_form
 from checker.batch.result import MissionResult
 from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result, work
 from checker.oracle import USER_CODE
@@ -107,12 +108,16 @@ class Flyer:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        if self._worker is None:
-            return
-        if kind is None:
-            _SPARE.keep(self._load, self._agent, self._worker)
+        if kind is not None or self._worker is None:
+            self.dismiss()
         else:
+            _SPARE.keep(self._load, self._agent, self._worker)
+
+    def dismiss(self) -> None:
+        """End the process."""
+        if self._worker is not None:
             self._worker.kill()
+            self._worker = None
 
     def fly(
         self,
@@ -128,8 +133,11 @@ class Flyer:
 
         `load` loads the models where they are others than those that the process was started with.
         """
+        return self.fly_task(Task(number, seed, agent, keeps_trace=keeps_trace, load=load), most_seconds)
+
+    def fly_task(self, task: Task, most_seconds: float = math.inf) -> MissionResult:
+        """The result of one mission; an ERROR where the process died or took too long."""
         limit = min(self._time_limit, most_seconds)
-        task = Task(number, seed, agent, keeps_trace=keeps_trace, load=load)
         if self._worker is None:
             self._worker = _SPARE.take(self._load, self._agent)
         if self._worker is None:
@@ -170,7 +178,7 @@ class _Worker:
         context = multiprocessing.get_context("spawn")
         self.connection, other = context.Pipe()
         self.process: BaseProcess = context.Process(target=work, args=(other, load, agent), daemon=True)
-        with _signals_held_back(), _safe_path():
+        with _signals_held_back(), _safe_path(), _children_allowed():
             self.process.start()
         other.close()
         self.owed: deque[Task] = deque()
@@ -346,6 +354,18 @@ def _signals_held_back() -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextlib.contextmanager
+def _children_allowed() -> Iterator[None]:
+    """Let a process start others though it is a daemon, as workers of Dask are: these end with their pipe."""
+    settings = multiprocessing.current_process()._config  # type: ignore[attr-defined]
+    before = settings.get("daemon")
+    settings["daemon"] = False
+    try:
+        yield
+    finally:
+        settings["daemon"] = before
 
 
 @contextlib.contextmanager

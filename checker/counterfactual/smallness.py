@@ -10,10 +10,9 @@ from collections import Counter
 from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
-from checker.counterfactual.affinity import Affinity
+from checker.counterfactual.affinity import WORD, Affinity
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 
-_WORD = re.compile(r"[A-Za-z_]\w*")
 _SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
 _POINTS = re.compile(r"(\w+\.)?(start|end)\s*[<>=!]+\s*(\w+\.)?(start|end)\s*;")  # two ends of tokens
 _REAL = re.compile(r"\d\.\d|\d\.(?!\w)")
@@ -111,7 +110,7 @@ def usage_of(sites: Sequence[EditSite], *, some_pass: bool = False) -> Usage:
     kinds: Counter[EditKind] = Counter()
     meant: Counter[tuple[object, str]] = Counter()
     for site in sites:
-        counts.update(word for word in _WORD.findall(site.text) if word != site.named)
+        counts.update(word for word in WORD.findall(site.text) if word != site.named)
         kinds.update({edit.kind for edit in site.edits})
         words = {edit.begin: edit for edit in site.edits if edit.kind in (EditKind.RELATION, EditKind.COMPARISON)}
         meant.update((_sort(edit, site)[0], _sign(edit.old)) for edit in words.values())
@@ -241,7 +240,7 @@ def _sort(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
     if is_demand:
         sort = "point" if is_point else "time" if _is_about_time(site) else "value"
     else:
-        is_truth = any(word in _TRUTHS for word in _WORD.findall(site.text))
+        is_truth = any(word in _TRUTHS for word in WORD.findall(site.text))
         sort = "truth condition" if is_truth else "real condition" if _REAL.search(site.text) else "condition"
     return sort, _COMPARISONS[sort]
 
@@ -252,7 +251,7 @@ def _sign(word: str) -> str:
 
 
 def _is_about_time(site: EditSite) -> bool:
-    return any(word in _TIMES for word in _WORD.findall(site.text))
+    return any(word in _TIMES for word in WORD.findall(site.text))
 
 
 def _octaves(edit: SmallEdit) -> float:
