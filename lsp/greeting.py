@@ -38,7 +38,7 @@ _OFFERED: dict[str, Any] = {
     "documentOnTypeFormattingProvider": {"firstTriggerCharacter": "}", "moreTriggerCharacter": [";"]},
     "foldingRangeProvider": True,
     "selectionRangeProvider": True,
-    "executeCommandProvider": {"commands": ["nddl.check", "nddl.explain"]},
+    "executeCommandProvider": {"commands": ["nddl.check", "nddl.explain", "nddl.certify"]},
     "callHierarchyProvider": True,
     "semanticTokensProvider": {
         "legend": {

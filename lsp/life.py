@@ -30,6 +30,7 @@ def _answer_lifecycle(session: Session) -> None:
         session.configure(params.initialization_options)
         told = params.initialization_options
         session.is_distrusted = isinstance(told, dict) and told.get("isTrusted") is False
+        session.shows_results = isinstance(told, dict) and told.get("showsResults") is True
         session.documents.folders = _folders(session)
         text = params.capabilities.text_document
         session.is_pulled = text is not None and text.diagnostic is not None

@@ -88,6 +88,7 @@ class Session(LanguageServer):
         self.is_pulled = False  # the editor asks for diagnostics, so none are pushed
         self.is_distrusted = False  # the user has said that the workspace is not trusted
         self.has_snippets = False
+        self.shows_results = False  # the editor shows itself how a command ended
         self.hints = HintSettings()
         self.token_memory = TokenMemory()
         self._is_due = False

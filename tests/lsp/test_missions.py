@@ -167,8 +167,13 @@ def test_lenses_offer_to_fly_missions(opened: Any) -> None:
     client, uri, _ = opened
     found = client.ask("textDocument/codeLens", textDocument={"uri": uri})
     shown = [(each["range"]["start"]["line"], each["command"]["title"]) for each in found]
-    assert shown == [(0, "run 100 missions"), (0, "run all missions"), (0, "explain last failure")]
+    titles = ["run 100 missions", "run all missions", "explain last failure", "certify"]
+    assert shown == [(0, title) for title in titles]
     assert found[0]["command"]["arguments"] == [uri, 100]
+    # Of a reactor in Python nothing is proved.
+    client.change(uri, {"text": '[mission]\n[[reactor]]\ncode = "helm.py:Helm"\n'})
+    found = client.ask("textDocument/codeLens", textDocument={"uri": uri})
+    assert [each["command"]["title"] for each in found] == titles[:3]
 
 
 def test_the_configuration_of_a_solver_is_judged_too(client: Any, tmp_path: Path) -> None:
