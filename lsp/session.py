@@ -19,6 +19,7 @@ from pygls.protocol import LanguageServerProtocol, default_converter
 from lsp.check_results import CheckResults
 from lsp.diagnostics import Conversion
 from lsp.documents import Documents
+from lsp.formats import Formats
 from lsp.greeting import Greeting, own_version
 from lsp.inlay_hints import HintSettings
 from lsp.mission_texts import Examine, MissionTexts, OpenMission
@@ -88,6 +89,7 @@ class Session(LanguageServer):
         self.is_pulled = False  # the editor asks for diagnostics, so none are pushed
         self.is_distrusted = False  # the user has said that the workspace is not trusted
         self.has_snippets = False
+        self.formats = Formats()
         self.shows_results = False  # the editor shows itself how a command ended
         self.hints = HintSettings()
         self.token_memory = TokenMemory()
