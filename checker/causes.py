@@ -11,7 +11,18 @@ from dataclasses import dataclass
 import networkx as nx
 
 from runtime.executive.events import causes_of, numbered
-from runtime.executive.outcome import Conflict, ConflictElement, Deadlock, ElementKind, Event, Outcome, SourcePlace
+from runtime.executive.outcome import (
+    Abort,
+    Conflict,
+    ConflictElement,
+    Deadlock,
+    ElementKind,
+    Event,
+    EventKind,
+    OpenGoal,
+    Outcome,
+    SourcePlace,
+)
 from runtime.plan.readout.names import VariableName
 
 # Kinds of elements that no line of the model can help.
@@ -23,6 +34,7 @@ _WORLD = (
 )
 _VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
 _LIMITS = ("leq", "lt", "neq", "bounds", "withinBounds", "precedes", "strictlyPrecedes")
+_MISSED = "F6"  # what its owner had refused or rejected
 _MOST_EVENTS = 8  # of the way to the abort, the last ones
 
 
@@ -56,10 +68,16 @@ class Culprit:
 
 
 def failed_by(outcome: Outcome | None) -> Failed:
-    """What is known of an abort, else of the first goal that stayed open for a known reason."""
+    """What is known of an abort, else of the first goal that stayed open for a known reason.
+
+    Of what was missed as its owner had refused it (F6), what made the owner do so comes first.
+    """
     if outcome is None:
         return Failed()
-    ends = [outcome.abort] if outcome.abort is not None else list(outcome.open_goals)
+    abort = outcome.abort
+    ends: list[Event | Abort | OpenGoal] = (
+        [*refusals(outcome), abort] if abort is not None else list(outcome.open_goals)
+    )
     for end in ends:
         if end.conflict is not None or end.deadlock is not None:
             conflict = end.conflict
@@ -81,6 +99,15 @@ def lines_that_rule_out(failed: Failed) -> list[ConflictElement]:
         if element.place is not None:
             lines.setdefault((element.place.file, element.place.line), element)
     return list(lines.values())
+
+
+def refusals(outcome: Outcome) -> tuple[Event, ...]:
+    """The refusals and rejections that an abort follows from, each the owner's answer to a request that was missed."""
+    abort = outcome.abort
+    if abort is None or abort.code != _MISSED or not 0 <= abort.event < len(outcome.events):
+        return ()
+    causes = [outcome.events[index] for index in outcome.events[abort.event].causes]
+    return tuple(event for event in causes if event.kind in (EventKind.REFUSE, EventKind.REJECT))
 
 
 def _in_common(deadlock: Deadlock) -> Conflict | None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from checker.causes import culprit_of, failed_by
+from checker.causes import culprit_of, failed_by, refusals
 from checker.counterfactual.dependence import Dependence
 from checker.mutation.edits import EditSite
 from nddl_lang.text.read import real_path
@@ -20,7 +20,7 @@ from nddl_lang.text.source import Span
 from runtime.executive.configuration import PropertyConfiguration
 from runtime.executive.outcome import Conflict, Deadlock, Event, EventKind, Outcome, SourcePlace
 
-_CULPRIT, _CONFLICT, _LOG, _COVERED, _EVENT, _NAMED = 0.0, 0.25, 0.5, 0.75, 1.0, 1.5
+_CULPRIT, _CONFLICT, _LOG, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.75, 1.0, 1.0, 1.5
 _UNSEEN = 4.0  # added for lines of a rule that nothing fired
 
 
@@ -59,18 +59,25 @@ def candidates_of(
                 if number not in roots or far < roots[number][0]:
                     roots[number] = (far, source)
 
-    conflict = failed_by(outcome).conflict
-    culprit = culprit_of(conflict)
+    failed = failed_by(outcome)
+    culprit = culprit_of(failed.conflict)
     for place in (culprit.place, *culprit.limits):
         note(place, _CULPRIT, Suspicion.CONFLICT)
-    for place, far, source in _named(outcome, conflict):
+    for place, far, source in _named(outcome, failed.conflict):
         note(place, far, source)
-    predicates = _predicates(outcome) | _violated(outcome, properties)
+    predicates = _ended_by(outcome) | _violated(outcome, properties)
     if not roots and not predicates:
         predicates = {event.predicate for event in _latest(outcome)}
-    for predicate in predicates:
-        for number in graph.of_predicate(predicate):
-            roots.setdefault(number, (_NAMED, Suspicion.TRACE))
+    named = {number for predicate in predicates for number in graph.of_predicate(predicate)}
+    observed = {event.predicate for event in outcome.events if event.kind is EventKind.OBSERVATION}
+    awaited = graph.expected_with(roots or named, observed) if failed.deadlock is None else ()
+    for far, numbers in (
+        (_AWAITED, {number for predicate in awaited for number in graph.of_predicate(predicate)}),
+        (_NAMED, named),
+    ):
+        for number in sorted(numbers):
+            if number not in roots or roots[number][0] > far:
+                roots[number] = (far, Suspicion.TRACE)
     for span in exercised:
         for number in graph.within(span):
             if number not in roots or roots[number][0] > _COVERED:
@@ -91,9 +98,14 @@ def _named(outcome: Outcome, conflict: Conflict | None) -> Iterator[tuple[Source
     """The places that the outcome names, how near each is, and where it stands."""
     for element in conflict.elements if conflict is not None else ():
         yield element.place, _CONFLICT, Suspicion.CONFLICT
+    refused = [one for one in refusals(outcome) if one.conflict is not None or one.deadlock is not None]
+    for one in refused:
+        yield from _places(one.conflict, _CONFLICT, Suspicion.CONFLICT)
+        yield from _logged(one.deadlock)
     if outcome.abort is not None:
-        for each in outcome.abort.repairs:
-            yield from _places(each, _CONFLICT, Suspicion.CONFLICT)
+        far = _EVENT if refused else _CONFLICT  # what was missed only shows that it was refused
+        for each in (outcome.abort.conflict, *outcome.abort.repairs):
+            yield from _places(each, far, Suspicion.CONFLICT)
         yield from _logged(outcome.abort.deadlock)
     for goal in outcome.open_goals:
         yield from _places(goal.conflict, _CONFLICT, Suspicion.CONFLICT)
@@ -114,6 +126,17 @@ def _places(
 ) -> Iterator[tuple[SourcePlace | None, float, Suspicion]]:
     for element in conflict.elements if conflict is not None else ():
         yield element.place, far, source
+
+
+def _ended_by(outcome: Outcome) -> set[str]:
+    """The predicates of what ended the mission, or of what it left open, but for goals that it ended before."""
+    begun = {event.predicate for event in outcome.events if event.kind is EventKind.OBSERVATION}
+    later = {
+        goal.predicate
+        for goal in outcome.open_goals
+        if outcome.abort is not None and goal.reason is None and goal.conflict is None and goal.predicate not in begun
+    }
+    return _predicates(outcome) - later
 
 
 def _predicates(outcome: Outcome) -> set[str]:

@@ -7,7 +7,7 @@ argument leads to the line that sets it, and a request to its sender.
 
 import heapq
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -47,6 +47,7 @@ from nddl_lang.text.source import Span
 Key = tuple[object, ...]  # of a variable
 _TIMES = "times"
 _DURATION = "duration"
+_SHARED = "AgentTimeline"
 # Relations that leave the end of the origin free, where nothing says when the target begins.
 _FREE = ("any", "contains", "starts", "met_by", "after", "meets", "before")
 _RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
@@ -103,6 +104,28 @@ class Dependence:
         for key in self._users:
             if key[0] == "token" and str(key[1]).rpartition(".")[2] == predicate:
                 yield from self._users[key]
+
+    def expected_with(self, sites: Iterable[int], held: Container[str]) -> set[str]:
+        """The predicates that never held, of those that lines speak of, and of what is to be related to these in time.
+
+        Names come without their classes. What should have begun waits for what it is related to.
+        """
+        waiting = {str(key[1]) for one in sites for key in self._keys[one] if key[0] == "token" and key[2] == _TIMES}
+        related: dict[str, set[str]] = defaultdict(set)
+        shared: set[str] = set()
+        for program in self._programs:
+            shared |= {each.name for each in program.predicates if _is_shared(each.class_name, program)}
+            for rule in program.rules:
+                for one, other in _related(rule):
+                    related[one].add(other)
+                    related[other].add(one)
+        found: set[str] = set()
+        while waiting:
+            name = waiting.pop()
+            if name in shared and name not in found and name.rpartition(".")[2] not in held:
+                found.add(name)
+                waiting |= related[name]
+        return {name.rpartition(".")[2] for name in found}
 
     def distances(self, roots: Mapping[int, float]) -> dict[int, float]:
         """How far each site is from the nearest root, whose own distance is given: shortest ways through variables."""
@@ -308,6 +331,27 @@ class _Links:
             case UnionOf(operands=operands):
                 for one in operands:
                     yield from self._operand(one, scope, tokens)
+            case _:
+                pass
+
+
+def _is_shared(owner: str | None, program: Program) -> bool:
+    """Whether a class is that of a timeline that reactors share, so that what holds there is observed."""
+    bases = {each.name: each.base for each in program.classes}
+    while owner is not None and owner != _SHARED:
+        owner = bases.get(owner)
+    return owner is not None
+
+
+def _related(rule: RuleCode) -> Iterator[tuple[str, str]]:
+    """The predicates of the tokens that a rule relates in time, in pairs."""
+    steps = list(_flat(rule.body))
+    tokens = {0: rule.predicate} | {step.slot: step.predicate for step in steps if isinstance(step, Child)}
+    for step in steps:
+        match step:
+            case Child(slot=target, origin=origin) | Relate(target=target, origin=origin):
+                if origin in tokens and target in tokens:
+                    yield tokens[origin], tokens[target]
             case _:
                 pass
 

@@ -16,12 +16,15 @@ from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
 _POINTS = re.compile(r"(\w+\.)?(start|end)\s*[<>=!]+\s*(\w+\.)?(start|end)\s*;")  # two ends of tokens
+_TARGET = re.compile(r"\(\s*[\w.]+")
+_EVENTS = ("consume", "produce")
 _REAL = re.compile(r"\d\.\d|\d\.(?!\w)")
 _LOOSE = "any"  # the relation that demands nothing
 _SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 _UNEQUAL, _EQUAL = "!=", "=="
 _TRUTHS = ("true", "false")
 _TIMES = ("start", "end", "duration")
+_WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
 _NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 _MOST_FOLLOW_UPS = 3
 _FEW = 3  # numbers so small that one more is much
@@ -43,8 +46,10 @@ _EDGE = 1.5  # odds that only some missions fail for a number, not for what is w
 
 # How often a word is meant, in lines of a sort, before any line of the model is read.
 _RELATIONS = {
-    False: {"contains": 4.0, "contained_by": 2.0, "meets": 1.5, "met_by": 1.5, "before": 0.7, "after": 0.7},
-    True: {"before": 3.0, "meets": 1.5, "contains": 1.5, "contained_by": 1.0, "after": 0.7, "met_by": 0.7},
+    "child": {"contains": 4.0, "contained_by": 2.0, "meets": 1.5, "met_by": 1.5, "before": 0.7, "after": 0.7},
+    "neighbour": {"meets": 4.0, "met_by": 4.0, "before": 1.0, "after": 1.0, "contains": 0.05, "contained_by": 0.05},
+    "event": {"any": 6.0},
+    "between": {"before": 3.0, "meets": 1.5, "contains": 1.5, "contained_by": 1.0, "after": 0.7, "met_by": 0.7},
 }
 _COMPARISONS = {
     "value": {"==": 6.0, "<=": 1.0, ">=": 1.0, "!=": 0.1},
@@ -54,6 +59,8 @@ _COMPARISONS = {
     "truth condition": {"==": 6.0, "<=": 0.1, ">=": 0.1, "<": 0.1, ">": 0.1, "!=": 0.5},
     "condition": {"==": 2.0, "<=": 2.0, ">=": 2.0, "<": 2.0, ">": 2.0, "!=": 1.5},
 }
+# The sign of what is added: between two times most write how much later one is.
+_SIGNED = {"time sum": {"+": 4.0, "-": 1.0}, "sum": {"+": 2.0, "-": 1.0}, "number": {}}
 _RARE = 0.3  # all other words
 _LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
 
@@ -113,7 +120,7 @@ def usage_of(sites: Sequence[EditSite], *, some_pass: bool = False) -> Usage:
     for site in sites:
         counts.update(word for word in _WORD.findall(site.text) if word != site.named)
         kinds.update({edit.kind for edit in site.edits})
-        words = {edit.begin: edit for edit in site.edits if edit.kind in (EditKind.RELATION, EditKind.COMPARISON)}
+        words = {edit.begin: edit for edit in site.edits if edit.kind in _WORDED}
         meant.update((_sort(edit, site)[0], _sign(edit.old)) for edit in words.values())
     sampled = {name for site in sites for name in _SAMPLED.findall(site.text)}
     named = {site.named for site in sites if site.named}
@@ -142,7 +149,7 @@ def _structural(edit: SmallEdit, usage: Usage) -> float:
 
 def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     match edit.kind:
-        case EditKind.RELATION | EditKind.COMPARISON:
+        case EditKind.RELATION | EditKind.COMPARISON | EditKind.SIGN:
             return 1.0 + _UNUSUAL * usage.odds(edit, site)
         case EditKind.LIMIT:
             belongs = _KIN * usage.gain(edit, site) - _LAST_USE * usage.strands(edit)
@@ -168,7 +175,9 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return -1.0
         case EditKind.LIMIT:
             return _KIN_SOON if usage.gain(edit, site) > 0.0 and not usage.strands(edit) else _LATE
-        case EditKind.SIGN | EditKind.ARGUMENTS:
+        case EditKind.SIGN:
+            return 0.5 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.some_pass
+        case EditKind.ARGUMENTS:
             return 0.5 + _LATER * usage.some_pass
         case EditKind.DROPPED_CONSTRAINT:
             return _LATE if "==" in edit.old or edit.old.startswith("eq") else 0.3
@@ -233,8 +242,11 @@ def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdi
 def _sort(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
     """The sort of line that a relation or comparison stands in, and how often words are meant in such lines."""
     if edit.kind is EditKind.RELATION:
-        between = edit.begin > site.begin  # two named tokens; else the rule's own and another
-        return between, _RELATIONS[between]
+        relation_sort = _relation_sort(edit, site)
+        return relation_sort, _RELATIONS[relation_sort]
+    if edit.kind is EditKind.SIGN:
+        signs = "number" if edit.new not in _SIGNED["sum"] else "time sum" if _is_about_time(site) else "sum"
+        return signs, _SIGNED[signs]
     before = site.text[: edit.begin - site.begin]
     is_demand = site.text.endswith(";") and before.count("(") == before.count(")")
     is_point = _POINTS.fullmatch(site.text) is not None
@@ -244,6 +256,18 @@ def _sort(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
         is_truth = any(word in _TRUTHS for word in _WORD.findall(site.text))
         sort = "truth condition" if is_truth else "real condition" if _REAL.search(site.text) else "condition"
     return sort, _COMPARISONS[sort]
+
+
+def _relation_sort(edit: SmallEdit, site: EditSite) -> str:
+    """What a relation is between: two named tokens, or the rule's own and one beside it, an event, or any other."""
+    if edit.begin > site.begin:
+        return "between"
+    target = _TARGET.search(site.text, edit.end - site.begin)
+    names = target.group().strip("( ").split(".") if target is not None else [""]
+    if names[-1] in _EVENTS:
+        return "event"
+    is_own = len(names) == 1 or names[:-1] in (["object"], [site.rule.rpartition(".")[0]])
+    return "neighbour" if is_own else "child"  # tokens of one timeline do not overlap
 
 
 def _sign(word: str) -> str:
