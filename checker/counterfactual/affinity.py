@@ -14,6 +14,7 @@ _WORD = re.compile(r"[A-Za-z_]\w*")
 _PART = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
 _LEAST_STEM = 3  # letters
 _SUFFIX = 0.5  # share of the longer word that two words of one stem have in common
+_MANY = 3
 _TOPIC, _COMPANY = 2.0, 1.0
 # Words that say nothing of what a line is about.
 _COMMON = frozenset(
@@ -52,6 +53,16 @@ class Affinity:
         """Whether a name and a line, or its rule, have a stem in common."""
         there = {stem for word in (*self._words(site), site.rule.rpartition(".")[2]) for stem in _stems(word)}
         return any(_is_kin(one, other) for one in _stems(name) for other in there)
+
+    def shared(self, name: str, head: EditSite, sites: Sequence[EditSite]) -> int:
+        """How many stems of a constant the lines of a rule have; those of three constants and more say nothing."""
+        counts = Counter(stem for site in sites if site.is_number for stem in _stems(site.named))
+        telling = [stem for stem in _stems(name) if counts[stem] < _MANY]
+        words = {
+            word for site in sites if site.rule == head.rule and site.file == head.file for word in self._words(site)
+        }
+        there = {stem for word in (*words, head.rule.rpartition(".")[2]) for stem in _stems(word)}
+        return sum(any(_is_kin(one, other) for other in there) for one in telling)
 
     def has_twin(self, site: EditSite) -> bool:
         """Whether the line is written the same elsewhere."""

@@ -18,6 +18,7 @@ _SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
 _POINTS = re.compile(r"(\w+\.)?(start|end)\s*[<>=!]+\s*(\w+\.)?(start|end)\s*;")  # two ends of tokens
 _TARGET = re.compile(r"\(\s*[\w.]+")
 _EVENTS = ("consume", "produce")
+_BEFORE, _AFTER = re.compile(r"([\w.]+)\s*$"), re.compile(r"\s*([\w.]+)")
 _REAL = re.compile(r"\d\.\d|\d\.(?!\w)")
 _LOOSE = "any"  # the relation that demands nothing
 _SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
@@ -28,7 +29,7 @@ _WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
 _NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 _MOST_FOLLOW_UPS = 3
 _FEW = 3  # numbers so small that one more is much
-_LATER = 0.5  # what is no number, where some missions pass
+_LATER = 0.7  # what is no number, where most missions pass
 _LATE = 3.0  # later by so much: what is tried when all likelier edits have been
 _DROP = 3.0
 _KINDS = 0.5  # how much the number of lines counts at which an edit of the kind can be made
@@ -42,7 +43,7 @@ _KIN_SOON = -0.2  # when a constant is tried that belongs better into a line
 _TWIN = 1.0  # odds of a line that is then written as another line is
 _TWIN_SOON = 0.6  # and how much sooner that is tried
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
-_EDGE = 1.5  # odds that only some missions fail for a number, not for what is wrong in all of them
+_EDGE = 2.0  # odds that few missions fail for a number, not for what is wrong in all of them
 
 # How often a word is meant, in lines of a sort, before any line of the model is read.
 _RELATIONS = {
@@ -55,12 +56,14 @@ _COMPARISONS = {
     "value": {"==": 6.0, "<=": 1.0, ">=": 1.0, "!=": 0.1},
     "time": {"==": 3.0, "<=": 3.0, ">=": 1.5, "!=": 0.05},
     "point": {"==": 6.0, "<=": 2.0, ">=": 1.0, "!=": 0.05},
+    "sampled": {"==": 9.0},
     "real condition": {"==": 0.2, "<=": 1.5, ">=": 1.5, "<": 2.0, ">": 2.0, "!=": 0.05},
     "truth condition": {"==": 6.0, "<=": 0.1, ">=": 0.1, "<": 0.1, ">": 0.1, "!=": 0.5},
     "condition": {"==": 2.0, "<=": 2.0, ">=": 2.0, "<": 2.0, ">": 2.0, "!=": 1.5},
 }
 # The sign of what is added: between two times most write how much later one is.
 _SIGNED = {"time sum": {"+": 4.0, "-": 1.0}, "sum": {"+": 2.0, "-": 1.0}, "number": {}}
+_SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
 _RARE = 0.3  # all other words
 _LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
 
@@ -69,8 +72,9 @@ _LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
 class Usage:
     """How often the lines of a model use each word; `named` are its global variables, `kinds` counts lines by edit.
 
-    `meant` counts relations and comparisons by the sort of line that they stand in; `sampled` are the ranges of draws.
-    `some_pass`: not all missions of these models fail.
+    `meant` counts relations, comparisons and signs by the sort of line that they stand in, `sums` signs by what they
+    stand between; `sampled` are the ranges of draws.
+    `passing` is the share of missions of these models that pass.
     """
 
     counts: Counter[str]
@@ -79,7 +83,8 @@ class Usage:
     meant: Counter[tuple[object, str]]
     sampled: Container[str]
     affinity: Affinity
-    some_pass: bool = False
+    sums: Counter[tuple[str, str, str]]
+    passing: float = 0.0
 
     def is_swapped(self, edit: SmallEdit) -> bool:
         """Whether a constant stands where another one is missed, or the range of a draw where a number is meant."""
@@ -108,23 +113,27 @@ class Usage:
         before = prior.get(old, _RARE) + self.meant[sort, old] - 1  # but for this very line
         odds = math.log(before / (prior.get(new, _RARE) + self.meant[sort, new]))
         wanted = self.affinity.sign_of(edit, site) if edit.kind is EditKind.COMPARISON else ""
+        if edit.kind is EditKind.SIGN:
+            odds += _SUM * math.log(max(self.sums[_sum(edit, site)], 1) / (1 + self.sums[_sum(edit, site, edit.new)]))
         odds += _NAMED * ((old[:1] == wanted[:1]) - (new[:1] == wanted[:1])) if wanted else 0.0
         return max(odds, _LEAST_ODDS) if sort == "condition" else odds
 
 
-def usage_of(sites: Sequence[EditSite], *, some_pass: bool = False) -> Usage:
+def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0) -> Usage:
     """The usage of words in all lines; a line that sets a variable does not use it."""
     counts: Counter[str] = Counter()
     kinds: Counter[EditKind] = Counter()
     meant: Counter[tuple[object, str]] = Counter()
+    sums: Counter[tuple[str, str, str]] = Counter()
     for site in sites:
         counts.update(word for word in _WORD.findall(site.text) if word != site.named)
         kinds.update({edit.kind for edit in site.edits})
         words = {edit.begin: edit for edit in site.edits if edit.kind in _WORDED}
         meant.update((_sort(edit, site)[0], _sign(edit.old)) for edit in words.values())
+        sums.update(_sum(edit, site) for edit in words.values() if edit.kind is EditKind.SIGN)
     sampled = {name for site in sites for name in _SAMPLED.findall(site.text)}
     named = {site.named for site in sites if site.named}
-    return Usage(counts, named, kinds, meant, sampled, Affinity(sites, named), some_pass)
+    return Usage(counts, named, kinds, meant, sampled, Affinity(sites, named), sums, passing)
 
 
 def is_loosening(edit: SmallEdit) -> bool:
@@ -144,7 +153,7 @@ def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
 
 def _structural(edit: SmallEdit, usage: Usage) -> float:
     """What a relation, a sign or a comparison costs where missions pass that it is a part of, too."""
-    return _EDGE if usage.some_pass and edit.kind not in (*_NUMERIC, EditKind.LIMIT) else 0.0
+    return _EDGE * usage.passing if edit.kind not in (*_NUMERIC, EditKind.LIMIT) else 0.0
 
 
 def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
@@ -175,10 +184,12 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return -1.0
         case EditKind.LIMIT:
             return _KIN_SOON if usage.gain(edit, site) > 0.0 and not usage.strands(edit) else _LATE
+        case EditKind.SIGN if edit.new not in _SIGNED["sum"]:
+            return 0.0  # few write a number below zero
         case EditKind.SIGN:
-            return 0.5 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.some_pass
+            return 0.5 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
         case EditKind.ARGUMENTS:
-            return 0.5 + _LATER * usage.some_pass
+            return 0.5 + _LATER * usage.passing
         case EditKind.DROPPED_CONSTRAINT:
             return _LATE if "==" in edit.old or edit.old.startswith("eq") else 0.3
         case EditKind.DROPPED_BRANCH:
@@ -186,11 +197,11 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.RELATION:
             if edit.new == _LOOSE:
                 return 0.3
-            return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.some_pass
+            return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
         case EditKind.COMPARISON if _sign(edit.new) == _UNEQUAL:
             return _LATE
         case EditKind.COMPARISON:
-            return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.some_pass
+            return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
         case EditKind.CONSTANT:
             if float(edit.new) <= 0.0 < float(edit.old):
                 return _LATE
@@ -250,7 +261,9 @@ def _sort(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
     before = site.text[: edit.begin - site.begin]
     is_demand = site.text.endswith(";") and before.count("(") == before.count(")")
     is_point = _POINTS.fullmatch(site.text) is not None
-    if is_demand:
+    if is_demand and _SAMPLED.search(site.text):
+        sort = "sampled"
+    elif is_demand:
         sort = "point" if is_point else "time" if _is_about_time(site) else "value"
     else:
         is_truth = any(word in _TRUTHS for word in _WORD.findall(site.text))
@@ -268,6 +281,12 @@ def _relation_sort(edit: SmallEdit, site: EditSite) -> str:
         return "event"
     is_own = len(names) == 1 or names[:-1] in (["object"], [site.rule.rpartition(".")[0]])
     return "neighbour" if is_own else "child"  # tokens of one timeline do not overlap
+
+
+def _sum(edit: SmallEdit, site: EditSite, sign: str = "") -> tuple[str, str, str]:
+    """A sign with the words that it stands between."""
+    left, right = _BEFORE.search(site.text[: edit.begin - site.begin]), _AFTER.match(site.text[edit.end - site.begin :])
+    return left.group(1) if left else "", sign or edit.old, right.group(1) if right else ""
 
 
 def _sign(word: str) -> str:
