@@ -12,6 +12,7 @@ from checker.mutation.edits import EditSite, SmallEdit
 
 _WORD = re.compile(r"[A-Za-z_]\w*")
 _PART = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
+_LABELLED = re.compile(r"\(\s*([A-Za-z_][\w.]*)\s+(\w+)\s*\)")
 _LEAST_STEM = 3  # letters
 _SUFFIX = 0.5  # share of the longer word that two words of one stem have in common
 _MANY = 3
@@ -36,6 +37,10 @@ class Affinity:
         self._named = named
         self._company: dict[str, Counter[str]] = defaultdict(Counter)
         self._texts = Counter(_plain(site.text) for site in sites)
+        self._tokens: dict[tuple[str, tuple[int, int], str], str] = {}  # what the label of a token in a rule stands for
+        for site in sites:
+            for predicate, label in _LABELLED.findall(site.text):
+                self._tokens[site.file, site.scope, label] = predicate.rpartition(".")[2]
         for site in sites:
             words = self._words(site)
             for name in set(_WORD.findall(site.text)):
@@ -85,9 +90,10 @@ class Affinity:
         return signs[0] if len(set(signs)) == 1 else ""
 
     def _words(self, site: EditSite) -> set[str]:
-        """What a line is about: its words but for constants and words of the language."""
+        """What a line is about: its words but for constants and words of the language, and the tokens that it names."""
         words = set(_WORD.findall(site.text)) - _COMMON
-        return {word for word in words if word not in self._named}
+        tokens = {found for word in words if (found := self._tokens.get((site.file, site.scope, word)))}
+        return {word for word in words if word not in self._named} | tokens
 
 
 def _plain(text: str) -> str:

@@ -121,3 +121,27 @@ T::Q { int a; int b; a == n * (1 - n); b == n + 3; duration == a; }
     }
     wrong = costs["a == n * (1 - n);", "-"]
     assert wrong < costs["b == n + 3;", "+"]
+
+
+def test_a_limit_belongs_to_lines_about_the_token_whose_name_it_bears(tmp_path: Path) -> None:
+    text = """int LIFT_MAX = 40;
+int GRACE = 5;
+class T extends Timeline { predicate Lift { } predicate P { } }
+T::P {
+  contains(T.Lift up);
+  contains(T.Lift down);
+  up.duration <= LIFT_MAX;
+  down.start <= up.end + GRACE;
+  down.duration <= GRACE;
+}
+"""
+    (tmp_path / "m.nddl").write_text(text, encoding="utf-8")
+    sites = sites_of(load_graph(tmp_path / "m.nddl", ()))
+    usage = usage_of(sites)
+    gains = {
+        site.text: usage.gain(edit, site)
+        for site in sites
+        for edit in site.edits
+        if edit.kind is EditKind.LIMIT and (edit.old, edit.new) == ("GRACE", "LIFT_MAX")
+    }
+    assert gains["down.duration <= GRACE;"] > 0.0
