@@ -12,8 +12,10 @@ from checker.mutation.edits import EditSite, SmallEdit
 
 WORD = re.compile(r"[A-Za-z_]\w*")
 _PART = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
+_LABELLED = re.compile(r"\(\s*([A-Za-z_][\w.]*)\s+(\w+)\s*\)")
 _LEAST_STEM = 3  # letters
 _SUFFIX = 0.5  # share of the longer word that two words of one stem have in common
+_MANY = 3
 _TOPIC, _COMPANY = 2.0, 1.0
 # Words that say nothing of what a line is about.
 _COMMON = frozenset(
@@ -35,6 +37,10 @@ class Affinity:
         self._named = named
         self._company: dict[str, Counter[str]] = defaultdict(Counter)
         self._texts = Counter(_plain(site.text) for site in sites)
+        self._tokens: dict[tuple[str, tuple[int, int], str], str] = {}  # what the label of a token in a rule stands for
+        for site in sites:
+            for predicate, label in _LABELLED.findall(site.text):
+                self._tokens[site.file, site.scope, label] = predicate.rpartition(".")[2]
         for site in sites:
             words = self._words(site)
             for name in set(WORD.findall(site.text)):
@@ -52,6 +58,16 @@ class Affinity:
         """Whether a name and a line, or its rule, have a stem in common."""
         there = {stem for word in (*self._words(site), site.rule.rpartition(".")[2]) for stem in _stems(word)}
         return any(_is_kin(one, other) for one in _stems(name) for other in there)
+
+    def shared(self, name: str, head: EditSite, sites: Sequence[EditSite]) -> int:
+        """How many stems of a constant the lines of a rule have; those of three constants and more say nothing."""
+        counts = Counter(stem for site in sites if site.is_number for stem in _stems(site.named))
+        telling = [stem for stem in _stems(name) if counts[stem] < _MANY]
+        words = {
+            word for site in sites if site.rule == head.rule and site.file == head.file for word in self._words(site)
+        }
+        there = {stem for word in (*words, head.rule.rpartition(".")[2]) for stem in _stems(word)}
+        return sum(any(_is_kin(one, other) for other in there) for one in telling)
 
     def has_twin(self, site: EditSite) -> bool:
         """Whether the line is written the same elsewhere."""
@@ -74,9 +90,10 @@ class Affinity:
         return signs[0] if len(set(signs)) == 1 else ""
 
     def _words(self, site: EditSite) -> set[str]:
-        """What a line is about: its words but for constants and words of the language."""
+        """What a line is about: its words but for constants and words of the language, and the tokens that it names."""
         words = set(WORD.findall(site.text)) - _COMMON
-        return {word for word in words if word not in self._named}
+        tokens = {found for word in words if (found := self._tokens.get((site.file, site.scope, word)))}
+        return {word for word in words if word not in self._named} | tokens
 
 
 def _plain(text: str) -> str:

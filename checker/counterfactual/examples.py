@@ -28,7 +28,8 @@ def examples_of(failed: Sequence[MissionResult], passed: Sequence[MissionResult]
         return -sum(shares)
 
     chosen = sorted(passed, key=lambda one: (nearness(one), one.number))[:_MOST_PASSED]
-    return Missions(failed[:_MOST_FAILED], chosen, _only_exercised_by(failed, passed), _usual(passed))
+    share = len(passed) / (len(passed) + len(failed))
+    return Missions(failed[:_MOST_FAILED], chosen, _only_exercised_by(failed, passed), _usual(passed), share)
 
 
 def _only_exercised_by(failed: Sequence[MissionResult], passed: Sequence[MissionResult]) -> frozenset[int]:
