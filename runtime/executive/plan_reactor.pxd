@@ -4,6 +4,7 @@ cimport cython
 from runtime.executive.clock cimport next_reading
 from runtime.executive.deferral cimport Deferral
 from runtime.executive.dispatch cimport Dispatch
+from runtime.executive.past cimport Past
 from runtime.executive.planning cimport Planner
 from runtime.executive.synchronise cimport synchronise
 from runtime.executive.timelines cimport TimelineState
@@ -20,8 +21,9 @@ cdef class PlanReactor:
     cdef public Workbench bench
     cdef public Planner planner
     cdef public Dispatch dispatch
-    cdef public object trace, draws, max_steps, goals, broken, past
+    cdef public object trace, draws, max_steps, goals, broken
     cdef public Deferral deferral
+    cdef public Past past
     cdef public list timelines
     cdef public dict by_name
     cdef public bint is_stirred
