@@ -7,10 +7,9 @@ from math import isnan
 from compiler.program import DomainConstant
 from runtime.executive.configuration import CodeConfiguration
 from runtime.executive.messages import Arguments, Observation, Request
-from runtime.executive.outcome import Conflict, EventKind, OpenGoal, Reason, ReasonKind, TimeBounds
-from runtime.executive.reactor import Failure, Refusal
+from runtime.executive.outcome import EventKind, Reason, ReasonKind, TimeBounds
+from runtime.executive.reactor import Failure, Refusal, TeleoReactor
 from runtime.executive.trace import Trace
-from runtime.plan.readout.names import VariableName
 from runtime.plan.tags import INFINITY
 from runtime.user.fault import failed
 from runtime.user.limit import WATCH, Plain
@@ -22,10 +21,8 @@ _NOBODY: frozenset[int] = frozenset()
 _Kinds = Callable[[str, str], "Mapping[str, tuple[str, str]] | None"]  # timeline, predicate: parameters; None: unknown
 
 
-class CodedReactor:
-    """Calls a user's reactor, and speaks for it."""
-
-    runs_ahead = False
+class CodedReactor(TeleoReactor):
+    """Calls a user's reactor, and speaks for it; it decides nothing, and only the code knows its reasons."""
 
     def __init__(
         self,
@@ -35,12 +32,9 @@ class CodedReactor:
         trace: Trace,
         wakes_on: tuple[str, ...] | None = None,
     ) -> None:
-        self.name = configuration.name
-        self.internal = configuration.internal
-        self.external = configuration.external
-        self.latency = configuration.latency
-        self.lookahead = 0
-        self.due = 0
+        super().__init__(
+            configuration.name, configuration.internal, configuration.external, configuration.latency, lookahead=0
+        )
         self.files = (configuration.file,)
         self.caller = Plain(f"the reactor `{self.name}`", self.files)
         self.make = make
@@ -61,19 +55,6 @@ class CodedReactor:
         self.numbers: dict[int, int] = {}  # of what was asked for, as the code and as the agent counts
         self.count = 0
         self.given_up: list[Refusal] = []
-
-    def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
-        """Nothing that it does depends on the windows of owners."""
-
-    def untold(self) -> int:
-        """It never runs ahead."""
-        return _NEVER
-
-    def pass_over(self, tick: int) -> None:
-        """It never runs ahead."""
-
-    def start_tick(self, tick: int) -> None:
-        """Nothing is kept from the tick before."""
 
     def next_tick(self, tick: int) -> int:
         """When the code wants to be called."""
@@ -197,20 +178,6 @@ class CodedReactor:
         kinds = self.kinds(timeline, predicate) or {}
         return tuple((name, _domain(name, value, kinds.get(name))) for name, value in given.items())
 
-    # ---- planning: there is none ----
-
-    def urgency(self, tick: int) -> float:
-        """It has nothing to decide."""
-        return 0.0
-
-    def step(self, tick: int) -> bool:
-        """It has nothing to decide."""
-        return False
-
-    def failure(self) -> Failure | None:
-        """What goes wrong shows when it synchronises."""
-        return None
-
     def requests(self, tick: int) -> list[Request]:
         """What the code has asked for in this tick."""
         found: list[Request] = []
@@ -287,17 +254,6 @@ class CodedReactor:
             reason=Reason(ReasonKind.NO_LOOKAHEAD),
         )
         self.given_up.append(Refusal(request, event))
-
-    def recall(self, number: int) -> None:
-        """It has taken no goals."""
-
-    def open_goals(self) -> list[OpenGoal]:
-        """It has taken no goals."""
-        return []
-
-    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
-        """Only the code knows."""
-        return None
 
 
 def _shown(domain: DomainConstant) -> Argument:

@@ -38,29 +38,48 @@ class Past:
     def __init__(self, bench: Workbench) -> None:
         self.bench = bench
         self.predicates = forms_of(bench.database.program).looked_back
+        self._over: list[int] = []  # what may be asked for later of what is looked at in archiving
+        self._gone: list[OverToken] = []
+        bench.recorder.witness = self._note
         self._kept: dict[tuple[int, int], list[tuple[int, int]]] = {}  # by timeline and predicate: rows and keys
 
     def archive(self, timelines: list[TimelineState], tick: int) -> int:
         """Take out of the plan what is over, but for what rules may look back at; how many tokens went."""
-        found = self.outlines(tick)
+        self._over = self._found(tick)
         count = self.bench.archive(timelines, tick)
-        self.keep(found)
+        if self._gone:
+            self.keep(self._gone)
+            self._gone = []
         return count
+
+    def _note(self, tokens: list[int]) -> None:
+        """Note what those of some tokens were that leave the plan and may be asked for."""
+        if self._over:
+            leaving = set(tokens)
+            self._gone = [self._outline(t) for t in self._over if t in leaving]
 
     def outlines(self, tick: int) -> list[OverToken]:
         """What is over by `tick` on shared timelines and may be asked for later."""
+        return [self._outline(t) for t in self._found(tick)]
+
+    def _found(self, tick: int) -> list[int]:
+        """The tokens of `outlines`, by predicate and key."""
         bench = self.bench
-        found: dict[int, OverToken] = {}
+        found: dict[int, None] = {}
         for predicate in self.predicates:
             t = first_active(bench.plan, predicate)
             while t >= 0:
-                o, start, end = bench.object_of(t), bench.started_at(t), bench.upper(bench.end(t))
-                is_shared = o in bench.internal_objects or o in bench.external_objects
-                if is_shared and -inf < start and end <= tick and not bench.is_kept(t):
-                    key = bench.key(t)
-                    found[key] = OverToken(t, key, bench.predicate_of(t), o, start, end, bench.arguments(t))
+                if not bench.is_kept(t) and bench.upper(bench.end(t)) <= tick and -inf < bench.started_at(t):
+                    o = bench.object_of(t)
+                    if o in bench.internal_objects or o in bench.external_objects:
+                        found[t] = None
                 t = next_active(bench.plan, t, predicate)
-        return list(found.values())
+        return list(found)
+
+    def _outline(self, t: int) -> OverToken:
+        bench = self.bench
+        start, end = bench.started_at(t), bench.upper(bench.end(t))
+        return OverToken(t, bench.key(t), bench.predicate_of(t), bench.object_of(t), start, end, bench.arguments(t))
 
     def keep(self, outlines: Iterable[OverToken]) -> int:
         """Put back what has left the plan; of too many the oldest goes."""
@@ -88,11 +107,15 @@ class Past:
             holds = fire(plan) and bench.stand_alone(t, one.object)
         if not holds:
             bench.rewind_to(mark)
-            bench.commit()
-            return
         bench.commit()
-        return_key(plan)
-        bench.recorder.kept[one.key] = None
+        if holds:
+            return_key(plan)
+            bench.note_kept(t)
+            self._forget_oldest(t, one)
+
+    def _forget_oldest(self, t: int, one: OverToken) -> None:
+        """Of too many tokens of a predicate that stay on a timeline, take the oldest away; `t` is the newest."""
+        bench = self.bench
         line = self._kept.setdefault((one.object, one.predicate), [])
         line.append((t, one.key))
         if len(line) > _MOST:

@@ -56,7 +56,8 @@ class Solver:
         self.engine = database.plan.engine
         self.europa = europa
         self.engine.holes = not europa  # EUROPA keeps an int that is an interval without holes
-        if any(self.plan.resources.is_resource):
+        has_resources = any(self.plan.resources.is_resource)
+        if has_resources:
             configuration = with_resources(configuration)
         matching = HandlerMatching(configuration, database.program)
         table = HandlerTable(matching, database)
@@ -66,7 +67,7 @@ class Solver:
         in_order = europa or has_loops(program)
         self.may_restart = not europa and is_order_invariant(program, self.plan, table, supports)
         self.agenda = Agenda(self.plan, table, self.filters, supports, europa, in_order)
-        relief = None if europa else Relief(self.plan, supports)
+        relief = None if europa or not has_resources else Relief(self.plan, supports)
         self.relief = relief if relief is not None and relief.is_possible else None
         self.agenda.relief = self.relief
         self.stack = Decisions()

@@ -39,8 +39,10 @@ def rebuild(agenda: Agenda) -> None:
             _add_token(agenda, t, OPEN_CONDITION)
         elif agenda.rows.status[t] == ACTIVE:
             _add_threat(agenda, t)
-    for v in range(agenda.engine.variables):
-        if agenda.engine.kind[v] >= 0 and not agenda.engine.constant[v]:
+    engine = agenda.engine
+    for v in range(engine.variables):
+        # What is decided, which most are, is never a flaw.
+        if engine.kind[v] >= 0 and not engine.constant[v] and not engine.decided[v]:
             _add_variable(agenda, v)
     for s in range(agenda.rows.scope_count):
         if agenda.rows.scope_watch[s] >= 0 and agenda.rows.scope_branch[s] == BRANCH_WAITING:
