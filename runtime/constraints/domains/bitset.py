@@ -34,14 +34,26 @@ def _bits_in(x: int) -> int:
 
 
 def _highest_bit(x: int) -> int:
-    """Give the index of the highest set bit, below which all are set then; x is not 0."""
-    x |= x >> 1
-    x |= x >> 2
-    x |= x >> 4
-    x |= x >> 8
-    x |= x >> 16
-    x |= x >> 32
-    return _bits_in(x) - 1
+    """Give the index of the highest set bit; x is not 0."""
+    n = 0
+    if x >> 32:
+        n += 32
+        x >>= 32
+    if x >> 16:
+        n += 16
+        x >>= 16
+    if x >> 8:
+        n += 8
+        x >>= 8
+    if x >> 4:
+        n += 4
+        x >>= 4
+    if x >> 2:
+        n += 2
+        x >>= 2
+    if x >> 1:
+        n += 1
+    return n
 
 
 def _allocate_words(s: Store, count: int) -> int:

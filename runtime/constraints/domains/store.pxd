@@ -61,9 +61,6 @@ cdef class Store:
 
     cpdef int save(self, long long name, long long code, long long value, long long support) except -1
 
-    @cython.final
-    cdef long long _push(self, long long key, long long value, long long support, long long when) except -1
-
     cpdef int write_lower(self, long long v, long long x, long long support) except -1
 
     cpdef int write_upper(self, long long v, long long x, long long support) except -1

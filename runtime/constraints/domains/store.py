@@ -238,23 +238,25 @@ class Store:
 
     def save(self, name: int, code: int, value: int, support: int) -> None:
         """Push a structural change: enough to undo it."""
-        self._push(name * 16 + code, value, support, -1)
-
-    def _push(self, key: int, value: int, support: int, when: int) -> int:
-        """Push one entry of the trail; give its index."""
         i = self.trail_size
         if i == self.trail_room:
             self.grow_trail()
-        self.trail_key[i] = key
+        self.trail_key[i] = name * 16 + code
         self.trail_value[i] = value
         self.trail_support[i] = support
-        self.trail_when[i] = when
+        self.trail_when[i] = -1
         self.trail_size = i + 1
-        return i
 
     def write_lower(self, v: int, x: int, support: int) -> None:
         """Store a lower bound that is known to be tighter, its support and the way back; wake nobody."""
-        i = self._push(v * 16 + TRAIL_LOWER, self.lb[v], self.lower_support[v], self.lower_when[v])
+        i = self.trail_size
+        if i == self.trail_room:
+            self.grow_trail()
+        self.trail_key[i] = v * 16 + TRAIL_LOWER
+        self.trail_value[i] = self.lb[v]
+        self.trail_support[i] = self.lower_support[v]
+        self.trail_when[i] = self.lower_when[v]
+        self.trail_size = i + 1
         self.lb[v] = x
         self.lower_support[v] = support
         self.lower_when[v] = self.trail_base + i
@@ -262,7 +264,14 @@ class Store:
 
     def write_upper(self, v: int, x: int, support: int) -> None:
         """Store an upper bound that is known to be tighter, its support and the way back; wake nobody."""
-        i = self._push(v * 16 + TRAIL_UPPER, self.ub[v], self.upper_support[v], self.upper_when[v])
+        i = self.trail_size
+        if i == self.trail_room:
+            self.grow_trail()
+        self.trail_key[i] = v * 16 + TRAIL_UPPER
+        self.trail_value[i] = self.ub[v]
+        self.trail_support[i] = self.upper_support[v]
+        self.trail_when[i] = self.upper_when[v]
+        self.trail_size = i + 1
         self.ub[v] = x
         self.upper_support[v] = support
         self.upper_when[v] = self.trail_base + i
@@ -270,8 +279,14 @@ class Store:
 
     def write_real_lower(self, v: int, x: float, support: int) -> None:
         """Store a float's lower bound, its support and the way back; wake nobody."""
-        old = self.save_real(self.flo[v])
-        i = self._push(v * 16 + TRAIL_REAL_LOWER, old, self.lower_support[v], self.lower_when[v])
+        i = self.trail_size
+        if i == self.trail_room:
+            self.grow_trail()
+        self.trail_key[i] = v * 16 + TRAIL_REAL_LOWER
+        self.trail_value[i] = self.save_real(self.flo[v])
+        self.trail_support[i] = self.lower_support[v]
+        self.trail_when[i] = self.lower_when[v]
+        self.trail_size = i + 1
         self.flo[v] = x
         self.lower_support[v] = support
         self.lower_when[v] = self.trail_base + i
@@ -279,8 +294,14 @@ class Store:
 
     def write_real_upper(self, v: int, x: float, support: int) -> None:
         """Store a float's upper bound, its support and the way back; wake nobody."""
-        old = self.save_real(self.fhi[v])
-        i = self._push(v * 16 + TRAIL_REAL_UPPER, old, self.upper_support[v], self.upper_when[v])
+        i = self.trail_size
+        if i == self.trail_room:
+            self.grow_trail()
+        self.trail_key[i] = v * 16 + TRAIL_REAL_UPPER
+        self.trail_value[i] = self.save_real(self.fhi[v])
+        self.trail_support[i] = self.upper_support[v]
+        self.trail_when[i] = self.upper_when[v]
+        self.trail_size = i + 1
         self.fhi[v] = x
         self.upper_support[v] = support
         self.upper_when[v] = self.trail_base + i
