@@ -10,8 +10,8 @@ cdef long long FAR, NONE, ROW, STOPS, _AHEAD
 cdef class DeterminedReactor:
     cdef public str name
     cdef public tuple internal, external
-    cdef public long long latency, lookahead, final_tick, watched, execution_latency, tick, reached, base, due, steps_made
-    cdef public object program, make_general, trace, inputs, general
+    cdef public long long latency, lookahead, final_tick, watched, execution_latency, tick, reached, base, due, steps_made, witnessed
+    cdef public object program, make_general, trace, inputs, general, witness
     cdef public list wishes, refused_goals, refusals_made
     cdef public Machine machine
     cdef public Publisher publisher

@@ -212,8 +212,11 @@ class Workbench(PlanView):
                 kept.add(line.current)
                 kept.add(int(self.rows.link_before[LISTS * line.current + LIST_ORDER]))
         count = self.rows.token_count
-        over = [t for t in range(count) if t not in kept and not self.is_freed(t) and self.is_over(t, tick)]
-        over = [t for t in over if not self.is_kept(t)]
+        over = [
+            t
+            for t in range(count)
+            if t not in kept and not self.is_freed(t) and self.is_over(t, tick) and not self.is_kept(t)
+        ]
         return archive(self.plan, over, tick, self.recorder.leave) if over and fire(self.plan) else 0
 
     def tidy(self) -> None:

@@ -42,8 +42,6 @@ cdef class Agenda:
     cdef public signed char[::1] watched, unwatched
     cdef public double found_priority
 
-    cpdef int _make_tables(self) except -1
-
     cpdef int _empty_tables(self) except -1
 
     cpdef int reserve(self) except -1
