@@ -78,14 +78,17 @@ class Wire:
         receive(self.session, json.dumps(body).encode())
         return (await self.told(lambda each: each.get("id") == number)).get("result")
 
+    def heard(self) -> list[Any]:
+        """What was said since somebody asked last."""
+        heard, self._told = self._told, []
+        return heard
+
     async def told(self, is_wanted: Callable[[Any], bool]) -> Any:
         """The first message of that kind; others are dropped."""
         while True:
-            for message in self._told:
+            for message in self.heard():
                 if is_wanted(message):
-                    self._told.clear()
                     return message
-            self._told.clear()
             await asyncio.sleep(0)
 
 
@@ -156,6 +159,32 @@ async def workspace(folder: Path) -> tuple[Wire, dict[str, str]]:
     return wire, parts
 
 
+async def cancelled(wire: Wire, rounds: int) -> list[float]:
+    """Ask for the outline many times at once, and take all back; until each is answered that it was taken back.
+
+    They stand behind an edit that is not analysed yet.
+    """
+    numbers = itertools.count(1_000_000)
+    times = []
+    for version in range(rounds):
+        edit = {"range": {"start": {"line": 0, "character": 0}, "end": {"line": 0, "character": 0}}, "text": " "}
+        versioned = {"uri": URI, "version": 200_000 + version}
+        wire.tell("textDocument/didChange", textDocument=versioned, contentChanges=[edit])
+        asked = set(itertools.islice(numbers, 20))
+        for number in asked:
+            params = {"textDocument": {"uri": URI}}
+            body = {"jsonrpc": "2.0", "id": number, "method": "textDocument/documentSymbol", "params": params}
+            receive(wire.session, json.dumps(body).encode())
+        begun = time.process_time()
+        for number in asked:
+            wire.tell("$/cancelRequest", id=number)
+        while asked:
+            await asyncio.sleep(0)
+            asked.difference_update(each["id"] for each in wire.heard() if each.get("error", {}).get("code") == -32800)
+        times.append(time.process_time() - begun)
+    return times
+
+
 async def question(wire: Wire, method: str, text: str, rounds: int) -> list[float]:
     """Ask one thing all over the text."""
     found = places(text, "load > 3") + places(text, "meets(Idle") + places(text, "class Unit")
@@ -206,6 +235,7 @@ async def main(rounds: int) -> int:
     held = [show("edit to all diagnostics", p95(await edits(wire, text, rounds)), 10)]
     for method, goal in GOALS.items():
         held.append(show(method, p95(await question(wire, method, text, rounds)), goal))
+    held.append(show("20 questions taken back", p95(await cancelled(wire, rounds)), 20))
     memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     held.append(show("memory", memory, 100, "MB"))
     answered, told = starting()

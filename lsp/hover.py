@@ -7,6 +7,7 @@ from lsprotocol.types import Hover, MarkupContent, MarkupKind, Position
 
 from lsp.describe import Describer
 from lsp.diagnostics import Conversion
+from lsp.known_domain import known_domain
 from lsp.meaning import WORDS, Meaning, Word, meaning_at
 from lsp.open_text import DocumentContext
 from lsp.relation_demands import demanded
@@ -21,6 +22,7 @@ from lsp.rows import (
     relation_tail,
 )
 from nddl_lang.analysis import Analysis
+from nddl_lang.semantics import domains
 from nddl_lang.semantics.constraints import ConstraintRow
 from nddl_lang.semantics.functions import FunctionRow, MethodRow
 from nddl_lang.semantics.relations import RelationRow
@@ -73,9 +75,9 @@ def _describe(analysis: Analysis, meaning: Meaning, conversion: Conversion) -> I
         case Type() as type_:
             return describer.basic(type_)
         case Variable() as variable:
-            return describer.variable(variable)
+            return [*describer.variable(variable), *_left(analysis, variable, meaning)]
         case TokenVariableReference() as variable:
-            return describer.token_variable(variable)
+            return [*describer.token_variable(variable), *_left(analysis, variable, meaning)]
         case Label() as label:
             return describer.label(label)
         case RelationRow() as row:
@@ -92,6 +94,13 @@ def _describe(analysis: Analysis, meaning: Meaning, conversion: Conversion) -> I
             return [fenced(text), WORDS.get(text, "")]
         case _:
             assert_never(meaning.thing)
+
+
+def _left(analysis: Analysis, variable: Variable | TokenVariableReference, meaning: Meaning) -> Iterator[str]:
+    """What the rule leaves of a domain at this place."""
+    domain = known_domain(analysis, variable, meaning.around)
+    if domain is not None:
+        yield f"Left here by the comparisons of this rule: `{domains.text(domain)}`."
 
 
 def _drawn(analysis: Analysis, describer: Describer, meaning: Meaning) -> Iterable[str]:

@@ -1,5 +1,6 @@
 """A session's life: its beginning and end, its texts, settings, folders and files."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -66,7 +67,7 @@ def _settings(given: ServerSettings, options: Any) -> ServerSettings:
     found = directories if isinstance(directories, list) else []
     added = tuple(each for each in found if isinstance(each, str) and "\0" not in each)
     is_trusted = given.is_trusted or told.get("isTrusted") is True
-    return ServerSettings(given.dialect, (*given.directories, *added), is_trusted)
+    return replace(given, directories=(*given.directories, *added), is_trusted=is_trusted)
 
 
 def _folders(session: Session) -> tuple[Path, ...]:

@@ -1,6 +1,5 @@
 """One model under edit: its texts in, its analysis out, with all that an edit leaves alone kept from before."""
 
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,7 +11,7 @@ from nddl_lang.lint.configuration import find_configuration, read_configuration
 from nddl_lang.lint.linter import Linter
 from nddl_lang.lint.project_modules import read_callables
 from nddl_lang.lint.settings import Settings as Configuration
-from nddl_lang.semantics.callables import NATIVE_CALLABLES
+from nddl_lang.semantics.callables import NATIVE_CALLABLES, Callables
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import load_module_graph
 from nddl_lang.syntax.incremental import Incremental
@@ -20,23 +19,30 @@ from nddl_lang.syntax.parser import Parse
 from nddl_lang.syntax.placement import CLASS, TOP
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source
-from runtime.user.fault import UserCodeError
-from runtime.user.library import library_of
 
 OpenText = Callable[[Path], str | None]
+# What models of a project may call, whether it is trusted or not; and what its modules hide.
+Know = Callable[[Configuration, bool], tuple[Callables, tuple[Diagnostic, ...]]]
 _Place = tuple[str, Dialect, bool]
+
+
+def read_only(configuration: Configuration, is_trusted: bool) -> tuple[Callables, tuple[Diagnostic, ...]]:
+    """What the texts of the project's modules tell."""
+    del is_trusted
+    return read_callables(configuration, NATIVE_CALLABLES)
 
 
 @dataclass(frozen=True, slots=True)
 class ServerSettings:
     """What holds for all models: the dialect that is asked for, and where included files are looked for.
 
-    Python of a project is run only where it `is_trusted`, and read otherwise.
+    Python of a project is run only where it `is_trusted`, and read otherwise: `know` does either.
     """
 
     dialect: Dialect | None = None
     directories: tuple[str, ...] = ()
     is_trusted: bool = False
+    know: Know = read_only
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -60,7 +66,7 @@ class Project:
     def __init__(self, key: str, settings: ServerSettings) -> None:
         self.key = key
         self._settings = settings
-        self._configuration, self._gaps = _configuration(Path(key), is_trusted=settings.is_trusted)
+        self._configuration, self._gaps = _configuration(Path(key), settings)
         self._analyser = Analyser(self._configuration.callables)
         self._linter = Linter()
         self._indexer = NameIndexer()
@@ -121,19 +127,12 @@ class Project:
         return parse
 
 
-def _configuration(root: Path, *, is_trusted: bool) -> tuple[Configuration, tuple[Diagnostic, ...]]:
+def _configuration(root: Path, settings: ServerSettings) -> tuple[Configuration, tuple[Diagnostic, ...]]:
     """What the project of a file asks for, and what its modules hide from somebody who does not run them.
 
     A configuration with mistakes counts as far as it is understood.
     """
     path = find_configuration(root.parent) if root.is_absolute() else None
     configuration = Configuration() if path is None else read_configuration(path)[0]
-    native = NATIVE_CALLABLES
-    try:
-        native = library_of(Configuration()).callables  # of installed packages
-        if is_trusted:
-            return replace(configuration, callables=library_of(configuration).callables), ()
-    except UserCodeError as mistake:
-        print(f"nddlc: {mistake}", file=sys.stderr)  # editors keep what a server says there
-    callables, gaps = read_callables(configuration, native)
+    callables, gaps = settings.know(configuration, settings.is_trusted)
     return replace(configuration, callables=callables), gaps

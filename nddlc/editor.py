@@ -1,17 +1,20 @@
 """The session that `nddlc lsp` serves, with what it asks the checker; loaded after the first answer."""
 
+import sys
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from lsp.project import ServerSettings
+from lsp.project import ServerSettings, read_only
 from lsp.server import make_session
 from lsp.session import Session
 from nddl_lang.lint.configuration import NAME, PROJECT, find_configuration, read_configuration
 from nddl_lang.lint.settings import Settings
+from nddl_lang.semantics.callables import Callables
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.source import Source
+from nddlc.known import known_callables
 from nddlc.main import named
 from runtime.user.fault import UserCodeError
 
@@ -19,7 +22,16 @@ from runtime.user.fault import UserCodeError
 def make_editor_session(dialect: str | None, directories: tuple[str, ...], *, is_trusted: bool) -> Session:
     """A session with the settings of the command line."""
     asked = Dialect(dialect) if dialect is not None else None
-    return make_session(ServerSettings(asked, directories, is_trusted), _examine)
+    return make_session(ServerSettings(asked, directories, is_trusted, known_to_editor), _examine)
+
+
+def known_to_editor(settings: Settings, is_trusted: bool) -> tuple[Callables, tuple[Diagnostic, ...]]:
+    """What models of a project may call; where its Python, or that of a package, fails, what is known without it."""
+    try:
+        return known_callables(settings, is_trusted=is_trusted)
+    except UserCodeError as mistake:
+        print(f"nddlc: {mistake}", file=sys.stderr)  # editors keep what a server says there
+        return read_only(settings, is_trusted)
 
 
 def _examine(source: Source, root: Path, is_trusted: bool) -> tuple[Diagnostic, ...]:

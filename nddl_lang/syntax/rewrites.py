@@ -6,6 +6,7 @@ from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.source import Span
 
 _INCLUDES = frozenset(("include", "import", "using", "require"))
+_DECLARED = frozenset(("BASETYPE", "IDENT", ","))
 _AFTER_OBJECT = frozenset((";", ",", ")"))
 
 
@@ -59,6 +60,8 @@ def _braces_for_parameters(b: Builder, opener: int) -> Fix | None:
         return None
     closer = kinds.index(")", opener)
     inside, after = kinds[opener + 1 : closer], kinds[closer + 1 : closer + 3]
+    if not _DECLARED.issuperset(inside):
+        return None
     if after[:1] == ["{"] and after != ["{", "}"]:
         # What stands in braces is left as it is: only empty parentheses go.
         return Fix("remove `()`", (Edit(b.span(opener, closer), ""),)) if not inside else None
@@ -91,7 +94,9 @@ def close_block(b: Builder, opener: int, index: int) -> Fix:
     """Add the `}` of a block that ends before the lexeme `index`: in a line of its own where the block has several."""
     text, offset = b.anchor.source.text, b.anchor.offset
     begin, end = offset + b.starts[opener], offset + b.ends[index - 1]
-    line = text.rfind("\n", 0, begin) + 1
-    indent = text[line : len(text) - len(text[line:].lstrip(" \t"))]
+    # What stands before the piece may change without it.
+    line = max(text.rfind("\n", offset, begin) + 1, offset)
+    before = text[line:begin]
+    indent = before[: len(before) - len(before.lstrip(" \t"))]
     written = f"\n{indent}}}" if "\n" in text[begin:end] else " }"
     return Fix("add `}`", (Edit(Span(b.anchor, end - offset, end - offset), written),), safe=False)

@@ -179,3 +179,59 @@ def test_a_definition_is_found_through_every_kind_of_name() -> None:
     assert nothing is not None
     assert definition_of(view.snapshot.analysis, nothing) is None
     assert view.document.lines.offset(Position(0, 0)) == 0
+
+
+LEFT = """\
+enum Mode { Slow, Fast, Off }
+int MOST = 7;
+int LATER;
+LATER = 3;
+class C extends Timeline { predicate p { int n; Mode mode; float share; bool is_on; } predicate q { int n; n <= 5; } }
+C::p {
+  n <= MOST;
+  2 < n;
+  n <= LATER;
+  int m = [0 100];
+  m == n;
+  starts(object.q other);
+  other.n >= 1;
+  mode != Off;
+  if (mode == Fast) { n >= 4; share <= 0.5; if (is_on) { m >= 50; } }
+  else { n <= 6; m <= 9; }
+  duration <= 9;
+  meets(object.q later);
+}
+"""
+
+
+@pytest.mark.parametrize(
+    ("place", "expected"),
+    [
+        ("^n <= MOST", "[3 7]"),
+        ("int ^m = [0", None),  # what it is compared with is known only together with it
+        ("^m == n", None),
+        ("other.^n", "[1 5]"),
+        ("^mode != Off", "{Slow, Fast}"),
+        ("if (^mode", "{Slow, Fast}"),
+        ("^n >= 4", "[4 7]"),
+        ("^share <=", "[-inf 0.5]"),
+        ("^is_on", None),
+        ("^m >= 50", "[50 100]"),
+        ("^n <= 6", "[3 6]"),
+        ("^m <= 9", "[0 9]"),
+        ("^duration", "[1 9]"),
+        ("^MOST;", None),
+        ("int ^n; Mode", None),
+    ],
+)
+def test_a_rule_tells_what_it_leaves_of_a_domain(place: str, expected: str | None) -> None:
+    at = LEFT.index(place.replace("^", "")) + place.index("^")
+    documents = Documents()
+    documents.open(URI, 1, LEFT)
+    view = documents.view(URI)
+    assert view is not None
+    found = hover_at(view, view.document.lines.position(at), documents.conversion())
+    assert found is not None
+    text = getattr(found.contents, "value", "")
+    _, _, left = text.partition("Left here by the comparisons of this rule: ")
+    assert left == (f"`{expected}`." if expected is not None else "")

@@ -62,7 +62,14 @@ def test_what_was_meant_is_offered(written: str, meant: str | None) -> None:
 
 @pytest.mark.parametrize(
     "written",
-    ["class D extends C { predicate r(int a) { int b; } }", "C::p { ; } }", "goal C.p(two);", "C d = new;", "C.p one;"],
+    [
+        "class D extends C { predicate r(int a) { int b; } }",
+        "C::p { ; } }",
+        "goal C.p(two);",
+        "C d = new;",
+        "class D extends C { predicate r(int a { } C::p { leq(x, 3); }",
+        "C.p one;",
+    ],
 )
 def test_what_is_not_plain_is_left_to_the_author(written: str) -> None:
     text = f"{BEFORE}{written}\n{AFTER}"

@@ -9,6 +9,7 @@ from lsp.documents import Documents
 from lsp.hover import hover_at
 from lsp.open_text import DocumentContext
 from lsp.project import ServerSettings
+from nddlc.editor import known_to_editor
 from tests.user_constraints.own import TWICE, written
 
 MODEL = "int x = [1 10];\nint y = [0 13];\ntwice(y, x);\n"
@@ -20,7 +21,7 @@ def opened(folder: Path, module: str, *, is_trusted: bool = False) -> tuple[Docu
     (folder / "nddlc.toml").write_text('[constraints]\nmodules = ["own.py"]\n', encoding="utf-8")
     path = folder / "model.nddl"
     path.write_text(MODEL, encoding="utf-8")
-    documents = Documents(ServerSettings(is_trusted=is_trusted))
+    documents = Documents(ServerSettings(is_trusted=is_trusted, know=known_to_editor))
     news = documents.open(path.as_uri(), 1, MODEL)
     view = documents.view(path.as_uri())
     assert view is not None

@@ -13,6 +13,7 @@ import pytest
 from lsp.documents import Documents
 from lsp.project import ServerSettings
 from nddl_lang.lint.python_module import read_module
+from nddlc.editor import known_to_editor
 from nddlc.main import run
 from tests.user_constraints.own import HEAD, TWICE
 
@@ -69,7 +70,7 @@ def trap(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Trap:
 
 
 def opened(file: Path, *, is_trusted: bool = False) -> list[str]:
-    documents = Documents(ServerSettings(is_trusted=is_trusted))
+    documents = Documents(ServerSettings(is_trusted=is_trusted, know=known_to_editor))
     news = documents.open(file.as_uri(), 1, file.read_text(encoding="utf-8"))
     return [str(each.code) for publication in news for each in publication.diagnostics]
 
