@@ -21,5 +21,5 @@ def test_a_doubtful_loose_end_comes_after_what_was_flown(doubt: float, first: Cl
     trial = LineTrial(tried, tried.site.edits[0], 0.0, 1.0, helped=1, missions=2)
     loose = Loose(candidate(5, "contains(T.Q q);"), "q.n", doubt=doubt)
     causes = rank(Trials((trial,), (tried,), 1, 4, TrialsEnd.COMPLETE, (loose,)), Path("/"))
-    assert [one.claim for one in causes.ranked][0] is first
+    assert next(one.claim for one in causes.ranked) is first
     assert {one.claim for one in causes.ranked} == {Claim.PARTLY, Claim.LOOSE_END}
