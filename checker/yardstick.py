@@ -11,7 +11,7 @@ from enum import StrEnum
 from functools import partial
 from pathlib import Path
 
-from checker.batch.pool import Flyer
+from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.buckets import group_failures
 from checker.counterfactual.ranking import NO_CAUSES, Causes, RankedLine

@@ -10,7 +10,7 @@ from collections.abc import Container, Sequence
 
 from checker.mutation.edits import EditSite, SmallEdit
 
-_WORD = re.compile(r"[A-Za-z_]\w*")
+WORD = re.compile(r"[A-Za-z_]\w*")
 _PART = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
 _LABELLED = re.compile(r"\(\s*([A-Za-z_][\w.]*)\s+(\w+)\s*\)")
 _LEAST_STEM = 3  # letters
@@ -43,14 +43,14 @@ class Affinity:
                 self._tokens[site.file, site.scope, label] = predicate.rpartition(".")[2]
         for site in sites:
             words = self._words(site)
-            for name in set(_WORD.findall(site.text)):
+            for name in set(WORD.findall(site.text)):
                 if name in named and name != site.named:
                     self._company[name].update(words)
 
     def of(self, name: str, site: EditSite) -> float:
         """How well a constant belongs into a line: by its topic, and by the words that it stands with elsewhere."""
         words = self._words(site)
-        own = name in _WORD.findall(site.text)
+        own = name in WORD.findall(site.text)
         has_company = any(self._company[name][word] > own for word in words)
         return _TOPIC * self.is_about(name, site) + _COMPANY * has_company
 
@@ -82,7 +82,7 @@ class Affinity:
     def sign_of(self, edit: SmallEdit, site: EditSite) -> str:
         """The comparison that a constant's name asks for, such as `<=` before `LEG_MAX`; empty where none does."""
         signs = []
-        for found in _WORD.finditer(site.text):
+        for found in WORD.finditer(site.text):
             parts = {part.lower() for part in _PART.findall(found.group())}
             if found.group() in self._named and parts & (_MOST | _LEAST):
                 is_after = found.start() >= edit.end - site.begin
@@ -91,7 +91,7 @@ class Affinity:
 
     def _words(self, site: EditSite) -> set[str]:
         """What a line is about: its words but for constants and words of the language, and the tokens that it names."""
-        words = set(_WORD.findall(site.text)) - _COMMON
+        words = set(WORD.findall(site.text)) - _COMMON
         tokens = {found for word in words if (found := self._tokens.get((site.file, site.scope, word)))}
         return {word for word in words if word not in self._named} | tokens
 

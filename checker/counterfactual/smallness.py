@@ -10,10 +10,9 @@ from collections import Counter
 from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
-from checker.counterfactual.affinity import Affinity
+from checker.counterfactual.affinity import WORD, Affinity
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 
-_WORD = re.compile(r"[A-Za-z_]\w*")
 _SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
 _POINTS = re.compile(r"(\w+\.)?(start|end)\s*[<>=!]+\s*(\w+\.)?(start|end)\s*;")  # two ends of tokens
 _TARGET = re.compile(r"\(\s*[\w.]+")
@@ -126,7 +125,7 @@ def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0) -> Usage:
     meant: Counter[tuple[object, str]] = Counter()
     sums: Counter[tuple[str, str, str]] = Counter()
     for site in sites:
-        counts.update(word for word in _WORD.findall(site.text) if word != site.named)
+        counts.update(word for word in WORD.findall(site.text) if word != site.named)
         kinds.update({edit.kind for edit in site.edits})
         words = {edit.begin: edit for edit in site.edits if edit.kind in _WORDED}
         meant.update((_sort(edit, site)[0], _sign(edit.old)) for edit in words.values())
@@ -266,7 +265,7 @@ def _sort(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
     elif is_demand:
         sort = "point" if is_point else "time" if _is_about_time(site) else "value"
     else:
-        is_truth = any(word in _TRUTHS for word in _WORD.findall(site.text))
+        is_truth = any(word in _TRUTHS for word in WORD.findall(site.text))
         sort = "truth condition" if is_truth else "real condition" if _REAL.search(site.text) else "condition"
     return sort, _COMPARISONS[sort]
 
@@ -295,7 +294,7 @@ def _sign(word: str) -> str:
 
 
 def _is_about_time(site: EditSite) -> bool:
-    return any(word in _TIMES for word in _WORD.findall(site.text))
+    return any(word in _TIMES for word in WORD.findall(site.text))
 
 
 def _octaves(edit: SmallEdit) -> float:

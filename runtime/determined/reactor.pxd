@@ -3,14 +3,13 @@
 cimport cython
 from runtime.determined.machine cimport Machine
 from runtime.determined.publish cimport Publisher
+from runtime.executive.reactor cimport TeleoReactor
 
 cdef long long FAR, NONE, ROW, STOPS, _AHEAD
 
 
-cdef class DeterminedReactor:
-    cdef public str name
-    cdef public tuple internal, external
-    cdef public long long latency, lookahead, final_tick, watched, execution_latency, tick, reached, base, due, steps_made, witnessed
+cdef class DeterminedReactor(TeleoReactor):
+    cdef public long long final_tick, watched, execution_latency, tick, reached, base, steps_made, witnessed
     cdef public object program, make_general, trace, inputs, general, witness
     cdef public list wishes, refused_goals, refusals_made
     cdef public Machine machine
@@ -19,6 +18,10 @@ cdef class DeterminedReactor:
     cdef public bint is_beyond
 
     cpdef object start_tick(self, long long tick)
+
+    cpdef object notify(self, observation)
+
+    cpdef object failure(self)
 
     cpdef object synchronise(self, long long tick)
 

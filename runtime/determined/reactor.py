@@ -17,7 +17,7 @@ from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, Draw, EventKind, OpenGoal, Reason, ReasonKind
 from runtime.executive.plan_reactor import PlanReactor
-from runtime.executive.reactor import Failure, Refusal
+from runtime.executive.reactor import Failure, Refusal, TeleoReactor
 from runtime.executive.record import ReactorRecord
 from runtime.executive.story import latest
 from runtime.executive.trace import Trace
@@ -26,10 +26,8 @@ from runtime.plan.readout.names import VariableName
 _AHEAD = 128  # ticks that are carried out before anybody asks for them
 
 
-class DeterminedReactor:
-    """Implements `Reactor` by a register machine, or, once that has stopped, by a general reactor."""
-
-    runs_ahead = True
+class DeterminedReactor(TeleoReactor):
+    """Carried out by a register machine or, once that has stopped, by a general reactor."""
 
     def __init__(
         self,
@@ -40,9 +38,9 @@ class DeterminedReactor:
         final_tick: int,
         trace: Trace,
     ) -> None:
-        self.name = configuration.name
-        self.internal, self.external = configuration.internal, configuration.external
-        self.latency, self.lookahead = configuration.latency, configuration.lookahead
+        place = configuration
+        super().__init__(place.name, place.internal, place.external, place.latency, place.lookahead)
+        self.runs_ahead = True
         self.program = program
         self.make_general = general
         self.final_tick = final_tick
@@ -60,7 +58,6 @@ class DeterminedReactor:
         self.tick = NONE
         self.reached = NONE  # the last tick that the machine has carried out
         self.base = NONE  # the tick of its snapshot
-        self.due = 0
         self.steps_made = 0
         self.is_beyond = False  # something came in that only the general engine understands
         self.general: PlanReactor | None = None

@@ -1,6 +1,7 @@
 # The C types of `agent.py`.
 
 cimport cython
+from runtime.executive.reactor cimport TeleoReactor
 
 
 cdef class Agent:
@@ -11,28 +12,29 @@ cdef class Agent:
     cdef public object seed
     cdef public long long tick
 
-    @cython.locals(soonest="long long", tick="long long")
+    @cython.locals(reactor=TeleoReactor, soonest="long long", tick="long long")
     cpdef object _advance(self, long long last)
 
-    @cython.locals(tick="long long")
+    @cython.locals(reactor=TeleoReactor, tick="long long")
     cpdef object _pass_over(self)
 
-    @cython.locals(is_last="bint")
+    @cython.locals(is_last=bint, reactor=TeleoReactor)
     cpdef object _synchronise(self)
 
-    cpdef object _synchronise_one(self, reactor)
+    cpdef object _synchronise_one(self, TeleoReactor reactor)
 
+    @cython.locals(reactor=TeleoReactor)
     cpdef object _publish(self, list observations)
 
-    @cython.locals(busy=list)
+    @cython.locals(busy=list, reactor=TeleoReactor)
     cpdef object _deliberate(self)
 
-    @cython.locals(most=double, urgency=double)
-    cpdef object _most_urgent(self, list busy)
+    @cython.locals(first=TeleoReactor, most=double, reactor=TeleoReactor, urgency=double)
+    cpdef TeleoReactor _most_urgent(self, list busy)
 
     cpdef object _post_goals(self, list busy)
 
-    cpdef object _dispatch(self, reactor, list busy)
+    cpdef object _dispatch(self, TeleoReactor reactor, list busy)
 
     cpdef object _ask(self, request, list busy)
 
@@ -40,4 +42,4 @@ cdef class Agent:
 
     cpdef object _tell_refusals(self, list refusals)
 
-    cpdef object _wake(self, reactor, list busy)
+    cpdef object _wake(self, TeleoReactor reactor, list busy)

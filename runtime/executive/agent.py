@@ -132,15 +132,8 @@ class Agent:
         if abort is None:
             self.trace.record(EventKind.END, "", code="F10" if left and not self.killed else "")
         self.trace.tell_on = as_it_is  # without a cycle the memory of a mission is free as soon as nobody looks at it
-        return Outcome(
-            self.seed,
-            self.tick,
-            last,
-            abort,
-            tuple(self.trace.draws),
-            self.trace.events,
-            tuple(left),
-        )
+        draws, events = tuple(self.trace.draws), self.trace.events
+        return Outcome(self.seed, self.tick, last, abort, draws, events, tuple(left))
 
     def _advance(self, last: int) -> None:
         """Go on to the next tick at which a reactor has something to do or a goal is due."""
@@ -157,7 +150,12 @@ class Agent:
 
     def _pass_over(self) -> None:
         """Put on record what was carried out for earlier ticks, in the order of time."""
-        while (tick := min([reactor.untold() for reactor in self.ahead])) < self.tick:
+        while True:
+            tick = self.tick
+            for reactor in self.ahead:
+                tick = min(tick, reactor.untold())
+            if tick == self.tick:
+                break
             for reactor in self.ahead:
                 reactor.pass_over(tick)
 

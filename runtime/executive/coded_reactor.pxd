@@ -1,26 +1,20 @@
 # The C types of `coded_reactor.py`.
 
 cimport cython
+from runtime.executive.reactor cimport TeleoReactor
 
 cdef long long _NEVER
 
 
-cdef class CodedReactor:
-    cdef public str name
-    cdef public tuple internal, external, files, wakes_on
+cdef class CodedReactor(TeleoReactor):
+    cdef public tuple files, wakes_on
     cdef public bint is_stirred
-    cdef public long long latency, lookahead, due, count
-    cdef public object caller, make, kinds, trace, code, wakes
+    cdef public long long count
+    cdef public object caller, make, kinds, trace, code, wakes, wake
     cdef public dict seen, events, news, numbers
     cdef public list refused_numbers, published, asked, recalled, given_up
 
-    cpdef long long untold(self) except? -1
-
-    cpdef object pass_over(self, long long tick)
-
-    cpdef object start_tick(self, long long tick)
-
-    cpdef object next_tick(self, long long tick)
+    cpdef long long next_tick(self, long long tick) except? -1
 
     cpdef object notify(self, observation)
 
@@ -32,12 +26,6 @@ cdef class CodedReactor:
     cpdef object _take(self, now)
 
     cpdef list observations(self, long long tick)
-
-    cpdef double urgency(self, long long tick) except? -1.0
-
-    cpdef bint step(self, long long tick) except -1
-
-    cpdef object failure(self)
 
     cpdef list requests(self, long long tick)
 

@@ -1,16 +1,15 @@
 """A reactor written in Python, among the others: what it does wrong ends it, and nothing else (F7, F9)."""
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from math import isnan
 
 from compiler.program import DomainConstant
 from runtime.executive.configuration import CodeConfiguration
 from runtime.executive.messages import Arguments, Observation, Request
-from runtime.executive.outcome import Conflict, EventKind, OpenGoal, Reason, ReasonKind, TimeBounds
-from runtime.executive.reactor import Failure, Refusal
+from runtime.executive.outcome import EventKind, Reason, ReasonKind, TimeBounds
+from runtime.executive.reactor import Failure, Refusal, TeleoReactor
 from runtime.executive.trace import Trace
-from runtime.plan.readout.names import VariableName
 from runtime.plan.tags import INFINITY
 from runtime.user.fault import failed
 from runtime.user.limit import WATCH, Plain
@@ -22,10 +21,8 @@ _NOBODY: frozenset[int] = frozenset()
 _Kinds = Callable[[str, str], "Mapping[str, tuple[str, str]] | None"]  # timeline, predicate: parameters; None: unknown
 
 
-class CodedReactor:
-    """Calls a user's reactor, and speaks for it."""
-
-    runs_ahead = False
+class CodedReactor(TeleoReactor):
+    """Calls a user's reactor, and speaks for it; it decides nothing, and only the code knows its reasons."""
 
     def __init__(
         self,
@@ -35,12 +32,9 @@ class CodedReactor:
         trace: Trace,
         wakes_on: tuple[str, ...] | None = None,
     ) -> None:
-        self.name = configuration.name
-        self.internal = configuration.internal
-        self.external = configuration.external
-        self.latency = configuration.latency
-        self.lookahead = 0
-        self.due = 0
+        super().__init__(
+            configuration.name, configuration.internal, configuration.external, configuration.latency, lookahead=0
+        )
         self.files = (configuration.file,)
         self.caller = Plain(f"the reactor `{self.name}`", self.files)
         self.make = make
@@ -54,6 +48,7 @@ class CodedReactor:
         self.is_stirred = False  # something has begun to hold on one of these
         self.refused_numbers: list[int] = []
         self.wakes = {0}  # the ticks at which the code wants to be called
+        self.wake = 0  # the earliest of them
         self.published: list[Published] = []
         self.asked: list[Asked] = []
         self.recalled: list[int] = []
@@ -61,22 +56,9 @@ class CodedReactor:
         self.count = 0
         self.given_up: list[Refusal] = []
 
-    def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
-        """Nothing that it does depends on the windows of owners."""
-
-    def untold(self) -> int:
-        """It never runs ahead."""
-        return _NEVER
-
-    def pass_over(self, tick: int) -> None:
-        """It never runs ahead."""
-
-    def start_tick(self, tick: int) -> None:
-        """Nothing is kept from the tick before."""
-
     def next_tick(self, tick: int) -> int:
         """When the code wants to be called."""
-        return tick + 1 if self.refused_numbers else max(tick + 1, min(self.wakes) if self.wakes else _NEVER)
+        return tick + 1 if self.refused_numbers else max(tick + 1, self.wake)
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published."""
@@ -87,8 +69,7 @@ class CodedReactor:
 
     def synchronise(self, tick: int) -> Failure | None:
         """Let the code speak, if there is anything new."""
-        is_due = bool(self.wakes) and min(self.wakes) <= tick
-        if not self.is_stirred and not self.refused_numbers and not is_due:
+        if not self.is_stirred and not self.refused_numbers and self.wake > tick:
             return None
         told: list[str] = []
         for timeline, observation in self.news.items():
@@ -109,8 +90,9 @@ class CodedReactor:
         self.is_stirred = False
         if self.refused_numbers:
             self.refused_numbers = []
-        if self.wakes:
-            self.wakes = {wake for wake in self.wakes if wake > tick}
+        if self.wake <= tick:
+            self._wake_after(tick, ())
+        is_first = self.code is None
         try:
             self._call(now)
         except BaseException as problem:
@@ -119,6 +101,8 @@ class CodedReactor:
             said = str(failed(f"the reactor `{self.name}`", problem, self.files))
             return Failure("F7", Reason(ReasonKind.RAISED, tick=tick, message=said), self.internal, None, 0)
         try:
+            if is_first:
+                self._check_wakes()
             self._take(now)
         except (AttributeError, KeyError, LookupError, TypeError, ValueError) as problem:
             what = Reason(ReasonKind.RAISED, tick=tick, message=str(problem))
@@ -143,11 +127,13 @@ class CodedReactor:
                 WATCH.astray(call)
             WATCH.call = before
 
-    def _take(self, now: Now) -> None:
-        """Check what the code has said; raises ValueError and its like for what makes no sense."""
+    def _check_wakes(self) -> None:
         for name in self.wakes_on:
             if name not in self.external:
                 raise ValueError(f"it wants to be woken by `{name}`, which it does not use")
+
+    def _take(self, now: Now) -> None:
+        """Check what the code has said; raises ValueError and its like for what makes no sense."""
         for one in now.published:
             if one.timeline not in self.internal:
                 raise ValueError(f"it published on `{one.timeline}`, which it does not own")
@@ -163,12 +149,17 @@ class CodedReactor:
         for tick in now.wakes:
             if not isinstance(tick, int) or tick <= now.tick:
                 raise ValueError(f"it wants to be woken at {tick!r}, which is not later than {now.tick}")
-        self.wakes.update(now.wakes)
+        if now.wakes:
+            self._wake_after(now.tick, now.wakes)
         self.published, self.recalled = now.published, now.recalled
         self.asked = now.asked
         if now.recalled:
             self.asked = [asked for asked in now.asked if asked.number not in now.recalled]
         self.count += len(now.asked)
+
+    def _wake_after(self, tick: int, added: Iterable[int]) -> None:
+        self.wakes = {wake for wake in self.wakes if wake > tick}.union(added)
+        self.wake = min(self.wakes, default=_NEVER)
 
     def observations(self, tick: int) -> list[Observation]:
         """What the code has published."""
@@ -186,20 +177,6 @@ class CodedReactor:
     def _arguments(self, timeline: str, predicate: str, given: Mapping[str, Argument]) -> Arguments:
         kinds = self.kinds(timeline, predicate) or {}
         return tuple((name, _domain(name, value, kinds.get(name))) for name, value in given.items())
-
-    # ---- planning: there is none ----
-
-    def urgency(self, tick: int) -> float:
-        """It has nothing to decide."""
-        return 0.0
-
-    def step(self, tick: int) -> bool:
-        """It has nothing to decide."""
-        return False
-
-    def failure(self) -> Failure | None:
-        """What goes wrong shows when it synchronises."""
-        return None
 
     def requests(self, tick: int) -> list[Request]:
         """What the code has asked for in this tick."""
@@ -277,17 +254,6 @@ class CodedReactor:
             reason=Reason(ReasonKind.NO_LOOKAHEAD),
         )
         self.given_up.append(Refusal(request, event))
-
-    def recall(self, number: int) -> None:
-        """It has taken no goals."""
-
-    def open_goals(self) -> list[OpenGoal]:
-        """It has taken no goals."""
-        return []
-
-    def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
-        """Only the code knows."""
-        return None
 
 
 def _shown(domain: DomainConstant) -> Argument:

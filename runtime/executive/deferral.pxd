@@ -1,6 +1,7 @@
 # The C types of `deferral.py`.
 
 cimport cython
+from runtime.executive.past cimport Past
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.workbench cimport Workbench
 from runtime.plan.store.rows cimport Rows
@@ -13,7 +14,7 @@ cdef class Deferral:
     cdef public Workbench bench
     cdef public dict lines, waiting, _is_loose, _is_plain
     cdef public list passed
-    cdef public object past
+    cdef public Past past
 
     @cython.locals(line=TimelineState, predicate="long long")
     cpdef bint takes(self, observation) except -1

@@ -8,9 +8,8 @@ from collections.abc import Iterable
 from math import inf
 from typing import NamedTuple
 
-from compiler.program import Child, Guard, Instruction, ObjectLoop, Program
-from nddl_lang.semantics.relations import RELATIONS, Point
 from runtime.executive.messages import Arguments
+from runtime.executive.outlines import forms_of
 from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
@@ -38,30 +37,49 @@ class Past:
 
     def __init__(self, bench: Workbench) -> None:
         self.bench = bench
-        self.predicates = _looked_back(bench.database.program)
+        self.predicates = forms_of(bench.database.program).looked_back
+        self._over: list[int] = []  # what may be asked for later of what is looked at in archiving
+        self._gone: list[OverToken] = []
+        bench.recorder.witness = self._note
         self._kept: dict[tuple[int, int], list[tuple[int, int]]] = {}  # by timeline and predicate: rows and keys
 
     def archive(self, timelines: list[TimelineState], tick: int) -> int:
         """Take out of the plan what is over, but for what rules may look back at; how many tokens went."""
-        found = self.outlines(tick)
+        self._over = self._found(tick)
         count = self.bench.archive(timelines, tick)
-        self.keep(found)
+        if self._gone:
+            self.keep(self._gone)
+            self._gone = []
         return count
+
+    def _note(self, tokens: list[int]) -> None:
+        """Note what those of some tokens were that leave the plan and may be asked for."""
+        if self._over:
+            leaving = set(tokens)
+            self._gone = [self._outline(t) for t in self._over if t in leaving]
 
     def outlines(self, tick: int) -> list[OverToken]:
         """What is over by `tick` on shared timelines and may be asked for later."""
+        return [self._outline(t) for t in self._found(tick)]
+
+    def _found(self, tick: int) -> list[int]:
+        """The tokens of `outlines`, by predicate and key."""
         bench = self.bench
-        found: dict[int, OverToken] = {}
-        for predicate in sorted(self.predicates):
+        found: dict[int, None] = {}
+        for predicate in self.predicates:
             t = first_active(bench.plan, predicate)
             while t >= 0:
-                o, start, end = bench.object_of(t), bench.started_at(t), bench.upper(bench.end(t))
-                is_shared = o in bench.internal_objects or o in bench.external_objects
-                if is_shared and -inf < start and end <= tick and not bench.is_kept(t):
-                    key = bench.key(t)
-                    found[key] = OverToken(t, key, bench.predicate_of(t), o, start, end, bench.arguments(t))
+                if not bench.is_kept(t) and bench.upper(bench.end(t)) <= tick and -inf < bench.started_at(t):
+                    o = bench.object_of(t)
+                    if o in bench.internal_objects or o in bench.external_objects:
+                        found[t] = None
                 t = next_active(bench.plan, t, predicate)
-        return list(found.values())
+        return list(found)
+
+    def _outline(self, t: int) -> OverToken:
+        bench = self.bench
+        start, end = bench.started_at(t), bench.upper(bench.end(t))
+        return OverToken(t, bench.key(t), bench.predicate_of(t), bench.object_of(t), start, end, bench.arguments(t))
 
     def keep(self, outlines: Iterable[OverToken]) -> int:
         """Put back what has left the plan; of too many the oldest goes."""
@@ -90,61 +108,17 @@ class Past:
         if not holds:
             bench.rewind_to(mark)
         bench.commit()
-        if not holds:
-            return
-        return_key(plan)
-        bench.recorder.kept[one.key] = None
+        if holds:
+            return_key(plan)
+            bench.note_kept(t)
+            self._forget_oldest(t, one)
+
+    def _forget_oldest(self, t: int, one: OverToken) -> None:
+        """Of too many tokens of a predicate that stay on a timeline, take the oldest away; `t` is the newest."""
+        bench = self.bench
         line = self._kept.setdefault((one.object, one.predicate), [])
         line.append((t, one.key))
         if len(line) > _MOST:
             oldest, key = line.pop(0)
             if bench.is_alive(oldest, key) and bench.rows.merged[oldest] < 0:
                 bench.remove([oldest])
-
-
-_LOOKED_BACK: dict[int, tuple[Program, frozenset[int]]] = {}
-
-
-def _looked_back(program: Program) -> frozenset[int]:
-    """The predicates of which a rule may ask for a token that is over before the rule's own token begins."""
-    known = _LOOKED_BACK.get(id(program))
-    if known is None or known[0] is not program:
-        if len(_LOOKED_BACK) > 64:
-            _LOOKED_BACK.clear()
-        names = {name for rule in program.rules for name in _names(rule.body, set())}
-        found = [number for number, each in enumerate(program.predicates) if each.name.rpartition(".")[2] in names]
-        known = _LOOKED_BACK[id(program)] = (program, frozenset(found))
-    return known[1]
-
-
-def _names(body: Iterable[Instruction], early: set[int]) -> set[str]:
-    """The predicates, without their classes, that a body looks back at; `early` are the slots that do so far."""
-    found: set[str] = set()
-    for step in body:
-        match step:
-            case Child(slot=slot, predicate=predicate, relation=relation, origin=origin, bounds=bounds):
-                if origin in early or _may_precede(relation, bounds):
-                    early.add(slot)
-                    found.add(predicate.rpartition(".")[2])
-            case Guard(then=then, otherwise=otherwise):
-                found |= _names(then, early) | _names(otherwise, early)
-            case ObjectLoop(body=inner):
-                found |= _names(inner, early)
-            case _:
-                pass
-    return found
-
-
-def _may_precede(relation: str, bounds: tuple[tuple[int, int], ...]) -> bool:
-    """Whether the target of a relation may end before its origin begins, by what the relation says of their times."""
-    # Shortest distances from each point to the target's end; tokens last a tick at least.
-    least = dict.fromkeys(Point, -inf) | {Point.TARGET_END: 0.0}
-    steps: list[tuple[Point, Point, int]] = []
-    for k, each in enumerate(RELATIONS[relation].distances):
-        lower, upper = bounds[k] if k < len(bounds) else (each.lower, each.upper)
-        steps += [(each.earlier, each.later, lower), (each.later, each.earlier, -upper)]
-    steps += [(Point.ORIGIN_START, Point.ORIGIN_END, 1), (Point.TARGET_START, Point.TARGET_END, 1)]
-    for _ in Point:
-        for earlier, later, length in steps:
-            least[earlier] = max(least[earlier], least[later] + length)
-    return least[Point.ORIGIN_START] < 0

@@ -4,7 +4,9 @@ cimport cython
 from runtime.executive.clock cimport next_reading
 from runtime.executive.deferral cimport Deferral
 from runtime.executive.dispatch cimport Dispatch
+from runtime.executive.past cimport Past
 from runtime.executive.planning cimport Planner
+from runtime.executive.reactor cimport TeleoReactor
 from runtime.executive.synchronise cimport synchronise
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.workbench cimport Workbench
@@ -12,21 +14,20 @@ from runtime.executive.workbench cimport Workbench
 cdef long long EPISODE_DONE, EPISODE_MOVED, EPISODE_TOO_DEEP, NOTHING
 
 
-cdef class PlanReactor:
-    cdef public str name
-    cdef public tuple internal, external
-    cdef public long long latency, lookahead, reach, final_tick, tick, due, relaxes, relaxed_at, steps_made
+cdef class PlanReactor(TeleoReactor):
+    cdef public long long reach, final_tick, tick, relaxes, relaxed_at, steps_made
     cdef public long long decisions_made, work_since
     cdef public Workbench bench
     cdef public Planner planner
     cdef public Dispatch dispatch
-    cdef public object trace, draws, max_steps, goals, broken, past
+    cdef public object trace, draws, max_steps, goals, broken
     cdef public Deferral deferral
+    cdef public Past past
     cdef public list timelines
     cdef public dict by_name
     cdef public bint is_stirred
 
-    cpdef int start_tick(self, long long tick) except -1
+    cpdef object start_tick(self, long long tick)
 
     cpdef object notify(self, observation)
 
@@ -64,6 +65,10 @@ cdef class PlanReactor:
 
     @cython.locals(outcome="long long")
     cpdef bint step(self, long long tick) except -1
+
+    cpdef object failure(self)
+
+    cpdef list refusals(self)
 
     cpdef bint _replan(self, long long tick) except -1
 

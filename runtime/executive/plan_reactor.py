@@ -10,7 +10,7 @@ from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.past import Past
 from runtime.executive.planning import EPISODE_DONE, EPISODE_MOVED, EPISODE_TOO_DEEP, Planner
-from runtime.executive.reactor import Failure, Refusal, SyncFailure, Watched
+from runtime.executive.reactor import Failure, Refusal, SyncFailure, TeleoReactor, Watched
 from runtime.executive.record import ReactorRecord
 from runtime.executive.repair import relax
 from runtime.executive.story import conflict_of, latest
@@ -20,17 +20,13 @@ from runtime.executive.trace import Trace
 from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import VariableName
 
-_NEVER = 2**62
-
 
 class _HistoryError(RuntimeError):
     """Forgetting what is over changed the plan: a mistake of the engine, no verdict about the model."""
 
 
-class PlanReactor:
+class PlanReactor(TeleoReactor):
     """Keeps the plan of its own timelines, and what it expects of others', in step with the world."""
-
-    runs_ahead = False
 
     def __init__(
         self,
@@ -41,11 +37,8 @@ class PlanReactor:
         trace: Trace,
         draws: Draws,
     ) -> None:
-        self.name = configuration.name
-        self.internal = configuration.internal
-        self.external = configuration.external
-        self.latency = configuration.latency
-        self.lookahead = configuration.lookahead
+        place = configuration
+        super().__init__(place.name, place.internal, place.external, place.latency, place.lookahead)
         self.reach = self.latency + max(self.lookahead, 1)  # how far ahead it plans
         self.bench = bench
         self.planner = planner
@@ -65,7 +58,6 @@ class PlanReactor:
         planner.missed = self.goals.missed
         self.goals.rejections = planner.rejections
         self.tick = 0
-        self.due = 0
         self.relaxes = 0
         self.relaxed_at = NOTHING
         self.steps_made = 0
@@ -84,13 +76,6 @@ class PlanReactor:
         self.planner.window.is_reactive = self.lookahead <= 1
 
     # ---- the tick ----
-
-    def untold(self) -> int:
-        """It never runs ahead."""
-        return _NEVER
-
-    def pass_over(self, tick: int) -> None:
-        """It never runs ahead."""
 
     def start_tick(self, tick: int) -> None:
         """Set "now", and forget what is over."""

@@ -1,11 +1,12 @@
 """What the agent asks of a reactor, whatever it is made of: a plan, compiled rules, Python code, a log."""
 
 from dataclasses import dataclass
-from typing import Protocol
 
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, Deadlock, OpenGoal, Reason
 from runtime.plan.readout.names import VariableName
+
+_NEVER = 2**62
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +52,8 @@ class Refusal:
     event: int
 
 
-class TeleoReactor(Protocol):
-    """A controller that owns timelines and uses those of others (T-REX 1.1).
+class TeleoReactor:
+    """A controller that owns timelines and uses those of others (T-REX 1.1); this one plans, asks and refuses nothing.
 
     In a tick the agent calls `start_tick`, `synchronise` and `observations` of each reactor that is due, owners before
     users; then `step` of whoever has work, the most urgent first, and, as soon as one has none left, its `recalls`,
@@ -61,19 +62,23 @@ class TeleoReactor(Protocol):
     `accept` and `recall`. Each call must give the same answer in the same mission.
     """
 
-    name: str
-    internal: tuple[str, ...]
-    external: tuple[str, ...]
-    latency: int
-    lookahead: int
-    runs_ahead: bool  # whether it carries out ticks before the agent comes to them; then it is never asleep
-    due: int  # the next tick at which it has something to do; earlier ones cost nothing
+    def __init__(
+        self, name: str, internal: tuple[str, ...], external: tuple[str, ...], latency: int, lookahead: int
+    ) -> None:
+        self.name = name
+        self.internal = internal
+        self.external = external
+        self.latency = latency
+        self.lookahead = lookahead
+        self.due = 0  # the next tick at which it has something to do; earlier ones cost nothing
+        self.runs_ahead = False  # whether it carries out ticks before the agent comes to them; then it is never asleep
 
     def set_owners(self, windows: dict[str, tuple[int, int]], execution_latency: int) -> None:
         """Take note of the execution latency and look-ahead of the owner of each timeline, and of its own."""
 
     def untold(self) -> int:
         """The first tick of what it has carried out ahead and not put on record."""
+        return _NEVER
 
     def pass_over(self, tick: int) -> None:
         """Put on record what it has carried out ahead, up to a tick that has passed."""
@@ -83,36 +88,46 @@ class TeleoReactor(Protocol):
 
     def next_tick(self, tick: int) -> int:
         """The next tick at which something can happen without news from outside."""
+        return _NEVER
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published this tick; it is due then."""
 
     def synchronise(self, tick: int) -> Failure | None:
         """Make the plan agree with the world at `tick`, or say why that is impossible."""
+        return None
 
     def observations(self, tick: int) -> list[Observation]:
         """What its own timelines have begun to hold at `tick`."""
+        return []
 
     def urgency(self, tick: int) -> float:
         """How soon it should be given a step: the largest comes first (T-REX 1.3)."""
+        return 0.0
 
     def step(self, tick: int) -> bool:
         """Take in what was asked, or make one planning decision; False if there is nothing left to do."""
+        return False
 
     def failure(self) -> Failure | None:
         """Why planning has failed for good, if it has."""
+        return None
 
     def requests(self, tick: int) -> list[Request]:
         """What is to be asked of owners now."""
+        return []
 
     def recalls(self) -> list[int]:
         """Numbers of the requests that are taken back."""
+        return []
 
     def open_requests(self) -> list[int]:
         """Numbers of the requests that it has made and that are not over."""
+        return []
 
     def refusals(self) -> list[Refusal]:
         """Which of the requests made to it have been refused, rejected or given up since this was last asked."""
+        return []
 
     def refused(self, refusal: Refusal) -> None:
         """Take note that an owner will not do what it was asked for."""
@@ -125,6 +140,8 @@ class TeleoReactor(Protocol):
 
     def open_goals(self) -> list[OpenGoal]:
         """Mandatory goals that were not achieved."""
+        return []
 
     def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """The name of the end of one of its tokens, and what sets that end."""
+        return None

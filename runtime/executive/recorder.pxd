@@ -12,7 +12,7 @@ cdef double _LEAST_ENDLESS
 
 
 cdef class Recorder:
-    cdef public object database, forms
+    cdef public object database, forms, witness
     cdef public str name
     cdef public Plan plan
     cdef public Rows rows

@@ -1,5 +1,6 @@
 """Read tokens out of a plan database into the record of the mission, before they leave it and when it ends."""
 
+from collections.abc import Callable
 from math import isinf
 
 from compiler.program import FIRST_PARAMETER, OBJECT, START
@@ -79,12 +80,15 @@ class Recorder:
         self.is_lost = False  # no repair has helped: the plan as the last one left it is nobody's
         self.kept: dict[int, None] = {}  # keys of tokens that are recorded, and in the plan again without their rules
         self.gone: dict[tuple[int, int], int] = {}  # (key of a parent, row of a child that left before it) -> its key
+        self.witness: Callable[[list[int]], None] | None = None  # is told of tokens before they leave
         self.script_tokens = self._script_tokens()
 
     # ---- when ----
 
     def leave(self, tokens: list[int], tick: int) -> None:
         """Record tokens that are over and leave the plan."""
+        if self.witness is not None:
+            self.witness(tokens)
         rows = self.rows
         leaving = set(tokens)
         for t in tokens:

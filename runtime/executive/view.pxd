@@ -22,6 +22,7 @@ cdef class PlanView:
     cdef public dict predicates, parameters, globals, requested, moved, asked
     cdef public set external_objects, internal_objects, late_objects
     cdef public Recorder recorder
+    cdef public long long[::1] kept_key
 
     @cython.locals(o="long long")
     cpdef TimelineState timeline(self, str name, bint is_internal)

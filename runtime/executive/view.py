@@ -1,5 +1,6 @@
 """Read a plan database under execution in tokens, ticks and names."""
 
+from array import array
 from collections.abc import Mapping
 from math import inf
 
@@ -66,6 +67,7 @@ class PlanView:
         self.asked: Mapping[int, object] = {}  # what owners were asked for, by the key of its token
         self.external_objects: set[int] = set()
         self.recorder = Recorder(database, name)
+        self.kept_key = array("q", [NONE]) * 64  # by row: the key of a token that is over and stays without its rules
         self.internal_objects: set[int] = set()
         self.late_objects: set[int] = set()  # timelines on which what nobody asked for begins as late as it may
 

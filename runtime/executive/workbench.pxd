@@ -83,7 +83,9 @@ cdef class Workbench(PlanView):
     @cython.locals(before="long long", holds=bint, o="long long")
     cpdef bint renew(self, long long t) except -1
 
-    @cython.locals(count="long long", kept=set, line=TimelineState, over=list, t="long long")
+    cpdef int note_kept(self, long long t) except -1
+
+    @cython.locals(kept=set, line=TimelineState, over=list, t="long long")
     cpdef long long archive(self, list timelines, long long tick) except? -1
 
     @cython.locals(engine=Engine, lowest=dict, needless=list, r="long long", span="long long", v="long long")

@@ -3,6 +3,7 @@
 from math import inf
 
 from compiler.program import FIRST_PARAMETER, OBJECT, DomainConstant
+from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.tags import FLAG_DECISION, KIND_FLOAT
 from runtime.executive.messages import Arguments
 from runtime.executive.timelines import TimelineState
@@ -199,7 +200,14 @@ class Workbench(PlanView):
 
     def is_kept(self, t: int) -> bool:
         """Whether the token is over and in the plan without its rules, for others to look back at."""
-        return self.rows.key[t] in self.recorder.kept
+        return t < len(self.kept_key) and self.kept_key[t] == self.rows.key[t]
+
+    def note_kept(self, t: int) -> None:
+        """Note that the token, which is over and on record, stays in the plan without its rules."""
+        if t >= len(self.kept_key):
+            grow_rows(self, "kept_key", 2 * t + 64, NONE)
+        self.kept_key[t] = self.rows.key[t]
+        self.recorder.kept[self.rows.key[t]] = None
 
     def archive(self, timelines: list[TimelineState], tick: int) -> int:
         """Take out of the plan what is over; of each timeline the token before the current one is kept.
@@ -211,9 +219,10 @@ class Workbench(PlanView):
             if line.current >= 0:
                 kept.add(line.current)
                 kept.add(int(self.rows.link_before[LISTS * line.current + LIST_ORDER]))
-        count = self.rows.token_count
-        over = [t for t in range(count) if t not in kept and not self.is_freed(t) and self.is_over(t, tick)]
-        over = [t for t in over if not self.is_kept(t)]
+        over = []
+        for t in range(self.rows.token_count):
+            if not self.is_freed(t) and not self.is_kept(t) and self.is_over(t, tick) and t not in kept:
+                over.append(t)
         return archive(self.plan, over, tick, self.recorder.leave) if over and fire(self.plan) else 0
 
     def tidy(self) -> None:

@@ -28,5 +28,5 @@ cpdef list in_order(list values)
 @cython.locals(index="long long")
 cpdef int insert_value(list values, double value) except -1
 
-@cython.locals(r="long long")
+@cython.locals(has_values=bint, hi=double, lo=double, r="long long")
 cpdef bint is_base_single(Store s, long long v) except -1

@@ -88,16 +88,18 @@ def insert_value(values: list[float], value: float) -> None:
 
 def is_base_single(s: Store, v: int) -> bool:
     """Tell whether the base domain is a single value."""
-    lo = base_low(s, v)
-    hi = base_high(s, v)
-    if s.kind[v] == KIND_FLOAT and hi - lo <= FLOAT_TOLERANCE:
-        return True
-    if lo == hi:
-        return True
+    lo, hi = -inf, inf
+    has_values = False
     r = s.restriction_head[v]
     while r >= 0:
-        if s.restriction_flags[r] == FLAG_VALUES and not is_listing(s, r):
-            values = base_set(s, v)
-            return values is not None and len(values) == 1
+        if not s.restriction_flags[r] & FLAG_DECISION:
+            lo = max(lo, s.restriction_lo[r])
+            hi = min(hi, s.restriction_hi[r])
+            has_values = has_values or (s.restriction_flags[r] == FLAG_VALUES and not is_listing(s, r))
         r = s.restriction_next[r]
-    return False
+    if lo == hi or (s.kind[v] == KIND_FLOAT and hi - lo <= FLOAT_TOLERANCE):
+        return True
+    if not has_values:
+        return False
+    values = base_set(s, v)
+    return values is not None and len(values) == 1

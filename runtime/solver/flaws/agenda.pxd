@@ -33,17 +33,19 @@ cdef class Agenda:
     cdef public Restarts restarts
     cdef public long long found_at, found_low, managers, level, found_manager, found_kind, found_item, found_handler
     cdef public long long dynamic_count, dropped_count, rows_seen, engine_seen
+    cdef public long long tokens_used, variables_used, edges_used, constraints_used, restrictions_used
     cdef public list heaps, effects
     cdef public long long[::1] sorted_by_size, token_row, token_key, token_deferred, token_waiting
     cdef public long long[::1] token_level, active_level, order_level, variable_row, variable_key, variable_deferred
     cdef public long long[::1] variable_level, waits_for, waiting_next, waiting_before, edge_level, constraint_level
     cdef public long long[::1] restriction_level, dynamic_slot, dynamic_is_variable, dropped_slot, dropped_kind
-    cdef public long long[::1] fired_scope, fired_end, waiting_guards, zeros, nones, no_keys
-    cdef public signed char[::1] watched, unwatched
+    cdef public long long[::1] fired_scope, fired_end, waiting_guards
+    cdef public signed char[::1] watched
     cdef public double found_priority
 
     cpdef int _make_tables(self) except -1
 
+    @cython.locals(slots="long long", used="long long", v="long long")
     cpdef int _empty_tables(self) except -1
 
     cpdef int reserve(self) except -1
@@ -93,3 +95,6 @@ cdef class Agenda:
     cpdef int backtrack(
         self, long long dropped, long long dynamic, long long rows_seen, long long engine_seen
     ) except -1
+
+
+cpdef int _fill(long long[::1] row, long long value, long long count) except -1

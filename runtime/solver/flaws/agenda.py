@@ -37,7 +37,6 @@ class Agenda:
         supports: Supports,
         exact: bool,
         in_order: bool,
-        grounded: "array[int]",
     ) -> None:
         self.plan = plan
         self.rows = plan.rows
@@ -47,7 +46,7 @@ class Agenda:
         self.supports = supports
         self.exact = exact  # makes EUROPA's steps
         self.distances = Distances(plan.engine, exact)
-        self.uses = Uses(plan, self.distances, grounded)
+        self.uses = Uses(plan, self.distances)
         self.restarts = Restarts(plan.engine)
         self.found_at = self.found_low = 0
         self.earliest = False  # goals come before what else is open, in the order of their starts
@@ -65,7 +64,6 @@ class Agenda:
         self.level = 0
         self.found_manager = self.found_kind = self.found_item = self.found_handler = NONE
         self.found_priority = 0.0
-        self.zeros, self.nones, self.no_keys, self.unwatched = blank(1), blank(1), blank(1), blank(1, "b")
         self._make_tables()
 
     def _make_tables(self) -> None:
@@ -86,43 +84,44 @@ class Agenda:
         self.fired_scope = array("q", [NONE]) * 64  # guards that fired, by level: those of a level end at `fired_end`
         self.fired_end, self.waiting_guards = blank(64), blank(64)  # by level; and how many have not fired
         self.relief: Relief | None = None  # where open tokens may relieve a resource
+        self.tokens_used = self.variables_used = self.edges_used = self.constraints_used = self.restrictions_used = 0
 
     def _empty_tables(self) -> None:
-        """Empty the tables, which stay as long as they are."""
-        most = max(len(self.token_row), len(self.variable_row), len(self.edge_level), len(self.constraint_level))
-        most = max(most, len(self.restriction_level), len(self.fired_scope), len(self.fired_end))
-        if len(self.zeros) < most:
-            self.zeros = array("q", [0]) * most
-            self.nones = array("q", [NONE]) * most
-            self.no_keys = array("q", [NO_KEY]) * most
-            self.unwatched = array("b", [0]) * most
-        slots, room = len(self.token_row), len(self.token_level)
-        self.token_row[:slots] = self.nones[:slots]
-        self.token_key[:slots] = self.no_keys[:slots]
-        self.token_deferred[:room] = self.zeros[:room]
-        self.token_waiting[:room] = self.nones[:room]
-        self.token_level[:room] = self.zeros[:room]
-        self.active_level[:room] = self.zeros[:room]
-        self.order_level[:room] = self.zeros[:room]
-        slots, room = len(self.variable_row), len(self.variable_level)
-        self.variable_row[:slots] = self.nones[:slots]
-        self.variable_key[:slots] = self.no_keys[:slots]
-        self.variable_deferred[:room] = self.zeros[:room]
-        self.watched[:room] = self.unwatched[:room]
-        self.variable_level[:room] = self.zeros[:room]
-        self.waits_for[:room] = self.nones[:room]
-        self.waiting_next[:room] = self.nones[:room]
-        self.waiting_before[:room] = self.nones[:room]
-        self.edge_level[:] = self.zeros[: len(self.edge_level)]
-        self.constraint_level[:] = self.zeros[: len(self.constraint_level)]
-        self.restriction_level[:] = self.zeros[: len(self.restriction_level)]
-        self.fired_scope[:] = self.nones[: len(self.fired_scope)]
-        self.fired_end[:] = self.zeros[: len(self.fired_end)]
-        self.waiting_guards[:] = self.zeros[: len(self.waiting_guards)]
+        """Empty the tables as far as they are in use; they stay as long as they are."""
+        slots, used = self.tokens_used * self.managers, self.tokens_used
+        _fill(self.token_row, NONE, slots)
+        _fill(self.token_key, NO_KEY, slots)
+        _fill(self.token_waiting, NONE, used)
+        _fill(self.token_deferred, 0, used)
+        _fill(self.token_level, 0, used)
+        _fill(self.active_level, 0, used)
+        _fill(self.order_level, 0, used)
+        slots, used = self.variables_used * self.managers, self.variables_used
+        _fill(self.variable_row, NONE, slots)
+        _fill(self.variable_key, NO_KEY, slots)
+        _fill(self.waits_for, NONE, used)
+        _fill(self.waiting_next, NONE, used)
+        _fill(self.waiting_before, NONE, used)
+        _fill(self.variable_deferred, 0, used)
+        _fill(self.variable_level, 0, used)
+        for v in range(used):
+            self.watched[v] = 0
+        _fill(self.edge_level, 0, self.edges_used)
+        _fill(self.constraint_level, 0, self.constraints_used)
+        _fill(self.restriction_level, 0, self.restrictions_used)
+        _fill(self.fired_scope, NONE, len(self.fired_scope))
+        _fill(self.fired_end, 0, len(self.fired_end))
+        _fill(self.waiting_guards, 0, len(self.waiting_guards))
         self.dynamic_count = self.dropped_count = self.rows_seen = self.engine_seen = 0
+        self.tokens_used = self.variables_used = self.edges_used = self.constraints_used = self.restrictions_used = 0
 
     def reserve(self) -> None:
-        """Make the tables as long as those of the plan and the engine."""
+        """Make the tables as long as those of the plan and the engine, and note how far they come to be in use."""
+        self.tokens_used = max(self.tokens_used, self.rows.token_count)
+        self.variables_used = max(self.variables_used, self.engine.variables)
+        self.edges_used = max(self.edges_used, self.engine.edges_used)
+        self.constraints_used = max(self.constraints_used, self.engine.constraints_used)
+        self.restrictions_used = max(self.restrictions_used, self.engine.restrictions_used)
         room = len(self.rows.status)
         if len(self.token_level) < room:
             grow_rows(self, "token_row", room * self.managers, NONE)
@@ -369,3 +368,9 @@ class Agenda:
         self.dropped_count = dropped
         self.rows_seen = rows_seen
         self.engine_seen = engine_seen
+
+
+def _fill(row: "array[int]", value: int, count: int) -> None:
+    """Give the first numbers of a table a value."""
+    for k in range(count):
+        row[k] = value

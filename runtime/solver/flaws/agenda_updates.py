@@ -39,8 +39,10 @@ def rebuild(agenda: Agenda) -> None:
             _add_token(agenda, t, OPEN_CONDITION)
         elif agenda.rows.status[t] == ACTIVE:
             _add_threat(agenda, t)
-    for v in range(agenda.engine.variables):
-        if agenda.engine.kind[v] >= 0 and not agenda.engine.constant[v]:
+    engine = agenda.engine
+    for v in range(engine.variables):
+        # What is decided, which most are, is never a flaw.
+        if engine.kind[v] >= 0 and not engine.constant[v] and not engine.decided[v]:
             _add_variable(agenda, v)
     for s in range(agenda.rows.scope_count):
         if agenda.rows.scope_watch[s] >= 0 and agenda.rows.scope_branch[s] == BRANCH_WAITING:
@@ -208,7 +210,7 @@ def _add_variable(agenda: Agenda, v: int) -> int:
     role = agenda.plan.variable_role[v]
     owner = agenda.plan.variable_owner[v]
     name = agenda.plan.variable_name[v]
-    kind = NONE
+    kind = 0  # of the token, or the class of the object
     if role == ROLE_TOKEN or role == ROLE_LOCAL:
         if agenda.rows.status[owner] != ACTIVE:
             return 0
@@ -218,17 +220,15 @@ def _add_variable(agenda: Agenda, v: int) -> int:
         return 0
     if role == ROLE_TOKEN or role == ROLE_LOCAL:
         kind = _kind_of(agenda, owner)
+    elif role == ROLE_MEMBER:
+        kind = agenda.plan.object_class[owner]
     for manager in range(agenda.table.managers):
         if agenda.table.manager_kind[manager] != UNBOUND_VARIABLE:
             continue
         if role == ROLE_TOKEN:
             row = agenda.table.variable_row(manager, kind, v - agenda.rows.var0[owner])
-        elif role == ROLE_LOCAL:
-            row = agenda.table.local_row(manager, kind, name)
-        elif role == ROLE_GLOBAL:
-            row = agenda.table.global_row(manager, name)
         else:
-            row = agenda.table.member_row(manager, agenda.plan.object_class[owner], name)
+            row = agenda.table.other_row(role, manager, kind, name)
         slot = v * agenda.managers + manager
         agenda.variable_row[slot] = row
         agenda.variable_key[slot] = NO_KEY

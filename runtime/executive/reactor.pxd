@@ -1,0 +1,36 @@
+# The C types of `reactor.py`.
+
+cdef long long _NEVER
+
+
+cdef class TeleoReactor:
+    cdef public str name
+    cdef public tuple internal, external
+    cdef public long long latency, lookahead, due
+    cdef public bint runs_ahead
+
+    cpdef long long untold(self) except? -1
+
+    cpdef object pass_over(self, long long tick)
+
+    cpdef object start_tick(self, long long tick)
+
+    cpdef long long next_tick(self, long long tick) except? -1
+
+    cpdef object notify(self, observation)
+
+    cpdef object synchronise(self, long long tick)
+
+    cpdef list observations(self, long long tick)
+
+    cpdef double urgency(self, long long tick) except? -1.0
+
+    cpdef bint step(self, long long tick) except -1
+
+    cpdef object failure(self)
+
+    cpdef list requests(self, long long tick)
+
+    cpdef list recalls(self)
+
+    cpdef list refusals(self)
