@@ -31,7 +31,7 @@ from runtime.executive.configuration import AgentConfiguration
 
 TOP = 3
 _MOST_SECONDS = 60.0  # for one flight
-_LEAST_SECONDS, _SLOW = 10.0, 30.0  # and so many times as long as the slowest mission without a fault
+_LEAST_SECONDS, _SLOW = 10.0, 15.0  # and so many times as long as the slowest mission without a fault
 
 
 class Fate(StrEnum):

@@ -100,6 +100,9 @@ def candidates_of(
                 roots[number] = (_COVERED, Suspicion.COVERAGE)
     distances = graph.distances({number: far for number, (far, _) in roots.items()})
     seen = _held(outcome)
+    if failed.deadlock is not None:  # a search tries tokens that are never flown
+        near = [number for number, (far, _) in roots.items() if far <= _LOG]
+        seen |= {name.rpartition(".")[2] for name in graph.tokens_at(near)}
     inside = {number for place in at_odds for number in graph.at(str(real_path(root / place.file)), place.line)}
     found = []
     for number, site in enumerate(graph.sites):

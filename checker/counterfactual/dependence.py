@@ -116,12 +116,16 @@ class Dependence:
         key = ("token", predicate, _TIMES if variable in (_DURATION, "end") else variable)
         yield from sorted(one for one in self._users.get(key, ()) if self.sites[one].rule == predicate)
 
+    def tokens_at(self, sites: Iterable[int]) -> set[str]:
+        """The predicates of the tokens whose times lines speak of."""
+        return {str(key[1]) for one in sites for key in self._keys[one] if key[0] == "token" and key[2] == _TIMES}
+
     def expected_with(self, sites: Iterable[int], held: Container[str]) -> set[str]:
         """The predicates that never held, of those that lines speak of, and of what is to be related to these in time.
 
         Names come without their classes. What should have begun waits for what it is related to.
         """
-        waiting = {str(key[1]) for one in sites for key in self._keys[one] if key[0] == "token" and key[2] == _TIMES}
+        waiting = self.tokens_at(sites)
         related: dict[str, set[str]] = defaultdict(set)
         shared: set[str] = set()
         for program in self.programs:

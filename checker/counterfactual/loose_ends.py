@@ -5,6 +5,7 @@ missed in the rule that its name speaks of.
 """
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from checker.counterfactual.branches import uneven_branches
 from checker.counterfactual.candidates import Candidate, Suspicion
@@ -29,7 +30,7 @@ def loose_ends(graph: Dependence, candidates: Sequence[Candidate], usage: Usage)
         if (site := graph.sites[one.site]) in near
     ]
     found += _unread(graph.sites, near, usage)
-    return tuple(loose for _, loose in sorted(found, key=lambda one: one[0]))
+    return tuple(replace(loose, doubt=doubt) for doubt, loose in sorted(found, key=lambda one: one[0]))
 
 
 def _looseness(end: LooseEnd) -> float:

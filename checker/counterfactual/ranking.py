@@ -1,7 +1,8 @@
 """Trials in, causes out as plain data, ranked: what a story, a report and the yardstick of mutants show.
 
 First come small changes that mend every failed mission that they were tried on, without a goal lost. Where there are
-none, a line may be missing: variables that too few lines speak of come before what only takes a demand away.
+none, a line may be missing: variables that too few lines speak of come before what only takes a demand away, unless
+that is usual or far off.
 """
 
 from dataclasses import dataclass
@@ -16,6 +17,7 @@ from checker.names import relative_name
 from runtime.executive.outcome import SourcePlace
 
 _MOST_LOOSE = 3
+_LEAST_DOUBT = 4.0  # of a loose end that comes after all that has been flown
 
 
 class Claim(StrEnum):
@@ -78,9 +80,10 @@ def rank(trials: Trials, root: Path) -> Causes:
     small += [one for one in trials.causes if _claim(one) is Claim.CODED]
     large = [one for one in trials.causes if one not in small]
     loose = list({one.candidate.site: one for one in trials.loose}.values())[:_MOST_LOOSE]
-    last = [_tried(one, root) for one in large]
+    tried = [_tried(one, root) for one in large]
+    likely = [] if small else [_loose(one, root) for one in loose if one.doubt <= _LEAST_DOUBT]
     missing = [_loose(one, root) for one in loose]
-    causes = [*(_tried(one, root) for one in small), *((*last, *missing) if small else (*missing, *last))]
+    causes = [*(_tried(one, root) for one in small), *likely, *tried, *missing]
     lines: dict[tuple[str, int], RankedLine] = {}
     for cause in causes:
         lines.setdefault((cause.place.file, cause.place.line), cause)

@@ -88,13 +88,14 @@ class LineTrial:
 class Loose:
     """A variable that too few lines speak of, or a constant that `is_unread`: a line may be missing there.
 
-    `is_uneven`: the other branch of a condition sets the variable.
+    `is_uneven`: the other branch of a condition sets the variable. `doubt`: how far off it is, and how usual.
     """
 
     candidate: Candidate
     variable: str
     is_unread: bool = False
     is_uneven: bool = False
+    doubt: float = 0.0
 
 
 @dataclass(frozen=True, eq=False, slots=True)
