@@ -4,6 +4,7 @@ cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
+from runtime.constraints.domains.base_domain cimport is_base_single
 from runtime.constraints.domains.narrow cimport is_single
 from runtime.constraints.stn.distances cimport Distances
 from runtime.solver.flaws.filters cimport Filters

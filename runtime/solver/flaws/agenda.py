@@ -7,6 +7,7 @@ key that a slot has now is in `token_key` or `variable_key`, NO_KEY if it is in 
 from array import array
 
 from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
+from runtime.constraints.domains.base_domain import is_base_single
 from runtime.constraints.domains.narrow import is_single
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
@@ -166,7 +167,7 @@ class Agenda:
         In a rule EUROPA only equates the object of a new token with the one that the rule names: unless its class has
         a single object, it still is to be decided, in a step with one choice. Elsewhere it counts as given.
         """
-        if (not self.engine.decided[v] and not is_single(self.engine, v)) or not self.engine.is_decided(v):
+        if not self.engine.decided[v] and not (is_single(self.engine, v) and is_base_single(self.engine, v)):
             return False
         if not self.exact or self.engine.decided[v] or self.plan.variable_role[v] != ROLE_TOKEN:
             return True
