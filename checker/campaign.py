@@ -9,7 +9,8 @@ from pathlib import Path
 from signal import Signals
 
 from checker.batch.identity import engine_digest, model_digest, run_id
-from checker.batch.pool import Batch, FlyBatch, Flyer, fly_all, nothing_more
+from checker.batch.pool import Batch, FlyBatch, fly_all, nothing_more
+from checker.batch.process import Flyer
 from checker.batch.progress import Progress
 from checker.batch.result import MissionResult
 from checker.batch.store import Run, RunStore

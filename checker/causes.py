@@ -11,7 +11,18 @@ from dataclasses import dataclass
 import networkx as nx
 
 from runtime.executive.events import causes_of, numbered
-from runtime.executive.outcome import Conflict, ConflictElement, Deadlock, ElementKind, Event, Outcome, SourcePlace
+from runtime.executive.outcome import (
+    Abort,
+    Conflict,
+    ConflictElement,
+    Deadlock,
+    ElementKind,
+    Event,
+    EventKind,
+    OpenGoal,
+    Outcome,
+    SourcePlace,
+)
 from runtime.plan.readout.names import VariableName
 
 # Kinds of elements that no line of the model can help.
@@ -23,6 +34,8 @@ _WORLD = (
 )
 _VALUES = (ElementKind.ASSIGNMENT, ElementKind.DECLARATION)
 _LIMITS = ("leq", "lt", "neq", "bounds", "withinBounds", "precedes", "strictlyPrecedes")
+_ANSWERS = (EventKind.REFUSE, EventKind.REJECT)
+_MISSED = "F6"  # what its owner had refused or rejected
 _MOST_EVENTS = 8  # of the way to the abort, the last ones
 
 
@@ -56,10 +69,16 @@ class Culprit:
 
 
 def failed_by(outcome: Outcome | None) -> Failed:
-    """What is known of an abort, else of the first goal that stayed open for a known reason."""
+    """What is known of an abort, else of the first goal that stayed open for a known reason.
+
+    Of what was missed as its owner had refused it (F6), what made the owner do so comes first.
+    """
     if outcome is None:
         return Failed()
-    ends = [outcome.abort] if outcome.abort is not None else list(outcome.open_goals)
+    abort = outcome.abort
+    ends: list[Event | Abort | OpenGoal] = (
+        [*refusals(outcome), abort] if abort is not None else list(outcome.open_goals)
+    )
     for end in ends:
         if end.conflict is not None or end.deadlock is not None:
             conflict = end.conflict
@@ -81,6 +100,61 @@ def lines_that_rule_out(failed: Failed) -> list[ConflictElement]:
         if element.place is not None:
             lines.setdefault((element.place.file, element.place.line), element)
     return list(lines.values())
+
+
+def refusals(outcome: Outcome) -> tuple[Event, ...]:
+    """The refusals and rejections that a failure follows from, the first cause first.
+
+    An abort as something was missed (F6) follows from its owner's answer, and so does a goal that stayed open from
+    what became of it; that in turn from what the owner was refused itself, where its conflict speaks of it.
+    """
+    events, abort = outcome.events, outcome.abort
+    if abort is None:
+        ends = [goal.event for goal in outcome.open_goals if goal.event >= 0]
+    elif abort.code == _MISSED and 0 <= abort.event < len(events):
+        ends = list(events[abort.event].causes)
+    else:
+        ends = []
+    answers = [index for index in ends if events[index].kind in _ANSWERS]
+    senders = {event.request: event.reactor for event in events if event.kind is EventKind.REQUEST}
+    refused = [(index, event) for index, event in numbered(events) if event.kind in _ANSWERS]
+    found: dict[int, None] = dict.fromkeys(answers)
+    for index in found.copy():
+        found |= dict.fromkeys(_behind(index, outcome, senders, refused))
+    return tuple(events[index] for index in reversed(found))
+
+
+def _behind(
+    answer: int, outcome: Outcome, senders: dict[int | None, str], refused: Sequence[tuple[int, Event]]
+) -> list[int]:
+    """The last refusals of what an answer's reactor asked for and its conflict speaks of, the nearest first."""
+    event = outcome.events[answer]
+    repairs = [one for cause in event.causes if (one := outcome.events[cause]).kind is EventKind.RELAX]
+    spoken = {name for one in (event, *repairs) for name in _predicates_in(one)}
+    last = {
+        (one.timeline, one.predicate): index
+        for index, one in refused
+        if index < answer and senders.get(one.request) == event.reactor and one.predicate in spoken
+    }
+    found = sorted(last.values(), reverse=True)
+    return [*found, *(deeper for index in found for deeper in _behind(index, outcome, senders, refused))]
+
+
+def _predicates_in(event: Event) -> set[str]:
+    """The predicates, without their classes, of the tokens that an event's conflicts speak of."""
+    conflicts = [event.conflict] if event.conflict is not None else []
+    conflicts += event.deadlock.conflicts() if event.deadlock is not None else ()
+    tokens = {
+        operand.token
+        for conflict in conflicts
+        for element in conflict.elements
+        for term in element.terms
+        for operand in term.arguments
+        if isinstance(operand, VariableName)
+    }
+    if event.reason is not None:
+        tokens.add(event.reason.token)
+    return {token.predicate.rpartition(".")[2] for token in tokens if token is not None}
 
 
 def _in_common(deadlock: Deadlock) -> Conflict | None:

@@ -169,7 +169,7 @@ def _held(reactor: ReactorRecord) -> set[tuple[str, str]]:
 
 def left_out(behaviour: Sequence[int], other: Sequence[int]) -> int:
     """How many rules and branches one mission exercised and another, of the same models, did not."""
-    return len({one for one in behaviour if one < _EVENTS}.difference(other))
+    return len({one for one in behaviour if not is_event(one)}.difference(other))
 
 
 _KNOWN: list[Universe] = []  # the last one: a worker flies one set of programs

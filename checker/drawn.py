@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from checker.batch.pool import Flyer
+from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.conditions.space import fixed
 from checker.figures import Figures

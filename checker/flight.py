@@ -60,9 +60,14 @@ def fly_programs(
     seed: int,
     values: Mapping[str, float] | None = None,
     until: int | None = None,
+    *,
+    tells_on: bool = True,
 ) -> Outcome:
-    """Fly one mission with the models as they were compiled; see `fly_once`."""
-    return fly_recorded(agent, programs, seed, values, until)[0]
+    """Fly one mission with the models as they were compiled; see `fly_once`.
+
+    Without `tells_on` conflicts end at what was observed: enough for who asks for the verdict alone.
+    """
+    return fly_recorded(agent, programs, seed, values, until, tells_on=tells_on)[0]
 
 
 def fly_recorded(
@@ -71,11 +76,13 @@ def fly_recorded(
     seed: int,
     values: Mapping[str, float] | None = None,
     until: int | None = None,
+    *,
+    tells_on: bool = True,
 ) -> tuple[Outcome, MissionRecord]:
     """The same, with the record of what was executed."""
     root = Path(agent.root)
     with _seldom_collected(), redirect_stdout(sys.stderr):  # what constraints print would end up in reports
-        outcome, record = record_mission(agent, programs, seed, values, until=until)
+        outcome, record = record_mission(agent, programs, seed, values, until=until, tells_on=tells_on)
         report = judge_mission(agent, programs.programs, outcome, record, programs.constraints, values)
     if report.errors:
         raise DisagreementError(report)

@@ -1,5 +1,6 @@
 """The models of a mission, read and checked: programs, what they sample, and all that is wrong with them."""
 
+import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,7 +18,7 @@ from nddl_lang.analysis import Analysis, analyse
 from nddl_lang.semantics.callables import Callables
 from nddl_lang.syntax.includes import OpenText, load_module_graph
 from nddl_lang.text.diagnostic import Diagnostic, Severity
-from nddl_lang.text.read import read_source, read_text
+from nddl_lang.text.read import NotAFileError, read_source, read_text
 from runtime.executive.configuration import AgentConfiguration
 from runtime.user.library import load_library
 
@@ -48,13 +49,28 @@ def examine(path: Path) -> tuple[Diagnostic, ...]:
 
 
 def _named_files(agent: AgentConfiguration, root: Path) -> Iterator[tuple[str, str]]:
-    """The files that settings of reactors in Python name: traces that they play, tables that they read."""
+    """The files that settings of reactors in Python name: traces that they play, tables that they read.
+
+    Of one that is too large to be read at once, its digest.
+    """
     for name in dict.fromkeys(value for each in agent.coded for _, value in each.settings if isinstance(value, str)):
         try:
-            if (root / name).is_file():
-                yield name, (root / name).read_bytes().decode("utf-8", "replace")
+            text = _text_or_digest(root / name)
         except (OSError, ValueError):
             continue  # no name of a file
+        if text is not None:
+            yield name, text
+
+
+def _text_or_digest(path: Path) -> str | None:
+    """What stands for a regular file; raises OSError and ValueError."""
+    if not path.is_file():
+        return None
+    try:
+        return read_text(path)
+    except NotAFileError:
+        with path.open("rb") as opened:
+            return hashlib.file_digest(opened, "sha256").hexdigest()
 
 
 def load_models(mission: Mission, open_text: OpenText = read_text) -> ModelSet:

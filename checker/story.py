@@ -137,10 +137,9 @@ def _suspects(outcome: Outcome, fault: Fault | None) -> tuple[str, ...]:
 
 def _tokens_of(outcome: Outcome, influence: Influence, parameters: tuple[str, ...]) -> list[int]:
     """The last observations of the tokens whose rules the draws act through: where a draw shows outside its reactor."""
-    found: list[int] = []
-    for predicate in dict.fromkeys(line.predicate for name in parameters for line in influence.get(name, ())):
-        found += [index for index, *_, seen in heads_of(outcome.events) if seen == predicate][-1:]
-    return found
+    last = {predicate: index for index, *_, predicate in heads_of(outcome.events)}
+    wanted = dict.fromkeys(line.predicate for name in parameters for line in influence.get(name, ()))
+    return [last[predicate] for predicate in wanted if predicate in last]
 
 
 def _draws(

@@ -4,13 +4,14 @@ It measures two things: the checks of the mission (faults that stay silent), and
 line among the causes that a user would be shown).
 """
 
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import partial
 from pathlib import Path
 
-from checker.batch.pool import Flyer
+from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.buckets import group_failures
 from checker.counterfactual.ranking import NO_CAUSES, Causes, RankedLine
@@ -29,7 +30,8 @@ from nddl_lang.text.read import real_path
 from runtime.executive.configuration import AgentConfiguration
 
 TOP = 3
-_MOST_SECONDS = 60.0  # for one flight: a fault may leave a search without an end
+_MOST_SECONDS = 60.0  # for one flight
+_LEAST_SECONDS, _SLOW = 10.0, 30.0  # and so many times as long as the slowest mission without a fault
 
 
 class Fate(StrEnum):
@@ -72,11 +74,15 @@ class MutantReport:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Ground:
-    """What mutants of a mission are measured on: its passing missions, each with its number and seed."""
+    """What mutants of a mission are measured on: its passing missions, each with its number and seed.
+
+    No flight of a mutant takes longer than `most_seconds`: a fault may leave a search without an end.
+    """
 
     mission: Mission
     models: ModelSet
     seeds: tuple[tuple[int, int], ...]
+    most_seconds: float
 
 
 def with_mandatory_goals(mission: Mission) -> Mission:
@@ -92,13 +98,15 @@ def open_flyer(mission: Mission, agent: AgentConfiguration) -> Flyer:
 
 def prepare(mission: Mission, models: ModelSet, missions: int, flyer: Flyer) -> Ground:
     """Fly the unchanged mission: where it fails by itself, a mutant would show nothing."""
-    passing = []
+    passing, slowest = [], 0.0
     for number in range(1, missions + 1):
         seed = mission_seed(mission.check.seed, number)
+        begun = time.monotonic()
         result = _judged(mission, flyer.fly(models.agent, number, seed))
         if result.verdict is Verdict.PASS:
             passing.append((number, seed))
-    return Ground(mission, models, tuple(passing))
+            slowest = max(slowest, time.monotonic() - begun)
+    return Ground(mission, models, tuple(passing), max(_LEAST_SECONDS, _SLOW * slowest))
 
 
 def measure(ground: Ground, flyer: Flyer, seed: int, bounds: Callable[[], Bounds]) -> Iterator[MutantReport]:
@@ -118,7 +126,8 @@ def _measured(
 ) -> MutantReport:
     results: list[MissionResult] = []
     for number, seed in ground.seeds:
-        result = flyer.fly(models.agent, number, seed, partial(load_over, overlay))
+        load = partial(load_over, overlay)
+        result = flyer.fly(models.agent, number, seed, load, most_seconds=ground.most_seconds)
         results.append(_judged(ground.mission, result))
         if results[-1].verdict is Verdict.ERROR:
             message = results[-1].judgement.message

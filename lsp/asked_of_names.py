@@ -49,11 +49,11 @@ def _answer_navigation(session: Session) -> None:
         shown = hover_at(view, params.position, session.documents.conversion())
         failed = session.results.at(view.document.key, params.position.line)
         if not failed:
-            return shown
+            return session.formats.hover(shown)
         before = str(getattr(shown.contents, "value", "")) if shown is not None else ""
         text = "\n\n".join(part for part in (before, *failed) if part)
         place = shown.range if shown is not None else None
-        return types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), place)
+        return session.formats.hover(types.Hover(types.MarkupContent(types.MarkupKind.Markdown, text), place))
 
     def of_mission(
         answer: Callable[[Documents, OpenMission, int, Conversion], Any],
@@ -72,7 +72,7 @@ def _answer_navigation(session: Session) -> None:
     session.answer(
         types.TEXT_DOCUMENT_HOVER,
         hover,
-        of_mission=of_mission(mission_hover),
+        of_mission=lambda mission, params: session.formats.hover(of_mission(mission_hover)(mission, params)),
     )
     session.answer(
         types.TEXT_DOCUMENT_DEFINITION,
@@ -181,10 +181,12 @@ def _answer_completion(session: Session) -> None:
     async def resolve(item: types.CompletionItem) -> types.CompletionItem:
         await session.turn()
         conversion = session.documents.conversion()
-        return resolved(last[0].snapshot.analysis, item, lambda span: link(conversion, span)) if last else item
+        if not last:
+            return item
+        return session.formats.item(resolved(last[0].snapshot.analysis, item, lambda span: link(conversion, span)))
 
     session.answer(
         types.TEXT_DOCUMENT_SIGNATURE_HELP,
-        lambda view, params: signature_help(view, _offset(view, params)),
+        lambda view, params: session.formats.signatures(signature_help(view, _offset(view, params))),
         types.SignatureHelpOptions(["(", ","], [")"]),
     )

@@ -14,7 +14,7 @@ from uuid import uuid4
 from lsprotocol import types
 
 from lsp.check_results import REPORT
-from lsp.mission_answers import CHECK, EXPLAIN
+from lsp.mission_answers import CERTIFY, CHECK, EXPLAIN
 from lsp.session import RequestFailed, Session
 from lsp.uris import path_of
 
@@ -50,6 +50,7 @@ def answer_commands(session: Session) -> None:
         report = json.loads(ended.output)
         session.results.load(folder / REPORT, path)
         session.publish(session.documents.refresh())
+        _show(session, _summary(report), is_good=ended.code == _HOLDS)
         return {
             "verdict": report["verdict"],
             "counts": report["counts"],
@@ -67,6 +68,16 @@ def answer_commands(session: Session) -> None:
         ended = await _run(session, "nddlc: explaining the last failure", folder, "explain")
         if ended.code not in (_HOLDS, _FINDINGS):
             raise RequestFailed(ended.errors.strip() or ended.output.strip())
+        _show(session, ended.output, is_good=False)
+        return ended.output
+
+    @session.command(CERTIFY)
+    async def certify(uri: str) -> str:
+        path = _path(uri)
+        ended = await _run(session, f"nddlc: certifying {path.name}", path.parent, "certify", str(path))
+        if ended.code not in (_HOLDS, _FINDINGS):
+            raise RequestFailed(ended.errors.strip() or ended.output.strip() or f"nddlc ended with {ended.code}")
+        _show(session, ended.output, is_good=ended.code == _HOLDS)
         return ended.output
 
     async def view(params: Any, *options: str) -> dict[str, Any]:
@@ -86,6 +97,21 @@ def answer_commands(session: Session) -> None:
     @session.feature(_CONFLICT)
     async def view_conflict(params: Any) -> dict[str, Any]:
         return await view(params, "--explain")
+
+
+def _summary(report: dict[str, Any]) -> str:
+    """One line for the missions of a check, and one for each fault."""
+    counts = report["counts"]
+    lines = [f"{sum(counts.values())} missions: {counts['fail']} failed, {counts['error']} ended with an error"]
+    lines += [f"{each['count']} × {each['code']}, {each['meaning']}: {each['because']}" for each in report["faults"]]
+    return "\n".join(lines)
+
+
+def _show(session: Session, text: str, *, is_good: bool) -> None:
+    """Show the user how a command ended; an editor drops the answer to a command that a lens has called."""
+    if not session.shows_results:
+        kind = types.MessageType.Info if is_good else types.MessageType.Warning
+        session.window_show_message(types.ShowMessageParams(kind, text.strip()))
 
 
 def _field(params: Any, name: str) -> str:

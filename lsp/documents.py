@@ -326,19 +326,20 @@ class Documents:
         by_source: dict[Source, list[Diagnostic]] = {}
         for diagnostic in project.snapshot.diagnostics:
             by_source.setdefault(diagnostic.span.source, []).append(diagnostic)
+        # What is shown of a file is kept while nothing is wrong with it: an error elsewhere hides it for a moment.
+        sources = {source.name for source in project.snapshot.analysis.loaded.sources}
         before = self._shown.get(project.key, {})
-        known: dict[str, _Converted] = {}
+        known = {name: old for name, old in before.items() if name in sources}
+        merged: dict[str, tuple[Shown, ...]] = {}
         conversion = self.conversion()
         for source, found in by_source.items():
             old = before.get(source.name)
             if old is None or old[0] != source.text or old[1] != found or _leads_elsewhere(found):
                 old = source.text, found, conversion.by_file(found)
             known[source.name] = old
-        self._shown[project.key] = known
-        merged: dict[str, tuple[Shown, ...]] = {}
-        for _, _, shown in known.values():
-            for uri, complaints in shown.items():
+            for uri, complaints in old[2].items():
                 merged[uri] = (*merged.get(uri, ()), *complaints)
+        self._shown[project.key] = known
         return merged
 
     def _news(self, edited: list[str]) -> Iterator[Publication]:

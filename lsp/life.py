@@ -7,6 +7,7 @@ from lsprotocol import types
 
 from lsp.check_results import REPORT
 from lsp.documents import Documents
+from lsp.formats import formats_of
 from lsp.positions import Encoding
 from lsp.project import ServerSettings
 from lsp.session import Session
@@ -30,10 +31,12 @@ def _answer_lifecycle(session: Session) -> None:
         session.configure(params.initialization_options)
         told = params.initialization_options
         session.is_distrusted = isinstance(told, dict) and told.get("isTrusted") is False
+        session.shows_results = isinstance(told, dict) and told.get("showsResults") is True
         session.documents.folders = _folders(session)
         text = params.capabilities.text_document
         session.is_pulled = text is not None and text.diagnostic is not None
         session.has_snippets = _has_snippets(text)
+        session.formats = formats_of(text)
 
     @session.feature(types.INITIALIZED)
     def initialized(params: types.InitializedParams) -> None:

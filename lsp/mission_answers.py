@@ -34,10 +34,12 @@ from nddl_lang.text.source import Span
 
 _TIMELINES = ("internal", "external", "early", "late", "timeline")
 _OBJECTS = {**dict.fromkeys(_TIMELINES, (TIMELINE,)), "resource": tuple(sorted(SELF_ACTIVATING))}  # by key: of a class
+_CODED = re.compile(r"^[ \t]*code[ \t]*=", re.MULTILINE)  # a reactor in Python, of which nothing is proved
 _HEAD = re.compile(r"^[ \t]*\[mission\]", re.MULTILINE)
 # Commands of the server.
 CHECK = "nddl.check"
 EXPLAIN = "nddl.explain"
+CERTIFY = "nddl.certify"
 _SOLVERS = (".toml", ".xml")
 _Thing = Variable | EnumValue | Predicate
 
@@ -92,17 +94,20 @@ def mission_definition(
 
 
 def mission_lenses(mission: OpenMission) -> list[CodeLens]:
-    """What can be done with a mission file: fly some of its missions, fly all, explain what failed last."""
+    """What can be done with a mission file: fly some of its missions, fly all, explain what failed last, certify it."""
     found = _HEAD.search(mission.text)
     if found is None:
         return []
     place = mission.lines.range(found.start(), found.end())
     uri = mission.uri
-    return [
-        CodeLens(place, Command("run 100 missions", CHECK, arguments=[uri, 100])),
-        CodeLens(place, Command("run all missions", CHECK, arguments=[uri])),
-        CodeLens(place, Command("explain last failure", EXPLAIN, arguments=[uri])),
+    offered: list[tuple[str, str, list[Any]]] = [
+        ("run 100 missions", CHECK, [uri, 100]),
+        ("run all missions", CHECK, [uri]),
+        ("explain last failure", EXPLAIN, [uri]),
     ]
+    if _CODED.search(mission.text) is None:
+        offered.append(("certify", CERTIFY, [uri]))
+    return [CodeLens(place, Command(title, command, arguments=arguments)) for title, command, arguments in offered]
 
 
 def _span(snapshot: Snapshot, thing: _Thing) -> Span | None:

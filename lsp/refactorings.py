@@ -21,6 +21,7 @@ from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import read_text
 
 _MISSING = (UNKNOWN_CLASS, UNKNOWN_TYPE, UNKNOWN_NAME)
+_SCRIPT = re.compile(r"^\s*(?:goal|fact|rejectable)\s*\(|^\s*(?:\w+\s*\.\s*)?close\s*\(\s*\)", re.MULTILINE)
 _DECLARED = r"^\s*(?:class|enum|typedef\b.*?|[A-Za-z_]\w*)\s+{name}\b"
 
 
@@ -155,7 +156,8 @@ def _missing_includes(view: DocumentContext, name: str, folders: Iterable[Path])
             text = read_text(file) or ""
         except (OSError, ValueError):
             continue
-        if declared.search(text):
+        # What states goals or closes classes is a model of its own, which nobody includes.
+        if declared.search(text) and _SCRIPT.search(text) is None:
             relative = Path(os.path.relpath(file, path.parent)).as_posix()
             edit = TextEdit(view.document.lines.range(at, at), f'#include "{relative}"\n')
             yield f'include "{relative}", which declares `{name}`', WorkspaceEdit({view.document.uri: [edit]})

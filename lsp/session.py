@@ -8,7 +8,6 @@ import asyncio
 import logging
 from collections.abc import Callable, Sequence
 from dataclasses import fields
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +19,8 @@ from pygls.protocol import LanguageServerProtocol, default_converter
 from lsp.check_results import CheckResults
 from lsp.diagnostics import Conversion
 from lsp.documents import Documents
+from lsp.formats import Formats
+from lsp.greeting import Greeting, own_version
 from lsp.inlay_hints import HintSettings
 from lsp.mission_texts import Examine, MissionTexts, OpenMission
 from lsp.open_text import DocumentContext, Publication
@@ -53,21 +54,33 @@ class _Protocol(LanguageServerProtocol):
     lsp_text_document__did_change = None  # type: ignore[assignment]
     lsp_text_document__did_close = None  # type: ignore[assignment]
 
+    greeting: Greeting | None = None  # a request that is answered already
+
     def structure_message(self, data: dict[str, Any]) -> Any:
         """Understand a message; whoever asks what cannot be understood is told so."""
         try:
             return super().structure_message(data)
         except JsonRpcException as problem:
+            if self.greeting is not None and data.get("method") == types.INITIALIZE:
+                self._server.report_server_error(problem, JsonRpcException)
+                return super().structure_message({**data, "params": self.greeting.plain(data["params"])})
             if "id" in data and "method" in data:
                 self._send_response(data["id"], error=problem.to_response_error())
             raise
+
+    def _send_response(self, msg_id: int | str, result: Any = None, error: Any = None) -> None:
+        """Answer a request, unless it is answered already."""
+        if self.greeting is not None and self.greeting.number == msg_id:
+            self.greeting = None
+        else:
+            super()._send_response(msg_id, result, error)
 
 
 class Session(LanguageServer):
     """The server, with the documents that it speaks about."""
 
     def __init__(self, settings: ServerSettings, examine: Examine = lambda *_: ()) -> None:
-        super().__init__("nddlc", _version(), protocol_cls=_Protocol, converter_factory=default_converter)
+        super().__init__("nddlc", own_version(), protocol_cls=_Protocol, converter_factory=default_converter)
         self.settings = settings
         self._examine = examine
         self.begin(Documents(settings))
@@ -76,6 +89,8 @@ class Session(LanguageServer):
         self.is_pulled = False  # the editor asks for diagnostics, so none are pushed
         self.is_distrusted = False  # the user has said that the workspace is not trusted
         self.has_snippets = False
+        self.formats = Formats()
+        self.shows_results = False  # the editor shows itself how a command ended
         self.hints = HintSettings()
         self.token_memory = TokenMemory()
         self._is_due = False
@@ -87,6 +102,11 @@ class Session(LanguageServer):
         _logger.error("%s %s", error, getattr(error, "data", None) or "")  # pygls keeps the traceback of ours there
         message = types.LogMessageParams(types.MessageType.Error, f"nddlc: {type(error).__name__}: {error}")
         self.window_log_message(message)
+
+    def begin_answered(self, greeting: Greeting | None) -> None:
+        """The request that begins the session is answered already, where there is a `greeting`."""
+        assert isinstance(self.protocol, _Protocol)
+        self.protocol.greeting = greeting
 
     def begin(self, documents: Documents) -> None:
         """Speak about these documents."""
@@ -217,10 +237,3 @@ class Session(LanguageServer):
             return of_mission(mission, params) if of_mission is not None and mission is not None else nothing()
 
         self.feature(feature, options)(handler)
-
-
-def _version() -> str:
-    try:
-        return version("nddlc")
-    except PackageNotFoundError:
-        return "unknown"

@@ -3,6 +3,7 @@
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from pathlib import Path
 
 from nddl_lang.not_included import name_missing_include
@@ -12,7 +13,7 @@ from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_TYPE
 from nddl_lang.semantics.schema import Schema, SideTables
 from nddl_lang.semantics.scope import Context, Deferred, names_in
 from nddl_lang.semantics.statement import check_statement
-from nddl_lang.semantics.symbol_table import Entry, SymbolTable
+from nddl_lang.semantics.symbol_table import Entry, SymbolTable, told
 from nddl_lang.syntax.codes import MISSING_FILE, TOO_DEEP, UNREADABLE_FILE
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.includes import LoadedModules, load_module_graph
@@ -36,7 +37,7 @@ _UNKNOWN = (UNKNOWN_NAME, UNKNOWN_TYPE, UNKNOWN_CLASS)
 _TABLES = tuple(table.name for table in fields(SideTables))
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class Analysis:
     """The checked meaning of a text and all that it includes.
 
@@ -48,10 +49,19 @@ class Analysis:
     loaded: LoadedModules
     statements: tuple[Statement, ...]
     schema: Schema
-    tables: SideTables
     by_statement: Mapping[Statement, SideTables]
     diagnostics: tuple[Diagnostic, ...]
     callables: Callables = NATIVE_CALLABLES
+
+    @cached_property
+    def tables(self) -> SideTables:
+        """The tables of all statements."""
+        whole = SideTables()
+        for each in self.by_statement.values():
+            for name in _TABLES:
+                if table := getattr(each, name):
+                    getattr(whole, name).update(table)
+        return whole
 
     @property
     def dialect(self) -> Dialect:
@@ -85,6 +95,7 @@ class Analyser:
     def __init__(self, callables: Callables = NATIVE_CALLABLES) -> None:
         self._callables = callables
         self._units: dict[Statement, _Unit] = {}
+        self._supposed: dict[Entry, object] = {}
         self._dialect: Dialect | None = None
 
     def analyse(self, loaded: LoadedModules) -> Analysis:
@@ -94,15 +105,22 @@ class Analyser:
         statements = loaded.module.statements
         symbols = SymbolTable()
         _note_declarations(symbols, loaded)
+        supposed = symbols.entries()
+        # Below statements that leave behind what those before them left, each look-up gets its old answer.
+        before = list(self._units.values()) if supposed == self._supposed else []
+        same = len(before)
         units: dict[Statement, _Unit] = {}
-        for statement in statements:
+        for index, statement in enumerate(statements):
             unit = self._units.get(statement)
-            if unit is not None and symbols.answers(unit.reads):
+            old = before[index] if index < same else None
+            if unit is not None and (unit is old or symbols.answers(unit.reads)):
                 symbols.replay(unit.writes)
             else:
                 unit = _check(symbols, statement, loaded.dialect, self._callables)
+            if old is not None and unit is not old and told(unit.writes) != told(old.writes):
+                same = index
             units[statement] = unit
-        self._units = units
+        self._units, self._supposed = units, supposed
         echoes = _Echoes(loaded)
         complaints = [
             (
@@ -111,14 +129,9 @@ class Analyser:
             )
             for statement, unit in units.items()
         ]
-        tables = SideTables()
-        for unit in units.values():
-            for name in _TABLES:
-                if table := getattr(unit.tables, name):
-                    getattr(tables, name).update(table)
         found = name_missing_include(loaded, tuple(_in_order(loaded, complaints)), _declared_names)
         by_statement = {statement: unit.tables for statement, unit in units.items()}
-        return Analysis(loaded, statements, symbols.schema, tables, by_statement, found, self._callables)
+        return Analysis(loaded, statements, symbols.schema, by_statement, found, self._callables)
 
 
 def analyse(loaded: LoadedModules, callables: Callables = NATIVE_CALLABLES) -> Analysis:

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import click
 
-from checker.batch.pool import FlyBatch, keeping_a_worker
+from checker.batch.pool import FlyBatch
+from checker.batch.process import keeping_a_worker
 from checker.batch.store import StoreError, open_store
 from checker.campaign import Campaign, Enough
 from checker.conditions.record import write_condition

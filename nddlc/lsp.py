@@ -1,17 +1,10 @@
 """`nddlc lsp`: the language server, for editors to start."""
 
-from pathlib import Path
-
 import click
 
-from lsp.project import ServerSettings
-from lsp.server import serve
-from nddl_lang.lint.configuration import NAME, PROJECT, read_configuration
-from nddl_lang.text.diagnostic import Diagnostic
-from nddl_lang.text.source import Source
-from nddlc.inputs import Unusable, chosen_dialect, readable
+from lsp.greeting import begin
+from lsp.streams import calm_collector, open_wire
 from nddlc.main import named
-from runtime.user.fault import UserCodeError
 from runtime.user.output import keep_output_apart
 
 
@@ -36,27 +29,19 @@ def command(
 ) -> int:
     """Serve an editor over standard input and output: complaints while typing, and what is under the cursor."""
     del stdio
-    readable((), directories)
+    if directories:
+        named("nddlc.inputs:readable")((), directories)
     keep_output_apart()  # what a trusted project prints must not get into what the editor reads
     if is_web and port is None:
-        raise Unusable("a WebSocket needs a port", "add --port PORT; 0 takes a free one")
-    settings = ServerSettings(chosen_dialect(ctx, dialect), directories, is_trusted)
-    return 0 if serve(settings, _examine, port, is_web=is_web) else 1
+        raise named("nddlc.inputs:Unusable")("a WebSocket needs a port", "add --port PORT; 0 takes a free one")
+    calm_collector()
+    with open_wire(port, is_web=is_web, tell=_tell) as wire:
+        if wire is None or (begun := begin(wire)) is None:
+            return 1
+        # Only now is the language loaded, while the editor reads what is offered.
+        session = named("nddlc.editor:make_editor_session")(dialect or ctx.obj, directories, is_trusted=is_trusted)
+        return 0 if named("lsp.server:serve")(session, wire, begun) else 1
 
 
-def _examine(source: Source, root: Path, is_trusted: bool) -> tuple[Diagnostic, ...]:
-    """All that is wrong with a mission file, a configuration, a solver's, or what a mission asks of its models.
-
-    The checker is loaded for the first mission file. Python that a mission names is run only for who is trusted.
-    """
-    if Path(source.name).name in (NAME, PROJECT):
-        return tuple(read_configuration(Path(source.name))[1])
-    if "solver" in Path(source.name).name.lower():
-        return tuple(named("runtime.solver.configuration.read:read_configuration")(source)[1])
-    mission, found = named("checker.mission:parse_mission")(source, root)
-    if mission is None or (mission.agent.constraints and not is_trusted):
-        return tuple(found)
-    try:
-        return (*found, *named("checker.models:load_models")(mission).diagnostics)
-    except (OSError, UserCodeError):
-        return tuple(found)
+def _tell(port: int) -> None:
+    print(f"nddlc: waiting on port {port}", flush=True)

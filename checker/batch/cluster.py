@@ -1,10 +1,11 @@
 """Fly missions on a Dask cluster: tasks in, results out, with the interface of `fly_all`.
 
-Missions go out in chunks, one process of the cluster each; a worker that dies costs its chunk, which others fly again.
-A mission that kills every worker it meets ends as an ERROR. Models are read where the worker runs: the folder of the
-mission must be there too.
+Missions go out in chunks; each lane of the cluster flies them in a process of its own, so that one that dies or hangs
+costs one mission and no worker of Dask. What a worker of Dask was flying when it died is flown by others, and what no
+worker is left for ends as an ERROR. Models are read where the worker runs: the folder of the mission must be there too.
 """
 
+import contextlib
 import signal
 import threading
 import time
@@ -12,16 +13,20 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from distributed import Client, wait
+from distributed import CancelledError, Client, wait
 from distributed.scheduler import KilledWorker
 
+import runtime.build_form
 from checker.batch.pool import Batch, Supervisor
+from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
-from checker.batch.worker import Load, Task, error_result, fly_one
+from checker.batch.worker import Load, Task, error_result
 from runtime.executive.configuration import AgentConfiguration
 
 _LARGEST_CHUNK = 8
 _QUIET = 0.25  # seconds between two looks at the clock
+_TRANSFER = 30.0  # seconds in which the results of a chunk come over
+_DESERTED = 60.0  # seconds in which a worker may come back where there is none
 _ENDING = ("SIGINT", "SIGTERM")
 
 
@@ -36,11 +41,14 @@ class Cluster:
         signals = _Signals()
         with Client(self._address, timeout="30s") as client, signals:
             while batch.tasks and not supervisor.is_enough():
-                _Round(client, batch).fly(supervisor, signals)
-                if signals.seen is not None:
-                    return signals.seen
+                current = _Round(client, batch)
+                current.fly(supervisor, signals)
+                if signals.seen is not None or current.is_lost:
+                    break
                 batch = replace(batch, tasks=batch.more())
-        return None
+            with contextlib.suppress(OSError, TimeoutError):  # of a cluster that is gone there is nothing to end
+                client.run(_dismiss_all, on_error="ignore")
+        return signals.seen
 
 
 class _Signals:
@@ -73,32 +81,42 @@ class _Round:
         lanes = max(1, sum(client.nthreads().values()))
         size = max(1, min(_LARGEST_CHUNK, len(tasks) // (lanes * 4)))
         self._futures: dict[Any, tuple[Task, ...]] = {}
-        self._suspects: list[Task] = []  # their worker died, which another task of its queue may have killed
-        self._alone: Task | None = None  # the suspect that flies while nothing else does
+        self.is_lost = False  # the cluster has no worker left
         for first in range(0, len(tasks), size):
             self._submit(tuple(tasks[first : first + size]))
 
     def _submit(self, chunk: tuple[Task, ...]) -> None:
-        future = self._client.submit(_fly_chunk, self._batch.load, self._batch.agent, chunk, pure=False, retries=0)
+        batch = self._batch
+        future = self._client.submit(_fly_chunk, batch.load, batch.agent, batch.time_limit, chunk, pure=False)
         self._futures[future] = chunk
 
     def fly(self, supervisor: Supervisor, signals: _Signals) -> None:
         """Give each result to `supervisor` until all are there, or there are enough."""
-        deadline = time.monotonic() + self._time_allowed()
-        while (self._futures or self._suspects) and signals.seen is None and not supervisor.is_enough():
-            if not self._futures:
-                self._alone = self._suspects.pop(0)
-                self._submit((self._alone,))
-            finished = self._finished()
-            for future in finished:
-                self._take(future, supervisor)
-                deadline = time.monotonic() + self._time_allowed()
-            if not finished and time.monotonic() > deadline:
-                for chunk in self._futures.values():
-                    for task in chunk:
-                        supervisor.take(error_result(task, f"took longer than {self._batch.time_limit:g} s"))
+        told = peopled = time.monotonic()  # when the last result came, and when there last was a worker
+        while self._futures and signals.seen is None and not supervisor.is_enough():
+            if sum(self._take(future, supervisor) for future in self._finished()):
+                told = peopled = time.monotonic()
+                continue
+            now = time.monotonic()
+            if self._has_workers():
+                peopled = now
+            self.is_lost = now > peopled + _DESERTED
+            if self.is_lost or now > told + self._time_allowed():
+                reason = f"took longer than {self._batch.time_limit:g} s"
+                self._give_up(supervisor, "the cluster has no worker left" if self.is_lost else reason)
                 break
         self._client.cancel(list(self._futures), force=True)
+
+    def _has_workers(self) -> bool:
+        try:
+            return bool(self._client.nthreads())
+        except OSError:  # nor a scheduler
+            return False
+
+    def _give_up(self, supervisor: Supervisor, reason: str) -> None:
+        for chunk in self._futures.values():
+            for task in chunk:
+                supervisor.take(error_result(task, reason))
 
     def _time_allowed(self) -> float:
         return self._batch.time_limit * (_LARGEST_CHUNK + 1)
@@ -109,23 +127,47 @@ class _Round:
         except TimeoutError:
             return []
 
-    def _take(self, future: Any, supervisor: Supervisor) -> None:
+    def _take(self, future: Any, supervisor: Supervisor) -> bool:
+        """Give the results of a future to `supervisor`; False if they are lost with their worker and are made again."""
+        problem: BaseException | None = None
+        results: list[MissionResult] = []
+        try:
+            results = future.result(timeout=_TRANSFER)
+        except (Exception, CancelledError) as raised:
+            if isinstance(raised, TimeoutError) and future.status != "error":
+                return False
+            problem = raised
         chunk = self._futures.pop(future)
-        problem = future.exception()
         if problem is None:
-            for result in future.result():
+            for result in results:
                 supervisor.take(result)
         elif isinstance(problem, KilledWorker) and len(chunk) > 1:
-            for task in chunk:  # one of them kills it: each by itself
+            for task in chunk:
                 self._submit((task,))
-        elif isinstance(problem, KilledWorker) and chunk[0] is not self._alone:
-            self._suspects.append(chunk[0])
         else:
-            reason = "the process died" if isinstance(problem, KilledWorker) else f"{type(problem).__name__}: {problem}"
+            reason = f"{type(problem).__name__}: {problem}"
+            if isinstance(problem, KilledWorker):
+                reason = "workers of the cluster died again and again while they flew it"
             for task in chunk:
                 supervisor.take(error_result(task, reason))
+        return True
 
 
-def _fly_chunk(load: Load, agent: AgentConfiguration, chunk: Sequence[Task]) -> list[MissionResult]:
-    """What a worker of the cluster does; models are compiled once per process."""
-    return [fly_one(load(task.agent or agent), task) for task in chunk]
+_FLYERS: dict[int, tuple[Load, AgentConfiguration, Flyer]] = {}  # by thread of this worker of Dask
+
+
+def _fly_chunk(load: Load, agent: AgentConfiguration, time_limit: float, chunk: Sequence[Task]) -> list[MissionResult]:
+    """What a worker of the cluster does; the process that flies has loaded the models, and stays for the next chunk."""
+    lane = threading.get_ident()
+    known = _FLYERS.get(lane)
+    if known is None or known[:2] != (load, agent):
+        if known is not None:
+            known[2].dismiss()
+        known = _FLYERS[lane] = (load, agent, Flyer(load, agent, time_limit))
+    return [known[2].fly_task(task) for task in chunk]
+
+
+def _dismiss_all() -> None:
+    """End the processes of this worker of Dask."""
+    while _FLYERS:
+        _FLYERS.popitem()[1][2].dismiss()

@@ -10,10 +10,12 @@ from collections.abc import Container, Sequence
 
 from checker.mutation.edits import EditSite, SmallEdit
 
-_WORD = re.compile(r"[A-Za-z_]\w*")
+WORD = re.compile(r"[A-Za-z_]\w*")
 _PART = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
+_LABELLED = re.compile(r"\(\s*([A-Za-z_][\w.]*)\s+(\w+)\s*\)")
 _LEAST_STEM = 3  # letters
 _SUFFIX = 0.5  # share of the longer word that two words of one stem have in common
+_MANY = 3
 _TOPIC, _COMPANY = 2.0, 1.0
 # Words that say nothing of what a line is about.
 _COMMON = frozenset(
@@ -35,16 +37,20 @@ class Affinity:
         self._named = named
         self._company: dict[str, Counter[str]] = defaultdict(Counter)
         self._texts = Counter(_plain(site.text) for site in sites)
+        self._tokens: dict[tuple[str, tuple[int, int], str], str] = {}  # what the label of a token in a rule stands for
+        for site in sites:
+            for predicate, label in _LABELLED.findall(site.text):
+                self._tokens[site.file, site.scope, label] = predicate.rpartition(".")[2]
         for site in sites:
             words = self._words(site)
-            for name in set(_WORD.findall(site.text)):
+            for name in set(WORD.findall(site.text)):
                 if name in named and name != site.named:
                     self._company[name].update(words)
 
     def of(self, name: str, site: EditSite) -> float:
         """How well a constant belongs into a line: by its topic, and by the words that it stands with elsewhere."""
         words = self._words(site)
-        own = name in _WORD.findall(site.text)
+        own = name in WORD.findall(site.text)
         has_company = any(self._company[name][word] > own for word in words)
         return _TOPIC * self.is_about(name, site) + _COMPANY * has_company
 
@@ -52,6 +58,16 @@ class Affinity:
         """Whether a name and a line, or its rule, have a stem in common."""
         there = {stem for word in (*self._words(site), site.rule.rpartition(".")[2]) for stem in _stems(word)}
         return any(_is_kin(one, other) for one in _stems(name) for other in there)
+
+    def shared(self, name: str, head: EditSite, sites: Sequence[EditSite]) -> int:
+        """How many stems of a constant the lines of a rule have; those of three constants and more say nothing."""
+        counts = Counter(stem for site in sites if site.is_number for stem in _stems(site.named))
+        telling = [stem for stem in _stems(name) if counts[stem] < _MANY]
+        words = {
+            word for site in sites if site.rule == head.rule and site.file == head.file for word in self._words(site)
+        }
+        there = {stem for word in (*words, head.rule.rpartition(".")[2]) for stem in _stems(word)}
+        return sum(any(_is_kin(one, other) for other in there) for one in telling)
 
     def has_twin(self, site: EditSite) -> bool:
         """Whether the line is written the same elsewhere."""
@@ -66,7 +82,7 @@ class Affinity:
     def sign_of(self, edit: SmallEdit, site: EditSite) -> str:
         """The comparison that a constant's name asks for, such as `<=` before `LEG_MAX`; empty where none does."""
         signs = []
-        for found in _WORD.finditer(site.text):
+        for found in WORD.finditer(site.text):
             parts = {part.lower() for part in _PART.findall(found.group())}
             if found.group() in self._named and parts & (_MOST | _LEAST):
                 is_after = found.start() >= edit.end - site.begin
@@ -74,9 +90,10 @@ class Affinity:
         return signs[0] if len(set(signs)) == 1 else ""
 
     def _words(self, site: EditSite) -> set[str]:
-        """What a line is about: its words but for constants and words of the language."""
-        words = set(_WORD.findall(site.text)) - _COMMON
-        return {word for word in words if word not in self._named}
+        """What a line is about: its words but for constants and words of the language, and the tokens that it names."""
+        words = set(WORD.findall(site.text)) - _COMMON
+        tokens = {found for word in words if (found := self._tokens.get((site.file, site.scope, word)))}
+        return {word for word in words if word not in self._named} | tokens
 
 
 def _plain(text: str) -> str:

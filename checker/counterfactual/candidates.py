@@ -12,15 +12,20 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from checker.causes import culprit_of, failed_by
+from checker.causes import culprit_of, failed_by, refusals
+from checker.counterfactual.deadlocks import lines_at_odds
 from checker.counterfactual.dependence import Dependence
 from checker.mutation.edits import EditSite
+from checker.proofs.places import ModelText
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Span
 from runtime.executive.configuration import PropertyConfiguration
-from runtime.executive.outcome import Conflict, Deadlock, Event, EventKind, Outcome, SourcePlace
+from runtime.executive.outcome import Conflict, Deadlock, ElementKind, Event, EventKind, Outcome, SourcePlace
+from runtime.plan.readout.names import VariableName
 
-_CULPRIT, _CONFLICT, _LOG, _COVERED, _EVENT, _NAMED = 0.0, 0.25, 0.5, 0.75, 1.0, 1.5
+_CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.5, 0.75, 1.0, 1.0, 1.5
+_OUTSIDE = 3.0  # added where other lines contradict each other, whatever happens
+_TROUBLES = (EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE, EventKind.KILL)
 _UNSEEN = 4.0  # added for lines of a rule that nothing fired
 
 
@@ -49,8 +54,12 @@ def candidates_of(
     root: Path,
     properties: Sequence[PropertyConfiguration] = (),
     exercised: Sequence[Span] = (),
+    text: ModelText | None = None,
 ) -> list[Candidate]:
-    """All lines that can have a part in it, the nearest first; `exercised` rules and branches passing missions lack."""
+    """All lines that can have a part in it, the nearest first; `exercised` rules and branches passing missions lack.
+
+    With the `text` of the models z3 is asked which lines of a search that failed must have a part in it.
+    """
     roots: dict[int, tuple[float, Suspicion]] = {}
 
     def note(place: SourcePlace | None, far: float, source: Suspicion) -> None:
@@ -59,49 +68,89 @@ def candidates_of(
                 if number not in roots or far < roots[number][0]:
                     roots[number] = (far, source)
 
-    conflict = failed_by(outcome).conflict
-    culprit = culprit_of(conflict)
-    for place in (culprit.place, *culprit.limits):
+    failed = failed_by(outcome)
+    culprit = culprit_of(failed.conflict)
+    at_odds = lines_at_odds(failed, text) if text is not None else frozenset()
+    for place in (culprit.place, *culprit.limits, *sorted(at_odds, key=lambda one: (one.file, one.line, one.column))):
         note(place, _CULPRIT, Suspicion.CONFLICT)
-    for place, far, source in _named(outcome, conflict):
+    for place, far, source in _named(outcome, failed.conflict):
         note(place, far, source)
-    predicates = _predicates(outcome) | _violated(outcome, properties)
+    first = _first_trouble(outcome)
+    observed = _observed(failed.conflict) | _observed(first.conflict if first is not None else None)
+    for token, variable in sorted(observed):
+        for number in graph.setting(token, variable):
+            if number not in roots or roots[number][0] > _OBSERVED:
+                roots[number] = (_OBSERVED, Suspicion.CONFLICT)
+    predicates = _ended_by(outcome) | _violated(outcome, properties)
     if not roots and not predicates:
         predicates = {event.predicate for event in _latest(outcome)}
-    for predicate in predicates:
-        for number in graph.of_predicate(predicate):
-            roots.setdefault(number, (_NAMED, Suspicion.TRACE))
+    named = {number for predicate in predicates for number in graph.of_predicate(predicate)}
+    held = {event.predicate for event in outcome.events if event.kind is EventKind.OBSERVATION}
+    awaited = graph.expected_with(roots or named, held) if failed.deadlock is None else ()
+    for far, numbers in (
+        (_AWAITED, {number for predicate in awaited for number in graph.of_predicate(predicate)}),
+        (_NAMED, named),
+    ):
+        for number in sorted(numbers):
+            if number not in roots or roots[number][0] > far:
+                roots[number] = (far, Suspicion.TRACE)
     for span in exercised:
         for number in graph.within(span):
             if number not in roots or roots[number][0] > _COVERED:
                 roots[number] = (_COVERED, Suspicion.COVERAGE)
     distances = graph.distances({number: far for number, (far, _) in roots.items()})
     seen = _held(outcome)
+    inside = {number for place in at_odds for number in graph.at(str(real_path(root / place.file)), place.line)}
     found = []
     for number, site in enumerate(graph.sites):
         if number not in distances:
             continue
         far, source = roots.get(number, (0.0, Suspicion.DEPENDENCE))
         is_unseen = bool(site.rule) and site.rule.rpartition(".")[2] not in seen
-        found.append(Candidate(site, distances[number] + _UNSEEN * is_unseen, source))
+        is_outside = bool(inside) and number not in inside
+        found.append(Candidate(site, distances[number] + _UNSEEN * is_unseen + _OUTSIDE * is_outside, source))
     return sorted(found, key=lambda one: one.far)
+
+
+def _observed(conflict: Conflict | None) -> set[tuple[str, str]]:
+    """Predicates, each with a parameter or time that a conflict has from observation: a line of the owner set it."""
+    return {
+        (operand.token.predicate, operand.name)
+        for element in (conflict.elements if conflict is not None else ())
+        if element.kind is ElementKind.OBSERVATION
+        for term in element.terms
+        for operand in term.arguments
+        if isinstance(operand, VariableName) and operand.token is not None
+    }
+
+
+def _first_trouble(outcome: Outcome) -> Event | None:
+    """The first repair, refusal or rejection that is known to have a cause: what comes later may follow from it."""
+    troubles = (event for event in outcome.events if event.kind in _TROUBLES)
+    return next((one for one in troubles if one.conflict is not None or one.deadlock is not None), None)
 
 
 def _named(outcome: Outcome, conflict: Conflict | None) -> Iterator[tuple[SourcePlace | None, float, Suspicion]]:
     """The places that the outcome names, how near each is, and where it stands."""
     for element in conflict.elements if conflict is not None else ():
         yield element.place, _CONFLICT, Suspicion.CONFLICT
+    refused = [one for one in refusals(outcome) if one.conflict is not None or one.deadlock is not None]
+    for one in refused:
+        yield from _places(one.conflict, _CONFLICT, Suspicion.CONFLICT)
+        yield from _logged(one.deadlock)
+    far = _EVENT if refused else _CONFLICT  # what was missed only shows that it was refused
     if outcome.abort is not None:
-        for each in outcome.abort.repairs:
-            yield from _places(each, _CONFLICT, Suspicion.CONFLICT)
+        for each in (outcome.abort.conflict, *outcome.abort.repairs):
+            yield from _places(each, far, Suspicion.CONFLICT)
         yield from _logged(outcome.abort.deadlock)
     for goal in outcome.open_goals:
-        yield from _places(goal.conflict, _CONFLICT, Suspicion.CONFLICT)
+        yield from _places(goal.conflict, far, Suspicion.CONFLICT)
         yield from _logged(goal.deadlock)
+    first = _first_trouble(outcome)
     for event in outcome.events:
-        if event.kind in (EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE, EventKind.KILL):
-            yield from _places(event.conflict, _EVENT, Suspicion.TRACE)
-            yield from _logged(event.deadlock, _EVENT)
+        if event.kind in _TROUBLES:
+            yield from _places(event.conflict, _CONFLICT if event is first else _EVENT, Suspicion.TRACE)
+            yield from _logged(event.deadlock, _LOG if event is first else _EVENT)
 
 
 def _logged(deadlock: Deadlock | None, far: float = _LOG) -> Iterator[tuple[SourcePlace | None, float, Suspicion]]:
@@ -114,6 +163,17 @@ def _places(
 ) -> Iterator[tuple[SourcePlace | None, float, Suspicion]]:
     for element in conflict.elements if conflict is not None else ():
         yield element.place, far, source
+
+
+def _ended_by(outcome: Outcome) -> set[str]:
+    """The predicates of what ended the mission, or of what it left open, but for goals that it ended before."""
+    begun = {event.predicate for event in outcome.events if event.kind is EventKind.OBSERVATION}
+    later = {
+        goal.predicate
+        for goal in outcome.open_goals
+        if outcome.abort is not None and goal.reason is None and goal.conflict is None and goal.predicate not in begun
+    }
+    return _predicates(outcome) - later
 
 
 def _predicates(outcome: Outcome) -> set[str]:

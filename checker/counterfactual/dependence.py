@@ -7,7 +7,7 @@ argument leads to the line that sets it, and a request to its sender.
 
 import heapq
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -47,6 +47,7 @@ from nddl_lang.text.source import Span
 Key = tuple[object, ...]  # of a variable
 _TIMES = "times"
 _DURATION = "duration"
+_SHARED = "AgentTimeline"
 # Relations that leave the end of the origin free, where nothing says when the target begins.
 _FREE = ("any", "contains", "starts", "met_by", "after", "meets", "before")
 _RESOURCES = ("Reservoir", "Reusable", "CBReusable", "Unary")
@@ -58,13 +59,15 @@ class LooseEnd:
     """A variable of a rule that at most one line speaks of, or the times of its token: one more line may be missing.
 
     `site` is the number of the line that declares it, of the child whose parameter it is, or of the head of the rule.
-    `is_local`: it is declared in the rule itself, so that nothing else can say what it is.
+    `is_local`: it is declared in the rule itself, so that nothing else can say what it is. `is_uneven`: the other
+    branch of a condition sets it.
     """
 
     site: int
     variable: str
     is_set_elsewhere: bool = False  # by other rules of the same model
     is_local: bool = False
+    is_uneven: bool = False
 
 
 class Dependence:
@@ -79,7 +82,7 @@ class Dependence:
         self._keys: dict[int, set[Key]] = defaultdict(set)
         self._users: dict[Key, set[int]] = defaultdict(set)
         self._paths: dict[str, str] = {}
-        self._programs = programs
+        self.programs = programs
         for number, program in enumerate(programs):
             for span, keys in _Links(number, program).all():
                 for one in self._at.get(self._line(span), ()):
@@ -90,6 +93,10 @@ class Dependence:
     def at(self, file: str, line: int) -> Sequence[int]:
         """The sites at a line."""
         return self._at.get((file, line), ())
+
+    def at_span(self, span: Span) -> Sequence[int]:
+        """The sites in the line where something is written."""
+        return self.at(*self._line(span))
 
     def within(self, span: Span) -> Iterator[int]:
         """The sites in the lines of a rule or a branch."""
@@ -103,6 +110,33 @@ class Dependence:
         for key in self._users:
             if key[0] == "token" and str(key[1]).rpartition(".")[2] == predicate:
                 yield from self._users[key]
+
+    def setting(self, predicate: str, variable: str) -> Iterator[int]:
+        """The sites in the rule of a predicate that bear on a parameter of its token, or on how long that lasts."""
+        key = ("token", predicate, _TIMES if variable in (_DURATION, "end") else variable)
+        yield from sorted(one for one in self._users.get(key, ()) if self.sites[one].rule == predicate)
+
+    def expected_with(self, sites: Iterable[int], held: Container[str]) -> set[str]:
+        """The predicates that never held, of those that lines speak of, and of what is to be related to these in time.
+
+        Names come without their classes. What should have begun waits for what it is related to.
+        """
+        waiting = {str(key[1]) for one in sites for key in self._keys[one] if key[0] == "token" and key[2] == _TIMES}
+        related: dict[str, set[str]] = defaultdict(set)
+        shared: set[str] = set()
+        for program in self.programs:
+            shared |= {each.name for each in program.predicates if _is_shared(each.class_name, program)}
+            for rule in program.rules:
+                for one, other in _related(rule):
+                    related[one].add(other)
+                    related[other].add(one)
+        found: set[str] = set()
+        while waiting:
+            name = waiting.pop()
+            if name in shared and name not in found and name.rpartition(".")[2] not in held:
+                found.add(name)
+                waiting |= related[name]
+        return {name.rpartition(".")[2] for name in found}
 
     def distances(self, roots: Mapping[int, float]) -> dict[int, float]:
         """How far each site is from the nearest root, whose own distance is given: shortest ways through variables."""
@@ -131,11 +165,11 @@ class Dependence:
         found: dict[LooseEnd, None] = {}
         timed = {
             rule.predicate
-            for number, program in enumerate(self._programs)
+            for number, program in enumerate(self.programs)
             for index, rule in enumerate(program.rules)
             if all(one != _DURATION for _, one, _, _ in _Links(number, program).loose(rule, ("rule", number, index)))
         }
-        for number, program in enumerate(self._programs):
+        for number, program in enumerate(self.programs):
             for index, rule in enumerate(program.rules):
                 file, line = self._line(rule.span)
                 heads = [one for one in self.at(file, line) if self.sites[one].is_rule]
@@ -183,7 +217,7 @@ class _Links:
         """
         lines: dict[Key, set[int]] = defaultdict(set)
         declared: dict[Key, tuple[Span, str]] = {}
-        steps = list(_flat(rule.body))
+        steps = list(flat(rule.body))
         children = {0: rule.predicate} | {step.slot: step.predicate for step in steps if isinstance(step, Child)}
         marked = {slot: f"{predicate}#{slot}" for slot, predicate in children.items()}
         self._parameters |= {marked[slot]: self._parameters.get(name, []) for slot, name in children.items()}
@@ -312,14 +346,35 @@ class _Links:
                 pass
 
 
-def _flat(body: tuple[Instruction, ...]) -> Iterator[Instruction]:
+def _is_shared(owner: str | None, program: Program) -> bool:
+    """Whether a class is that of a timeline that reactors share, so that what holds there is observed."""
+    bases = {each.name: each.base for each in program.classes}
+    while owner is not None and owner != _SHARED:
+        owner = bases.get(owner)
+    return owner is not None
+
+
+def _related(rule: RuleCode) -> Iterator[tuple[str, str]]:
+    """The predicates of the tokens that a rule relates in time, in pairs."""
+    steps = list(flat(rule.body))
+    tokens = {0: rule.predicate} | {step.slot: step.predicate for step in steps if isinstance(step, Child)}
+    for step in steps:
+        match step:
+            case Child(slot=target, origin=origin) | Relate(target=target, origin=origin):
+                if origin in tokens and target in tokens:
+                    yield tokens[origin], tokens[target]
+            case _:
+                pass
+
+
+def flat(body: tuple[Instruction, ...]) -> Iterator[Instruction]:
     """All instructions of a body, those of its branches included."""
     for step in body:
         yield step
         match step:
             case Guard(then=then, otherwise=otherwise):
-                yield from _flat((*then, *otherwise))
+                yield from flat((*then, *otherwise))
             case ObjectLoop(body=inner):
-                yield from _flat(inner)
+                yield from flat(inner)
             case _:
                 pass

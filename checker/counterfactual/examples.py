@@ -28,22 +28,25 @@ def examples_of(failed: Sequence[MissionResult], passed: Sequence[MissionResult]
         return -sum(shares)
 
     chosen = sorted(passed, key=lambda one: (nearness(one), one.number))[:_MOST_PASSED]
-    return Missions(failed[:_MOST_FAILED], chosen, _only_exercised_by(failed, passed), _usual(passed))
+    share = len(passed) / (len(passed) + len(failed))
+    return Missions(failed[:_MOST_FAILED], chosen, _only_exercised_by(failed, passed), _usual(passed), share)
 
 
 def _only_exercised_by(failed: Sequence[MissionResult], passed: Sequence[MissionResult]) -> frozenset[int]:
     """What all failed missions exercised and no other; nothing where no other is known."""
-    behaviours = [frozenset(one.outcome.behaviour) for one in failed if one.outcome is not None]
-    others = [frozenset(one.outcome.behaviour) for one in passed if one.outcome is not None]
-    if not others:
-        return frozenset()
-    return frozenset.intersection(*behaviours) - frozenset[int]().union(*others)
+    others = _behaviours(passed)
+    return frozenset.intersection(*_behaviours(failed)).difference(*others) if others else frozenset()
 
 
 def _usual(passed: Sequence[MissionResult]) -> frozenset[int]:
     """The kinds of events of all missions that passed."""
-    behaviours = [frozenset(filter(is_event, one.outcome.behaviour)) for one in passed if one.outcome is not None]
-    return frozenset.intersection(*behaviours) if behaviours else frozenset()
+    behaviours = _behaviours(passed)
+    return frozenset(filter(is_event, frozenset.intersection(*behaviours))) if behaviours else frozenset()
+
+
+def _behaviours(results: Sequence[MissionResult]) -> list[frozenset[int]]:
+    """What each mission exercised."""
+    return [frozenset(one.outcome.behaviour) for one in results if one.outcome is not None]
 
 
 def _drawn(result: MissionResult) -> dict[str, float]:

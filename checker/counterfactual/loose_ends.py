@@ -6,6 +6,7 @@ missed in the rule that its name speaks of.
 
 from collections.abc import Iterator, Sequence
 
+from checker.counterfactual.branches import uneven_branches
 from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.dependence import Dependence, LooseEnd
 from checker.counterfactual.smallness import Usage
@@ -14,6 +15,7 @@ from checker.mutation.edits import EditSite
 
 _NOT_LOCAL = 2.0  # how much farther off a parameter counts than a local variable, and a time
 _SET_ELSEWHERE = 3.0  # how much farther off a variable is that other rules set
+_UNEVEN = -2.5  # and what only one branch of a condition sets
 _UNREAD = -4.0  # and a constant that bears the name of a rule: it seldom is declared for nothing
 _UNPLACED = 3.0  # of one whose rule its name does not tell
 
@@ -22,8 +24,8 @@ def loose_ends(graph: Dependence, candidates: Sequence[Candidate], usage: Usage)
     """The loose ends near what ended the mission."""
     near = {candidate.site: candidate for candidate in candidates}
     found = [
-        (near[site].far + _looseness(one), Loose(near[site], one.variable))
-        for one in graph.loose_ends()
+        (near[site].far + _looseness(one), Loose(near[site], one.variable, is_uneven=one.is_uneven))
+        for one in (*uneven_branches(graph), *graph.loose_ends())
         if (site := graph.sites[one.site]) in near
     ]
     found += _unread(graph.sites, near, usage)
@@ -32,6 +34,8 @@ def loose_ends(graph: Dependence, candidates: Sequence[Candidate], usage: Usage)
 
 def _looseness(end: LooseEnd) -> float:
     """How much farther off a loose end counts that others may set: a local variable is its own rule's alone."""
+    if end.is_uneven:
+        return _UNEVEN
     return _SET_ELSEWHERE * end.is_set_elsewhere + _NOT_LOCAL * (not end.is_local)
 
 
@@ -40,11 +44,13 @@ def _unread(sites: Sequence[EditSite], near: dict[EditSite, Candidate], usage: U
     for constant in sites:
         if not (constant.is_number and usage.is_idle(constant.named)):
             continue
-        about = {site.rule for site in sites if site.rule and usage.affinity.is_about(constant.named, site)}
-        heads = [one for one in near.values() if one.site.is_rule and one.site.rule in about]
-        heads.sort(key=lambda one: (not usage.affinity.is_about(constant.named, one.site), one.far))
+        heads = [one for one in near.values() if one.site.is_rule]
+        heads = [one for one in heads if one.site.file == constant.file] or heads
+        named = {one: usage.affinity.shared(constant.named, one.site, sites) for one in heads}
+        most = max(named.values(), default=0)
+        heads = sorted((one for one in heads if named[one] == most), key=lambda one: one.far)
         if heads:
-            nearness = _UNREAD * usage.affinity.is_about(constant.named, heads[0].site)
+            nearness = _UNREAD * (most > 0)
             yield heads[0].far + nearness, Loose(heads[0], constant.named, is_unread=True)
         else:
             own = Candidate(constant, 0.0, Suspicion.DEPENDENCE)

@@ -27,6 +27,7 @@ class Claim(StrEnum):
     PARTLY = "partly"  # some of them pass, or others that passed fail
     EVADES = "evades"  # they pass, but goals are lost, or what happens in all other missions does not
     LOOSE_END = "loose end"  # a line may be missing: nothing was flown
+    UNEVEN = "uneven branches"  # the same, by what one branch of a condition sets and the other does not
     UNREAD = "unread"  # the same, by a constant that nothing reads
 
 
@@ -104,7 +105,7 @@ def _tried(trial: LineTrial, root: Path) -> RankedLine:
 
 def _loose(loose: Loose, root: Path) -> RankedLine:
     site = loose.candidate.site
-    claim = Claim.UNREAD if loose.is_unread else Claim.LOOSE_END
+    claim = Claim.UNREAD if loose.is_unread else Claim.UNEVEN if loose.is_uneven else Claim.LOOSE_END
     return RankedLine(_place(loose.candidate, site.first, root), site.rule, claim, variable=loose.variable)
 
 

@@ -29,6 +29,8 @@ def claim_text(cause: RankedLine) -> str:
             return f"{change}: {_passes(cause)}, {less}"
         case Claim.LOOSE_END:
             return f"hardly a line of this rule speaks of `{cause.variable}`: one may be missing (nothing was flown)"
+        case Claim.UNEVEN:
+            return f"one branch sets `{cause.variable}`, the other does not: a line may be missing (nothing was flown)"
         case Claim.UNREAD:
             return f"nothing reads `{cause.variable}`: a line that does may be missing here (nothing was flown)"
         case _:

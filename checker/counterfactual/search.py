@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from checker.batch.pool import Flyer
+from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.dependence import Dependence
@@ -20,6 +20,7 @@ from checker.losses import Limit
 from checker.mutation.edits import EditSite, SmallEdit, sites_of
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
 from checker.oracle import Verdict, judge_losses
+from checker.proofs.places import text_of
 from checker.sampling.sampler import with_point
 from compiler.program import Program
 from runtime.executive.configuration import AgentConfiguration
@@ -77,14 +78,16 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     graph = Dependence(world.programs, sites)
     sites_reached = Universe(world.programs).sites
     exercised = [site.span for number, site in enumerate(sites_reached) if number in missions.exercised]
-    usage = usage_of(sites, some_pass=bool(missions.passed))
-    candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised)
+    usage = usage_of(sites, passing=missions.passing)
+    models = {each.model: program for each, program in zip(world.agent.reactors, world.programs, strict=True)}
+    text = text_of(world.agent, models)
+    candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised, text)
     trials = try_out(candidates, missions, usage, partial(_fly, world), bounds)
     return replace(trials, loose=loose_ends(graph, candidates, usage))
 
 
 def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult, most_seconds: float) -> MissionResult:
-    load = partial(load_over, with_edit(world.overlay, edit))
+    load = partial(load_over, with_edit(world.overlay, edit), tells_on=False)
     agent = with_point(world.agent, mission.point)
     result = world.flyer.fly(agent, mission.number, mission.seed, load, most_seconds=most_seconds)
     return replace(result, judgement=judge_losses(result.judgement, result.losses, world.limits))

@@ -10,22 +10,25 @@ from collections import Counter
 from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
-from checker.counterfactual.affinity import Affinity
+from checker.counterfactual.affinity import WORD, Affinity
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 
-_WORD = re.compile(r"[A-Za-z_]\w*")
 _SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
 _POINTS = re.compile(r"(\w+\.)?(start|end)\s*[<>=!]+\s*(\w+\.)?(start|end)\s*;")  # two ends of tokens
+_TARGET = re.compile(r"\(\s*[\w.]+")
+_EVENTS = ("consume", "produce")
+_BEFORE, _AFTER = re.compile(r"([\w.]+)\s*$"), re.compile(r"\s*([\w.]+)")
 _REAL = re.compile(r"\d\.\d|\d\.(?!\w)")
 _LOOSE = "any"  # the relation that demands nothing
 _SIGNS = {"eq": "==", "neq": "!=", "leq": "<=", "lt": "<"}
 _UNEQUAL, _EQUAL = "!=", "=="
 _TRUTHS = ("true", "false")
 _TIMES = ("start", "end", "duration")
+_WORDED = (EditKind.RELATION, EditKind.COMPARISON, EditKind.SIGN)
 _NUMERIC = (EditKind.CONSTANT, EditKind.OFF_BY_ONE)
 _MOST_FOLLOW_UPS = 3
 _FEW = 3  # numbers so small that one more is much
-_LATER = 0.5  # what is no number, where some missions pass
+_LATER = 0.7  # what is no number, where most missions pass
 _LATE = 3.0  # later by so much: what is tried when all likelier edits have been
 _DROP = 3.0
 _KINDS = 0.5  # how much the number of lines counts at which an edit of the kind can be made
@@ -39,21 +42,27 @@ _KIN_SOON = -0.2  # when a constant is tried that belongs better into a line
 _TWIN = 1.0  # odds of a line that is then written as another line is
 _TWIN_SOON = 0.6  # and how much sooner that is tried
 _NAMED = 2.0  # odds of the comparison that a constant's name asks for
-_EDGE = 1.5  # odds that only some missions fail for a number, not for what is wrong in all of them
+_EDGE = 2.0  # odds that few missions fail for a number, not for what is wrong in all of them
 
 # How often a word is meant, in lines of a sort, before any line of the model is read.
 _RELATIONS = {
-    False: {"contains": 4.0, "contained_by": 2.0, "meets": 1.5, "met_by": 1.5, "before": 0.7, "after": 0.7},
-    True: {"before": 3.0, "meets": 1.5, "contains": 1.5, "contained_by": 1.0, "after": 0.7, "met_by": 0.7},
+    "child": {"contains": 4.0, "contained_by": 2.0, "meets": 1.5, "met_by": 1.5, "before": 0.7, "after": 0.7},
+    "neighbour": {"meets": 4.0, "met_by": 4.0, "before": 1.0, "after": 1.0, "contains": 0.05, "contained_by": 0.05},
+    "event": {"any": 6.0},
+    "between": {"before": 3.0, "meets": 1.5, "contains": 1.5, "contained_by": 1.0, "after": 0.7, "met_by": 0.7},
 }
 _COMPARISONS = {
     "value": {"==": 6.0, "<=": 1.0, ">=": 1.0, "!=": 0.1},
     "time": {"==": 3.0, "<=": 3.0, ">=": 1.5, "!=": 0.05},
     "point": {"==": 6.0, "<=": 2.0, ">=": 1.0, "!=": 0.05},
+    "sampled": {"==": 9.0},
     "real condition": {"==": 0.2, "<=": 1.5, ">=": 1.5, "<": 2.0, ">": 2.0, "!=": 0.05},
     "truth condition": {"==": 6.0, "<=": 0.1, ">=": 0.1, "<": 0.1, ">": 0.1, "!=": 0.5},
     "condition": {"==": 2.0, "<=": 2.0, ">=": 2.0, "<": 2.0, ">": 2.0, "!=": 1.5},
 }
+# The sign of what is added: between two times most write how much later one is.
+_SIGNED = {"time sum": {"+": 4.0, "-": 1.0}, "sum": {"+": 2.0, "-": 1.0}, "number": {}}
+_SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
 _RARE = 0.3  # all other words
 _LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
 
@@ -62,8 +71,9 @@ _LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
 class Usage:
     """How often the lines of a model use each word; `named` are its global variables, `kinds` counts lines by edit.
 
-    `meant` counts relations and comparisons by the sort of line that they stand in; `sampled` are the ranges of draws.
-    `some_pass`: not all missions of these models fail.
+    `meant` counts relations, comparisons and signs by the sort of line that they stand in, `sums` signs by what they
+    stand between; `sampled` are the ranges of draws.
+    `passing` is the share of missions of these models that pass.
     """
 
     counts: Counter[str]
@@ -72,7 +82,8 @@ class Usage:
     meant: Counter[tuple[object, str]]
     sampled: Container[str]
     affinity: Affinity
-    some_pass: bool = False
+    sums: Counter[tuple[str, str, str]]
+    passing: float = 0.0
 
     def is_swapped(self, edit: SmallEdit) -> bool:
         """Whether a constant stands where another one is missed, or the range of a draw where a number is meant."""
@@ -101,23 +112,27 @@ class Usage:
         before = prior.get(old, _RARE) + self.meant[sort, old] - 1  # but for this very line
         odds = math.log(before / (prior.get(new, _RARE) + self.meant[sort, new]))
         wanted = self.affinity.sign_of(edit, site) if edit.kind is EditKind.COMPARISON else ""
+        if edit.kind is EditKind.SIGN:
+            odds += _SUM * math.log(max(self.sums[_sum(edit, site)], 1) / (1 + self.sums[_sum(edit, site, edit.new)]))
         odds += _NAMED * ((old[:1] == wanted[:1]) - (new[:1] == wanted[:1])) if wanted else 0.0
         return max(odds, _LEAST_ODDS) if sort == "condition" else odds
 
 
-def usage_of(sites: Sequence[EditSite], *, some_pass: bool = False) -> Usage:
+def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0) -> Usage:
     """The usage of words in all lines; a line that sets a variable does not use it."""
     counts: Counter[str] = Counter()
     kinds: Counter[EditKind] = Counter()
     meant: Counter[tuple[object, str]] = Counter()
+    sums: Counter[tuple[str, str, str]] = Counter()
     for site in sites:
-        counts.update(word for word in _WORD.findall(site.text) if word != site.named)
+        counts.update(word for word in WORD.findall(site.text) if word != site.named)
         kinds.update({edit.kind for edit in site.edits})
-        words = {edit.begin: edit for edit in site.edits if edit.kind in (EditKind.RELATION, EditKind.COMPARISON)}
+        words = {edit.begin: edit for edit in site.edits if edit.kind in _WORDED}
         meant.update((_sort(edit, site)[0], _sign(edit.old)) for edit in words.values())
+        sums.update(_sum(edit, site) for edit in words.values() if edit.kind is EditKind.SIGN)
     sampled = {name for site in sites for name in _SAMPLED.findall(site.text)}
     named = {site.named for site in sites if site.named}
-    return Usage(counts, named, kinds, meant, sampled, Affinity(sites, named), some_pass)
+    return Usage(counts, named, kinds, meant, sampled, Affinity(sites, named), sums, passing)
 
 
 def is_loosening(edit: SmallEdit) -> bool:
@@ -137,12 +152,12 @@ def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
 
 def _structural(edit: SmallEdit, usage: Usage) -> float:
     """What a relation, a sign or a comparison costs where missions pass that it is a part of, too."""
-    return _EDGE if usage.some_pass and edit.kind not in (*_NUMERIC, EditKind.LIMIT) else 0.0
+    return _EDGE * usage.passing if edit.kind not in (*_NUMERIC, EditKind.LIMIT) else 0.0
 
 
 def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     match edit.kind:
-        case EditKind.RELATION | EditKind.COMPARISON:
+        case EditKind.RELATION | EditKind.COMPARISON | EditKind.SIGN:
             return 1.0 + _UNUSUAL * usage.odds(edit, site)
         case EditKind.LIMIT:
             belongs = _KIN * usage.gain(edit, site) - _LAST_USE * usage.strands(edit)
@@ -168,8 +183,12 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return -1.0
         case EditKind.LIMIT:
             return _KIN_SOON if usage.gain(edit, site) > 0.0 and not usage.strands(edit) else _LATE
-        case EditKind.SIGN | EditKind.ARGUMENTS:
-            return 0.5 + _LATER * usage.some_pass
+        case EditKind.SIGN if edit.new not in _SIGNED["sum"]:
+            return 0.0  # few write a number below zero
+        case EditKind.SIGN:
+            return 0.5 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
+        case EditKind.ARGUMENTS:
+            return 0.5 + _LATER * usage.passing
         case EditKind.DROPPED_CONSTRAINT:
             return _LATE if "==" in edit.old or edit.old.startswith("eq") else 0.3
         case EditKind.DROPPED_BRANCH:
@@ -177,11 +196,11 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.RELATION:
             if edit.new == _LOOSE:
                 return 0.3
-            return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.some_pass
+            return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
         case EditKind.COMPARISON if _sign(edit.new) == _UNEQUAL:
             return _LATE
         case EditKind.COMPARISON:
-            return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.some_pass
+            return 0.6 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
         case EditKind.CONSTANT:
             if float(edit.new) <= 0.0 < float(edit.old):
                 return _LATE
@@ -233,17 +252,40 @@ def alternatives(edit: SmallEdit, site: EditSite, usage: Usage) -> list[SmallEdi
 def _sort(edit: SmallEdit, site: EditSite) -> tuple[object, dict[str, float]]:
     """The sort of line that a relation or comparison stands in, and how often words are meant in such lines."""
     if edit.kind is EditKind.RELATION:
-        between = edit.begin > site.begin  # two named tokens; else the rule's own and another
-        return between, _RELATIONS[between]
+        relation_sort = _relation_sort(edit, site)
+        return relation_sort, _RELATIONS[relation_sort]
+    if edit.kind is EditKind.SIGN:
+        signs = "number" if edit.new not in _SIGNED["sum"] else "time sum" if _is_about_time(site) else "sum"
+        return signs, _SIGNED[signs]
     before = site.text[: edit.begin - site.begin]
     is_demand = site.text.endswith(";") and before.count("(") == before.count(")")
     is_point = _POINTS.fullmatch(site.text) is not None
-    if is_demand:
+    if is_demand and _SAMPLED.search(site.text):
+        sort = "sampled"
+    elif is_demand:
         sort = "point" if is_point else "time" if _is_about_time(site) else "value"
     else:
-        is_truth = any(word in _TRUTHS for word in _WORD.findall(site.text))
+        is_truth = any(word in _TRUTHS for word in WORD.findall(site.text))
         sort = "truth condition" if is_truth else "real condition" if _REAL.search(site.text) else "condition"
     return sort, _COMPARISONS[sort]
+
+
+def _relation_sort(edit: SmallEdit, site: EditSite) -> str:
+    """What a relation is between: two named tokens, or the rule's own and one beside it, an event, or any other."""
+    if edit.begin > site.begin:
+        return "between"
+    target = _TARGET.search(site.text, edit.end - site.begin)
+    names = target.group().strip("( ").split(".") if target is not None else [""]
+    if names[-1] in _EVENTS:
+        return "event"
+    is_own = len(names) == 1 or names[:-1] in (["object"], [site.rule.rpartition(".")[0]])
+    return "neighbour" if is_own else "child"  # tokens of one timeline do not overlap
+
+
+def _sum(edit: SmallEdit, site: EditSite, sign: str = "") -> tuple[str, str, str]:
+    """A sign with the words that it stands between."""
+    left, right = _BEFORE.search(site.text[: edit.begin - site.begin]), _AFTER.match(site.text[edit.end - site.begin :])
+    return left.group(1) if left else "", sign or edit.old, right.group(1) if right else ""
 
 
 def _sign(word: str) -> str:
@@ -252,7 +294,7 @@ def _sign(word: str) -> str:
 
 
 def _is_about_time(site: EditSite) -> bool:
-    return any(word in _TIMES for word in _WORD.findall(site.text))
+    return any(word in _TIMES for word in WORD.findall(site.text))
 
 
 def _octaves(edit: SmallEdit) -> float:

@@ -6,6 +6,7 @@ to the least likely and end after so many flights or seconds: what could not be 
 
 import heapq
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -21,13 +22,13 @@ from checker.oracle import Verdict
 
 MOST_FLIGHTS = 40
 MOST_SECONDS = 60.0
-_NEARNESS = 0.4  # of the distance, beside how late an edit is tried at its line
-_TURN = 0.3  # how much later each further edit of one line is tried
+_NEARNESS = 0.3  # of the distance, beside how late an edit is tried at its line
+_TURN, _PLACE = 0.3, 0.1  # how much later each further edit of one line is tried, at one place and at another
 _CONFIRMED = 3  # causes that are tried on other missions too
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 HEAVY = 10.0  # damage of a mission that passes without a goal
 _STRAYED, _MOST_STRAYED = 0.4, 2.0  # of each rule or branch that the mission no longer exercises
-_CONSTANT = 0.5  # how much nearer a constant counts: a number that somebody chose, and one that is often wrong
+_CONSTANT = 1.0  # how much nearer a constant counts: it stands for its number in the line that reads it
 _SLOW = 8.0  # times the slowest flight before that passed or failed: a change may leave a search without an end
 _LEAST_SECONDS = 3.0  # that a flight may take
 _SHARE = 0.25  # of the time that is left, for one flight
@@ -85,11 +86,15 @@ class LineTrial:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Loose:
-    """A variable that too few lines speak of, or a constant that `is_unread`: a line may be missing there."""
+    """A variable that too few lines speak of, or a constant that `is_unread`: a line may be missing there.
+
+    `is_uneven`: the other branch of a condition sets the variable.
+    """
 
     candidate: Candidate
     variable: str
     is_unread: bool = False
+    is_uneven: bool = False
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -109,13 +114,14 @@ class Missions:
     """Missions of one fault, of which the first is what trials are made on; and some that passed.
 
     `exercised` are the rules and branches (by number, see `checker.coverage`) that only missions of the fault reached;
-    `usual` is what happened in all missions that passed.
+    `usual` is what happened in all missions that passed, `passing` the share of these among all.
     """
 
     failed: Sequence[MissionResult]
     passed: Sequence[MissionResult] = ()
     exercised: frozenset[int] = frozenset()
     usual: frozenset[int] = frozenset()
+    passing: float = 0.0
 
     def is_evasive(self, result: MissionResult) -> bool:
         """Whether a mission lacks what happened in all missions that passed."""
@@ -129,9 +135,11 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
     queue: list[tuple[float, int, Candidate, SmallEdit]] = []
     order = count()
     for candidate in candidates:
-        for turn, (delay, edit) in enumerate(_first_edits(candidate.site, usage)):
-            far = candidate.far * (_CONSTANT if candidate.site.named is not None else 1.0)
-            at = _NEARNESS * far + delay + _TURN * turn
+        turns: Counter[int] = Counter()
+        far = max(candidate.far - _CONSTANT * candidate.site.is_number, 0.0)
+        for delay, edit in _first_edits(candidate.site, usage):
+            at = _NEARNESS * far + delay + _TURN * turns[edit.begin] + _PLACE * len(turns)
+            turns[edit.begin] += 1
             heapq.heappush(queue, (at, next(order), candidate, edit))
     reserve = min(_CONFIRMED * (len(failed) - 1 + len(missions.passed)), bounds.flights // 4)
     best: dict[EditSite, LineTrial] = {}

@@ -17,6 +17,7 @@ from nddl_lang.text.read import read_text, real_path
 from nddl_lang.text.source import Source
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms
+from runtime.executive.outcome import Outcome
 from runtime.user.library import Library, load_library
 
 Overlay = tuple[tuple[str, str], ...]  # real paths of files, and their texts
@@ -41,17 +42,25 @@ def with_edit(overlay: Overlay, edit: SmallEdit) -> Overlay:
     return (*(one for one in overlay if one[0] != edit.file), (edit.file, edited(text, edit)))
 
 
-def load_over(overlay: Overlay, agent: AgentConfiguration) -> Fly:
+def load_over(overlay: Overlay, agent: AgentConfiguration, *, tells_on: bool = True) -> Fly:
     """Compile the models of `agent` with texts of files replaced; the result flies one mission per call.
 
-    What the change does not reach is compiled once per process. Raises `_UnreadableEditError` for what is no model.
+    Without `tells_on` only the verdict of a failure is told in full (see `fly_programs`). What the change does not
+    reach is compiled once per process. Of what is no model each flight raises `_UnreadableEditError`.
     """
     root = Path(agent.root)
     reader = _reader(root, agent.constraints, agent.constraint_seconds)
-    programs = tuple(reader.program(root / each.model, overlay) for each in agent.reactors)
+    try:
+        programs = tuple(reader.program(root / each.model, overlay) for each in agent.reactors)
+    except _UnreadableEditError as problem:
+        return partial(_raise, problem)  # when it is to fly: the process has other trials to make
     solvers = tuple(_solver(root, each.solver) for each in agent.reactors)
     code = load_code(root, agent.coded)
-    return partial(fly_programs, agent, MissionPrograms(programs, solvers, reader.constraints, code))
+    return partial(fly_programs, agent, MissionPrograms(programs, solvers, reader.constraints, code), tells_on=tells_on)
+
+
+def _raise(problem: _UnreadableEditError, _: int) -> Outcome:
+    raise problem
 
 
 _solver = cache(load_solver)

@@ -88,9 +88,9 @@ def _columns(told: PublishedColumns, names: Sequence[str]) -> np.ndarray:
     known = dict(zip(told.parameters, told.arguments.columns(), strict=True))
     table = np.full((len(told.ticks), 1 + len(names)), np.nan)
     table[:, 0] = told.ticks
-    for place, name in enumerate(names, 1):
+    for column, name in enumerate(names, 1):
         if name in known and known[name].kind in ("int", "float"):
-            table[:, place] = known[name].numbers
+            table[:, column] = known[name].numbers
     return table
 
 

@@ -1,9 +1,10 @@
 """Find and read the configuration of a project: `nddlc.toml`, or `[tool.nddlc]` in `pyproject.toml`."""
 
 import tomllib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 from nddl_lang.lint.codes import NOT_TOML, UNKNOWN_KEY, WRONG_VALUE
@@ -42,15 +43,21 @@ def _has_section(path: Path) -> bool:
     if "nddlc" not in text:
         return False
     try:
-        return "nddlc" in tomllib.loads(toml_of(text)).get("tool", {})
+        return _section(tomllib.loads(toml_of(text)), None) is not None
     except tomllib.TOMLDecodeError:
         return False  # for the tools of Python to complain about
 
 
-def read_configuration(path: Path) -> tuple[Settings, list[Diagnostic]]:
-    """The settings in a file, and what is wrong with it."""
+def _section(project: dict[str, Any], missing: Any = MappingProxyType({})) -> Any:
+    """What a project says of nddlc."""
+    tools = project.get("tool")
+    return tools.get("nddlc", missing) if isinstance(tools, dict) else missing
+
+
+def read_configuration(path: Path, text: str | None = None) -> tuple[Settings, list[Diagnostic]]:
+    """The settings in a file, and what is wrong with it; an editor passes the `text` that is not saved yet."""
     try:
-        source = Source(str(path), read_text(path) or "")
+        source = Source(str(path), text if text is not None else read_text(path) or "")
     except NotAFileError as problem:
         place = Span(Anchor(Source(str(path), "")), 0, 0)
         return Settings(), [NOT_TOML.at(place, reason=f"it cannot be read: {problem.strerror}")]
@@ -60,9 +67,9 @@ def read_configuration(path: Path) -> tuple[Settings, list[Diagnostic]]:
         reason = str(problem)
         return Settings(), [NOT_TOML.at(Span(Anchor(source), 0, 0), reason=reason[:1].lower() + reason[1:])]
     prefix: Key = ()
-    if path.name == PROJECT:
-        table, prefix = table["tool"]["nddlc"], ("tool", "nddlc")
     reader = _Reader(source, path.parent)
+    if path.name == PROJECT:
+        prefix, table = ("tool", "nddlc"), _section(table)
     settings = reader.read(table, prefix)
     return settings, reader.complaints
 
@@ -76,8 +83,11 @@ class _Reader:
         self._places = find_places(source.text)
         self.complaints: list[Diagnostic] = []
 
-    def read(self, table: dict[str, Any], prefix: Key) -> Settings:
+    def read(self, table: Any, prefix: Key) -> Settings:
         """The settings that the table holds."""
+        if not isinstance(table, Mapping):
+            self._wrong(prefix, prefix[-1], "a table of settings")
+            table = {}
         readers: dict[str, Callable[[Key, Any], dict[str, Any]]] = {
             "select": lambda key, value: {"select": tuple(self._codes(key, value))},
             "ignore": lambda key, value: {"ignore": tuple(self._codes(key, value))},

@@ -1,23 +1,17 @@
 """Find predicates and rules that no goal leads to, chains of subgoals without an end, and actions without effect."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from nddl_lang.lint.codes import CHAIN, ENDLESS, NEVER_FIRES, NO_EFFECT, UNREACHABLE
 from nddl_lang.lint.declarations import AGENT_TIMELINE
 from nddl_lang.lint.part import Part
+from nddl_lang.lint.requests import ChildRequest
 from nddl_lang.lint.whole import Whole
-from nddl_lang.semantics.literals import number
-from nddl_lang.semantics.schema import Predicate, TokenVariableReference
+from nddl_lang.semantics.schema import Predicate
 from nddl_lang.syntax.nodes import (
-    BinaryExpr,
     ClassDecl,
-    ExprConstraint,
-    Foreach,
     GoalStatement,
-    IfStatement,
     Instance,
-    PathExpr,
     PredicateDecl,
     Relation,
     RuleDecl,
@@ -26,17 +20,6 @@ from nddl_lang.text.diagnostic import Code, Diagnostic, Note
 
 _FORWARD = frozenset({"meets", "before"})
 _BACKWARD = frozenset({"met_by", "after"})
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class ChildRequest:
-    """A rule asks for a token; not `is_certain` where that depends on a condition."""
-
-    wanted: Predicate
-    relation: Relation
-    is_certain: bool
-    is_effect: bool
-    is_other: bool  # whether it certainly differs from the one that asks, so that they cannot be merged
 
 
 _Followers = dict[str, list[tuple[str, ChildRequest]]]
@@ -49,11 +32,11 @@ class _Graph:
         self.whole = whole
         self.schema = whole.analysis.schema
         self.rules: dict[str, list[Part]] = {}
-        self.requests: dict[Part, list[ChildRequest]] = {}
-        for part in whole.parts:
+        self.requests: dict[Part, tuple[ChildRequest, ...]] = {}
+        for part, each in zip(whole.parts, whole.gists, strict=True):
             if isinstance(part.node, RuleDecl) and part.node in part.tables.predicates:
                 self.rules.setdefault(part.tables.predicates[part.node].full_name, []).append(part)
-                self.requests[part] = list(_requests(part, part.node))
+                self.requests[part] = each.requests
 
     def _rules_for(self, class_name: str, predicate: str) -> Iterator[Part]:
         """The rules that run for a token: those of its class and of the ancestors."""
@@ -80,46 +63,6 @@ class _Graph:
             for part in self._rules_for(predicate.class_name, predicate.name):
                 pending += (request.wanted for request in self.requests[part])
         return found
-
-
-def _requests(part: Part, rule: RuleDecl) -> Iterator[ChildRequest]:
-    changed = _changed(part)
-    pending = [(rule.body, True)]
-    while pending:
-        body, is_certain = pending.pop()
-        for statement in body:
-            match statement:
-                case Relation():
-                    for instance in statement.created:
-                        if (predicate := part.predicate_of(instance)) is not None:
-                            is_other = part.label_of(instance) in changed
-                            yield ChildRequest(predicate, statement, is_certain, instance.role == "effect", is_other)
-                case IfStatement(then=then, otherwise=otherwise):
-                    pending += [(block, False) for block in (then, otherwise) if block]
-                case Foreach(body=inner):
-                    pending.append((inner, False))
-
-
-def _changed(part: Part) -> set[object]:
-    """The tokens of which a rule computes a parameter from one of its own, as in `q.n == n + 1`."""
-    found: set[object] = set()
-    for constraint in part.all(ExprConstraint):
-        expression = constraint.expression
-        if not isinstance(expression, BinaryExpr) or expression.op != "==":
-            continue
-        for path, other in ((expression.left, expression.right), (expression.right, expression.left)):
-            one = part.reference(path) if isinstance(path, PathExpr) else None
-            if (
-                not isinstance(one, TokenVariableReference)
-                or not isinstance(other, BinaryExpr)
-                or other.op not in ("+", "-")
-            ):
-                continue
-            source = part.reference(other.left) if isinstance(other.left, PathExpr) else None
-            if isinstance(source, TokenVariableReference) and source.label.name == "this" and source.name == one.name:
-                if number(other.right) not in (None, 0):
-                    found.add(one.label)
-    return found
 
 
 def lint_structure(whole: Whole) -> Iterator[Diagnostic]:

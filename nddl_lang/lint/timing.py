@@ -8,22 +8,16 @@ from nddl_lang.lint.part import Finding, Part
 from nddl_lang.lint.temporal import RuleTimes
 from nddl_lang.lint.whole import Whole
 from nddl_lang.syntax.nodes import (
-    Assignment,
-    CallConstraint,
-    ExprConstraint,
     Foreach,
     GoalStatement,
     IfStatement,
     MethodCall,
-    Relation,
     RuleDecl,
     RuleStatement,
-    VariableDecl,
 )
 from nddl_lang.text.diagnostic import Code, Diagnostic, Note
 
 _TAKING_BACK = frozenset(("reset", "cancel", "free"))
-_OF_SCRIPT = (Assignment, CallConstraint, ExprConstraint, GoalStatement, MethodCall, Relation, VariableDecl)
 
 
 def lint_times_together(whole: Whole) -> Iterator[Diagnostic]:
@@ -67,11 +61,11 @@ def _in_script(whole: Whole) -> Iterator[Diagnostic]:
     edges: list[Edge] = []
     rejectable: set[object] = set()
     last: Part | None = None
-    for part in whole.parts:
+    for part, each in zip(whole.parts, whole.gists, strict=True):
         if isinstance(part.node, GoalStatement) and part.node.kind == "rejectable":
             rejectable |= {part.label_of(instance) for instance in part.node.instances}
-        if isinstance(part.node, _OF_SCRIPT) and (mine := list(RuleTimes(part).edges(part.node))):
-            edges += mine
+        if each.times:
+            edges += each.times
             last = part
     edges = [edge for edge in edges if edge.earlier[0] not in rejectable and edge.later[0] not in rejectable]
     if last is not None and (cycle := negative_cycle(edges)):

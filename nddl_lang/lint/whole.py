@@ -6,8 +6,11 @@ from pathlib import Path
 
 from nddl_lang.analysis import Analysis
 from nddl_lang.lint.local_names import used_variables
+from nddl_lang.lint.network import Edge
 from nddl_lang.lint.part import Facts, Key, Part, mentioned_labels
 from nddl_lang.lint.reading import bounded, domain_of, key_of
+from nddl_lang.lint.requests import ChildRequest, child_requests
+from nddl_lang.lint.temporal import RuleTimes
 from nddl_lang.semantics import domains
 from nddl_lang.semantics.literals import number
 from nddl_lang.semantics.schema import (
@@ -26,6 +29,7 @@ from nddl_lang.syntax.nodes import (
     Allocation,
     Assignment,
     BinaryExpr,
+    CallConstraint,
     ClassDecl,
     Expr,
     ExprConstraint,
@@ -33,6 +37,7 @@ from nddl_lang.syntax.nodes import (
     MethodCall,
     NewExpr,
     PathExpr,
+    Relation,
     RuleDecl,
     StringLiteral,
     VariableDecl,
@@ -41,6 +46,7 @@ from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Source, Span
 
 Given = tuple[Key, Domain, Span]
+_TIMED = (Assignment, CallConstraint, ExprConstraint, GoalStatement, MethodCall, Relation, VariableDecl)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -54,6 +60,9 @@ class Gist:
     requested: frozenset[str] = frozenset()  # names of the predicates of which it makes tokens
     objects: tuple[NewExpr, ...] = ()
     given: tuple[Given, ...] = ()
+    requests: tuple[ChildRequest, ...] = ()  # of a rule
+    times: tuple[Edge, ...] = ()  # that a statement of the script demands
+    is_script: bool = False  # it makes objects, states goals or closes something
 
 
 def gist(part: Part) -> Gist:
@@ -82,6 +91,9 @@ def gist(part: Part) -> Gist:
         frozenset(target.predicate.name for target in part.tables.targets.values()),
         tuple(part.all(NewExpr)),
         tuple(_given(part)),
+        tuple(child_requests(part, part.node)) if isinstance(part.node, RuleDecl) else (),
+        tuple(RuleTimes(part).edges(part.node)) if isinstance(part.node, _TIMED) else (),
+        _is_script(part),
     )
 
 
@@ -184,15 +196,16 @@ def assemble(analysis: Analysis, parts: list[Part], gists: list[Gist], judged: f
     library = frozenset(source for source, path in paths.items() if Path(path).parent == LIBRARY)
     own = {source for source, path in paths.items() if source not in library and real_path(path) in judged}
     whole = Whole(analysis, parts, gists, library, frozenset({analysis.loaded.root, *own}))
+    whole.variables = set().union(*(each.variables for each in gists))
+    whole.written = set().union(*(each.written for each in gists))
+    whole.words = set().union(*(each.words for each in gists))
+    whole.labels = set().union(*(each.labels for each in gists))
+    whole.requested = set().union(*(each.requested for each in gists))
+    whole.is_whole = any(
+        each.is_script and part.node.span.source not in library for part, each in zip(parts, gists, strict=True)
+    )
     ancestry: dict[str, list[str]] = {}
-    for part, each in zip(parts, gists, strict=True):
-        whole.variables |= each.variables
-        whole.written |= each.written
-        whole.words |= each.words
-        whole.labels |= each.labels
-        whole.requested |= each.requested
-        if part.node.span.source not in library and _is_script(part):
-            whole.is_whole = True
+    for each in gists:
         for new in each.objects:
             name = new.class_name.name
             for owner in ancestry.setdefault(name, analysis.schema.ancestry(name)):

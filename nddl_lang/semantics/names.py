@@ -249,7 +249,7 @@ def suggest_name(
     if known is None:
         return complaint
     fix = Fix(f"write `{known}`", (Edit(name.span, known),), safe=False)
-    return _with(complaint, complaint.help or f"did you mean `{known}`?", (fix,))
+    return _with(complaint, complaint.help or f"did you mean `{known}`?", (*complaint.fixes, fix))
 
 
 def _with(complaint: Diagnostic, help_: str, fixes: tuple[Fix, ...]) -> Diagnostic:

@@ -25,9 +25,15 @@ from nddl_lang.text.source import Span
 
 Entry = tuple[str, str]
 
-_DECLARATIONS = frozenset({"class", "enum", "value", "typedef", "global", "goal"})
+_RULE = "rule"
+_IN_SCHEMA = frozenset({"class", "enum", "value", "typedef", "global", "goal", _RULE})  # what declares, and rules
 _ALL_NAMES: Entry = ("names", "*")
 _EVERYTHING = "*"
+
+
+def told(writes: dict[Entry, object]) -> dict[Entry, object]:
+    """What of these writes other statements can look up: nobody looks up a rule."""
+    return {entry: value for entry, value in writes.items() if entry[0] != _RULE}
 
 
 class SymbolTable:
@@ -66,8 +72,14 @@ class SymbolTable:
 
     def replay(self, writes: dict[Entry, object]) -> None:
         """Leave behind what a statement left behind when it was analysed."""
+        self._entries.update(writes)
         for (table, name), value in writes.items():
-            self._apply(table, name, value)
+            if table in _IN_SCHEMA:
+                self._enter(table, name, value)
+
+    def entries(self) -> dict[Entry, object]:
+        """All entries as they stand."""
+        return dict(self._entries)
 
     def suppose(self, table: str, name: str, value: object) -> None:
         """State an entry about the script as a whole, which no statement puts."""
@@ -83,11 +95,11 @@ class SymbolTable:
 
     def put(self, table: str, name: str, value: object) -> None:
         """Put an entry; a declaration enters the schema."""
-        self.writes[table, name] = value
-        self._apply(table, name, value)
+        self.writes[table, name] = self._entries[table, name] = value
+        if table in _IN_SCHEMA:
+            self._enter(table, name, value)
 
-    def _apply(self, table: str, name: str, value: object) -> None:
-        self._entries[table, name] = value
+    def _enter(self, table: str, name: str, value: object) -> None:
         match value:
             case Class():
                 self.schema.classes[name] = value
@@ -103,7 +115,7 @@ class SymbolTable:
                 self.schema.goals[name] = value
             case Rule():
                 self.schema.rules.append(value)
-        if table in _DECLARATIONS:
+        if table != _RULE:
             self._names = hash((self._names, table, name))
 
     # ---- declarations ----

@@ -110,8 +110,8 @@ def _find_token(context: Context, scope: Scope, name: Identifier) -> Label | Non
     return None
 
 
-def find_predicate(context: Context, owner: Class, name: Identifier) -> Predicate | None:
-    """The predicate of a class; a complaint where it has none of that name."""
+def find_predicate(context: Context, owner: Class, name: Identifier, *, is_bare: bool = False) -> Predicate | None:
+    """The predicate of a class; a complaint where it has none of that name, which may stand without its object."""
     found = context.symbols.find_predicate(owner.name, name.name)
     if found is None and not context.symbols.is_partial(owner.name) and not context.symbols.is_doubtful(name.name):
         notes = (Note(f"`{owner.name}` is declared here", owner.span),) if owner.span is not None else ()
@@ -121,7 +121,14 @@ def find_predicate(context: Context, owner: Class, name: Identifier) -> Predicat
             help_ = (
                 "write " + " or ".join(f"`{other}.{name.name}`" for other in others[:3]) + " for that of another class"
             )
-            complaint = UNKNOWN_PREDICATE.at(name.span, notes=notes, help=help_, owner=owner.name, name=name.name)
+            fixes = tuple(
+                Fix(f"write `{other}.{name.name}`", (Edit(name.span, f"{other}.{name.name}"),), safe=False)
+                for other in others[:3]
+                if is_bare
+            )
+            complaint = UNKNOWN_PREDICATE.at(
+                name.span, notes=notes, help=help_, fixes=fixes, owner=owner.name, name=name.name
+            )
         context.complain(suggest_name(complaint, name, [*owner.predicates, *owner.inherited]))
     return found
 
@@ -228,7 +235,7 @@ def _find_own(context: Context, scope: Scope, name: Identifier) -> tuple[Predica
         context.complain(complaint)
         return None
     if predicate is None:
-        predicate = find_predicate(context, owner, name)
+        predicate = find_predicate(context, owner, name, is_bare=True)
     return None if predicate is None else (predicate, "own")
 
 

@@ -74,7 +74,10 @@ def _advise_after_name(kinds: list[str], texts: list[str], first: int, index: in
     if index == first + 1 and nearest(name, ["else"]):
         return "did you mean `else`?"
     if index == first + 1 and kind == "STRING":
-        return "did you mean `#include`?" if name == "include" or nearest(name, ["include"]) else None
+        is_meant = name in ("include", "import", "using", "require") or nearest(name, ["include"])
+        return "did you mean `#include`?" if is_meant else None
+    if before == ["IDENT", "IDENT"] and kind == "::":
+        return "a rule is written `Class::predicate { }`"
     if before == ["IDENT"] and kind == "{":
         return f"say what it is: `class {name} {{ }}`, `predicate {name} {{ }}`, or `Class::{name} {{ }}` for a rule"
     if before in (["IDENT", ":"], ["IDENT", ".", "IDENT"]) and kind in ("IDENT", "{"):

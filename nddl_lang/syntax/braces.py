@@ -64,7 +64,8 @@ def close_body(piece: Piece, brackets: Brackets, base: int, at: int) -> None:
     start = piece.starts[opener] - base
     place = piece.ends[at - 1] - base
     notes = (Note("it should end here", piece.span(place, place)),)
-    piece.report(UNCLOSED_BRACE, start, start + 1, text="{", notes=notes)
+    fixes = (Fix("add `}`", (Edit(piece.span(place, place), " }"),), safe=False),)
+    piece.report(UNCLOSED_BRACE, start, start + 1, text="{", notes=notes, fixes=fixes)
 
 
 def is_surplus(piece: Piece, text: str, finish: int, indent: int, *, is_alone: bool) -> bool:

@@ -34,7 +34,7 @@ from nddl_lang.syntax.nodes import (
     UnaryExpr,
 )
 from nddl_lang.syntax.piece import Piece
-from nddl_lang.text.diagnostic import Code
+from nddl_lang.text.diagnostic import Code, Edit, Fix
 from nddl_lang.text.source import Span
 
 
@@ -330,5 +330,17 @@ def refuse_waiting(b: Builder, span: Span | None = None) -> bool:
             name = value.function.name
             b.report(MISPLACED_METHOD, value.span, name=name, help="call it in a statement of its own")
         elif isinstance(value, CallExpr):
-            b.report(NO_ARGUMENT, value.span, name=value.function.name)
+            _report_no_argument(b, value)
     return bool(found)
+
+
+def _report_no_argument(b: Builder, call: CallExpr) -> None:
+    """A call needs an argument; of what is written as classes are, it is said how objects are made."""
+    name = call.function.name
+    if not name[:1].isupper():
+        b.report(NO_ARGUMENT, call.span, name=name)
+        return
+    written = f"new {call.span.text}"
+    edit = Edit(Span(call.span.anchor, call.span.start, call.span.start), "new ")
+    fix = Fix(f"write `{written}`", (edit,), safe=False)
+    b.report(NO_ARGUMENT, call.span, help=f"an object is made by `{written}`", fixes=(fix,), name=name)

@@ -195,7 +195,8 @@ class _Loader:
         """The model beside the including text, or of the library, that a name was meant to be."""
         folder = self.paths[self._read[self._chain[-1][0]]].parent / Path(name).parent
         found = [*_models_in(folder), *(_models_in(LIBRARY) if Path(name).name == name else ())]
-        meant = nearest(Path(name).stem, [path.stem for path in found])
+        stems = [path.stem for path in found]
+        meant = Path(name).stem if Path(name).stem in stems else nearest(Path(name).stem, stems)
         return None if meant is None else str(Path(name).with_name(f"{meant}.nddl"))
 
     def _report(self, diagnostic: Diagnostic) -> None:

@@ -173,6 +173,8 @@ def read_directive(piece: Piece, start: int, word: str) -> None:
     fixes: tuple[Fix, ...] = ()
     if text.replace(" ", "").replace("\t", "") == "#include":
         fixes = (Fix("write `#include`", (Edit(piece.span(start, start + len(text)), "#include"),)),)
+    elif text not in _DIRECTIVE_HELP:
+        fixes = (Fix("write `//`", (Edit(piece.span(start, start + 1), "//"),), safe=False),)
     piece.report(
         FORMER_DIRECTIVE,
         start,

@@ -29,6 +29,7 @@ from nddl_lang.syntax.former import put_in_parentheses
 from nddl_lang.syntax.misspelt import all_relations, meant_word
 from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.placement import break_statement
+from nddl_lang.syntax.rewrites import close_block, rewrite
 from nddl_lang.syntax.skipping import end_of_statement, misaligned_brace
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS
 from nddl_lang.syntax.words import KINDS, RESERVED
@@ -38,7 +39,7 @@ _STATEMENT_WORDS = frozenset(
     ("BASETYPE", "class", "enum", "typedef", "GOAL", "predicate", "action", "if", "foreach", "#include", "filter")
 )
 _PUNCTUATION = frozenset("=,:.)]+-*/<>!") | {"==", "!=", "<=", ">=", "&&", "||", "::"}
-_TURNED = {("=", ">"): ">=", ("=", "<"): "<=", ("<", ">"): "!=", ("=", "!"): "!="}
+_TURNED = {("-", ">"): ".", ("=", ">"): ">=", ("=", "<"): "<=", ("<", ">"): "!=", ("=", "!"): "!="}
 _OPENERS = {")": "(", "]": "[", "}": "SET"}
 _OPEN = frozenset(("(", "[", "{", "SET"))
 # A lexeme that was already complained about explains whatever follows in its statement.
@@ -108,7 +109,7 @@ class Recovery:
         if END in following and (open_brace := self._open_block(values)) is not None:
             following.remove(END)
             if not following and accepts(states, ["}"]):
-                self._report_unclosed(open_brace)
+                self._report_unclosed(open_brace, index)
                 self._b.insert(index, "}")
                 return True
         if index > 0 and self._may_begin_statement(index) and accepts(states, [";", *following]):
@@ -153,7 +154,7 @@ class Recovery:
         return False
 
     def _turn_comparison(self, first: int, index: int) -> bool:
-        """Read `=>`, `=<`, `<>` and `=!` as the comparisons that they were meant to be."""
+        """Read `=>`, `=<`, `<>`, `=!` and `->` as the signs that they were meant to be."""
         b, kinds = self._b, self._kinds
         sign = _TURNED.get((kinds[index - 1], kinds[index])) if index > first else None
         if sign is None or b.ends[index - 1] != b.starts[index]:
@@ -254,11 +255,13 @@ class Recovery:
         fix = Fix(f"remove `{text}`", (Edit(self._b.at(index), ""),))
         self._report(SUPERFLUOUS, index, text=text, fixes=(fix,))
 
-    def _report_unclosed(self, opener: int) -> None:
+    def _report_unclosed(self, opener: int, index: int) -> None:
         if not self._said_unclosed:
             self._said_unclosed = True
             better = misaligned_brace(self._kinds, self._b)
-            self._report(UNCLOSED_BRACE, opener if better is None else better, text="{")
+            # Where a block inside is not closed, nobody knows where it should end.
+            fixes = (close_block(self._b, opener, index),) if better is None else ()
+            self._report(UNCLOSED_BRACE, opener if better is None else better, text="{", fixes=fixes)
 
     def _report_expected(self, states: list[int], first: int, index: int) -> None:
         if self._is_quiet:
@@ -271,7 +274,11 @@ class Recovery:
             span = b.piece.span(b.ends[index - 1], b.ends[index - 1])
         else:
             span = b.at(index)
-        b.report(EXPECTED, span, expected=expected, found=found, help=help_text)
+        fix = rewrite(b, first, index)
+        fixes = (fix,) if fix is not None else ()
+        if fix is not None and help_text is None:
+            help_text = fix.title
+        b.report(EXPECTED, span, expected=expected, found=found, help=help_text, fixes=fixes)
 
     # ---- where things are ----
 

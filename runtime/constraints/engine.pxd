@@ -3,10 +3,8 @@
 cimport cython
 from libc cimport math
 from runtime.constraints.domains.base_domain cimport base_high, base_low, base_set, in_order, insert_value, is_base_single
-from runtime.constraints.domains.constants cimport constant_interval, constant_set
 from runtime.constraints.explanation.explain cimport explain_bound, explain_conflict
 from runtime.constraints.propagators.dispatch cimport propagate_constraint
-from runtime.constraints.propagators.logic cimport may_be_equal
 from runtime.constraints.domains.narrow cimport high, is_single, low, raise_to, reduce_to, round_bounds
 from runtime.constraints.stn.network cimport insert_edge, propagate_edges
 from runtime.constraints.stn.watch_lists cimport watchers_of
@@ -16,8 +14,8 @@ from runtime.constraints.relaxation.retract cimport edges_of, follow_again, retr
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.relaxation.trail cimport commit_trail, undo_to
 from runtime.constraints.domains.variables cimport (
-    add_restriction, clear_row, close_values, copy_words, is_untouched_set, keep_values, reserve_block,
-    start_interval, start_values, take_row,
+    add_restriction, clear_row, close_values, constant_interval, constant_set, copy_words, is_untouched_set, keep_values,
+    start_interval, start_values, take_block, take_row,
 )
 
 cdef long long FLAG_DECISION, FLAG_FROZEN, FLAG_VALUES, KIND_FLOAT, OP_ELEMENT, OP_EXTERNAL
@@ -77,8 +75,6 @@ cdef class Engine(Store):
 
     cpdef list values_of(self, long long v)
 
-    cpdef bint intersects(self, long long v, long long w) except -1
-
     cpdef double base_lower(self, long long v) except? -1.0
 
     cpdef double base_upper(self, long long v) except? -1.0
@@ -116,8 +112,6 @@ cdef class Engine(Store):
     cpdef bint propagate(self) except -1
 
     cpdef bint run(self, long long c) except -1
-
-    cpdef int clear_woken(self) except -1
 
     cpdef long long mark(self) except? -1
 

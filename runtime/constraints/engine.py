@@ -12,7 +12,6 @@ from runtime.constraints.domains.base_domain import (
     insert_value,
     is_base_single,
 )
-from runtime.constraints.domains.constants import constant_interval, constant_set
 from runtime.constraints.domains.narrow import high, is_single, low, raise_to, reduce_to, round_bounds
 from runtime.constraints.domains.queries import has_finitely_many, listed, may_be, number_of_values
 from runtime.constraints.domains.store import Store
@@ -28,19 +27,20 @@ from runtime.constraints.domains.variables import (
     add_restriction,
     clear_row,
     close_values,
+    constant_interval,
+    constant_set,
     copy_words,
     is_untouched_set,
     keep_values,
-    reserve_block,
     start_interval,
     start_values,
+    take_block,
     take_row,
 )
 from runtime.constraints.explanation.cause import Cause, Link
 from runtime.constraints.explanation.explain import explain_bound, explain_conflict
 from runtime.constraints.propagators.dispatch import propagate_constraint
 from runtime.constraints.propagators.external import External
-from runtime.constraints.propagators.logic import may_be_equal
 from runtime.constraints.propagators.opcodes import OP_ELEMENT, OP_EXTERNAL
 from runtime.constraints.propagators.posting import post_constraint
 from runtime.constraints.relaxation.retract import edges_of, follow_again, retract
@@ -69,7 +69,11 @@ class Engine(Store):
 
     def reserve(self, count: int) -> int:
         """Have the next `count` variables take consecutive ids; give the first (-1 for a single one)."""
-        return reserve_block(self, count)
+        if count == 1:
+            return -1
+        self.reserved_next = take_block(self, count)
+        self.reserved_end = self.reserved_next + count
+        return self.reserved_next
 
     def new_interval(self, kind: int, lo: float, hi: float, span: int, owner: int) -> int:
         """Make a variable between two bounds; infinities are `inf` or INF."""
@@ -227,10 +231,6 @@ class Engine(Store):
         """List the values of a finite domain in ascending order; of an open one, those listed that are possible."""
         return listed(self, v)
 
-    def intersects(self, v: int, w: int) -> bool:
-        """Tell whether two variables have a value in common."""
-        return may_be_equal(self, v, w)
-
     def base_lower(self, v: int) -> float:
         """Give the lower bound of the base domain."""
         return base_low(self, v)
@@ -353,12 +353,6 @@ class Engine(Store):
         self.coarse = False
         self.running = -1
         return holding
-
-    def clear_woken(self) -> None:
-        """Let the watches in `woken` be woken again."""
-        for i in range(self.woken_count):
-            self.scheduled[self.woken[i]] = 0
-        self.woken_count = 0
 
     # ------------------------------------------------------------------------------------------ time, explanations
 

@@ -2,7 +2,7 @@
 
 cimport cython
 
-cdef long long CAUSE, EVENT, FAR, ROW, SHOWN
+cdef long long BLOCK, CAUSE, EVENT, FAR, KIND, LINE, ROW, SHOWN, VALUES
 
 
 cdef class Log:

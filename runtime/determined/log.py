@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from runtime.determined.tags import CAUSE, EVENT, FAR, ROW, SHOWN
+from runtime.determined.tags import BLOCK, CAUSE, EVENT, FAR, KIND, LINE, ROW, SHOWN, VALUES
 
 _MOST_KEPT = 3  # pieces of memory of each kind
 _Array = NDArray[Any]
@@ -77,10 +77,10 @@ class Log:
             self.grow_rows()
         at = ROW * self.row_count
         self.rows[at] = tick
-        self.rows[at + 1] = line
-        self.rows[at + 2] = predicate
-        self.rows[at + 3] = block
-        self.rows[at + 4] = -1
+        self.rows[at + LINE] = line
+        self.rows[at + KIND] = predicate
+        self.rows[at + BLOCK] = block
+        self.rows[at + VALUES] = -1
         self.rows[at + SHOWN] = 0
         self.row_count += 1
         return self.row_count - 1
@@ -90,7 +90,7 @@ class Log:
         while self.value_count + width > self.value_capacity:
             self.grow_values()
         at = self.value_count
-        self.rows[ROW * row + 4] = at
+        self.rows[ROW * row + VALUES] = at
         self.value_count = at + width
         return at
 
@@ -185,10 +185,10 @@ class Log:
         at = ROW * row
         return (
             self.rows[at],
-            self.rows[at + 1],
-            self.rows[at + 2],
-            self.rows[at + 3],
-            self.rows[at + 4],
+            self.rows[at + LINE],
+            self.rows[at + KIND],
+            self.rows[at + BLOCK],
+            self.rows[at + VALUES],
             self.rows[at + EVENT],
             self.rows[at + CAUSE],
         )

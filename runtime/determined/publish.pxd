@@ -5,7 +5,7 @@ from runtime.determined.arguments cimport arguments_at, shapes_of
 from runtime.determined.log cimport Log
 from runtime.determined.machine cimport Machine
 
-cdef long long EVENT, FAR, ROW, WISHED, _NOTHING
+cdef long long BLOCK, EVENT, FAR, KIND, LINE, ROW, VALUES, WISHED, _NOTHING
 
 
 cdef class Samples:

@@ -7,7 +7,7 @@ from runtime.determined.arguments import arguments_at, shapes_of
 from runtime.determined.loading import ParameterShape, RegisterProgram
 from runtime.determined.log import Log
 from runtime.determined.machine import Machine
-from runtime.determined.tags import EVENT, FAR, ROW, WISHED
+from runtime.determined.tags import BLOCK, EVENT, FAR, KIND, LINE, ROW, VALUES, WISHED
 from runtime.determined.told import Told
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Draw, EventKind, Phase
@@ -98,7 +98,7 @@ class Publisher:
         log = self.log
         index = log.told_count - 1
         while index >= 0 and log.rows[ROW * log.told[index]] == tick:
-            if watched >> log.rows[ROW * log.told[index] + 1] & 1:
+            if watched >> log.rows[ROW * log.told[index] + LINE] & 1:
                 found.append(self._observation(log.told[index]))
             index -= 1
         found.reverse()
@@ -106,14 +106,14 @@ class Publisher:
 
     def _observation(self, row: int) -> Observation:
         log, at = self.log, ROW * row
-        predicate = log.rows[at + 2]
+        predicate = log.rows[at + KIND]
         shapes = self.shapes[predicate]
         if shapes is None:
             shapes = self.shapes[predicate] = shapes_of(self.program, self.program.model.program.predicates[predicate])
         if len(self.names) < len(self.symbols):
             self.program.all_names()  # brings them up to date
-        arguments = arguments_at(shapes, self.names, log, log.rows[at + 4])
-        name, short, tick = self.line_names[log.rows[at + 1]], self.short_names[predicate], log.rows[at]
+        arguments = arguments_at(shapes, self.names, log, log.rows[at + VALUES])
+        name, short, tick = self.line_names[log.rows[at + LINE]], self.short_names[predicate], log.rows[at]
         told = (tick, name, short, arguments, log.rows[at + EVENT], self.name, row, tick)
         return _NEW(Observation, told)
 
@@ -125,13 +125,13 @@ class Publisher:
         self._tell_draws(tick)
         rows: dict[int, int] = {}
         while log.told_rows < log.row_count and log.rows[ROW * log.told_rows] == tick:
-            rows[log.rows[ROW * log.told_rows + 1]] = log.told_rows
+            rows[log.rows[ROW * log.told_rows + LINE]] = log.told_rows
             log.told_rows += 1
         self._tell_achieved(rows, tick)
         for line in self.program.internal:
             if line in rows:
                 row = rows[line]
-                wish = self._answered(line, log.rows[ROW * row + 3], tick)
+                wish = self._answered(line, log.rows[ROW * row + BLOCK], tick)
                 cause = wish.request.event if wish is not None else log.latest[line]
                 log.tell_row(row, len(trace.events), cause)
                 trace.events.extend(self.columns, log.told_count - 1, 1)

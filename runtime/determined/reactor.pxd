@@ -9,8 +9,8 @@ cdef long long FAR, NONE, ROW, STOPS, _AHEAD
 
 
 cdef class DeterminedReactor(TeleoReactor):
-    cdef public long long final_tick, watched, execution_latency, tick, reached, base, steps_made
-    cdef public object program, make_general, trace, inputs, general
+    cdef public long long final_tick, watched, execution_latency, tick, reached, base, steps_made, witnessed
+    cdef public object program, make_general, trace, inputs, general, witness
     cdef public list wishes, refused_goals, refusals_made
     cdef public Machine machine
     cdef public Publisher publisher

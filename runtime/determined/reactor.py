@@ -61,6 +61,8 @@ class DeterminedReactor(TeleoReactor):
         self.steps_made = 0
         self.is_beyond = False  # something came in that only the general engine understands
         self.general: PlanReactor | None = None
+        self.witness: PlanReactor | None = None  # a general reactor that was asked about `witnessed`
+        self.witnessed = NONE
         self.refused_goals: list[OpenGoal] = []
         self.refusals_made: list[Refusal] = []
         for fact in program.first:
@@ -355,9 +357,15 @@ class DeterminedReactor(TeleoReactor):
         catch_up(general, shadow, self.inputs, tick, is_synchronised)
         return general
 
+    def _asked(self) -> PlanReactor:
+        """The general reactor that is asked for causes: one for all that breaks at a tick."""
+        if self.witness is None or self.witnessed != self.tick:
+            self.witness, self.witnessed = self._witness(self.tick, True), self.tick
+        return self.witness
+
     def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """What sets the end of a token that was published: asked of a general reactor, as this one has no causes."""
-        general = self.general or self._witness(self.tick, True)
+        general = self.general or self._asked()
         log = self.machine.log
         if 0 <= token < log.row_count and log.rows[ROW * token] == key:
             line = general.by_name[self.program.model.lines[int(log.rows[ROW * token + 1])].name]

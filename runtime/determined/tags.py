@@ -13,9 +13,10 @@ WISH_END_FROM, WISH_END_UNTIL, WISH_LEAST, WISH_MOST = 12, 13, 14, 15
 BEFORE = 16  # the predicate of the token before
 SECTIONS = 17
 
-# Columns of the log: tick, timeline, predicate, block (started by another one: -1 - row of that), values; and once it
-# has been told, the index of its event and that of the cause; and where the values that its block shows begin.
-ROW, EVENT, CAUSE, SHOWN = 8, 5, 6, 7
+# Columns of the log after the tick: timeline, predicate, block (started by another one: -1 - row of that), where its
+# values begin; once it has been told, the index of its event and that of the cause; where what its block shows begins.
+LINE, KIND, BLOCK, VALUES, EVENT, CAUSE, SHOWN = 1, 2, 3, 4, 5, 6, 7
+ROW = 8
 WISHED = 1 << 40  # marks the block of a token that somebody asked for
 
 RUNS_ON, CHANGES, STOPS = 0, 1, 2  # why a machine came back

@@ -7,7 +7,7 @@ import numpy as np
 from runtime.determined.arguments import arguments_at, arguments_from, shapes_of
 from runtime.determined.loading import ParameterShape, RegisterProgram
 from runtime.determined.log import Log
-from runtime.determined.tags import CAUSE, ROW
+from runtime.determined.tags import CAUSE, KIND, LINE, ROW, VALUES
 from runtime.executive.columns import Array, PublishedColumns, StoredValues, table_of
 from runtime.executive.messages import Arguments
 from runtime.executive.outcome import Event, EventKind, Phase
@@ -23,9 +23,8 @@ def _observation(
 ) -> Event:
     """The event of an observation; `head` has its tick, timeline and predicate."""
     tick, timeline, predicate = head
-    return Event(
-        tick, Phase.OBSERVE, EventKind.OBSERVATION, reactor, timeline, predicate, arguments, causes, token
-    )  # fmt: skip
+    kind = EventKind.OBSERVATION
+    return Event(tick, Phase.OBSERVE, kind, reactor, timeline, predicate, arguments, causes, token)
 
 
 class Told:
@@ -61,7 +60,7 @@ class Told:
         for line, predicate, indices, at in self._kinds():
             rows = np.asarray(self.log.rows)
             parameters = program.model.program.predicates[predicate].parameters
-            arguments = StoredValues(values, rows.take(at + 4), tuple([each.type.kind for each in parameters]))
+            arguments = StoredValues(values, rows.take(at + VALUES), tuple([each.type.kind for each in parameters]))
             name, short = program.model.lines[line].name, program.model.short_names[predicate]
             given = tuple([each.name for each in parameters])
             found.append(PublishedColumns(name, short, rows.take(at), given, arguments, indices, symbols))
@@ -71,7 +70,7 @@ class Told:
         """What was told by timeline and predicate: indices, and where the rows of the log begin."""
         starts = ROW * np.asarray(self.log.told)[: self.log.told_count]
         rows, many = np.asarray(self.log.rows), len(self.program.model.short_names)
-        kinds = rows.take(starts + 1) * many + rows.take(starts + 2)
+        kinds = rows.take(starts + LINE) * many + rows.take(starts + KIND)
         found = []
         for kind in np.flatnonzero(np.bincount(kinds)).tolist():
             indices = np.flatnonzero(kinds == kind)
@@ -79,8 +78,7 @@ class Told:
         return found
 
     def __reduce__(self) -> tuple[type, tuple[object, ...]]:
-        stored = self.stored()
-        return StoredObservations, (stored.name, stored.kinds, stored.symbols)
+        return self.stored().__reduce__()
 
     def stored(self) -> "StoredObservations":
         """The same without the log."""
@@ -89,7 +87,7 @@ class Told:
         for line, predicate, indices, at in self._kinds():
             code = program.model.program.predicates[predicate]
             shapes = tuple([shape[:3] for shape in shapes_of(program, code)])
-            table = table_of(values, rows.take(at + 4), len(shapes))
+            table = table_of(values, rows.take(at + VALUES), len(shapes))
             kinds.append(
                 StoredKind(
                     program.model.lines[line].name,

@@ -80,6 +80,7 @@ class Agent:
         seed: int,
         trace: Trace,
         every_tick: bool = False,
+        tells_on: bool = True,
     ) -> None:
         self.configuration = configuration
         self.every_tick = every_tick
@@ -102,7 +103,8 @@ class Agent:
         self.stirred: list[TeleoReactor] = []  # who has got something to do from a reactor that was killed
         self.seed = seed
         self.trace = trace
-        trace.tell_on = self._told_on
+        if tells_on:
+            trace.tell_on = self._told_on
         self.tick = 0
 
     def run(self, until: int | None = None) -> Outcome:
@@ -319,7 +321,7 @@ class Agent:
 
     def _abort(self, reactor: TeleoReactor, failure: Failure) -> Abort:
         """Record that the agent ends early, with its reason."""
-        conflict = None if failure.conflict is None else self._told_on(failure.conflict, failure.watched)
+        conflict = None if failure.conflict is None else self.trace.tell_on(failure.conflict, failure.watched)
         drawn = conflict.parameters if conflict is not None else ()
         event = self.trace.record(
             EventKind.ABORT,
@@ -372,7 +374,7 @@ class Agent:
             causes=failure.causes,
             code=failure.code,
             reason=failure.reason,
-            conflict=None if failure.conflict is None else self._told_on(failure.conflict, failure.watched),
+            conflict=None if failure.conflict is None else self.trace.tell_on(failure.conflict, failure.watched),
             deadlock=failure.deadlock,
         )
         self.reactors.remove(reactor)

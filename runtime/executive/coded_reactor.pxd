@@ -10,7 +10,7 @@ cdef class CodedReactor(TeleoReactor):
     cdef public tuple files, wakes_on
     cdef public bint is_stirred
     cdef public long long count
-    cdef public object caller, make, kinds, trace, code, wakes
+    cdef public object caller, make, kinds, trace, code, wakes, wake
     cdef public dict seen, events, news, numbers
     cdef public list refused_numbers, published, asked, recalled, given_up
 

@@ -1,7 +1,7 @@
 """A reactor written in Python, among the others: what it does wrong ends it, and nothing else (F7, F9)."""
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from math import isnan
 
 from compiler.program import DomainConstant
@@ -49,6 +49,7 @@ class CodedReactor(TeleoReactor):
         self.is_stirred = False  # something has begun to hold on one of these
         self.refused_numbers: list[int] = []
         self.wakes = {0}  # the ticks at which the code wants to be called
+        self.wake = 0  # the earliest of them
         self.published: list[Published] = []
         self.asked: list[Asked] = []
         self.recalled: list[int] = []
@@ -58,7 +59,7 @@ class CodedReactor(TeleoReactor):
 
     def next_tick(self, tick: int) -> int:
         """When the code wants to be called."""
-        return tick + 1 if self.refused_numbers else max(tick + 1, min(self.wakes) if self.wakes else _NEVER)
+        return tick + 1 if self.refused_numbers else max(tick + 1, self.wake)
 
     def notify(self, observation: Observation) -> None:
         """Take note of what an owner published."""
@@ -69,8 +70,7 @@ class CodedReactor(TeleoReactor):
 
     def synchronise(self, tick: int) -> Failure | None:
         """Let the code speak, if there is anything new."""
-        is_due = bool(self.wakes) and min(self.wakes) <= tick
-        if not self.is_stirred and not self.refused_numbers and not is_due:
+        if not self.is_stirred and not self.refused_numbers and self.wake > tick:
             return None
         told: list[str] = []
         for timeline, observation in self.news.items():
@@ -91,8 +91,9 @@ class CodedReactor(TeleoReactor):
         self.is_stirred = False
         if self.refused_numbers:
             self.refused_numbers = []
-        if self.wakes:
-            self.wakes = {wake for wake in self.wakes if wake > tick}
+        if self.wake <= tick:
+            self._wake_after(tick, ())
+        is_first = self.code is None
         try:
             self._call(now)
         except BaseException as problem:
@@ -101,6 +102,8 @@ class CodedReactor(TeleoReactor):
             said = str(failed(f"the reactor `{self.name}`", problem, self.files))
             return Failure("F7", Reason(ReasonKind.RAISED, tick=tick, message=said), self.internal, None, 0)
         try:
+            if is_first:
+                self._check_wakes()
             self._take(now)
         except (AttributeError, KeyError, LookupError, TypeError, ValueError) as problem:
             what = Reason(ReasonKind.RAISED, tick=tick, message=str(problem))
@@ -125,11 +128,13 @@ class CodedReactor(TeleoReactor):
                 WATCH.astray(call)
             WATCH.call = before
 
-    def _take(self, now: Now) -> None:
-        """Check what the code has said; raises ValueError and its like for what makes no sense."""
+    def _check_wakes(self) -> None:
         for name in self.wakes_on:
             if name not in self.external:
                 raise ValueError(f"it wants to be woken by `{name}`, which it does not use")
+
+    def _take(self, now: Now) -> None:
+        """Check what the code has said; raises ValueError and its like for what makes no sense."""
         for one in now.published:
             if one.timeline not in self.internal:
                 raise ValueError(f"it published on `{one.timeline}`, which it does not own")
@@ -145,12 +150,17 @@ class CodedReactor(TeleoReactor):
         for tick in now.wakes:
             if not isinstance(tick, int) or tick <= now.tick:
                 raise ValueError(f"it wants to be woken at {tick!r}, which is not later than {now.tick}")
-        self.wakes.update(now.wakes)
+        if now.wakes:
+            self._wake_after(now.tick, now.wakes)
         self.published, self.recalled = now.published, now.recalled
         self.asked = now.asked
         if now.recalled:
             self.asked = [asked for asked in now.asked if asked.number not in now.recalled]
         self.count += len(now.asked)
+
+    def _wake_after(self, tick: int, added: Iterable[int]) -> None:
+        self.wakes = {wake for wake in self.wakes if wake > tick}.union(added)
+        self.wake = min(self.wakes, default=_NEVER)
 
     def observations(self, tick: int) -> list[Observation]:
         """What the code has published."""

@@ -69,18 +69,22 @@ def record_mission(
     every_tick: bool = False,
     until: int | None = None,
     compiles: bool = True,
+    tells_on: bool = True,
 ) -> tuple[Outcome, MissionRecord]:
     """Carry out one mission; `overrides` replaces draws of the named parameters by given values.
 
     Determined reactors are carried out as register code, unless `compiles` is false: events are the same.
     It ends at the final tick, or at `until`. With `every_tick` reactors are woken at each tick, whether or not anything
-    can happen; events are the same.
+    can happen; events are the same. Without `tells_on` conflicts end at what a reactor has observed, which saves the
+    work to ask the reactor that published it.
 
     A model that does not load, be it for what was drawn, ends the mission before it begins (F9). Raises `ValueError`
     (of `workbench` and `agent`) for timelines that do not exist or have no single owner.
     """
     with Loans() as loans:
-        outcome, reactors = _flown(configuration, programs, seed, overrides, every_tick, until, compiles, True, loans)
+        outcome, reactors = _flown(
+            configuration, programs, seed, overrides, every_tick, until, compiles, True, loans, tells_on
+        )
         recorded = tuple(each.record() for each in reactors if isinstance(each, (PlanReactor, DeterminedReactor)))
     return outcome, MissionRecord(recorded)
 
@@ -95,6 +99,7 @@ def _flown(
     compiles: bool,
     records: bool,
     loans: Loans,
+    tells_on: bool = True,
 ) -> tuple[Outcome, list[TeleoReactor]]:
     """A mission, and its reactors as it left them."""
     trace = Trace()
@@ -107,7 +112,7 @@ def _flown(
     for number, goal in enumerate(configuration.goals):
         kinds = _goal_kinds(configuration, programs, goal)
         goals.append((goal.at, request_of(goal, -1 - number, kinds)))
-    agent = Agent(configuration, reactors, goals, seed, trace, every_tick)
+    agent = Agent(configuration, reactors, goals, seed, trace, every_tick, tells_on)
     return agent.run(until), reactors
 
 

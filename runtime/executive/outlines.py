@@ -7,6 +7,7 @@ the order of execution. A body with a loop fills slots anew; there the variables
 from typing import NamedTuple
 
 from compiler.program import Child, Guard, Instruction, NewVariable, ObjectLoop, Program, TypeCode
+from runtime.executive.look_back import looked_back
 
 SHAPE_INT, SHAPE_FLOAT, SHAPE_BOOL, SHAPE_SYMBOL, SHAPE_STRING, SHAPE_OBJECT = range(6)
 _SHAPES = {
@@ -56,13 +57,17 @@ def _outline(body: tuple[Instruction, ...]) -> Outline:
 
 
 class Forms(NamedTuple):
-    """What is the same for all tokens of a program: outlines of its rules, shapes of parameters, globals, members."""
+    """What is the same for all tokens of a program: outlines of its rules, shapes of parameters, globals, members.
+
+    `looked_back` are the predicates of which rules may ask for tokens that are over.
+    """
 
     program: Program
     rules: tuple[Outline, ...]
     parameters: tuple[tuple[int, ...], ...]
     globals: tuple[int, ...]
     members: tuple[tuple[int, ...], ...]
+    looked_back: tuple[int, ...]
 
 
 _FORMS: dict[int, Forms] = {}
@@ -80,5 +85,6 @@ def forms_of(program: Program) -> Forms:
             tuple(tuple(_shape(p.type) for p in code.parameters) for code in program.predicates),
             tuple(_shape(type_) for _, type_ in program.globals),
             tuple(tuple(_shape(m.type) for m in code.members) for code in program.classes),
+            looked_back(program),
         )
     return known

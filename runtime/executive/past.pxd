@@ -14,7 +14,7 @@ cdef double inf
 cdef class Past:
     cdef public Workbench bench
     cdef public object predicates
-    cdef public list _numbers, _over, _gone
+    cdef public list _over, _gone
     cdef public dict _kept
 
     cpdef long long archive(self, list timelines, long long tick) except? -1

@@ -8,9 +8,8 @@ from collections.abc import Iterable
 from math import inf
 from typing import NamedTuple
 
-from compiler.program import Child, Guard, Instruction, ObjectLoop, Program
-from nddl_lang.semantics.relations import RELATIONS, Point
 from runtime.executive.messages import Arguments
+from runtime.executive.outlines import forms_of
 from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
@@ -38,8 +37,7 @@ class Past:
 
     def __init__(self, bench: Workbench) -> None:
         self.bench = bench
-        self.predicates = _looked_back(bench.database.program)
-        self._numbers = sorted(self.predicates)
+        self.predicates = forms_of(bench.database.program).looked_back
         self._over: list[int] = []  # what may be asked for later of what is looked at in archiving
         self._gone: list[OverToken] = []
         bench.recorder.witness = self._note
@@ -68,7 +66,7 @@ class Past:
         """The tokens of `outlines`, by predicate and key."""
         bench = self.bench
         found: dict[int, None] = {}
-        for predicate in self._numbers:
+        for predicate in self.predicates:
             t = first_active(bench.plan, predicate)
             while t >= 0:
                 if not bench.is_kept(t) and bench.upper(bench.end(t)) <= tick and -inf < bench.started_at(t):
@@ -124,51 +122,3 @@ class Past:
             oldest, key = line.pop(0)
             if bench.is_alive(oldest, key) and bench.rows.merged[oldest] < 0:
                 bench.remove([oldest])
-
-
-_LOOKED_BACK: dict[int, tuple[Program, frozenset[int]]] = {}
-
-
-def _looked_back(program: Program) -> frozenset[int]:
-    """The predicates of which a rule may ask for a token that is over before the rule's own token begins."""
-    known = _LOOKED_BACK.get(id(program))
-    if known is None or known[0] is not program:
-        if len(_LOOKED_BACK) > 64:
-            _LOOKED_BACK.clear()
-        names = {name for rule in program.rules for name in _names(rule.body, set())}
-        found = [number for number, each in enumerate(program.predicates) if each.name.rpartition(".")[2] in names]
-        known = _LOOKED_BACK[id(program)] = (program, frozenset(found))
-    return known[1]
-
-
-def _names(body: Iterable[Instruction], early: set[int]) -> set[str]:
-    """The predicates, without their classes, that a body looks back at; `early` are the slots that do so far."""
-    found: set[str] = set()
-    for step in body:
-        match step:
-            case Child(slot=slot, predicate=predicate, relation=relation, origin=origin, bounds=bounds):
-                if origin in early or _may_precede(relation, bounds):
-                    early.add(slot)
-                    found.add(predicate.rpartition(".")[2])
-            case Guard(then=then, otherwise=otherwise):
-                found |= _names(then, early) | _names(otherwise, early)
-            case ObjectLoop(body=inner):
-                found |= _names(inner, early)
-            case _:
-                pass
-    return found
-
-
-def _may_precede(relation: str, bounds: tuple[tuple[int, int], ...]) -> bool:
-    """Whether the target of a relation may end before its origin begins, by what the relation says of their times."""
-    # Shortest distances from each point to the target's end; tokens last a tick at least.
-    least = dict.fromkeys(Point, -inf) | {Point.TARGET_END: 0.0}
-    steps: list[tuple[Point, Point, int]] = []
-    for k, each in enumerate(RELATIONS[relation].distances):
-        lower, upper = bounds[k] if k < len(bounds) else (each.lower, each.upper)
-        steps += [(each.earlier, each.later, lower), (each.later, each.earlier, -upper)]
-    steps += [(Point.ORIGIN_START, Point.ORIGIN_END, 1), (Point.TARGET_START, Point.TARGET_END, 1)]
-    for _ in Point:
-        for earlier, later, length in steps:
-            least[earlier] = max(least[earlier], least[later] + length)
-    return least[Point.ORIGIN_START] < 0

@@ -59,11 +59,15 @@ class PlanDatabase:
         load_prototypes(self.plan, program, self.prototypes)
         load_relations(self.plan)
         load_predicates(self.plan, program, self.prototypes, self.code)
-        self.plan.set_globals(len(program.globals))
         self.objects = Objects(self.plan, program, self.prototypes, self.code)
         self.written.objects = self.objects.names
         self.script = Script(predicates, self.objects)
         load_code(self.plan, self.code)
+        # What rules ask for is done by those who keep it; the rest by methods below.
+        self.make_object = self.objects.make_in_rule
+        self.forget_objects = self.objects.truncate
+        self.note_open = self.prototypes.note
+        self.post_written = self.written.post
         self.plan.services = self
         self.plan.envelope = Envelope(self.plan.engine, self.plan.resources)
         self.plan.resources.grounded_text = self.prototypes.texts.number(_GROUNDED)
@@ -76,10 +80,6 @@ class PlanDatabase:
         self.marks: list[tuple[int, int]] = []
 
     # ---- what rules ask for ----
-
-    def make_object(self, scope: int, number: int) -> int:
-        """Carry out `new` number `number` of a rule; the variable that holds the object."""
-        return self.objects.make_in_rule(scope, number)
 
     def draw(self, parameter: int, v: int) -> int:
         """A constant with the value that the environment draws for a parameter, of the kind of `v`; or NONE."""
@@ -102,18 +102,6 @@ class PlanDatabase:
     def sample_range(self, parameter: int) -> int:
         """The prototype of the values that a parameter may have; or NONE."""
         return self.ranges.get(parameter, NONE)
-
-    def post_written(self, number: int, arguments: list[int], span: int, owner: int) -> int:
-        """Post constraint `number` of those that the modeler wrote; its id in the engine."""
-        return self.written.post(number, arguments, span, owner)
-
-    def forget_objects(self, count: int) -> None:
-        """Go back to where there were `count` objects."""
-        self.objects.truncate(count)
-
-    def note_open(self, v: int, prototype: int) -> None:
-        """Remember an open variable, to which later objects are added."""
-        self.prototypes.note(v, prototype)
 
     # ---- the script ----
 
@@ -194,10 +182,6 @@ class PlanDatabase:
         return retraction.reset(self.plan, v) and self.fire()
 
     # ---- names ----
-
-    def local_type(self, v: int) -> str | None:
-        """The type name of a local variable."""
-        return self.code.local_types[self.plan.variable_name[v]]
 
     def token_label(self, t: int) -> str | None:
         """The name that the script gave a token."""

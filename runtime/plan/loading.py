@@ -72,7 +72,8 @@ def load_members(plan: Plan, program: Program, prototypes: Prototypes, names: Na
 
 
 def load_prototypes(plan: Plan, program: Program, prototypes: Prototypes) -> None:
-    """Prototypes of the built-in variables of tokens, and of the objects of each class."""
+    """Prototypes of the built-in variables of tokens, and of the objects of each class; room for global variables."""
+    plan.globals = array("q", [NONE]) * (len(program.globals) + 1)
     plan.state_prototype = _states(prototypes, "ACTIVE", "MERGED")
     plan.rejectable_prototype = _states(prototypes, "ACTIVE", "MERGED", "REJECTED")
     plan.native_prototype = _states(prototypes, "ACTIVE")
@@ -81,7 +82,6 @@ def load_prototypes(plan: Plan, program: Program, prototypes: Prototypes) -> Non
     plan.time_prototype = plan.engine.new_interval(KIND_INT, -inf, inf, NONE, NONE)
     classes = [prototypes.of(TypeCode("object", class_.name, None), None) for class_ in program.classes]
     plan.class_prototype = _packed(classes)
-    plan.class_closed = _packed(0 for _ in classes)
 
 
 def _states(prototypes: Prototypes, *names: str) -> int:

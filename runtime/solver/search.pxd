@@ -17,7 +17,7 @@ from runtime.solver.learning.dead_end cimport explain_dead_end
 from runtime.solver.flaws.agenda_updates cimport note_levels, rebuild, reopen, update
 
 cdef long long ACTIVATE_ONLY, HANDLER_LISTED, KIND_FLOAT, MERGE_ONLY
-cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, _NO_LIMIT, OPEN_CONDITION, PLAN, REJECTED
+cdef long long APPLIED, EVERYTHING, EXHAUSTED, FAILED, MOVED, NO_CHOICE, _NO_LIMIT, OPEN_CONDITION, PLAN
 cdef long long TIMEOUT, UNBOUND_VARIABLE
 
 
@@ -67,11 +67,6 @@ cdef class Solver:
 
     cpdef bint _left_some(self, long long d, long long most) except -1
 
-    cpdef int _enter(self) except -1
-
     cpdef int _undo(self, long long d) except -1
 
     cpdef int _backjump(self, long long d, bint is_explained) except -1
-
-
-cpdef bint _is_rejection(Agenda agenda, Decisions stack, long long d) except -1

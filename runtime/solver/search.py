@@ -7,12 +7,10 @@ from runtime.constraints.domains.tags import KIND_FLOAT
 from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import fire
 from runtime.plan.store.marks import commit, mark, release, rewind
-from runtime.plan.tags import REJECTED
 from runtime.plan.tokens.retraction import withdraw_refusals
 from runtime.solver.configuration.configuration import Configuration, with_resources
 from runtime.solver.configuration.handler_matching import HandlerMatching
 from runtime.solver.configuration.handler_table import HandlerTable
-from runtime.solver.configuration.vocabulary import PlanVocabulary, grounded
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.agenda_updates import note_levels, rebuild, reopen, update
 from runtime.solver.flaws.decisions import Decisions
@@ -62,13 +60,13 @@ class Solver:
         if has_resources:
             configuration = with_resources(configuration)
         matching = HandlerMatching(configuration, database.program)
-        table = HandlerTable(matching, PlanVocabulary(database), len(database.program.predicates))
+        table = HandlerTable(matching, database)
         self.filters = Filters(self.plan, table, lower, upper)
         program = database.program
         supports = Supports(program, europa)
         in_order = europa or has_loops(program)
         self.may_restart = not europa and is_order_invariant(program, self.plan, table, supports)
-        self.agenda = Agenda(self.plan, table, self.filters, supports, europa, in_order, grounded(database))
+        self.agenda = Agenda(self.plan, table, self.filters, supports, europa, in_order)
         relief = None if europa or not has_resources else Relief(self.plan, supports)
         self.relief = relief if relief is not None and relief.is_possible else None
         self.agenda.relief = self.relief
@@ -176,7 +174,7 @@ class Solver:
         stack = self.stack
         agenda = self.agenda
         while not self.is_exhausted:
-            if agenda.restarts.is_due():
+            if agenda.restarts.failures >= agenda.restarts.limit:
                 self.restart()
             d = stack.depth
             if not self.has_active:
@@ -188,7 +186,8 @@ class Solver:
                     if self._holds():
                         return PLAN
                     return FAILED if d > 0 else EXHAUSTED
-                self._enter()
+                stack.open(agenda, mark(self.plan))
+                self.has_active = True
             agenda.probing = (
                 self.steps - self.steps_floor >= self.max_steps or stack.depth - self.depth_floor > self.max_depth
             )
@@ -204,7 +203,7 @@ class Solver:
                 return TIMEOUT
             self.steps += 1
             if outcome == APPLIED:
-                if self.failure_log is not None and _is_rejection(agenda, stack, d):
+                if self.failure_log is not None:
                     self.failure_log.note_rejection(d)
                 update(agenda, d + 1)
                 stack.depth = d + 1
@@ -313,11 +312,6 @@ class Solver:
             return self.agenda.table.handler_choice[stack.handler[d]] in (MERGE_ONLY, ACTIVATE_ONLY)
         return False
 
-    def _enter(self) -> None:
-        """Open a decision about the flaw that was found."""
-        self.stack.open(self.agenda, mark(self.plan))
-        self.has_active = True
-
     def _undo(self, d: int) -> None:
         """Undo decision `d` and drop it."""
         stack = self.stack
@@ -356,8 +350,3 @@ class Solver:
         self.agenda.backtrack(stack.dropped[d], stack.dynamic[d], stack.rows_seen[d], stack.engine_seen[d])
         stack.depth = d
         self.has_active = True
-
-
-def _is_rejection(agenda: Agenda, stack: Decisions, d: int) -> bool:
-    """Whether decision `d` has chosen to reject a token."""
-    return stack.kind[d] == OPEN_CONDITION and agenda.rows.status[stack.item[d]] == REJECTED

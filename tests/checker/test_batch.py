@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.pool import Batch, Flyer, WorkerError, fly_all, keeping_a_worker
+from checker.batch.pool import Batch, fly_all
+from checker.batch.process import Flyer, WorkerError, keeping_a_worker
 from checker.batch.result import MissionResult, read_result, write_result
 from checker.batch.store import Run, StoreError, open_store
 from checker.batch.worker import Load, Task

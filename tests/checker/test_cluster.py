@@ -1,4 +1,4 @@
-"""A Dask cluster flies what processes do, and a worker that dies costs its chunk only."""
+"""A Dask cluster flies what processes do, and a mission that dies costs itself only."""
 
 import os
 import signal
@@ -58,10 +58,19 @@ def test_a_cluster_gives_what_workers_give(address: str) -> None:
 
 
 @pytest.mark.slow
-def test_a_dying_worker_costs_one_mission(address: str) -> None:
+def test_a_dying_process_costs_one_mission(address: str) -> None:
     results = fly_there(address, load_mortal, range(24))
     assert [result.number for result in results] == list(range(1, 25))
     assert [result.seed for result in results if result.verdict is Verdict.ERROR] == [7]
+
+
+@pytest.mark.slow
+def test_a_cluster_without_workers_is_not_waited_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pytest.importorskip("checker.batch.cluster"), "_DESERTED", 1.0)
+    with distributed.LocalCluster(n_workers=1, host="127.0.0.1", dashboard_address=None) as deserted:
+        deserted.scale(0)
+        results = fly_there(deserted.scheduler_address, load_linked, range(3))
+    assert [result.judgement.message for result in results] == ["the cluster has no worker left"] * 3
 
 
 @pytest.mark.slow

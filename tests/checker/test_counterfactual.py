@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.batch.pool import Flyer
+from checker.batch.process import Flyer
 from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.dependence import Dependence

@@ -82,6 +82,24 @@ def test_a_mistake_is_shown_at_its_place(
     assert message in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("text", "codes"),
+    [
+        ("[project]\nname = 'x'\n", []),
+        ("tool = 3\n", []),
+        ("[tool]\nnddlc = 3\n", ["NDDL597"]),
+        ("[tool.nddlc]\nignroe = []\n", ["NDDL596"]),
+    ],
+)
+def test_a_project_of_python_may_say_nothing_of_nddlc(text: str, codes: list[str], tmp_path: Path) -> None:
+    path = tmp_path / "pyproject.toml"
+    path.write_text(text, encoding="utf-8")
+    assert (find_configuration(tmp_path) == path.resolve()) is bool(codes)
+    assert [each.code.id for each in read_configuration(path)[1]] == codes
+    path.unlink()
+    assert [each.code.id for each in read_configuration(path, text)[1]] == codes
+
+
 def test_the_nearest_configuration_counts(tmp_path: Path) -> None:
     project(tmp_path, 'severity.NDDL501 = "off"')
     (tmp_path / "models" / "pyproject.toml").write_text("[project]\nname = 'x'\n", encoding="utf-8")

@@ -15,6 +15,7 @@ import pytest
 
 from lsp.project import ServerSettings
 from lsp.server import make_session
+from lsp.session import Session
 from lsp.transport import receive
 
 TIMEOUT = 240  # seconds; only a server that never answers uses them up
@@ -185,8 +186,8 @@ def start_client() -> Iterator[Callable[..., Client]]:
 class Wire:
     """An editor in the same process: messages go in and come out as they do over a stream, thousands in a second."""
 
-    def __init__(self) -> None:
-        self.session = make_session(ServerSettings(), lambda *_: ())
+    def __init__(self, session: Session | None = None) -> None:
+        self.session = session or make_session(ServerSettings(), lambda *_: ())
         self.session.protocol.set_writer(self)
         self.said: list[Message] = []
         self._loop = asyncio.new_event_loop()
@@ -260,12 +261,12 @@ def wire() -> Iterator[Wire]:
 
 
 @pytest.fixture
-def make_wire() -> Iterator[Callable[[], Wire]]:
+def make_wire() -> Iterator[Callable[..., Wire]]:
     """Makes sessions in this process."""
     sessions: list[Wire] = []
 
-    def make() -> Wire:
-        sessions.append(Wire())
+    def make(session: Session | None = None) -> Wire:
+        sessions.append(Wire(session))
         return sessions[-1]
 
     yield make

@@ -76,6 +76,30 @@ def test_the_last_failure_is_explained(checked: Any, tmp_path: Path) -> None:
     assert "GPS_HIT_RATE" in told
 
 
+def test_a_mission_is_certified(client: Any, tmp_path: Path) -> None:
+    """The outcome is shown as well: an editor drops the answer to a command that a lens has called."""
+    shutil.copytree(ROOT / "models" / "gps", tmp_path / "gps")
+    client.start(folder=tmp_path)
+    for name, weight, word in ("mended.toml", 3, "gps: certified"), ("mission.toml", 2, "gps: refuted"):
+        uri = (tmp_path / "gps" / name).as_uri()
+        client.send(
+            id="certify", method="workspace/executeCommand", params={"command": "nddl.certify", "arguments": [uri]}
+        )
+        shown = client.wait(lambda message: message.get("method") == "window/showMessage")["params"]
+        answer = client.wait(lambda message: message.get("id") == "certify")
+        assert answer["result"].strip() == shown["message"]
+        assert (shown["type"], shown["message"].startswith(word)) == (weight, True)
+
+
+def test_who_shows_results_is_told_nothing(client: Any, tmp_path: Path) -> None:
+    shutil.copytree(ROOT / "models" / "gps", tmp_path / "gps")
+    client.start({"showsResults": True}, folder=tmp_path)
+    uri = (tmp_path / "gps" / "mission.toml").as_uri()
+    client.send(id="check", method="workspace/executeCommand", params={"command": "nddl.check", "arguments": [uri, 1]})
+    told = client.wait(lambda each: each.get("id") == "check" or each.get("method") == "window/showMessage")
+    assert told["result"]["verdict"]
+
+
 def test_views_show_a_plan_its_tokens_and_why_there_is_none(client: Any, tmp_path: Path) -> None:
     text = "class C extends Timeline { predicate p { } }\nC c = new C();\ngoal(c.p one);\none.start.specify(3);\n"
     (tmp_path / "model.nddl").write_text(text)
@@ -122,6 +146,7 @@ def test_nothing_is_run_in_a_workspace_that_is_not_trusted(client: Any, tmp_path
     for answer in (
         client.ask("workspace/executeCommand", command="nddl.check", arguments=[uri, 1]),
         client.ask("workspace/executeCommand", command="nddl.explain", arguments=[uri]),
+        client.ask("workspace/executeCommand", command="nddl.certify", arguments=[uri]),
         client.ask("nddl/viewPlan", uri=(tmp_path / "gps" / "navigator.nddl").as_uri()),
     ):
         assert "not trusted" in answer["error"]["message"]

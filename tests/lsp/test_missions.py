@@ -167,8 +167,13 @@ def test_lenses_offer_to_fly_missions(opened: Any) -> None:
     client, uri, _ = opened
     found = client.ask("textDocument/codeLens", textDocument={"uri": uri})
     shown = [(each["range"]["start"]["line"], each["command"]["title"]) for each in found]
-    assert shown == [(0, "run 100 missions"), (0, "run all missions"), (0, "explain last failure")]
+    titles = ["run 100 missions", "run all missions", "explain last failure", "certify"]
+    assert shown == [(0, title) for title in titles]
     assert found[0]["command"]["arguments"] == [uri, 100]
+    # Of a reactor in Python nothing is proved.
+    client.change(uri, {"text": '[mission]\n[[reactor]]\ncode = "helm.py:Helm"\n'})
+    found = client.ask("textDocument/codeLens", textDocument={"uri": uri})
+    assert [each["command"]["title"] for each in found] == titles[:3]
 
 
 def test_the_configuration_of_a_solver_is_judged_too(client: Any, tmp_path: Path) -> None:
@@ -177,3 +182,19 @@ def test_the_configuration_of_a_solver_is_judged_too(client: Any, tmp_path: Path
     told = client.open(uri, "[[nonsense]]\nx = 3\n")["diagnostics"]
     assert told
     assert all(each["code"].startswith("NDDL") for each in told)
+
+
+def test_a_configuration_is_judged_as_it_is_typed(client: Any, tmp_path: Path) -> None:
+    client.start(folder=tmp_path)
+    uri = (tmp_path / "nddlc.toml").as_uri()
+    assert client.open(uri, "")["diagnostics"] == []
+    told = client.change(uri, {"text": 'ignroe = ["NDDL501"]\n'})["diagnostics"]
+    assert [each["code"] for each in told] == ["NDDL596"]
+    assert client.open((tmp_path / "pyproject.toml").as_uri(), '[project]\nname = "x"\n')["diagnostics"] == []
+
+
+def test_what_a_project_leaves_out_is_left_out_of_mission_files_too(client: Any, tmp_path: Path) -> None:
+    (tmp_path / "nddlc.toml").write_text('ignore = ["NDDL758"]\n')
+    client.start(folder=tmp_path)
+    told = client.open((tmp_path / "solver.toml").as_uri(), "[nonsense]\nx = 3\n")["diagnostics"]
+    assert "NDDL758" not in [each["code"] for each in told]

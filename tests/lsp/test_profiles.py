@@ -7,6 +7,8 @@ import pytest
 from lsprotocol import types
 from lsprotocol.converters import get_converter
 
+from tests.lsp.profiles import PROFILES
+
 MODEL = """\
 #include "part.nddl"
 int LIMIT = 5;
@@ -20,53 +22,6 @@ int wrong = 3.0;
 class Other extends Timeline { predicate p { } }
 """
 PART = "class Gps extends Timeline { predicate Idle { } predicate Busy { int load; } }\n"
-LINKS = {"linkSupport": True, "dynamicRegistration": True}
-PROFILES: dict[str, Any] = {
-    "vscode": {
-        "workspace": {
-            "applyEdit": True,
-            "workspaceEdit": {"documentChanges": True, "changeAnnotationSupport": {"groupsOnLabel": True}},
-            "didChangeWatchedFiles": {"dynamicRegistration": True, "relativePatternSupport": True},
-            "configuration": True,
-            "workspaceFolders": True,
-            "diagnostics": {"refreshSupport": True},
-            "codeLens": {"refreshSupport": True},
-        },
-        "textDocument": {
-            "completion": {"completionItem": {"snippetSupport": True, "documentationFormat": ["markdown"]}},
-            "codeAction": {"resolveSupport": {"properties": ["edit"]}, "dataSupport": True},
-            "definition": LINKS,
-            "rename": {"prepareSupport": True},
-            "semanticTokens": {
-                "requests": {"range": True, "full": {"delta": True}},
-                "tokenTypes": ["class"],
-                "tokenModifiers": ["declaration"],
-                "formats": ["relative"],
-            },
-            "diagnostic": {"dynamicRegistration": True, "relatedDocumentSupport": False},
-        },
-        "window": {"workDoneProgress": True},
-        "general": {"positionEncodings": ["utf-16"]},
-    },
-    "neovim": {
-        "workspace": {"workspaceFolders": True, "applyEdit": True, "symbol": {"dynamicRegistration": False}},
-        "textDocument": {
-            "completion": {"completionItem": {"snippetSupport": False}},
-            "publishDiagnostics": {"relatedInformation": True, "tagSupport": {"valueSet": [1, 2]}},
-            "rename": {"prepareSupport": True},
-        },
-        "window": {"workDoneProgress": True},
-    },
-    "emacs": {
-        "workspace": {"applyEdit": True, "didChangeWatchedFiles": {"dynamicRegistration": True}},
-        "textDocument": {
-            "completion": {"completionItem": {"snippetSupport": False}, "contextSupport": True},
-            "hover": {"contentFormat": ["markdown", "plaintext"]},
-            "codeAction": {"resolveSupport": {"properties": ["edit", "command"]}},
-        },
-        "general": {"positionEncodings": ["utf-32", "utf-8", "utf-16"]},
-    },
-}
 POSITION = {"line": 5, "character": 10}
 RANGE = {"start": {"line": 0, "character": 0}, "end": {"line": 8, "character": 16}}
 QUESTIONS: list[tuple[str, dict[str, Any]]] = [

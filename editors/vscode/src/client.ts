@@ -1,6 +1,7 @@
 // The client of the language server, as the settings want it.
 import { workspace } from "vscode";
 import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "vscode-languageclient/node";
+import { showResult } from "./commands";
 
 // What runs now; undefined while nothing does.
 export interface Server {
@@ -30,7 +31,17 @@ export function makeClient(): LanguageClient {
     initializationOptions: {
       includeDirectories: settings.get<string[]>("includeDirectories", []).map(withFolder),
       isTrusted: workspace.isTrusted,
+      showsResults: true,
       inlayHints: settings.get("inlayHints", {}),
+    },
+    middleware: {
+      // A lens calls a command of the server, whose answer the client would drop.
+      executeCommand: async (command, args, next) => {
+        await workspace.saveAll(false);
+        const result: unknown = await next(command, args);
+        void showResult(command, result);
+        return result;
+      },
     },
     synchronize: { configurationSection: "nddlc" },
   };

@@ -26,7 +26,8 @@ interface View {
 export function registerCommands(server: Server): Disposable[] {
   return [
     commands.registerCommand("nddlc.checkMission", (uri?: Uri) => tell(() => checkAndTell(server, uri))),
-    commands.registerCommand("nddlc.explain", (uri?: Uri) => tell(() => explain(server, uri))),
+    commands.registerCommand("nddlc.explain", (uri?: Uri) => tell(() => carryOut(server, "nddl.explain", uri))),
+    commands.registerCommand("nddlc.certify", (uri?: Uri) => tell(() => carryOut(server, "nddl.certify", uri))),
     commands.registerCommand("nddlc.viewPlan", (uri?: Uri) => tell(() => viewPlan(server, uri))),
     commands.registerCommand("nddlc.viewConflict", (uri?: Uri) => tell(() => viewConflict(server, uri))),
     commands.registerCommand("nddlc.showReferences", showPlaces("vscode.executeReferenceProvider")),
@@ -70,17 +71,33 @@ function chosen(uri: Uri | undefined): Uri {
 }
 
 async function checkAndTell(server: Server, given?: Uri): Promise<void> {
-  const result = await checkMission(server, chosen(given));
+  await showResult("nddl.check", await checkMission(server, chosen(given)));
+}
+
+async function carryOut(server: Server, command: string, given?: Uri): Promise<void> {
+  const uri = chosen(given).toString();
+  await workspace.saveAll(false);
+  await showResult(command, await ask(server, "workspace/executeCommand", { command, arguments: [uri] }));
+}
+
+// Show the user how a command of the server ended.
+export async function showResult(command: string, result: unknown): Promise<void> {
+  switch (command) {
+    case "nddl.check":
+      return showCheck(result as CheckResult);
+    case "nddl.explain":
+      return showText("Last failure", String(result));
+    case "nddl.certify":
+      return showText("Certificate", String(result));
+  }
+}
+
+async function showCheck(result: CheckResult): Promise<void> {
   const choice = await window.showInformationMessage(summary(result), "Show the report");
   if (choice !== undefined) {
     const report = Uri.parse(result.report);
     showPage(report.path.split("/").at(-1) ?? "report", new TextDecoder().decode(await workspace.fs.readFile(report)));
   }
-}
-
-async function explain(server: Server, given?: Uri): Promise<void> {
-  const uri = chosen(given).toString();
-  showText("Last failure", await ask(server, "workspace/executeCommand", { command: "nddl.explain", arguments: [uri] }));
 }
 
 async function viewPlan(server: Server, given?: Uri): Promise<void> {

@@ -12,7 +12,6 @@ cpdef long long _lowest_bit(unsigned long long x) except? -1
 
 cpdef long long _bits_in(unsigned long long x) except? -1
 
-@cython.locals(n="long long")
 cpdef long long _highest_bit(unsigned long long x) except? -1
 
 cpdef long long _allocate_words(Store s, long long count) except? -1

@@ -34,26 +34,14 @@ def _bits_in(x: int) -> int:
 
 
 def _highest_bit(x: int) -> int:
-    """Give the index of the highest set bit; x is not 0."""
-    n = 0
-    if x >> 32:
-        n += 32
-        x >>= 32
-    if x >> 16:
-        n += 16
-        x >>= 16
-    if x >> 8:
-        n += 8
-        x >>= 8
-    if x >> 4:
-        n += 4
-        x >>= 4
-    if x >> 2:
-        n += 2
-        x >>= 2
-    if x >> 1:
-        n += 1
-    return n
+    """Give the index of the highest set bit, below which all are set then; x is not 0."""
+    x |= x >> 1
+    x |= x >> 2
+    x |= x >> 4
+    x |= x >> 8
+    x |= x >> 16
+    x |= x >> 32
+    return _bits_in(x) - 1
 
 
 def _allocate_words(s: Store, count: int) -> int:
@@ -205,10 +193,9 @@ def clear_bits(s: Store, v: int, k: int, mask: int, support: int) -> None:
     else:
         entry = s.holes_used
         if entry == len(s.hole_mask):
-            lengthen(s, "hole_word hole_mask", "hole_variable hole_support hole_when hole_next")
+            lengthen(s, "hole_word hole_mask", "hole_support hole_when hole_next")
         s.holes_used += 1
     s.bits[s.word[v] + k] &= ALL_BITS ^ mask
-    s.hole_variable[entry] = v
     s.hole_word[entry] = k
     s.hole_mask[entry] = mask
     s.hole_support[entry] = support
@@ -227,7 +214,6 @@ def restore_bits(s: Store, v: int) -> None:
     s.hole_head[v] = s.hole_next[entry]
     s.hole_next[entry] = s.hole_free
     s.hole_free = entry
-    s.hole_variable[entry] = -1
 
 
 def drop_log(s: Store, v: int) -> None:

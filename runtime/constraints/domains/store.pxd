@@ -33,7 +33,7 @@ cdef class Store:
     cdef public int[::1] table, table_length, hole_head, restriction_head
     cdef public int[::1] watch_head, mute_head, out_head, in_head
     cdef public int[::1] block_first, block_size, block_left, block_next
-    cdef public int[::1] block_free, word_free, table_free, hole_variable
+    cdef public int[::1] block_free, word_free, table_free
     cdef public int[::1] hole_word, hole_support, hole_next, trail_key, trail_support
     cdef public int[::1] slot_variable, slot_constraint, slot_next, slot_prev
     cdef public int[::1] edge_source, edge_target, out_next, out_prev
@@ -61,6 +61,9 @@ cdef class Store:
 
     cpdef int save(self, long long name, long long code, long long value, long long support) except -1
 
+    @cython.final
+    cdef long long _push(self, long long key, long long value, long long support, long long when) except -1
+
     cpdef int write_lower(self, long long v, long long x, long long support) except -1
 
     cpdef int write_upper(self, long long v, long long x, long long support) except -1
@@ -81,5 +84,7 @@ cdef class Store:
     cpdef int queue_edges(self, long long v, long long side) except -1
 
     cpdef int queue_hull(self, long long v) except -1
+
+    cpdef int clear_woken(self) except -1
 
     cpdef int set_decided(self, long long v, long long flag) except -1

@@ -69,7 +69,6 @@ class Store:
         self.table_used = 0
         self.word_free = array("i", [-1]) * 65
         self.table_free = array("i", [-1]) * 65
-        self.hole_variable = array("i", [-1]) * room
         self.hole_word = array("i", [0]) * room
         self.hole_mask = array("Q", [0]) * room
         self.hole_support = array("i", [-1]) * room
@@ -239,25 +238,23 @@ class Store:
 
     def save(self, name: int, code: int, value: int, support: int) -> None:
         """Push a structural change: enough to undo it."""
+        self._push(name * 16 + code, value, support, -1)
+
+    def _push(self, key: int, value: int, support: int, when: int) -> int:
+        """Push one entry of the trail; give its index."""
         i = self.trail_size
         if i == self.trail_room:
             self.grow_trail()
-        self.trail_key[i] = name * 16 + code
+        self.trail_key[i] = key
         self.trail_value[i] = value
         self.trail_support[i] = support
-        self.trail_when[i] = -1
+        self.trail_when[i] = when
         self.trail_size = i + 1
+        return i
 
     def write_lower(self, v: int, x: int, support: int) -> None:
         """Store a lower bound that is known to be tighter, its support and the way back; wake nobody."""
-        i = self.trail_size
-        if i == self.trail_room:
-            self.grow_trail()
-        self.trail_key[i] = v * 16 + TRAIL_LOWER
-        self.trail_value[i] = self.lb[v]
-        self.trail_support[i] = self.lower_support[v]
-        self.trail_when[i] = self.lower_when[v]
-        self.trail_size = i + 1
+        i = self._push(v * 16 + TRAIL_LOWER, self.lb[v], self.lower_support[v], self.lower_when[v])
         self.lb[v] = x
         self.lower_support[v] = support
         self.lower_when[v] = self.trail_base + i
@@ -265,14 +262,7 @@ class Store:
 
     def write_upper(self, v: int, x: int, support: int) -> None:
         """Store an upper bound that is known to be tighter, its support and the way back; wake nobody."""
-        i = self.trail_size
-        if i == self.trail_room:
-            self.grow_trail()
-        self.trail_key[i] = v * 16 + TRAIL_UPPER
-        self.trail_value[i] = self.ub[v]
-        self.trail_support[i] = self.upper_support[v]
-        self.trail_when[i] = self.upper_when[v]
-        self.trail_size = i + 1
+        i = self._push(v * 16 + TRAIL_UPPER, self.ub[v], self.upper_support[v], self.upper_when[v])
         self.ub[v] = x
         self.upper_support[v] = support
         self.upper_when[v] = self.trail_base + i
@@ -280,14 +270,8 @@ class Store:
 
     def write_real_lower(self, v: int, x: float, support: int) -> None:
         """Store a float's lower bound, its support and the way back; wake nobody."""
-        i = self.trail_size
-        if i == self.trail_room:
-            self.grow_trail()
-        self.trail_key[i] = v * 16 + TRAIL_REAL_LOWER
-        self.trail_value[i] = self.save_real(self.flo[v])
-        self.trail_support[i] = self.lower_support[v]
-        self.trail_when[i] = self.lower_when[v]
-        self.trail_size = i + 1
+        old = self.save_real(self.flo[v])
+        i = self._push(v * 16 + TRAIL_REAL_LOWER, old, self.lower_support[v], self.lower_when[v])
         self.flo[v] = x
         self.lower_support[v] = support
         self.lower_when[v] = self.trail_base + i
@@ -295,14 +279,8 @@ class Store:
 
     def write_real_upper(self, v: int, x: float, support: int) -> None:
         """Store a float's upper bound, its support and the way back; wake nobody."""
-        i = self.trail_size
-        if i == self.trail_room:
-            self.grow_trail()
-        self.trail_key[i] = v * 16 + TRAIL_REAL_UPPER
-        self.trail_value[i] = self.save_real(self.fhi[v])
-        self.trail_support[i] = self.upper_support[v]
-        self.trail_when[i] = self.upper_when[v]
-        self.trail_size = i + 1
+        old = self.save_real(self.fhi[v])
+        i = self._push(v * 16 + TRAIL_REAL_UPPER, old, self.upper_support[v], self.upper_when[v])
         self.fhi[v] = x
         self.upper_support[v] = support
         self.upper_when[v] = self.trail_base + i
@@ -356,6 +334,12 @@ class Store:
             self.queued[v] |= 4
             self.hull_queue[self.hull_last] = v
             self.hull_last = (self.hull_last + 1) & self.hull_mask
+
+    def clear_woken(self) -> None:
+        """Let the watches in `woken` be woken again."""
+        for i in range(self.woken_count):
+            self.scheduled[self.woken[i]] = 0
+        self.woken_count = 0
 
     def set_decided(self, v: int, flag: int) -> None:
         """Mark `v` as specified, or no longer; watches see it."""

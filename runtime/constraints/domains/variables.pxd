@@ -17,8 +17,6 @@ cpdef long long take_row(Store s) except? -1
 
 cpdef long long take_block(Store s, long long count) except? -1
 
-cpdef long long reserve_block(Store s, long long count) except? -1
-
 cpdef int clear_row(Store s, long long v, long long kind) except -1
 
 @cython.locals(count="long long", first="long long")
@@ -35,6 +33,10 @@ cpdef void start_interval(Store s, long long v, double lo, double hi, long long 
 
 @cython.locals(k="long long", index="long long", value=double)
 cpdef void start_values(Store s, long long v, list values, long long r) except *
+
+cpdef long long constant_interval(Store s, long long kind, double lo, double hi) except? -1
+
+cpdef long long constant_set(Store s, long long kind, list values) except? -1
 
 cpdef bint keep_values(Store s, long long v, list values, long long support) except -1
 

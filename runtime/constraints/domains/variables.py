@@ -64,16 +64,6 @@ def take_block(s: Store, count: int) -> int:
     return first
 
 
-def reserve_block(s: Store, count: int) -> int:
-    """Have the next `count` variables take consecutive ids; give the first."""
-    if count == 1:
-        return -1
-    first = take_block(s, count)
-    s.reserved_next = first
-    s.reserved_end = first + count
-    return first
-
-
 def clear_row(s: Store, v: int, kind: int) -> None:
     """Give a new variable the widest domain of its kind and put it on the trail."""
     s.kind[v] = kind
@@ -195,6 +185,30 @@ def start_values(s: Store, v: int, values: list[float], r: int) -> None:
     for value in values:
         index = int(value) - s.lb[v]
         s.bits[s.word[v] + (index >> 6)] |= ONE_BIT << (index & 63)
+
+
+def constant_interval(s: Store, kind: int, lo: float, hi: float) -> int:
+    """Make a constant value or interval; it stays out of the trail, so that it outlives every rewind."""
+    size = s.trail_size
+    v = take_block(s, 1)
+    clear_row(s, v, kind)
+    start_interval(s, v, lo, hi, add_restriction(s, v, lo, hi, 0, -1, -1))
+    s.constant[v] = 1
+    s.trail_size = size
+    return v
+
+
+def constant_set(s: Store, kind: int, values: list[float]) -> int:
+    """Make a constant set of values (sorted, each once, at least one)."""
+    size = s.trail_size
+    v = take_block(s, 1)
+    clear_row(s, v, kind)
+    r = add_restriction(s, v, values[0], values[len(values) - 1], FLAG_VALUES, -1, -1)
+    s.restriction_values[r] = values
+    start_values(s, v, values, r)
+    s.constant[v] = 1
+    s.trail_size = size
+    return v
 
 
 def is_untouched_set(s: Store, v: int) -> bool:

@@ -13,8 +13,6 @@ cpdef void collect_reasons(Store s, long long support, long long v, long long si
 
 cpdef void _add_reason(Store s, long long v, long long side) except *
 
-cpdef int _collect_edge(Store s, long long e, long long v, long long side) except -1
-
 @cython.locals(c="long long")
 cpdef int _collect_weight(Store s, long long e) except -1
 

@@ -33,7 +33,11 @@ def collect_reasons(s: Store, support: int, v: int, side: int) -> None:
     if support < 0 or kind > SUPPORT_CONSTRAINT:
         return
     if kind == SUPPORT_EDGE:
-        _collect_edge(s, support >> 2, v, side)
+        if side == SIDE_UPPER:
+            _add_reason(s, s.edge_source[support >> 2], SIDE_UPPER)
+        else:
+            _add_reason(s, s.edge_target[support >> 2], SIDE_LOWER)
+        _collect_weight(s, support >> 2)
         return
     c = support >> 2
     first = s.first[c]
@@ -62,15 +66,6 @@ def _add_reason(s: Store, v: int, side: int) -> None:
         s.reasons = grown(s.reasons, 2 * len(s.reasons))
     s.reasons[s.reason_count] = v * 4 + side
     s.reason_count += 1
-
-
-def _collect_edge(s: Store, e: int, v: int, side: int) -> None:
-    """Put the bound at the other end of an edge, and the bound that its weight follows."""
-    if side == SIDE_UPPER:
-        _add_reason(s, s.edge_source[e], SIDE_UPPER)
-    else:
-        _add_reason(s, s.edge_target[e], SIDE_LOWER)
-    _collect_weight(s, e)
 
 
 def collect_weight_reasons(s: Store, e: int) -> None:

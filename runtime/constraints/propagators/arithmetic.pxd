@@ -5,8 +5,8 @@ from runtime.constraints.domains.narrow cimport remove_value, set_lower, set_upp
 from runtime.constraints.propagators.reals cimport propagate_reals
 from runtime.constraints.domains.store cimport Store
 
-cdef long long HALF_INF, INF, MODE_REAL, OP_ABS_VAL, OP_ADD_EQ, OP_DIV_EQ, OP_EQ_MAXIMUM, OP_EQ_MINIMUM
-cdef long long OP_EQ_PRODUCT, OP_EQ_SUM, OP_MUL_EQ, OP_NEG, SUPPORT_CONSTRAINT
+cdef long long HALF_INF, INF, MODE_REAL, OP_ADD_EQ, OP_DIV_EQ, OP_EQ_MAXIMUM, OP_EQ_MINIMUM, OP_EQ_PRODUCT
+cdef long long OP_EQ_SUM, OP_MUL_EQ, SUPPORT_CONSTRAINT
 
 
 @cython.locals(a="long long", b="long long", first="long long", op="long long")
@@ -38,7 +38,3 @@ cpdef bint _multiply_all(Store s, long long first, long long count, long long su
 
 @cython.locals(able="long long", r="long long", v="long long")
 cpdef bint _hold_extreme(Store s, long long first, long long count, bint is_most, long long support) except -1
-
-cpdef bint _hold_absolute(Store s, long long r, long long x, long long support) except -1
-
-cpdef bint _negate(Store s, long long a, long long b, long long support) except -1

@@ -1,10 +1,9 @@
-"""Propagate sums, products, extremes and absolute values of whole numbers, exactly; of reals by `reals`."""
+"""Propagate sums, products and extremes of whole numbers exactly; reals, and what doubles do as exactly, by `reals`."""
 
 from runtime.constraints.domains.narrow import remove_value, set_lower, set_upper
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import HALF_INF, INF, MODE_REAL, SUPPORT_CONSTRAINT
 from runtime.constraints.propagators.opcodes import (
-    OP_ABS_VAL,
     OP_ADD_EQ,
     OP_DIV_EQ,
     OP_EQ_MAXIMUM,
@@ -12,7 +11,6 @@ from runtime.constraints.propagators.opcodes import (
     OP_EQ_PRODUCT,
     OP_EQ_SUM,
     OP_MUL_EQ,
-    OP_NEG,
 )
 from runtime.constraints.propagators.reals import propagate_reals
 
@@ -38,10 +36,6 @@ def propagate_arithmetic(s: Store, c: int) -> bool:
         return _hold_extreme(s, first, s.arity[c], op == OP_EQ_MAXIMUM, support)
     if op == OP_DIV_EQ:
         return remove_value(s, b, 0, support) and _multiply(s, s.slot_variable[first + 2], b, a, support)
-    if op == OP_ABS_VAL:
-        return _hold_absolute(s, a, b, support)
-    if op == OP_NEG:
-        return _negate(s, a, b, support)
     return propagate_reals(s, c)
 
 
@@ -237,25 +231,3 @@ def _hold_extreme(s: Store, first: int, count: int, is_most: bool, support: int)
     if able < 0:
         return True
     return set_lower(s, able, s.lb[r], support) if is_most else set_upper(s, able, s.ub[r], support)
-
-
-def _hold_absolute(s: Store, r: int, x: int, support: int) -> bool:
-    """Narrow |x| = r."""
-    if not set_lower(s, r, 0, support):
-        return False
-    lo = s.lb[x]
-    hi = s.ub[x]
-    most = max(-lo, hi)
-    least = lo if lo > 0 else -hi if hi < 0 else 0
-    if not _within(s, r, least, most, support):
-        return False
-    if not _within(s, x, -s.ub[r], s.ub[r], support):
-        return False
-    if s.lb[x] > -s.lb[r] and not set_lower(s, x, s.lb[r], support):
-        return False
-    return s.ub[x] >= s.lb[r] or set_upper(s, x, -s.lb[r], support)
-
-
-def _negate(s: Store, a: int, b: int, support: int) -> bool:
-    """Narrow a = -b."""
-    return _within(s, a, -s.ub[b], -s.lb[b], support) and _within(s, b, -s.ub[a], -s.lb[a], support)

@@ -40,8 +40,6 @@ cpdef bint differ(Store s, long long a, long long b, long long support) except -
 @cython.locals(a="long long", b="long long", following="long long", k="long long")
 cpdef bint differ_all(Store s, long long first, long long count, long long support) except -1
 
-cpdef bint _keep_offset(Store s, long long c, long long a, long long k, long long b) except -1
-
 @cython.locals(is_known=bint, is_telling=bint)
 cpdef bint _keep_distance(
     Store s, long long c, long long start, long long distance, long long end, long long support

@@ -81,7 +81,8 @@ def propagate_comparison(s: Store, c: int) -> bool:
     if op == OP_NEQ:
         return differ(s, a, b, support)
     if op == OP_PLUS:
-        return _keep_offset(s, c, a, b, s.slot_variable[first + 2])
+        x = s.lb[b]  # a constant
+        return s.link_a[c] >= 0 or tie_edges(s, c, a, s.slot_variable[first + 2], x, -x)
     if op == OP_ALL_DIFF:
         return differ_all(s, first, s.arity[c], support)
     assert op == OP_WITHIN_BOUNDS
@@ -211,12 +212,6 @@ def differ_all(s: Store, first: int, count: int, support: int) -> bool:
                         following = 0
         k = following
     return not has_hall_violation(s, first, count) or s.fail(s.slot_variable[first], SIDE_HOLES, support)
-
-
-def _keep_offset(s: Store, c: int, a: int, k: int, b: int) -> bool:
-    """Carry a + k = b with a constant k out by two edges."""
-    x = s.lb[k]
-    return s.link_a[c] >= 0 or tie_edges(s, c, a, b, x, -x)
 
 
 def _keep_distance(s: Store, c: int, start: int, distance: int, end: int, support: int) -> bool:

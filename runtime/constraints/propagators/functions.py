@@ -40,9 +40,8 @@ def propagate_function(s: Store, c: int) -> bool:
         return _travel(s, first, support)
     if op == OP_TOWARDS:
         return _point_towards(s, first, support)
-    for k in range(first + 1, first + s.arity[c]):
-        if not is_single(s, s.slot_variable[k]):
-            return True
+    if not are_known(s, first + 1, first + s.arity[c]):
+        return True
     x = middle(s, a)
     y = 0.0
     if s.arity[c] > 2:

@@ -4,8 +4,8 @@ cimport cython
 from runtime.constraints.domains.store cimport Store
 from runtime.constraints.stn.watch_lists cimport link_slot, unlink_slot
 
-cdef long long EVENT_DOMAIN, KIND_BOOL, KIND_FLOAT, KIND_INT, MODE_DISTANCE, MODE_EDGES, MODE_REAL, MODE_WHOLE
-cdef long long OP_ADD_EQ, OP_ELEMENT, OP_EXTERNAL, OP_PLUS, OP_RAND, OP_TEMPORAL_DISTANCE, TRAIL_CONSTRAINT
+cdef long long KIND_BOOL, KIND_FLOAT, KIND_INT, MODE_DISTANCE, MODE_EDGES, MODE_REAL, MODE_WHOLE
+cdef long long OP_ADD_EQ, OP_EXTERNAL, OP_PLUS, OP_RAND, OP_TEMPORAL_DISTANCE, TRAIL_CONSTRAINT
 cdef const short[:] EDGES_UP_TO, IDEMPOTENT_UP_TO, POSTED_AS, PRIORITIES, TWINS, WAKES_BESIDE_EDGES, WAKES_FIRST
 cdef const short[:] WAKES_OTHERS
 cdef unsigned long long _MASK
@@ -24,12 +24,6 @@ cpdef int release_constraint(Store s, long long c) except -1
 cpdef long long post_constraint(Store s, long long op, list arguments, long long span, long long owner) except? -1
 
 cpdef bint _repeats(Store s, long long c) except -1
-
-cpdef long long start_element(
-    Store s, long long result, long long index, long long rows, long long span, long long owner
-) except? -1
-
-cpdef int add_row(Store s, long long c, long long k, long long key, long long v) except -1
 
 @cython.locals(op="long long")
 cpdef long long _events_of(Store s, long long c, long long position) except? -1

@@ -3,7 +3,6 @@
 from runtime.constraints.domains.arrays import lengthen
 from runtime.constraints.domains.store import Store
 from runtime.constraints.domains.tags import (
-    EVENT_DOMAIN,
     KIND_BOOL,
     KIND_FLOAT,
     KIND_INT,
@@ -15,7 +14,6 @@ from runtime.constraints.domains.tags import (
 )
 from runtime.constraints.propagators.opcodes import (
     OP_ADD_EQ,
-    OP_ELEMENT,
     OP_EXTERNAL,
     OP_PLUS,
     OP_RAND,
@@ -129,26 +127,6 @@ def _repeats(s: Store, c: int) -> bool:
             if s.slot_variable[j] == s.slot_variable[k]:
                 return True
     return False
-
-
-def start_element(s: Store, result: int, index: int, rows: int, span: int, owner: int) -> int:
-    """Make a look-up of `rows` rows, to be given by `add_row` in the order of their keys."""
-    c = _new_constraint(s, OP_ELEMENT, rows + 2, span, owner)
-    if s.kind[result] == KIND_FLOAT:
-        s.mode[c] = MODE_REAL
-    _watch(s, c, 0, result, EVENT_DOMAIN)
-    _watch(s, c, 1, index, EVENT_DOMAIN)
-    s.idempotent[c] = 0
-    s.schedule(c)
-    return c
-
-
-def add_row(s: Store, c: int, k: int, key: int, v: int) -> None:
-    """Give row `k` of a look-up: the key that the index takes for variable `v`."""
-    if s.kind[v] == KIND_FLOAT:
-        s.mode[c] = MODE_REAL
-    _watch(s, c, 2 + k, v, EVENT_DOMAIN)
-    s.slot_key[s.first[c] + 2 + k] = key
 
 
 def _events_of(s: Store, c: int, position: int) -> int:

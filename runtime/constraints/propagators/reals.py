@@ -30,7 +30,7 @@ _TINY = 5e-324
 
 
 def propagate_reals(s: Store, c: int) -> bool:
-    """Run an arithmetic constraint on floats, or on floats and whole numbers."""
+    """Run an arithmetic constraint in which a float takes part; absolute values and negation of any numbers."""
     op = s.op[c]
     first = s.first[c]
     a = s.slot_variable[first]

@@ -234,23 +234,18 @@ def _is_listed(s: Store, v: int) -> bool:
 
 def _has_ancestor_in(s: Store, value: int, p: int) -> bool:
     """Tell whether an object lies inside one that p may be."""
-    while True:
-        parent = s.object_parent.get(value, -1)
-        if parent < 0:
-            return False
-        if has_value(s, p, parent):
-            return True
-        value = parent
+    value = s.object_parent.get(value, -1)
+    while value >= 0 and not has_value(s, p, value):
+        value = s.object_parent.get(value, -1)
+    return value >= 0
 
 
 def _is_inside(s: Store, value: int, ancestor: int) -> bool:
     """Tell whether an object lies inside another one."""
-    while True:
+    value = s.object_parent.get(value, -1)
+    while value >= 0 and value != ancestor:
         value = s.object_parent.get(value, -1)
-        if value == ancestor:
-            return True
-        if value < 0:
-            return False
+    return value >= 0
 
 
 def _lie_inside(s: Store, x: int, p: int, support: int) -> bool:

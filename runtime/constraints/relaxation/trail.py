@@ -42,9 +42,7 @@ def clear_queues(s: Store) -> None:
     while s.dear_first != s.dear_last:
         s.scheduled[s.dear_queue[s.dear_first]] = 0
         s.dear_first = (s.dear_first + 1) & s.dear_mask
-    for i in range(s.woken_count):
-        s.scheduled[s.woken[i]] = 0
-    s.woken_count = 0
+    s.clear_woken()
     s.running = -1
 
 

@@ -1,8 +1,6 @@
 """Ask the temporal network whether one more edge would hold, without adding it."""
 
-from array import array
-
-from runtime.constraints.domains.arrays import grow_rows
+from runtime.constraints.domains.arrays import blank, grow_rows
 from runtime.constraints.domains.store import Store
 from runtime.constraints.stn.heap import Heap
 from runtime.constraints.stn.network import is_followed
@@ -16,9 +14,9 @@ class Distances:
         self.temporal_only = temporal_only
         self.heap = Heap()
         self.stamp = 0
-        self.stamped = array("q", [0]) * 64
-        self.distance = array("q", [0]) * 64
-        self.via = array("q", [0]) * 64
+        self.stamped = blank(64)
+        self.distance = blank(64)
+        self.via = blank(64)
         self.by_bounds = False
 
     def admits(self, source: int, target: int, weight: int) -> bool:

@@ -1,7 +1,5 @@
 """Keep entries in the order of a key and a tie; the smallest is on top. Entries may be stale: who reads them checks."""
 
-from array import array
-
 from runtime.constraints.domains.arrays import blank, lengthen
 
 
@@ -10,9 +8,9 @@ class Heap:
 
     def __init__(self) -> None:
         self.length = 0
-        self.first: array[int] = blank(64)
-        self.second: array[int] = blank(64)
-        self.item: array[int] = blank(64)
+        self.first = blank(64)
+        self.second = blank(64)
+        self.item = blank(64)
 
     def push(self, key: int, tie: int, entry: int) -> None:
         """Add an entry."""

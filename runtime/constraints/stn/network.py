@@ -261,8 +261,7 @@ def _push_lower(s: Store, v: int, target: int, new: int) -> bool:
 
 def tie_edges(s: Store, c: int, source: int, target: int, forth: int, back: int) -> bool:
     """Carry a constraint out by two edges between the same points; false on a conflict."""
-    s.save(c, TRAIL_LINK, 0, 0)
-    s.link_a[c] = insert_edge(s, source, target, forth, s.span[c], s.owner[c], c)
+    tie_edge(s, c, source, target, forth)
     s.link_b[c] = insert_edge(s, target, source, back, s.span[c], s.owner[c], c)
     return bool(s.consistent)
 

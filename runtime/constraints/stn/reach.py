@@ -1,8 +1,6 @@
 """Grow the shortest paths from one timepoint, or to it, as far as questions about others need them."""
 
-from array import array
-
-from runtime.constraints.domains.arrays import grow_rows
+from runtime.constraints.domains.arrays import blank, grow_rows
 from runtime.constraints.domains.store import Store
 from runtime.constraints.stn.heap import Heap
 from runtime.constraints.stn.network import is_followed
@@ -21,12 +19,12 @@ class Reach:
         self.origin = -1
         self.most = 0  # paths of this reduced length or more are left out
         self.stamp = 0
-        self.stamped = array("q", [0]) * 64
-        self.distance = array("q", [0]) * 64
+        self.stamped = blank(64)
+        self.distance = blank(64)
         self.near_stamp = 0
-        self.near_stamped = array("q", [0]) * 64
-        self.near_distance = array("q", [0]) * 64
-        self.near = array("q", [0]) * _MOST_NEAR
+        self.near_stamped = blank(64)
+        self.near_distance = blank(64)
+        self.near = blank(_MOST_NEAR)
         self.heap = Heap()
 
     def begin(self, origin: int, is_forward: bool) -> None:

@@ -1,14 +1,12 @@
 """The state of a plan, read from its tables as values."""
 
-from math import inf
 from typing import Any
 
 from compiler.program import PredicateCode
 from nddl_lang.text.source import Span
-from runtime.constraints.domains.tags import HALF_INF
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.state import Interval, PlanState, TokenExtent, TokenState
-from runtime.plan.store.domain_texts import DomainText, domain_text
+from runtime.plan.store.domain_texts import DomainText, domain_text, wide
 from runtime.plan.tags import (
     DURATION,
     END,
@@ -117,7 +115,7 @@ def _read_locals(database: PlanDatabase, t: int, name: str, domains: dict[str, D
             if rows.hold_kind[h] == HOLDS_VARIABLES and plan.variable_role[v] == ROLE_LOCAL:
                 key = f"{name}::{database.names.text(plan.variable_name[v])}"
                 if key not in domains:
-                    shown = database.local_type(v)
+                    shown = database.code.local_types[plan.variable_name[v]]
                     domains[key] = domain_text(database.prototypes, plan.engine, v, database.objects.names, shown)
             h = rows.hold_next[h]
         s = rows.scope_next[s]
@@ -158,12 +156,7 @@ def _token_extent(database: PlanDatabase, t: int, predicate: PredicateCode) -> T
 def _interval(database: PlanDatabase, v: int) -> Interval:
     """The bounds of a time."""
     engine = database.plan.engine
-    return _bound(engine.lb[v]), _bound(engine.ub[v])
-
-
-def _bound(moment: int) -> float:
-    """A moment, infinite where the engine counts it as infinite."""
-    return moment if abs(moment) < HALF_INF else inf if moment > 0 else -inf
+    return wide(engine.lb[v]), wide(engine.ub[v])
 
 
 def _sequences(database: PlanDatabase, names: dict[int, str]) -> dict[str, list[str]]:

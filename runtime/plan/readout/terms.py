@@ -1,7 +1,6 @@
 """Causes as terms: an edge, restriction or constraint of the engine in, names and numbers that outlive it out."""
 
 from collections.abc import Callable
-from math import inf
 
 from compiler.program import TOKEN_VARIABLES
 from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, KIND_INT
@@ -10,7 +9,7 @@ from runtime.constraints.propagators.registry import EXACT_TWINS, NAMES
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.plan.resources.violation import Violation
-from runtime.plan.store.domain_texts import domain_text, set_text
+from runtime.plan.store.domain_texts import domain_text, set_text, wide
 from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
 from runtime.user.written import Written
 
@@ -127,5 +126,5 @@ class TermReader:
 def _number(x: float, kind: int) -> float | int:
     """A bound as the model would write it; infinite where the engine counts it as infinite."""
     if abs(x) >= HALF_INF:
-        return inf if x > 0 else -inf
+        return wide(x)
     return float(x) if kind == KIND_FLOAT else int(x)

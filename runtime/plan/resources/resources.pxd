@@ -66,6 +66,3 @@ cdef class Resources:
 
     @cython.locals(harms="long long", is_certain=bint, t="long long")
     cpdef bint _note_read(self, violation, long long i, long long u, bint by_order) except -1
-
-
-cpdef long long _step_start(tuple step) except? -1

@@ -5,6 +5,7 @@ are compared with those of the last check, so that going back in time needs no n
 """
 
 from math import inf
+from operator import itemgetter
 
 from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
 from runtime.constraints.domains.tags import SIDE_LOWER, SIDE_UPPER
@@ -134,8 +135,8 @@ class Resources:
         self.pending = 1
 
     def set_limit(self, o: int, start: int, lower: float, upper: float) -> None:
-        """Change the bounds of the level from a time on."""
-        self.limit_steps[o] = sorted([*self.limit_steps.get(o, ()), (start, lower, upper)], key=_step_start)
+        """Change the bounds of the level from a time on; those of one time keep the order of the script."""
+        self.limit_steps[o] = sorted([*self.limit_steps.get(o, ()), (start, lower, upper)], key=itemgetter(0))
         self.changed[o] = 1
         self.pending = 1
 
@@ -357,8 +358,3 @@ class Resources:
                     violation.note(key + SIDE_LOWER)
                     violation.note(key + SIDE_UPPER)
         return True
-
-
-def _step_start(step: tuple[int, float, float]) -> int:
-    """From when on a change holds; those of one time keep the order of the script."""
-    return step[0]

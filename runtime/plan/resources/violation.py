@@ -52,8 +52,7 @@ class Violation(External):
 
     def note(self, key: int) -> None:
         """A bound counts as it is."""
-        self.read.append(key)
-        self.enough.append(AS_IT_IS)
+        self.note_enough(key, AS_IT_IS)
 
     def note_enough(self, key: int, enough: int) -> None:
         """A bound counts that is as tight as `enough`."""

@@ -106,10 +106,8 @@ class RuleBytecode:
         """The number of a span."""
         if span is None:
             return NONE
-        number = self.span_numbers.get(span)
-        if number is None:
-            number = len(self.spans)
-            self.span_numbers[span] = number
+        number = self.span_numbers.setdefault(span, len(self.spans))
+        if number == len(self.spans):
             self.spans.append(span)
         return number
 

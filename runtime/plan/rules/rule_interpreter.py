@@ -223,7 +223,7 @@ def _use(plan: Plan, scope: int, at: int, span: int) -> int:
     if owner >= 0 and start == plan.rows.var0[owner] + START and end == plan.rows.var0[owner] + END:
         duration = plan.rows.var0[owner] + DURATION
     u = plan.resources.add_use(owner, -1, holder, quantity, start, end, duration, plan.rows.level)
-    plan.rows.hold(scope, HOLDS_USE, u, 1)
+    plan.rows.hold(scope, HOLDS_USE, u)
     return 10
 
 

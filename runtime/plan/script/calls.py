@@ -181,10 +181,9 @@ class Calls:
             case _:
                 assert call.method in ("set_capacity", "set_limit"), f"no method {call.method} of objects"
                 bounds = [self.plan.engine.lower(operand(self.plan, self.scope, *each, span)) for each in arguments]
-                if call.method == "set_limit":
-                    self.plan.resources.set_limit(o, int(bounds[0]), bounds[1], bounds[-1])
-                else:
-                    self.plan.resources.set_capacity(o, int(bounds[0]), bounds[1], bounds[-1])
+                uses = self.plan.resources
+                change = uses.set_limit if call.method == "set_limit" else uses.set_capacity
+                change(o, int(bounds[0]), bounds[1], bounds[-1])
         return None
 
     def specify(self, v: int, source: int, name: str, span: Span, number: int) -> Diagnostic | None:

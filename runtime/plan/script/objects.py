@@ -272,7 +272,6 @@ class Objects:
         for other in range(len(self.program.classes)):
             if number in self.prototypes.ancestry(other) and not self.prototypes.is_closed[other]:
                 self.prototypes.is_closed[other] = True
-                self.plan.class_closed[other] = 1
                 for v in self.prototypes.still_open(other):
                     self.plan.engine.close(v)
                 self.prototypes.openings[other] = []

@@ -48,7 +48,7 @@ def domain_text(
     if is_growing(engine, v):
         values = engine.values_of(v)
         return DomainText(set_text(prototypes, kind, values, names), str(name), len(values) > 1, is_open=True)
-    lower, upper = _wide(engine.lower(v)), _wide(engine.upper(v))
+    lower, upper = wide(engine.lower(v)), wide(engine.upper(v))
     between = f"[{_number_text(lower, kind)}, {_number_text(upper, kind)}]"
     if kind in (KIND_INT, KIND_FLOAT):
         if lower == upper or (kind == KIND_FLOAT and engine.is_singleton(v)):
@@ -65,7 +65,7 @@ def domain_text(
     return DomainText(set_text(prototypes, kind, values, names), name, len(values) > 1)
 
 
-def _wide(x: float) -> float:
+def wide(x: float) -> float:
     """A bound, infinite where the engine counts it as infinite."""
     return inf if x >= HALF_INF else -inf if x <= -HALF_INF else x
 

@@ -10,10 +10,8 @@ class Names:
 
     def number(self, text: str) -> int:
         """The number of `text`; a new one if it was never seen."""
-        number = self.numbers.get(text)
-        if number is None:
-            number = len(self.texts)
-            self.numbers[text] = number
+        number = self.numbers.setdefault(text, len(self.texts))
+        if number == len(self.texts):
             self.texts.append(text)
         return number
 

@@ -1,7 +1,6 @@
 # The C types of `operands.py`.
 
 cimport cython
-from runtime.constraints.propagators.posting cimport add_row, start_element
 from runtime.plan.store.scopes cimport copy_variable
 from runtime.plan.store.plan cimport Plan
 
@@ -19,7 +18,7 @@ cpdef long long _field(Plan plan, long long scope, long long number, long long s
 cpdef long long member(Plan plan, long long o, long long name) except? -1
 
 
-@cython.locals(o="long long", prototype="long long", rows="long long", x=double)
+@cython.locals(o="long long", prototype="long long", x=double)
 cpdef long long _proxy(Plan plan, long long scope, long long index, long long name, long long span) except? -1
 
 

@@ -1,7 +1,6 @@
 """Operands: the engine variable that each means; fields of an undecided object become proxies."""
 
 from runtime.constraints.domains.tags import KIND_FLOAT, KIND_INT
-from runtime.constraints.propagators.posting import add_row, start_element
 from runtime.plan.store.plan import Plan
 from runtime.plan.store.scopes import copy_variable
 from runtime.plan.tags import (
@@ -67,26 +66,20 @@ def member(plan: Plan, o: int, name: int) -> int:
 def _proxy(plan: Plan, scope: int, index: int, name: int, span: int) -> int:
     """A variable that equals the member called `name` of the object that `index` turns out to be."""
     prototype = plan.name_prototype[name]
-    objects = _base_listed(plan, index)
-    rows = 0
-    for x in objects:
+    keys: list[int] = []
+    variables: list[int] = []
+    for x in _base_listed(plan, index):
         o = int(x)
-        if member(plan, o, name) >= 0:
-            rows += 1
+        v = member(plan, o, name)
+        if v >= 0:
+            keys.append(o)
+            variables.append(v)
             prototype = plan.member_prototype[plan.object_class[o] * plan.member_names + name]
     result = copy_variable(plan, scope, prototype, ROLE_INTERNAL, NONE)
     plan.proxy_index[result] = index
     plan.proxy_member[result] = name
-    owner = plan.rows.scope_token[scope]
-    c = start_element(plan.engine, result, index, rows, span, owner)
-    rows = 0
-    for x in objects:
-        o = int(x)
-        v = member(plan, o, name)
-        if v >= 0:
-            add_row(plan.engine, c, rows, o, v)
-            rows += 1
-    plan.rows.hold(scope, HOLDS_CONSTRAINT, c, 1)
+    c = plan.engine.post_element(result, index, keys, variables, span, plan.rows.scope_token[scope])
+    plan.rows.hold(scope, HOLDS_CONSTRAINT, c)
     return result
 
 
@@ -120,5 +113,5 @@ def _unite(plan: Plan, scope: int, number: int, span: int) -> int:
                 plan.services.note_loose_item(span)
     v = engine.new_values(kind, values, span, owner)
     plan.note_variable(v, ROLE_INTERNAL, owner, NONE)
-    plan.rows.hold(scope, HOLDS_VARIABLES, v, 1)
+    plan.rows.hold(scope, HOLDS_VARIABLES, v)
     return v

@@ -19,7 +19,7 @@ cdef class Plan:
     cdef public long long[::1] body_tokens, first_rule, rule_number, rule_block
     cdef public long long[::1] rule_slots, rule_tokens, rule_declared, rule_span
     cdef public long long[::1] relation_start, relation_distance, relation_duration, class_prototype
-    cdef public long long[::1] class_closed, object_class, object_var0, object_constant
+    cdef public long long[::1] object_class, object_var0, object_constant
     cdef public long long[::1] object_head, object_timeline, member_at, member_prototype, name_prototype
     cdef public long long[::1] form, globals, variable_role, variable_owner
     cdef public long long[::1] variable_name, variable_guards, proxy_index, proxy_member
@@ -37,8 +37,6 @@ cdef class Plan:
     cdef public dict twins
     cdef public object services, envelope
     cdef public Resources resources
-
-    cpdef int set_globals(self, long long count) except -1
 
     cpdef long long new_object(self, long long number, bint is_timeline) except? -1
 

@@ -1,6 +1,5 @@
 """Tables of the plan: engine, rows, bytecode, predicates, objects, agenda of rules and guards."""
 
-from array import array
 from typing import Protocol
 
 from runtime.constraints.domains.arrays import blank, lengthen
@@ -93,7 +92,6 @@ class Plan:
         self.instant_prototype = NONE
         self.time_prototype = NONE
         self.class_prototype = blank(1)
-        self.class_closed = blank(1)
         # Objects and their members.
         self.object_count = 0
         self.object_class = blank(64)
@@ -149,10 +147,6 @@ class Plan:
         self.services: _Services
         self.resources = Resources(engine)
         self.envelope: UseOrder
-
-    def set_globals(self, count: int) -> None:
-        """Make room for the global variables, none of which exists yet."""
-        self.globals = array("q", [NONE]) * (count + 1)
 
     def new_object(self, number: int, is_timeline: bool) -> int:
         """Take a row for an object of class `number`."""

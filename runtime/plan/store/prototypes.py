@@ -79,7 +79,8 @@ class Prototypes:
         if v < 0:
             restrictions = [each for each in (type_.domain, domain) if each is not None]
             if type_.kind == "string" and restrictions:
-                v = self.listed(restrictions.pop(0))
+                texts = [self.value(each, "string") for each in restrictions.pop(0).values or ()]
+                v = self.engine.new_values(KIND_STRING, texts, NONE, NONE)
             else:
                 v = self._full(type_.kind, type_.type_name)
             for restriction in restrictions:
@@ -136,12 +137,6 @@ class Prototypes:
                 return engine.new_open(KIND_OBJECT, objects, NONE, NONE)
             case _:
                 return engine.new_open(KIND_STRING, [], NONE, NONE)
-
-    def listed(self, domain: DomainConstant) -> int:
-        """A variable with the listed texts."""
-        return self.engine.new_values(
-            KIND_STRING, [self.value(each, "string") for each in domain.values or ()], NONE, NONE
-        )
 
 
 def restrict_constant(prototypes: Prototypes, v: int, domain: DomainConstant, span: int, owner: int) -> bool:

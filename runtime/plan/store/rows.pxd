@@ -13,7 +13,7 @@ cdef class Rows:
     cdef public long long hold_count, free_hold, pair_count, free_pair
     cdef public long long cell_count, level, trail_length, token_count
     cdef public long long free_token, next_key, live, scope_count, free_scope
-    cdef public long long[::1] hold_kind, hold_id, hold_extent, hold_next
+    cdef public long long[::1] hold_kind, hold_id, hold_next
     cdef public long long[::1] pair_edge, pair_first, pair_second, pair_next_out
     cdef public long long[::1] pair_next_in, cells, free_cells, head_first
     cdef public long long[::1] head_last, head_length, trail_code, trail_index
@@ -27,10 +27,6 @@ cdef class Rows:
     cdef public long long[::1] scope_frame, scope_size, scope_slots, scope_holds
     cdef public long long[::1] scope_next, scope_at, scope_branch, scope_watch
     cdef public long long[::1] scope_inputs
-
-    cpdef int _make_tokens(self, long long capacity) except -1
-
-    cpdef int _grow_tokens(self) except -1
 
     @cython.locals(at="long long")
     cpdef long long new_token(
@@ -46,10 +42,6 @@ cdef class Rows:
     cpdef int set_merged(self, long long t, long long other) except -1
 
     cpdef int unset_merged(self, long long t) except -1
-
-    cpdef int _make_scopes(self, long long capacity) except -1
-
-    cpdef int _grow_scopes(self) except -1
 
     cpdef long long new_scope(
         self, long long kind, long long token, long long rule, long long parent, long long slots, long long size
@@ -69,7 +61,7 @@ cdef class Rows:
 
     cpdef int set_asking(self, long long t, long long label, long long relation, long long origin) except -1
 
-    cpdef int hold(self, long long s, long long kind, long long identity, long long extent) except -1
+    cpdef int hold(self, long long s, long long kind, long long identity) except -1
 
     cpdef int drop_hold(self, long long s) except -1
 

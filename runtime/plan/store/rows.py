@@ -41,13 +41,55 @@ class Rows:
     """Tokens `t`, scopes `s` and holds `h` as rows of arrays; cells of frames; lists of tokens; the trail."""
 
     def __init__(self) -> None:
-        self._make_tokens(64)
-        self._make_scopes(64)
+        # Tokens.
+        self.token_count = 0
+        self.free_token = NONE
+        self.next_key = 0
+        self.live = 0
+        self.status = blank(64)
+        self.predicate = blank(64)
+        self.var0 = blank(64)
+        self.width = blank(64)
+        self.flags = blank(64)
+        self.parent = blank(64)
+        self.relation = blank(64)
+        self.origin = blank(64)
+        self.label = blank(64)
+        self.key = blank(64)
+        self.span = blank(64)
+        self.creator = blank(64)
+        self.scopes = blank(64)
+        self.children = blank(64)
+        self.sibling = blank(64)
+        self.merged_into = blank(64)
+        self.merged = blank(64)
+        self.merged_next = blank(64)
+        self.pairs_out = blank(64)
+        self.pairs_in = blank(64)
+        self.link_head = blank(64 * LISTS)
+        self.link_before = blank(64 * LISTS)
+        self.link_after = blank(64 * LISTS)
+        # Scopes.
+        self.scope_count = 0
+        self.free_scope = NONE
+        self.scope_kind = blank(64)
+        self.scope_token = blank(64)
+        self.scope_rule = blank(64)
+        self.scope_parent = blank(64)
+        self.scope_frame = blank(64)
+        self.scope_size = blank(64)
+        self.scope_slots = blank(64)
+        self.scope_holds = blank(64)
+        self.scope_next = blank(64)
+        self.scope_at = blank(64)
+        self.scope_branch = blank(64)
+        self.scope_watch = blank(64)
+        self.scope_inputs = blank(64)
+        # What scopes hold; pairs, cells, heads of lists; the trail.
         self.hold_count = 0
         self.free_hold = NONE
         self.hold_kind = blank(256)
         self.hold_id = blank(256)
-        self.hold_extent = blank(256)
         self.hold_next = blank(256)
         self.pair_count = 0
         self.free_pair = NONE
@@ -70,45 +112,6 @@ class Rows:
 
     # ---- tokens ----
 
-    def _make_tokens(self, capacity: int) -> None:
-        """Make the empty token table."""
-        self.token_count = 0
-        self.free_token = NONE
-        self.next_key = 0
-        self.live = 0
-        self.status = blank(capacity)
-        self.predicate = blank(capacity)
-        self.var0 = blank(capacity)
-        self.width = blank(capacity)
-        self.flags = blank(capacity)
-        self.parent = blank(capacity)
-        self.relation = blank(capacity)
-        self.origin = blank(capacity)
-        self.label = blank(capacity)
-        self.key = blank(capacity)
-        self.span = blank(capacity)
-        self.creator = blank(capacity)
-        self.scopes = blank(capacity)
-        self.children = blank(capacity)
-        self.sibling = blank(capacity)
-        self.merged_into = blank(capacity)
-        self.merged = blank(capacity)
-        self.merged_next = blank(capacity)
-        self.pairs_out = blank(capacity)
-        self.pairs_in = blank(capacity)
-        self.link_head = blank(capacity * LISTS)
-        self.link_before = blank(capacity * LISTS)
-        self.link_after = blank(capacity * LISTS)
-
-    def _grow_tokens(self) -> None:
-        """Lengthen the token table."""
-        lengthen(
-            self,
-            "status predicate var0 width flags parent relation origin label key span creator scopes children "
-            "sibling merged_into merged merged_next pairs_out pairs_in",
-        )
-        grow_rows(self, "link_head link_before link_after", len(self.status) * LISTS)
-
     def new_token(self, predicate: int, flags: int, parent: int, creator: int, span: int) -> int:
         """Take a row for a token; its variables are for the caller to make."""
         t = self.free_token
@@ -116,7 +119,12 @@ class Rows:
             self.free_token = self.sibling[t]
         else:
             if self.token_count == len(self.status):
-                self._grow_tokens()
+                lengthen(
+                    self,
+                    "status predicate var0 width flags parent relation origin label key span creator scopes children "
+                    "sibling merged_into merged merged_next pairs_out pairs_in",
+                )
+                grow_rows(self, "link_head link_before link_after", len(self.status) * LISTS)
             t = self.token_count
             self.token_count += 1
         self.status[t] = INACTIVE
@@ -202,32 +210,6 @@ class Rows:
 
     # ---- scopes ----
 
-    def _make_scopes(self, capacity: int) -> None:
-        """Make the empty scope table."""
-        self.scope_count = 0
-        self.free_scope = NONE
-        self.scope_kind = blank(capacity)
-        self.scope_token = blank(capacity)
-        self.scope_rule = blank(capacity)
-        self.scope_parent = blank(capacity)
-        self.scope_frame = blank(capacity)
-        self.scope_size = blank(capacity)
-        self.scope_slots = blank(capacity)
-        self.scope_holds = blank(capacity)
-        self.scope_next = blank(capacity)
-        self.scope_at = blank(capacity)
-        self.scope_branch = blank(capacity)
-        self.scope_watch = blank(capacity)
-        self.scope_inputs = blank(capacity)
-
-    def _grow_scopes(self) -> None:
-        """Lengthen the scope table."""
-        lengthen(
-            self,
-            "scope_kind scope_token scope_rule scope_parent scope_frame scope_size scope_slots scope_holds "
-            "scope_next scope_at scope_branch scope_watch scope_inputs",
-        )
-
     def new_scope(self, kind: int, token: int, rule: int, parent: int, slots: int, size: int) -> int:
         """Take a row for a scope of `token` with a frame of `size` cells, the first `slots` of them for variables.
 
@@ -238,7 +220,11 @@ class Rows:
             self.free_scope = self.scope_next[s]
         else:
             if self.scope_count == len(self.scope_kind):
-                self._grow_scopes()
+                lengthen(
+                    self,
+                    "scope_kind scope_token scope_rule scope_parent scope_frame scope_size scope_slots scope_holds "
+                    "scope_next scope_at scope_branch scope_watch scope_inputs",
+                )
             s = self.scope_count
             self.scope_count += 1
         frame = self.new_cells(size)
@@ -296,7 +282,7 @@ class Rows:
         """Put a variable or a token into a slot of the frame of `s`."""
         self.cells[self.scope_frame[s] + slot] = value
 
-    def hold(self, s: int, kind: int, identity: int, extent: int) -> int:
+    def hold(self, s: int, kind: int, identity: int) -> int:
         """Hang an edge, a constraint, variables or a decision on scope `s`; nothing hangs on that of the script."""
         if self.scope_token[s] < 0:
             return 0
@@ -305,12 +291,11 @@ class Rows:
             self.free_hold = self.hold_next[h]
         else:
             if self.hold_count == len(self.hold_kind):
-                lengthen(self, "hold_kind hold_id hold_extent hold_next")
+                lengthen(self, "hold_kind hold_id hold_next")
             h = self.hold_count
             self.hold_count += 1
         self.hold_kind[h] = kind
         self.hold_id[h] = identity
-        self.hold_extent[h] = extent
         self.hold_next[h] = self.scope_holds[s]
         self.scope_holds[s] = h
         if self.level:

@@ -28,9 +28,8 @@ def between(plan: Plan, scope: int, a: int, b: int, lower: int, upper: int, span
 def _edge(plan: Plan, scope: int, source: int, target: int, weight: int, span: int) -> bool:
     """Demand `target - source <= weight`."""
     rows = plan.rows
-    owner = rows.scope_token[scope]
-    holds = plan.engine.add_edge(source, target, weight, span, owner)
-    rows.hold(scope, HOLDS_EDGE, plan.engine.newest_edge, 1)
+    holds = plan.engine.add_edge(source, target, weight, span, rows.scope_token[scope])
+    rows.hold(scope, HOLDS_EDGE, plan.engine.newest_edge)
     return holds
 
 
@@ -46,7 +45,7 @@ def constraint(plan: Plan, scope: int, operation: int, first: int, span: int) ->
         c = plan.engine.post(operation, arguments, span, owner)
     else:
         c = plan.services.post_written(operation - FIRST_WRITTEN, arguments, span, owner)
-    rows.hold(scope, HOLDS_CONSTRAINT, c, 1)
+    rows.hold(scope, HOLDS_CONSTRAINT, c)
     return c
 
 
@@ -78,25 +77,23 @@ def decide(plan: Plan, scope: int, v: int, value: float, span: int) -> bool:
     """Specify a variable as long as the scope lives."""
     rows = plan.rows
     holds = plan.engine.decide(v, value, span, rows.scope_token[scope])
-    rows.hold(scope, HOLDS_RESTRICTION, plan.engine.newest_restriction, 1)
+    rows.hold(scope, HOLDS_RESTRICTION, plan.engine.newest_restriction)
     return holds
 
 
 def restrict(plan: Plan, scope: int, v: int, source: int, span: int) -> bool:
     """Intersect the base domain of `v` with that of `source`, as long as the scope lives."""
     rows = plan.rows
-    owner = rows.scope_token[scope]
-    holds = plan.engine.restrict_base_to(v, source, span, owner)
-    rows.hold(scope, HOLDS_RESTRICTION, plan.engine.newest_restriction, 1)
+    holds = plan.engine.restrict_base_to(v, source, span, rows.scope_token[scope])
+    rows.hold(scope, HOLDS_RESTRICTION, plan.engine.newest_restriction)
     return holds
 
 
 def copy_variable(plan: Plan, scope: int, prototype: int, role: int, name: int) -> int:
     """Make a variable like a prototype, as long as the scope lives."""
     rows = plan.rows
-    owner = rows.scope_token[scope]
-    v = make_variable(plan, prototype, role, owner, name)
-    rows.hold(scope, HOLDS_VARIABLES, v, 1)
+    v = make_variable(plan, prototype, role, rows.scope_token[scope], name)
+    rows.hold(scope, HOLDS_VARIABLES, v)
     return v
 
 

@@ -48,7 +48,7 @@ cpdef list _outdone(Plan plan, long long v)
 
 @cython.locals(
     c="long long", constraints=dict, e="long long", edges=dict, gone=dict, h="long long",
-    kind="long long", restrictions=dict, s="long long", slot="long long", t="long long", v="long long",
+    kind="long long", restrictions=dict, s="long long", t="long long", v="long long",
 )
 cpdef tuple _belongings(Plan plan, dict doomed)
 

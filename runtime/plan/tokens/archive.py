@@ -195,18 +195,10 @@ def _belongings(
                     gone[rows.hold_id[h]] = None
                 h = rows.hold_next[h]
     for v in gone:
-        for slot in (engine.watch_head[v], engine.mute_head[v]):
-            while slot >= 0:
-                constraints[engine.slot_constraint[slot]] = None
-                slot = engine.slot_next[slot]
-        e = engine.out_head[v]
-        while e >= 0:
+        for c in engine.constraints_of(v):
+            constraints[c] = None
+        for e in engine.edges_of(v):
             edges[e] = None
-            e = engine.out_next[e]
-        e = engine.in_head[v]
-        while e >= 0:
-            edges[e] = None
-            e = engine.in_next[e]
     for c in constraints:
         if engine.link_a[c] >= 0:
             edges[engine.link_a[c]] = None

@@ -1,7 +1,6 @@
 # The C types of `retraction.py`.
 
 cimport cython
-from runtime.constraints.relaxation.retract cimport edges_of
 from runtime.plan.store.links cimport link_by_key, unlink
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport take_off
@@ -48,16 +47,12 @@ cpdef void _drop_scopes(Plan plan, long long t, set doomed, _Sweep sweep) except
 cpdef int _collect_holds(Plan plan, long long s, _Sweep sweep) except -1
 
 
-cpdef list _decisions_of(Plan plan, long long v)
-
-
 @cython.locals(done="long long", r="long long", s="long long", t="long long", v="long long")
 cpdef bint _finish(Plan plan, _Sweep sweep) except -1
 
 
 @cython.locals(
-    c="long long", e="long long", owner="long long", r="long long", s="long long", slot="long long", t="long long",
-    v="long long"
+    c="long long", e="long long", owner="long long", r="long long", s="long long", t="long long", v="long long"
 )
 cpdef int _forget_foreign(Plan plan, list gone) except -1
 

@@ -2,7 +2,6 @@
 
 from runtime.constraints.domains.tags import FLAG_DECISION
 from runtime.constraints.propagators.opcodes import OP_WATCH
-from runtime.constraints.relaxation.retract import edges_of
 from runtime.plan.store.links import link_by_key, unlink
 from runtime.plan.store.plan import Plan
 from runtime.plan.store.rows import take_off
@@ -196,14 +195,9 @@ def _collect_holds(plan: Plan, s: int, sweep: _Sweep) -> None:
         rows.drop_hold(s)
 
 
-def _decisions_of(plan: Plan, v: int) -> list[int]:
-    """The restrictions that decide a variable."""
-    return [r for r in plan.engine.restrictions_of(v) if plan.engine.restriction_flags[r] & FLAG_DECISION]
-
-
 def _finish(plan: Plan, sweep: _Sweep) -> bool:
     """Take tokens apart, one after the other with all their children; then let the engine forget everything."""
-    rows = plan.rows
+    engine, rows = plan.engine, plan.rows
     done = 0
     freed: list[int] = []
     while done < len(sweep.tokens):
@@ -219,14 +213,14 @@ def _finish(plan: Plan, sweep: _Sweep) -> bool:
         sweep.variables += range(rows.var0[t], rows.var0[t] + rows.width[t])
     gone = set(sweep.variables)
     for v in sweep.undecided:
-        sweep.restrictions += _decisions_of(plan, v)
-    restrictions = [r for r in dict.fromkeys(sweep.restrictions) if plan.engine.restriction_variable[r] not in gone]
+        sweep.restrictions += [r for r in engine.restrictions_of(v) if engine.restriction_flags[r] & FLAG_DECISION]
+    restrictions = [r for r in dict.fromkeys(sweep.restrictions) if engine.restriction_variable[r] not in gone]
     for r in restrictions:
-        wake_guards(plan, plan.engine.restriction_variable[r])
+        wake_guards(plan, engine.restriction_variable[r])
     sweep.constraints += plan.resources.take_refusals()
     if gone:
         _forget_foreign(plan, sweep.variables)
-    plan.engine.retract(sweep.constraints, sweep.edges, restrictions, sweep.variables)
+    engine.retract(sweep.constraints, sweep.edges, restrictions, sweep.variables)
     for s in sweep.scopes:
         rows.release_scope(s)
     for t in reversed(freed):
@@ -234,7 +228,7 @@ def _finish(plan: Plan, sweep: _Sweep) -> bool:
     for t in sweep.reopened:
         if rows.status[t] == INACTIVE and rows.link_head[LISTS * t + LIST_OPEN] < 0:
             link_by_key(rows, t, LIST_OPEN, HEAD_OPEN)
-    return bool(plan.engine.consistent)
+    return bool(engine.consistent)
 
 
 def _forget_foreign(plan: Plan, gone: list[int]) -> None:
@@ -248,26 +242,21 @@ def _forget_foreign(plan: Plan, gone: list[int]) -> None:
     restrictions: set[int] = set()
     owners: dict[int, None] = {}
     for v in gone:
-        for e in edges_of(engine, v):
+        for e in engine.edges_of(v):
             owner = engine.edge_owner[e]
             if owner >= 0 and rows.status[owner] != FREED:
                 edges.add(e)
                 owners[owner] = None
-        for slot in (engine.watch_head[v], engine.mute_head[v]):
-            while slot >= 0:
-                c = engine.slot_constraint[slot]
-                owner = engine.owner[c]
-                if owner >= 0 and rows.status[owner] != FREED:
-                    constraints.add(c)
-                    owners[owner] = None
-                slot = engine.slot_next[slot]
-        r = engine.restriction_head[v]
-        while r >= 0:
+        for c in engine.constraints_of(v):
+            owner = engine.owner[c]
+            if owner >= 0 and rows.status[owner] != FREED:
+                constraints.add(c)
+                owners[owner] = None
+        for r in engine.restrictions_of(v):
             owner = engine.restriction_owner[r]
             if owner >= 0 and rows.status[owner] != FREED:
                 restrictions.add(r)
                 owners[owner] = None
-            r = engine.restriction_next[r]
     for t in owners:
         for s in scopes_of(plan, t):
             _drop_held(plan, s, edges, constraints, restrictions)

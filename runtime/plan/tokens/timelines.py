@@ -34,15 +34,12 @@ def order(plan: Plan, o: int, before: int, after: int, span: int) -> bool:
             _fix_object(plan, o, after, span)
             _pair(plan, before, after, span)
         return plan.engine.consistent
-    if before == after:
-        if not _is_sequenced(rows, before):
-            _insert(plan, o, before, rows.head_last[head], span)
-        return plan.engine.consistent
     if not _is_sequenced(rows, before):
-        if _is_sequenced(rows, after):
-            _insert(plan, o, before, rows.link_before[LISTS * after + LIST_ORDER], span)
-        else:
-            _insert(plan, o, before, rows.head_last[head], span)
+        is_known = _is_sequenced(rows, after)
+        previous = rows.link_before[LISTS * after + LIST_ORDER] if is_known else rows.head_last[head]
+        _insert(plan, o, before, previous, span)
+    if before == after:
+        return plan.engine.consistent
     if not _is_sequenced(rows, after):
         _insert(plan, o, after, before, span)
     elif rows.link_after[LISTS * before + LIST_ORDER] != after or not has_pair(rows, before, after):

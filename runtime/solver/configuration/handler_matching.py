@@ -4,11 +4,10 @@ What depends on names and classes only is decided here, once per kind; what chan
 is handed on as codes.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from compiler.program import FIRST_PARAMETER, OBJECT, START, STATE, TOKEN_VARIABLES, ClassCode, PredicateCode, Program
-from runtime.solver.configuration.configuration import Configuration, FlawFilter, FlawHandler, Match
+from runtime.solver.configuration.configuration import Configuration, FlawHandler, Match
 from runtime.solver.configuration.words import FILTERS, POLICIES, STANDARD
 from runtime.solver.tags import (
     FILTER_GUARD,
@@ -85,20 +84,13 @@ class HandlerMatching:
         return (-self.handlers[handler].specificity, self.handlers[handler].priority, -handler)
 
     @property
-    def reads_parents(self) -> bool:
-        """Whether any filter or handler matches the parent of a token."""
-        return any(match.parent_class or match.parent_predicate or match.parent_relation for match in self._matches())
-
-    @property
-    def reads_names(self) -> bool:
-        """Whether any filter or handler matches the name of a token."""
-        return any(match.token_name is not None for match in self._matches())
-
-    def _matches(self) -> Iterator[Match]:
-        """All match attributes of the configuration."""
-        yield from (one.match for one in self.filters)
-        yield from (one.match for manager in self.managers for one in manager.filters)
-        yield from (one.match for one in self.handlers)
+    def is_by_predicate(self) -> bool:
+        """Whether no filter or handler matches the parent of a token, or its name."""
+        matches = [one.match for manager in self.managers for one in manager.filters]
+        matches += [*(one.match for one in self.filters), *(one.match for one in self.handlers)]
+        if any(match.parent_class or match.parent_predicate or match.parent_relation for match in matches):
+            return False
+        return all(match.token_name is None for match in matches)
 
     def token(self, manager: int, token: TokenKind) -> HandlerRow | None:
         """The row of a manager for an open or unordered token; None: a filter excludes it."""
@@ -133,13 +125,9 @@ class HandlerMatching:
         names = [parameter.name for parameter in code.parameters]
         return FIRST_PARAMETER + names.index(name) if name in names else NONE
 
-    def member(self, manager: int, owner: str, variable: str) -> HandlerRow | None:
-        """The row of a manager for a member of an object of class `owner`."""
+    def lasting_variable(self, manager: int, owner: str | None, variable: str) -> HandlerRow | None:
+        """The row of a manager for a member of an object of class `owner`, or a global variable (None)."""
         return self._match(manager, None, owner, variable, _VARIABLE_FILTERS)
-
-    def global_variable(self, manager: int, variable: str) -> HandlerRow | None:
-        """The row of a manager for a global variable."""
-        return self._match(manager, None, None, variable, _VARIABLE_FILTERS)
 
     def resource(self, manager: int, owner: str) -> HandlerRow | None:
         """The row of a manager for a resource of a class; filters count only in a manager that stands `for_tokens`."""
@@ -160,7 +148,7 @@ class HandlerMatching:
             if code == FILTER_STATIC or (code in (FILTER_LOCAL, FILTER_PARAMETER) and code in tested):
                 return None
             if code in tested:
-                dynamic.append((code, _policy(one)))
+                dynamic.append((code, POLICIES.index(one.policy)))
         fitting = [h for h in self.handlers_of[manager] if self._fits(self.handlers[h].match, token, owner, variable)]
         return HandlerRow(tuple(dict.fromkeys(dynamic)), tuple(fitting))
 
@@ -190,15 +178,11 @@ class HandlerMatching:
             wanted = _SIMILAR_RELATIONS.get(match.parent_relation, (match.parent_relation,))
             if relation not in wanted:
                 return False
-        if match.parent_class is None and match.parent_predicate is None:
-            return True
         if parent is None:
+            return match.parent_class is None and match.parent_predicate is None
+        if match.parent_class not in (None, *self._ancestry(self.predicates[parent].class_name)):
             return False
-        if match.parent_class is not None:
-            return match.parent_class in self._ancestry(self.predicates[parent].class_name) and (
-                match.parent_predicate is None or match.parent_predicate in _spellings(parent)
-            )
-        return match.parent_predicate in _spellings(parent)
+        return match.parent_predicate in (None, *_spellings(parent))
 
     def _ancestry(self, name: str) -> list[str]:
         """A class and all it extends."""
@@ -216,9 +200,3 @@ class HandlerMatching:
 def _spellings(predicate: str) -> tuple[str, str]:
     """The ways to name a predicate in a configuration: alone, or with its class."""
     return predicate, predicate.rpartition(".")[2]
-
-
-def _policy(one: FlawFilter) -> int:
-    """The policy of a horizon filter; 0 for others."""
-    is_horizon = one.component in ("HorizonFilter", "HorizonVariableFilter")
-    return POLICIES.index(one.policy) if is_horizon else 0

@@ -2,12 +2,12 @@
 
 
 cdef long long FILTER_HORIZON, FILTER_HORIZON_VARIABLE, FILTER_INFINITE, FILTER_NOT_SINGLETON, NONE, ORDER_KEY
-cdef long long PREFER_EARLIEST, _FEW, _GLOBAL, _LOCAL, _MEMBER, _RESOURCE, _TOKEN, _UNKNOWN
+cdef long long PREFER_EARLIEST, _FEW, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, _ROLE_RESOURCE, _UNKNOWN
 
 
 cdef class HandlerTable:
-    cdef public object matching, vocabulary
-    cdef public long long managers, row_count, handlers, heaps
+    cdef public object matching, database, program
+    cdef public long long managers, handlers, heaps
     cdef public long long[::1] manager_kind, filter_first, filter_count, filter_code, filter_policy, first_handler
     cdef public long long[::1] handler_count, handler_of, heap_of, kind_of_predicate, handler_code, handler_most
     cdef public long long[::1] handler_choice, token_order, handler_constraint, handler_iterate, pairs_by_default
@@ -28,17 +28,9 @@ cdef class HandlerTable:
     @cython.locals(at="long long")
     cpdef long long variable_row(self, long long manager, long long kind, long long number) except? -1
 
-    cpdef long long local_row(self, long long manager, long long kind, long long name) except? -1
-
-    cpdef long long variable_number(self, long long predicate, object name) except? -1
-
-    cpdef long long member_row(self, long long manager, long long owner, long long name) except? -1
-
     cpdef long long resource_row(self, long long manager, long long owner) except? -1
 
-    cpdef long long global_row(self, long long manager, long long name) except? -1
-
     @cython.locals(key="long long")
-    cpdef long long _other_row(self, long long sort, long long manager, long long owner, long long name) except? -1
+    cpdef long long other_row(self, long long role, long long manager, long long owner, long long name) except? -1
 
-    cpdef long long _match(self, long long sort, long long manager, long long owner, long long name) except? -1
+    cpdef long long _match(self, long long role, long long manager, long long owner, long long name) except? -1

@@ -7,9 +7,10 @@ depend on more than their own bounds have none (NONE): they are dynamic, looked 
 from array import array
 
 from runtime.constraints.domains.arrays import grown
+from runtime.plan.database import PlanDatabase
+from runtime.plan.tags import ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN
 from runtime.solver.configuration.configuration import FlawHandler
 from runtime.solver.configuration.handler_matching import HandlerMatching, HandlerRow, TokenKind
-from runtime.solver.configuration.vocabulary import PlanVocabulary
 from runtime.solver.configuration.words import (
     CHOICES,
     CONSTRAINTS,
@@ -30,20 +31,20 @@ from runtime.solver.tags import (
 
 _UNKNOWN = -2  # a row that nobody has asked for yet
 _FEW = 32  # variables of a token whose rows are looked up by number
-_TOKEN, _LOCAL, _MEMBER, _RESOURCE, _GLOBAL = range(5)
+_ROLE_RESOURCE = 5  # behind the roles of variables
 
 
 class HandlerTable:
     """Rows, found by numbers of the plan."""
 
-    def __init__(self, matching: HandlerMatching, vocabulary: PlanVocabulary, predicates: int) -> None:
+    def __init__(self, matching: HandlerMatching, database: PlanDatabase) -> None:
         self.matching = matching
-        self.vocabulary = vocabulary
+        self.database = database
+        self.program = database.program
         self.managers = len(matching.manager_kinds)
         self.manager_kind = array("q", matching.manager_kinds)
-        self.by_predicate = not (matching.reads_parents or matching.reads_names)
+        self.by_predicate = matching.is_by_predicate
         self._number_handlers()
-        self.row_count = 0
         self.filter_first = array("q")
         self.filter_count = array("q")
         self.filter_code = array("q")
@@ -55,7 +56,7 @@ class HandlerTable:
         self.rows: dict[tuple[int, HandlerRow], int] = {}
         self.kinds: dict[tuple[int, int, int, int], int] = {}
         self.kind_texts: list[TokenKind] = []
-        self.kind_of_predicate = array("q", [NONE] * max(predicates, 1))
+        self.kind_of_predicate = array("q", [NONE] * max(len(self.program.predicates), 1))
         self.token_rows = array("q", [_UNKNOWN]) * (8 * self.managers)  # by kind and manager
         self.variable_rows = array("q", [_UNKNOWN]) * (8 * self.managers * _FEW)  # those of the first variables, too
         self.other_rows: dict[int, int] = {}
@@ -120,8 +121,7 @@ class HandlerTable:
             while self.heap_priority[heap] != self.handler_priority[usable[0]]:
                 heap += 1
         self.heap_of = _longer(self.heap_of, heap)
-        row = self.row_count
-        self.row_count = row + 1
+        row = len(self.rows)
         self.rows[(manager, found)] = row
         return row
 
@@ -130,20 +130,20 @@ class HandlerTable:
         if self.by_predicate:
             if self.kind_of_predicate[predicate] == NONE:
                 self.kind_of_predicate[predicate] = len(self.kind_texts)
-                self.kind_texts.append(TokenKind(self.vocabulary.predicate_text(predicate)))
+                self.kind_texts.append(TokenKind(self.program.predicates[predicate].name))
             return self.kind_of_predicate[predicate]
         key = (predicate, parent, relation, label)
         kind = self.kinds.get(key)
         if kind is None:
             kind = len(self.kind_texts)
             self.kinds[key] = kind
-            texts = self.vocabulary
+            database = self.database
             self.kind_texts.append(
                 TokenKind(
-                    texts.predicate_text(predicate),
-                    texts.predicate_text(parent) if parent >= 0 else None,
-                    texts.relation_text(relation) if relation >= 0 else None,
-                    texts.name_text(label) if label >= 0 else "",
+                    self.program.predicates[predicate].name,
+                    self.program.predicates[parent].name if parent >= 0 else None,
+                    database.relation_names[relation] if relation >= 0 else None,
+                    database.names.text(label) if label >= 0 else "",
                 )
             )
         return kind
@@ -160,54 +160,40 @@ class HandlerTable:
     def variable_row(self, manager: int, kind: int, number: int) -> int:
         """The row of a manager for variable `number` of tokens of a kind."""
         if number >= _FEW:
-            return self._other_row(_TOKEN, manager, kind, number)
+            return self.other_row(ROLE_TOKEN, manager, kind, number)
         at = (kind * self.managers + manager) * _FEW + number
         if at >= len(self.variable_rows):
             self.variable_rows = grown(self.variable_rows, 2 * at, _UNKNOWN)
         if self.variable_rows[at] == _UNKNOWN:
-            self.variable_rows[at] = self._match(_TOKEN, manager, kind, number)
+            self.variable_rows[at] = self._match(ROLE_TOKEN, manager, kind, number)
         return self.variable_rows[at]
-
-    def local_row(self, manager: int, kind: int, name: int) -> int:
-        """The row of a manager for a local variable of the rules of tokens of a kind."""
-        return self._other_row(_LOCAL, manager, kind, name)
-
-    def variable_number(self, predicate: int, name: str) -> int:
-        """The number of the variable that tokens of a predicate call `name`; NONE if none."""
-        return self.matching.variable_number(self.vocabulary.predicate_text(predicate), name)
-
-    def member_row(self, manager: int, owner: int, name: int) -> int:
-        """The row of a manager for a member of objects of class `owner`."""
-        return self._other_row(_MEMBER, manager, owner, name)
 
     def resource_row(self, manager: int, owner: int) -> int:
         """The row of a manager for resources of class `owner`."""
-        return self._other_row(_RESOURCE, manager, owner, 0)
+        return self.other_row(_ROLE_RESOURCE, manager, owner, 0)
 
-    def global_row(self, manager: int, name: int) -> int:
-        """The row of a manager for a global variable."""
-        return self._other_row(_GLOBAL, manager, 0, name)
-
-    def _other_row(self, sort: int, manager: int, owner: int, name: int) -> int:
-        """The row of a manager for a variable or resource, found by a sort of owner, the owner and the name."""
-        key = (((owner << 30) + name) * self.managers + manager) * 8 + sort
+    def other_row(self, role: int, manager: int, owner: int, name: int) -> int:
+        """The row of a manager for a variable of that role, or a resource; `owner` is a kind of token, or a class."""
+        key = (((owner << 30) + name) * self.managers + manager) * 8 + role
         row = self.other_rows.get(key)
         if row is None:
-            row = self._match(sort, manager, owner, name)
+            row = self._match(role, manager, owner, name)
             self.other_rows[key] = row
         return row
 
-    def _match(self, sort: int, manager: int, owner: int, name: int) -> int:
+    def _match(self, role: int, manager: int, owner: int, name: int) -> int:
         """The row that the configuration has for a variable or a resource; NONE for what is not to be decided."""
-        matching, texts = self.matching, self.vocabulary
-        if sort == _GLOBAL:
-            found = matching.global_variable(manager, texts.global_text(name))
-        elif sort == _MEMBER:
-            found = matching.member(manager, texts.class_text(owner), texts.member_text(owner, name))
-        elif sort == _RESOURCE:
-            found = matching.resource(manager, texts.class_text(owner))
-        elif sort == _LOCAL:
-            found = matching.token_variable(manager, self.kind_texts[owner], texts.name_text(name), True)
+        matching, program, texts = self.matching, self.program, self.database.names
+        if role == ROLE_GLOBAL:
+            found = matching.lasting_variable(manager, None, program.globals[name][0])
+        elif role == ROLE_MEMBER:
+            found = matching.lasting_variable(
+                manager, program.classes[owner].name, program.classes[owner].members[name].name
+            )
+        elif role == _ROLE_RESOURCE:
+            found = matching.resource(manager, program.classes[owner].name)
+        elif role == ROLE_LOCAL:
+            found = matching.token_variable(manager, self.kind_texts[owner], texts.text(name), True)
         else:
             token = self.kind_texts[owner]
             text = matching.variable_text(token.predicate, name)

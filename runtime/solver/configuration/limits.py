@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-from compiler.program import ClassCode
 from runtime.constraints.domains.tags import HALF_INF
 from runtime.plan.database import PlanDatabase
 
@@ -23,12 +22,11 @@ class Limits:
 def model_limits(database: PlanDatabase) -> Limits | None:
     """The limits of the first object of class PlannerConfig whose horizon is known; None if there is none."""
     plan = database.plan
-    classes = {each.name: each for each in database.program.classes}
+    classes = database.program.classes
     for o in range(len(database.objects.names)):
-        owner = database.program.classes[plan.object_class[o]]
-        if not _is_configuration(owner, classes):
+        if all(classes[c].name != "PlannerConfig" for c in database.prototypes.ancestry(plan.object_class[o])):
             continue
-        numbers = {member.name: number for number, member in enumerate(owner.members)}
+        numbers = {member.name: number for number, member in enumerate(classes[plan.object_class[o]].members)}
         values = []
         for name in _MEMBERS:
             v = plan.object_var0[o] + numbers[name] if name in numbers else -1
@@ -39,11 +37,3 @@ def model_limits(database: PlanDatabase) -> Limits | None:
         if _UNLIMITED not in values[:2]:
             return Limits(*values)
     return None
-
-
-def _is_configuration(owner: ClassCode, classes: dict[str, ClassCode]) -> bool:
-    """Whether a class is PlannerConfig or extends it."""
-    name: str | None = owner.name
-    while name is not None and name != "PlannerConfig":
-        name = classes[name].base if name in classes else None
-    return name is not None

@@ -89,7 +89,7 @@ class _Reading:
         component = named.value if named else element.tag
         kind = MANAGER_NAMES.index(component) if component in MANAGER_NAMES else NONE
         if kind == NONE:
-            self.complaints.append(UNKNOWN_MANAGER.at(named.span if named else element.span, name=component))
+            self.complaints.append(UNKNOWN_MANAGER.at((named or element).span, name=component))
         known = {"component", "label", "defaultPriority"} | ({"order"} if kind == RESOURCE_THREAT else set())
         self.spare(element, known)
         default = self.number(element, "defaultPriority", WORST_PRIORITY)
@@ -113,7 +113,7 @@ class _Reading:
         component = element.find("component")
         name = component.value if component else "FlawFilter"
         if name not in FILTERS:
-            self.complaints.append(UNKNOWN_FILTER.at(component.span if component else element.span, name=name))
+            self.complaints.append(UNKNOWN_FILTER.at((component or element).span, name=name))
         is_horizon = name in ("HorizonFilter", "HorizonVariableFilter")
         self.spare(element, _MATCH_NAMES | ({"policy"} if is_horizon else set()))
         for child in element.children:
@@ -125,11 +125,11 @@ class _Reading:
         named = element.find("component")
         name = named.value if named else STANDARD.get(kind, "")
         if name not in HANDLERS:
-            self.complaints.append(UNKNOWN_HANDLER.at(named.span if named else element.span, name=name))
+            self.complaints.append(UNKNOWN_HANDLER.at((named or element).span, name=name))
             return
         if HANDLERS[name][0] != kind:
             if kind != NONE:
-                span = named.span if named else element.span
+                span = (named or element).span
                 self.complaints.append(MISPLACED_HANDLER.at(span, name=name, manager=MANAGER_NAMES[kind]))
             return
         self.spare(element, _MATCH_NAMES | {"priority", "maxChoices"} | _HANDLER_ATTRIBUTES.get(name, set()))

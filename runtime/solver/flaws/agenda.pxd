@@ -44,8 +44,6 @@ cdef class Agenda:
     cdef public signed char[::1] watched
     cdef public double found_priority
 
-    cpdef int _make_tables(self) except -1
-
     @cython.locals(slots="long long", used="long long", v="long long")
     cpdef int _empty_tables(self) except -1
 

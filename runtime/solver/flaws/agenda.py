@@ -38,7 +38,6 @@ class Agenda:
         supports: Supports,
         exact: bool,
         in_order: bool,
-        grounded: "array[int]",
     ) -> None:
         self.plan = plan
         self.rows = plan.rows
@@ -48,7 +47,7 @@ class Agenda:
         self.supports = supports
         self.exact = exact  # makes EUROPA's steps
         self.distances = Distances(plan.engine, exact)
-        self.uses = Uses(plan, self.distances, grounded)
+        self.uses = Uses(plan, self.distances)
         self.restarts = Restarts(plan.engine)
         self.found_at = self.found_low = 0
         self.earliest = False  # goals come before what else is open, in the order of their starts
@@ -66,10 +65,6 @@ class Agenda:
         self.level = 0
         self.found_manager = self.found_kind = self.found_item = self.found_handler = NONE
         self.found_priority = 0.0
-        self._make_tables()
-
-    def _make_tables(self) -> None:
-        """Make the tables, empty."""
         self.token_row = array("q", [NONE]) * (64 * self.managers)
         self.token_key = array("q", [NO_KEY]) * (64 * self.managers)
         self.token_waiting = array("q", [NONE]) * 64

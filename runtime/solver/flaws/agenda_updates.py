@@ -210,7 +210,7 @@ def _add_variable(agenda: Agenda, v: int) -> int:
     role = agenda.plan.variable_role[v]
     owner = agenda.plan.variable_owner[v]
     name = agenda.plan.variable_name[v]
-    kind = NONE
+    kind = 0  # of the token, or the class of the object
     if role == ROLE_TOKEN or role == ROLE_LOCAL:
         if agenda.rows.status[owner] != ACTIVE:
             return 0
@@ -220,17 +220,15 @@ def _add_variable(agenda: Agenda, v: int) -> int:
         return 0
     if role == ROLE_TOKEN or role == ROLE_LOCAL:
         kind = _kind_of(agenda, owner)
+    elif role == ROLE_MEMBER:
+        kind = agenda.plan.object_class[owner]
     for manager in range(agenda.table.managers):
         if agenda.table.manager_kind[manager] != UNBOUND_VARIABLE:
             continue
         if role == ROLE_TOKEN:
             row = agenda.table.variable_row(manager, kind, v - agenda.rows.var0[owner])
-        elif role == ROLE_LOCAL:
-            row = agenda.table.local_row(manager, kind, name)
-        elif role == ROLE_GLOBAL:
-            row = agenda.table.global_row(manager, name)
         else:
-            row = agenda.table.member_row(manager, agenda.plan.object_class[owner], name)
+            row = agenda.table.other_row(role, manager, kind, name)
         slot = v * agenda.managers + manager
         agenda.variable_row[slot] = row
         agenda.variable_key[slot] = NO_KEY

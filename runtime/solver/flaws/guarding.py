@@ -1,6 +1,7 @@
 """Guards of a handler: whether variables of the flaw's token, or of its parent, have the values it names."""
 
-from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT
+from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT, KIND_OBJECT, KIND_STRING
+from runtime.plan.database import PlanDatabase
 from runtime.solver.flaws.filters import Filters
 from runtime.solver.tags import NONE
 
@@ -20,7 +21,8 @@ def guards_hold(filters: Filters, handler: int, t: int) -> bool:
 
 def _has_value(filters: Filters, t: int, name: str, wanted: str) -> bool:
     """Whether the variable of `t` that is called `name` is fixed to the value that is written `wanted`."""
-    number = filters.table.variable_number(filters.rows.predicate[t], name)
+    predicate = filters.table.program.predicates[filters.rows.predicate[t]].name
+    number = filters.table.matching.variable_number(predicate, name)
     if number < 0:
         return False
     v = filters.rows.var0[t] + number
@@ -37,4 +39,24 @@ def _has_value(filters: Filters, t: int, name: str, wanted: str) -> bool:
             return value == (float(wanted) if truth is None else truth)
         except ValueError:
             return False
-    return filters.table.vocabulary.value_text(v) == wanted
+    return _value_text(filters.table.database, v) == wanted
+
+
+def _value_text(database: PlanDatabase, v: int) -> str:
+    """The single value of a variable that holds names: an object, a symbol or a text."""
+    kind = database.plan.engine.kind[v]
+    value = database.plan.engine.lb[v]
+    if kind == KIND_OBJECT:
+        return database.objects.names[value]
+    if kind == KIND_STRING:
+        return database.prototypes.texts.text(value)
+    return database.prototypes.symbols.text(value)
+
+
+def value_number(database: PlanDatabase, v: int, text: str) -> float | None:
+    """The number of a name as a value of `v`; None if nothing is called so."""
+    kind = database.plan.engine.kind[v]
+    if kind == KIND_OBJECT:
+        return database.objects.numbers.get(text)
+    names = database.prototypes.texts if kind == KIND_STRING else database.prototypes.symbols
+    return names.numbers.get(text)

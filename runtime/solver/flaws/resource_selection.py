@@ -47,7 +47,7 @@ def select_resource(agenda: Agenda, manager: int, is_last: bool) -> None:
         if priority > agenda.found_priority or (priority == agenda.found_priority and not is_mine):
             continue
         takes_first = not agenda.exact or priority == BEST_PRIORITY or agenda.table.prefers_earliest[manager]
-        if not (uses.first_flaw(o) if takes_first else uses.worst_flaw(o)):
+        if not uses.find_flaw(o, not takes_first):
             continue
         if not is_last and agenda.relief is not None and agenda.relief.may_come(o, 1 if uses.found_low else -1):
             continue

@@ -13,15 +13,11 @@ cdef class Restarts:
 
     cpdef int clear(self) except -1
 
-    cpdef int _reset(self) except -1
-
     cpdef long long rank(self, long long v, long long size) except? -1
 
     cpdef int _add(self, long long v) except -1
 
     @cython.locals(k="long long")
     cpdef int note_failure(self) except -1
-
-    cpdef bint is_due(self) except -1
 
     cpdef int restart(self) except -1

@@ -17,18 +17,13 @@ class Restarts:
 
     def __init__(self, engine: Store) -> None:
         self.engine = engine
-        self.failures = self.count = 0
-        self._reset()
+        self.clear()
 
     def clear(self) -> None:
         """Forget all weights: the plan was changed from outside."""
-        if self.failures or self.count:
-            self._reset()
-
-    def _reset(self) -> None:
         self.weight = array("q", [1]) * 64
         self.failures = 0  # since the last restart
-        self.limit = FEW_FAILURES
+        self.limit = FEW_FAILURES  # of failures, for a restart
         self.count = 0
 
     def rank(self, v: int, size: int) -> int:
@@ -61,10 +56,6 @@ class Restarts:
         elif engine.conflict_variable >= 0:
             self._add(engine.conflict_variable)
         return 0
-
-    def is_due(self) -> bool:
-        """Whether there were enough failures for a restart."""
-        return self.failures >= self.limit
 
     def restart(self) -> None:
         """Begin the next run, half as long again."""

@@ -1,8 +1,6 @@
 """The sequence of a timeline, and exact tests of its times against those of one token."""
 
-from array import array
-
-from runtime.constraints.domains.arrays import grow_rows, lengthen
+from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
 from runtime.constraints.stn.reach import Reach
 from runtime.plan.store.plan import Plan
 from runtime.plan.tags import END, LIST_ORDER, LISTS, START
@@ -19,8 +17,8 @@ class TimelineSequence:
         self.to_start = Reach(plan.engine, exact)
         self.from_end = Reach(plan.engine, exact)
         self.to_end = Reach(plan.engine, exact)
-        self.tokens = array("q", [0]) * 64
-        self.index_of = array("q", [0]) * 64  # by token, for the object of the range
+        self.tokens = blank(64)
+        self.index_of = blank(64)  # by token, for the object of the range
         self.range_object = NONE  # on which tokens are known that may coincide with the one looked around from
         self.range_first = self.range_end = 0  # between these indices only
 

@@ -33,7 +33,7 @@ class Supports:
         self.guarded = 0  # the set, as bits, of predicates below guards
         for code in program.predicates:
             for rule in code.rules:
-                for name in _guarded_children(program.rules[rule].body, code.class_name, index):
+                for name in _children(program.rules[rule].body, code.class_name, index, False):
                     self.guarded |= self.reach[index[name]]
 
     def leads_to(self, predicate: int, other: int) -> bool:
@@ -65,22 +65,15 @@ def _reachable(program: Program, index: dict[str, int], ways: list[list[tuple[in
     return reach
 
 
-def _children(body: Iterable[Instruction], owner: str, index: dict[str, int]) -> Iterator[str]:
+def _children(
+    body: Iterable[Instruction], owner: str, index: dict[str, int], with_unguarded: bool = True
+) -> Iterator[str]:
     """The predicates that a body asks for, on any branch, when it runs for a token of class `owner`."""
     for instruction in body:
-        if isinstance(instruction, Child):
+        if isinstance(instruction, Child) and with_unguarded:
             name = f"{owner}.{instruction.predicate.rpartition('.')[2]}"
             yield name if instruction.object == "own" and name in index else instruction.predicate
         elif isinstance(instruction, Guard):
             yield from _children((*instruction.then, *instruction.otherwise), owner, index)
         elif isinstance(instruction, ObjectLoop):
-            yield from _children(instruction.body, owner, index)
-
-
-def _guarded_children(body: Iterable[Instruction], owner: str, index: dict[str, int]) -> Iterator[str]:
-    """The predicates that branches of the guards of a body ask for."""
-    for instruction in body:
-        if isinstance(instruction, Guard):
-            yield from _children((*instruction.then, *instruction.otherwise), owner, index)
-        elif isinstance(instruction, ObjectLoop):
-            yield from _guarded_children(instruction.body, owner, index)
+            yield from _children(instruction.body, owner, index, with_unguarded)

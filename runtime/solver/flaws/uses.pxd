@@ -18,7 +18,7 @@ cdef class Uses:
     cdef public Engine engine
     cdef public Resources resources
     cdef public Distances distances
-    cdef public long long[::1] grounded, point, takes
+    cdef public long long[::1] point, takes
     cdef public Envelope envelope
     cdef public Heap events
     cdef public long long found_at, found_low, count
@@ -29,17 +29,13 @@ cdef class Uses:
 
     cpdef int add(self, long long point, long long takes, double least, double most) except -1
 
-    cpdef double limit(self, long long o, long long which, long long side) except? -1
-
-    cpdef bint first_flaw(self, long long o) except -1
-
-    cpdef bint worst_flaw(self, long long o) except -1
+    cpdef bint find_flaw(self, long long o, bint is_worst) except -1
 
     @cython.locals(
         capacity_high="double", capacity_low="double", amount="double", high="double", k="long long", low="double",
         lower="double", upper="double"
     )
-    cpdef bint _sweep(self, long long o, long long whole) except -1
+    cpdef bint _sweep(self, long long o, bint is_worst) except -1
 
     cpdef bint may_order(self, long long o, long long first, long long second) except -1
 

@@ -4,10 +4,9 @@ A use with an end takes at its start and gives at its end; a reservoir's event d
 a giver (or the other way round, where the level is too high): precedences are pairs of timepoints.
 """
 
-from array import array
 from math import inf
 
-from runtime.constraints.domains.arrays import lengthen
+from runtime.constraints.domains.arrays import blank, lengthen
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
@@ -21,12 +20,11 @@ from runtime.solver.tags import NONE
 class Uses:
     """The timepoints of one resource at a time, over arrays that are used again."""
 
-    def __init__(self, plan: Plan, distances: Distances, grounded: "array[int]") -> None:
+    def __init__(self, plan: Plan, distances: Distances) -> None:
         self.plan = plan
         self.engine = plan.engine
         self.resources = plan.resources
         self.distances = distances
-        self.grounded = grounded  # per object: whether its level is that of everything happening early
         self.envelope = Envelope(plan.engine, plan.resources)
         self.events = Heap()
         self.found_at = 0
@@ -34,10 +32,10 @@ class Uses:
         self.found_amount = 0.0
         # The timepoints of one resource: when something is taken (1) or given (0), and whose it is.
         self.count = 0
-        self.point = array("q", [0]) * 64
-        self.takes = array("q", [0]) * 64
-        self.amount_least = array("d", [0.0]) * 64
-        self.amount_most = array("d", [0.0]) * 64
+        self.point = blank(64)
+        self.takes = blank(64)
+        self.amount_least = blank(64, "d")
+        self.amount_most = blank(64, "d")
 
     def gather(self, o: int) -> int:
         """Collect the timepoints at which resource `o` is used."""
@@ -61,19 +59,12 @@ class Uses:
         self.amount_most[at] = most
         self.count = at + 1
 
-    def limit(self, o: int, which: int, side: int) -> float:
-        """A bound of one of the limits of resource `o`."""
-        v = self.resources.limits[o * LIMITS + which]
-        if v < 0:
-            return 0.0 if which == INITIAL else (-inf if which == MINIMUM else inf)
-        return self.engine.flo[v] if side == 0 else self.engine.fhi[v]
-
     # ---- flaws ----
 
-    def first_flaw(self, o: int) -> bool:
-        """The first instant at which resource `o` might be exceeded."""
-        if self.grounded[o]:
-            return self._sweep(o, 0)
+    def find_flaw(self, o: int, is_worst: bool) -> bool:
+        """The first instant at which resource `o` might be exceeded; of a grounded one, if asked, the worst instant."""
+        if self.resources.is_grounded(o):
+            return self._sweep(o, is_worst)
         if not self.envelope.find(o):
             return False
         self.found_at = self.envelope.at
@@ -81,12 +72,8 @@ class Uses:
         self.found_amount = self.envelope.amount
         return True
 
-    def worst_flaw(self, o: int) -> bool:
-        """The instant at which resource `o` might be exceeded most, the first of equals."""
-        return self._sweep(o, 1) if self.grounded[o] else self.first_flaw(o)
-
-    def _sweep(self, o: int, whole: int) -> bool:
-        """Sweep over the grounded profile for the first instant out of bounds, or for the worst one."""
+    def _sweep(self, o: int, is_worst: bool) -> bool:
+        """Sweep over the grounded profile for the first instant out of bounds, or for the first of the worst."""
         engine = self.engine
         events = self.events
         events.clear()
@@ -95,10 +82,10 @@ class Uses:
             events.push(engine.lb[self.point[k]], k, k)
         for k, step in enumerate(self.resources.steps.get(o, ())):
             events.push(step[0], self.count + k, -k - 1)
-        low = self.limit(o, INITIAL, 0)
-        high = self.limit(o, INITIAL, 1)
-        minimum = self.limit(o, MINIMUM, 0)
-        maximum = self.limit(o, MAXIMUM, 1)
+        low = self.resources.lower(o * LIMITS + INITIAL, 0.0)
+        high = self.resources.upper(o * LIMITS + INITIAL, 0.0)
+        minimum = self.resources.lower(o * LIMITS + MINIMUM, -inf)
+        maximum = self.resources.upper(o * LIMITS + MAXIMUM, inf)
         capacity_low = low
         capacity_high = high
         self.found_amount = 0.0
@@ -124,7 +111,7 @@ class Uses:
                 self.found_at = time
                 self.found_low = 1 if minimum - low >= high - maximum else 0
                 self.found_amount = amount
-                if not whole:
+                if not is_worst:
                     return True
         return self.found_amount > 0.0
 
@@ -137,7 +124,8 @@ class Uses:
             return False
         if not self.distances.admits(second, first, 0):
             return False
-        return self.distances.admits(first, second, -1) or not (self.grounded[o] or self._is_seen(first, second))
+        is_plain = self.resources.is_grounded(o)
+        return self.distances.admits(first, second, -1) or not (is_plain or self._is_seen(first, second))
 
     def _is_seen(self, first: int, second: int) -> bool:
         """Whether the envelope sees a precedence of the network: it follows no edges with a positive weight."""

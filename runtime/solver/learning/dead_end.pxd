@@ -2,6 +2,7 @@
 
 cimport cython
 from runtime.constraints.engine cimport Engine
+from runtime.constraints.propagators.logic cimport may_be_equal
 from runtime.plan.tokens.predicate_hierarchy cimport first_active, next_active
 from runtime.solver.learning.conflict_analysis cimport ConflictAnalysis
 
@@ -9,7 +10,7 @@ cdef long long DURATION, END, EVERYTHING, FILTER_GUARD, FILTER_HORIZON, FILTER_H
 cdef long long FILTER_NOT_GUARD, FILTER_NOT_ASSIGNED, HANDLER_HSTS, INITIAL, LIMITS, LISTS, LIST_ORDER, MAXIMUM, MINIMUM, _MOST_SEEDS
 cdef long long NOW, OBJECT, OPEN_CONDITION, POLICY_PARTIAL, PRECEDES_ONLY, RESOURCE_THREAT
 cdef long long SIDE_LOWER, SIDE_UPPER, START, STATE, THREAT, UNBOUND_VARIABLE
-cdef double FLOAT_TOLERANCE
+cdef double FLOAT_TOLERANCE, inf
 
 
 cpdef int explain_dead_end(ConflictAnalysis analysis, long long d) except -1

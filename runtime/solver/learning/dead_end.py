@@ -1,6 +1,9 @@
 """Dead ends: why no resolver is left. What pruned the resolvers never tried completes the conflict set."""
 
+from math import inf
+
 from runtime.constraints.domains.tags import FLOAT_TOLERANCE, SIDE_LOWER, SIDE_UPPER
+from runtime.constraints.propagators.logic import may_be_equal
 from runtime.plan.tags import (
     DURATION,
     END,
@@ -154,7 +157,7 @@ def _explain_merging(analysis: ConflictAnalysis, d: int, t: int) -> None:
 def _explain_difference(analysis: ConflictAnalysis, mine: int, theirs: int, width: int) -> int:
     """Why two tokens are incompatible, if they are: variables without a common value, times that differ."""
     for k in range(OBJECT, width):
-        if not analysis.agenda.engine.intersects(mine + k, theirs + k):
+        if not may_be_equal(analysis.engine, mine + k, theirs + k):
             analysis.ask_domain(mine + k)
             analysis.ask_domain(theirs + k)
             return 0
@@ -211,11 +214,12 @@ def _explain_resource(analysis: ConflictAnalysis, d: int, o: int) -> bool:
     uses.is_quiet()
     at = stack.instant[d]
     sign = -1 if stack.is_low[d] else 1
-    latest = engine.lb if agenda.uses.grounded[o] else engine.ub
+    latest = engine.lb if uses.is_grounded(o) else engine.ub
     takers: list[int] = []
     givers: list[int] = []  # points
     owners: list[int] = []  # the uses they belong to
-    level = agenda.uses.limit(o, INITIAL, 1 if sign < 0 else 0)
+    at_first = o * LIMITS + INITIAL
+    level = uses.upper(at_first, 0.0) if sign < 0 else uses.lower(at_first, 0.0)
     lasts = False
     for u in range(uses.count):
         if uses.sign[u] == 0 or uses.on[u] != o:
@@ -240,7 +244,7 @@ def _explain_resource(analysis: ConflictAnalysis, d: int, o: int) -> bool:
                 analysis.explain_use(u, d)
                 analysis.ask(uses.quantity[u], SIDE_UPPER, NOW)
     side = MINIMUM if sign < 0 else MAXIMUM
-    limit = agenda.uses.limit(o, side, 0 if sign < 0 else 1)
+    limit = uses.lower(o * LIMITS + side, -inf) if sign < 0 else uses.upper(o * LIMITS + side, inf)
     charged = [u for u in takers if not _is_behind(analysis, uses.start[u], u, givers, owners)] if lasts else []
     for k in range(0 if lasts else min(len(takers), _MOST_SEEDS)):
         charged = _unordered(analysis, takers, takers[k])

@@ -4,9 +4,7 @@ Tokens count that are ordered there, or must be: active on that timeline and no 
 filter, now or later. Windows run from an earliest start to a latest end.
 """
 
-from array import array
-
-from runtime.constraints.domains.arrays import lengthen
+from runtime.constraints.domains.arrays import blank, lengthen
 from runtime.constraints.domains.tags import HALF_INF, KIND_FLOAT, SIDE_LOWER
 from runtime.plan.resources.violation import Violation
 from runtime.plan.tags import (
@@ -39,13 +37,13 @@ class Disjunctive:
         self.one = NONE
         self.zero = NONE
         self.count = 0
-        self.token = array("q", [0]) * 64
-        self.start = array("q", [0]) * 64
-        self.end = array("q", [0]) * 64
-        self.length = array("q", [0]) * 64
-        self.known = array("q", [0]) * 64  # by object: hash of the tokens that were checked last
+        self.token = blank(64)
+        self.start = blank(64)
+        self.end = blank(64)
+        self.length = blank(64)
+        self.known = blank(64)  # by object: hash of the tokens that were checked last
         self.stamp = 0
-        self.stamped = array("q", [0]) * 64
+        self.stamped = blank(64)
         self.found_start = 0
         self.found_end = 0
 

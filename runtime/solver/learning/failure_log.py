@@ -62,10 +62,12 @@ class FailureLog:
             self._add(d, Attempt(self._resolver(d, reader), self._causes(reader)))
 
     def note_rejection(self, d: int) -> None:
-        """Decision `d` has rejected a token."""
+        """Decision `d` is in force: note it if it has rejected a token."""
+        item = self.stack.item[d]
+        if self.stack.kind[d] != OPEN_CONDITION or self.plan.rows.status[item] != REJECTED:
+            return
         reader = self._reader()
-        name = reader.token(self.stack.item[d])
-        self.rejections[name] = FailedFlaw(self._flaw(d, reader), tuple(self.attempts.get(d, ())))
+        self.rejections[reader.token(item)] = FailedFlaw(self._flaw(d, reader), tuple(self.attempts.get(d, ())))
 
     def note_dead_end(self, d: int, heir: int) -> None:
         """Decision `d` has no resolver left; the search goes on at `heir` (NONE: nowhere)."""

@@ -29,9 +29,6 @@ cpdef long long _value_below(Agenda agenda, long long v, long long x) except? -1
 cpdef long long _random_value(Agenda agenda, Decisions stack, long long d) except? -1
 
 
-cpdef bint _are_coprime(long long a, long long b) except -1
-
-
 cpdef long long _mend_by_list(Agenda agenda, Decisions stack, long long d) except? -1
 
 

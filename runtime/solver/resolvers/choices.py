@@ -1,5 +1,7 @@
 """Resolvers: carry out the next one of a decision; it holds, fails, or there is none left."""
 
+from math import gcd
+
 from runtime.constraints.domains.bitset import next_value, previous_value
 from runtime.constraints.domains.tags import KIND_FLOAT, NEVER
 from runtime.plan.lifecycle import fire
@@ -83,7 +85,7 @@ def _random_value(agenda: Agenda, stack: Decisions, d: int) -> int:
     if stack.tries[d] >= count:
         return NEVER
     step = count // 2 + 1
-    while not _are_coprime(step, count):
+    while gcd(step, count) > 1:
         step += 1
     index = (v * SPREAD + stack.tries[d] * step) % count
     x = _value_above(agenda, v, agenda.engine.lb[v])
@@ -93,15 +95,6 @@ def _random_value(agenda: Agenda, stack: Decisions, d: int) -> int:
         x = _value_above(agenda, v, x + 1)
         index -= 1
     return x
-
-
-def _are_coprime(a: int, b: int) -> bool:
-    """Whether two numbers have no common divisor."""
-    while b:
-        rest = a % b
-        a = b
-        b = rest
-    return a == 1
 
 
 def _mend_by_list(agenda: Agenda, stack: Decisions, d: int) -> int:

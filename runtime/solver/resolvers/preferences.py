@@ -4,7 +4,7 @@ from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT
 from runtime.plan.tags import END, START
 from runtime.solver.flaws.agenda import Agenda
 from runtime.solver.flaws.decisions import Decisions
-from runtime.solver.flaws.guarding import TRUTHS
+from runtime.solver.flaws.guarding import TRUTHS, value_number
 from runtime.solver.tags import HANDLER_LISTED, NONE, ORDER_EARLY, ORDER_FAR, ORDER_KEY, ORDER_LATE, ORDER_NEAR
 
 
@@ -23,7 +23,7 @@ def listed_values(agenda: Agenda, v: int, handler: int) -> list[float]:
 def _value_of(agenda: Agenda, v: int, text: str) -> float | None:
     """What `text` means as a value of `v`; None if it is none."""
     if agenda.engine.kind[v] not in (KIND_BOOL, KIND_INT, KIND_FLOAT):
-        return agenda.table.vocabulary.value_number(v, text)
+        return value_number(agenda.table.database, v, text)
     if text in TRUTHS:
         return TRUTHS[text]
     try:

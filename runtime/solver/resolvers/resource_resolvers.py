@@ -97,7 +97,7 @@ def _add_useful_pairs(agenda: Agenda, stack: Decisions, d: int) -> bool:
     uses = agenda.uses
     engine = agenda.engine
     at = stack.instant[d]
-    grounded = uses.grounded[stack.item[d]]
+    grounded = uses.resources.is_grounded(stack.item[d])
     uses.gather(stack.item[d])
     taker = 1 if stack.is_low[d] else 0
     last = NONE

@@ -129,10 +129,14 @@ def faults(dice: Random, spans: int) -> list[Fault]:
 
     def every_edge(old: Callable[..., Any]) -> Callable[..., Any]:
         calls = [0]
+        chosen: set[tuple[int, int, int]] = set()
 
+        # An edge that was shifted once is shifted whenever it is posted again: another try must not pass by the fault.
         def edge(plan: Any, scope: int, a: int, b: int, w: int, span: int) -> bool:
             calls[0] += 1
-            return bool(old(plan, scope, a, b, w + by if calls[0] % (5 * nth) == 0 else w, span))
+            if calls[0] % (5 * nth) == 0:
+                chosen.add((span, a, b))
+            return bool(old(plan, scope, a, b, w + by if (span, a, b) in chosen else w, span))
 
         return edge
 

@@ -1,0 +1,215 @@
+"""Processes that fly missions: started with the models they load, spared for who needs one, ended with their pipe."""
+
+import contextlib
+import math
+import multiprocessing
+import os
+import signal
+import time
+from collections import deque
+from collections.abc import Iterator
+from multiprocessing.process import BaseProcess
+
+import runtime.build_form
+from checker.batch.result import MissionResult
+from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result, work
+from checker.oracle import USER_CODE
+from runtime.executive.configuration import AgentConfiguration
+from runtime.user.fault import UserCodeError
+
+_SAFE_PATH = "PYTHONSAFEPATH"
+_START_LIMIT = 120.0  # seconds for a worker to load the models
+ENDING = tuple(getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name))
+
+
+class WorkerError(Exception):
+    """No worker can be started: a bug of the tool, or a machine that lets no process live."""
+
+
+@contextlib.contextmanager
+def keeping_a_worker() -> Iterator[None]:
+    """Within this, a worker that has nothing left to do waits for who needs one next: starting one takes a second."""
+    SPARE.is_wanted = True
+    try:
+        yield
+    finally:
+        SPARE.is_wanted = False
+        SPARE.dismiss()
+
+
+class Flyer:
+    """Flies single missions, each with an agent of its own, in one process that may die or hang without harm."""
+
+    def __init__(self, load: Load, agent: AgentConfiguration, time_limit: float) -> None:
+        self._load, self._agent, self._time_limit = load, agent, time_limit
+        self._worker: Worker | None = None
+
+    def __enter__(self) -> "Flyer":
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is not None or self._worker is None:
+            self.dismiss()
+        else:
+            SPARE.keep(self._load, self._agent, self._worker)
+
+    def dismiss(self) -> None:
+        """End the process."""
+        if self._worker is not None:
+            self._worker.kill()
+            self._worker = None
+
+    def fly(
+        self,
+        agent: AgentConfiguration,
+        number: int,
+        seed: int,
+        load: Load | None = None,
+        *,
+        keeps_trace: bool = False,
+        most_seconds: float = math.inf,
+    ) -> MissionResult:
+        """The result of one mission; an ERROR where the process died or took too long.
+
+        `load` loads the models where they are others than those that the process was started with.
+        """
+        return self.fly_task(Task(number, seed, agent, keeps_trace=keeps_trace, load=load), most_seconds)
+
+    def fly_task(self, task: Task, most_seconds: float = math.inf) -> MissionResult:
+        """The result of one mission; an ERROR where the process died or took too long."""
+        limit = min(self._time_limit, most_seconds)
+        if self._worker is None:
+            self._worker = SPARE.take(self._load, self._agent)
+        if self._worker is None:
+            self._worker = Worker(self._load, self._agent)
+            if not self._worker.connection.poll(_START_LIMIT):
+                return self._lost(task, "the process did not start")
+            message = self._heard()
+            if isinstance(message, LoadFailure):
+                raise unloaded(message)
+            if message != READY:
+                return self._lost(task, "the process did not start")
+        self._worker.give([task], limit)
+        if not self._worker.connection.poll(limit):
+            return self._lost(task, f"took longer than {limit:g} s")
+        result = self._heard()
+        if isinstance(result, LastWords):
+            return self._lost(task, result.reason, USER_CODE)
+        return result if isinstance(result, MissionResult) else self._lost(task, "the process died")
+
+    def _heard(self) -> object:
+        assert self._worker is not None
+        try:
+            return self._worker.connection.recv()
+        except (EOFError, OSError):
+            return None
+
+    def _lost(self, task: Task, reason: str, code: str = "") -> MissionResult:
+        assert self._worker is not None
+        self._worker.kill()
+        self._worker = None
+        return error_result(task, reason, code=code)
+
+
+class Worker:
+    """A process, the way to it, and the missions that it still owes; the first of them is in flight."""
+
+    def __init__(self, load: Load, agent: AgentConfiguration) -> None:
+        context = multiprocessing.get_context("spawn")
+        self.connection, other = context.Pipe()
+        self.process: BaseProcess = context.Process(target=work, args=(other, load, agent), daemon=True)
+        with _signals_held_back(), _safe_path(), _children_allowed():
+            self.process.start()
+        other.close()
+        self.owed: deque[Task] = deque()
+        self.is_ready = False
+        self.deadline = time.monotonic() + _START_LIMIT
+
+    def give(self, chunk: list[Task], time_limit: float) -> None:
+        self.owed.extend(chunk)
+        self.deadline = time.monotonic() + time_limit
+        self.connection.send(chunk)
+
+    def kill(self) -> None:
+        """End the process, whatever it is doing."""
+        self.process.kill()
+        self.process.join()
+        self.connection.close()
+
+
+class _Spare:
+    """A worker without missions, with what it has loaded; the latest one."""
+
+    def __init__(self) -> None:
+        self.is_wanted = False
+        self._kept: tuple[Load, AgentConfiguration, Worker] | None = None
+
+    def keep(self, load: Load, agent: AgentConfiguration, worker: Worker) -> None:
+        """Keep a worker, or end it where none is wanted."""
+        self.dismiss()
+        if self.is_wanted:
+            self._kept = (load, agent, worker)
+        else:
+            worker.kill()
+
+    def take(self, load: Load, agent: AgentConfiguration) -> Worker | None:
+        """The worker that has loaded this."""
+        if self._kept is None or self._kept[0] is not load or self._kept[1] != agent:
+            return None
+        worker, self._kept = self._kept[2], None
+        return worker
+
+    def dismiss(self) -> None:
+        """End the one that is kept."""
+        if self._kept is not None:
+            self._kept[2].kill()
+            self._kept = None
+
+
+SPARE = _Spare()
+
+
+def unloaded(failure: LoadFailure) -> Exception:
+    """The exception for models that a worker cannot load."""
+    if failure.user_error:
+        return UserCodeError(failure.user_error, failure.detail, failure.advice)
+    return WorkerError(failure.detail)
+
+
+@contextlib.contextmanager
+def _signals_held_back() -> Iterator[None]:
+    """Hold back what ends a batch: a process started in here is born with it blocked, and so never dies of it."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+@contextlib.contextmanager
+def _children_allowed() -> Iterator[None]:
+    """Let a process start others though it is a daemon, as workers of Dask are: these end with their pipe."""
+    settings = multiprocessing.current_process()._config  # type: ignore[attr-defined]
+    before = settings.get("daemon")
+    settings["daemon"] = False
+    try:
+        yield
+    finally:
+        settings["daemon"] = before
+
+
+@contextlib.contextmanager
+def _safe_path() -> Iterator[None]:
+    """Keep the working folder off the path of a new interpreter: a `json.py` that lies there is not to be imported."""
+    before = os.environ.get(_SAFE_PATH)
+    os.environ[_SAFE_PATH] = "1"
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[_SAFE_PATH]
+        else:
+            os.environ[_SAFE_PATH] = before

@@ -1,0 +1,147 @@
+"""A line that is missing in one branch is told by what the other branch sets; lines at odds by what z3 needs."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from checker.counterfactual.smallness import cost_of, usage_of
+from checker.mutation.edits import EditKind, sites_of
+from checker.mutation.variant import load_graph
+from nddlc.main import run
+
+MODEL = """#include "TREX.nddl"
+enum Load { light, heavy }
+class Crane extends AgentTimeline {
+  predicate Idle { }
+  predicate Lift { Load load; }
+  predicate Lower { Load load; int slack; }
+  Crane(Mode m) { super(m, "Idle"); }
+}
+int SWING = [2 6];
+int HEAVY_TIME = 40;
+int LIGHT_TIME = 20;
+Crane::Lift {
+  meets(object.Lower lower);
+  lower.load == load;
+  if (load == Load.heavy) {
+    lower.slack == 8;
+    duration == HEAVY_TIME;
+  } else {
+    lower.slack == 2;
+    duration == LIGHT_TIME;
+  }
+}
+Crane::Lower {
+  int swing;
+  swing == sampledParameter(SWING);
+  slack < 12;
+  duration == 10 + slack + swing;
+}
+Crane crane = new Crane(Internal);
+close();
+"""
+MISSION = """[mission]
+name = "crane"
+final_tick = 200
+[[reactor]]
+name = "sim"
+model = "crane.nddl"
+latency = 0
+lookahead = 1
+internal = ["crane"]
+[[goal]]
+timeline = "crane"
+predicate = "Lift"
+mandatory = true
+start = 10
+[goal.parameters]
+load = "light"
+[[property]]
+name = "put down in time"
+kind = "reached"
+timeline = "crane"
+predicate = "Lower"
+by = 100
+[check]
+missions = 6
+"""
+
+
+LIGHT_TIME = "    duration == LIGHT_TIME;\n"
+
+
+def causes(folder: Path, capsys: pytest.CaptureFixture[str], model: str) -> list[dict[str, Any]]:
+    """The ranked causes of the first fault; none where all missions pass."""
+    (folder / "crane.nddl").write_text(model, encoding="utf-8")
+    (folder / "mission.toml").write_text(MISSION, encoding="utf-8")
+    report = folder / "report"
+    run(["check", str(folder / "mission.toml"), "--no-store", "--workers", "1", "--output", str(report)])
+    capsys.readouterr()
+    faults = json.loads((report / "report.json").read_text(encoding="utf-8"))["faults"]
+    found: list[dict[str, Any]] = faults[0]["causes"]["ranked"] if faults else []
+    return found
+
+
+def test_the_model_is_right_as_it_stands(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert causes(tmp_path, capsys, MODEL) == []
+
+
+@pytest.mark.parametrize(
+    "line", ["    duration == LIGHT_TIME;\n", "    lower.slack == 2;\n    duration == LIGHT_TIME;\n"]
+)
+def test_a_branch_that_lacks_what_the_other_sets_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], line: str
+) -> None:
+    found = causes(tmp_path, capsys, MODEL.replace(line, ""))
+    told = [one["text"] for one in found[:3] if one["claim"] == "uneven branches"]
+    assert told == ["load == Load.heavy"]
+
+
+def test_a_condition_without_else_is_not_uneven(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    model = MODEL.replace(MODEL[MODEL.index("  } else {") : MODEL.index("}\nCrane::Lower")], "  }\n  duration >= 1;\n")
+    found = causes(tmp_path, capsys, model)
+    assert found
+    assert all(one["claim"] != "uneven branches" for one in found)
+
+
+def test_a_sign_between_the_same_words_is_meant_as_elsewhere(tmp_path: Path) -> None:
+    text = """class T extends Timeline { predicate P { int n; } predicate Q { int n; } }
+T::P { int a; a == n * (1 + n); duration == a; }
+T::Q { int a; int b; a == n * (1 - n); b == n + 3; duration == a; }
+"""
+    (tmp_path / "m.nddl").write_text(text, encoding="utf-8")
+    sites = sites_of(load_graph(tmp_path / "m.nddl", ()))
+    costs = {
+        (site.text, edit.old): cost_of(edit, site, usage_of(sites))
+        for site in sites
+        for edit in site.edits
+        if edit.kind is EditKind.SIGN
+    }
+    wrong = costs["a == n * (1 - n);", "-"]
+    assert wrong < costs["b == n + 3;", "+"]
+
+
+def test_a_limit_belongs_to_lines_about_the_token_whose_name_it_bears(tmp_path: Path) -> None:
+    text = """int LIFT_MAX = 40;
+int GRACE = 5;
+class T extends Timeline { predicate Lift { } predicate P { } }
+T::P {
+  contains(T.Lift up);
+  contains(T.Lift down);
+  up.duration <= LIFT_MAX;
+  down.start <= up.end + GRACE;
+  down.duration <= GRACE;
+}
+"""
+    (tmp_path / "m.nddl").write_text(text, encoding="utf-8")
+    sites = sites_of(load_graph(tmp_path / "m.nddl", ()))
+    usage = usage_of(sites)
+    gains = {
+        site.text: usage.gain(edit, site)
+        for site in sites
+        for edit in site.edits
+        if edit.kind is EditKind.LIMIT and (edit.old, edit.new) == ("GRACE", "LIFT_MAX")
+    }
+    assert gains["down.duration <= GRACE;"] > 0.0

@@ -1,0 +1,93 @@
+"""A model with five mistakes is repaired by quick fixes alone, as somebody would who is new to NDDL."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+LAMP = (ROOT / "models" / "classic" / "lamp.nddl").read_text()
+ROVER = (ROOT / "models" / "classic" / "rover.nddl").read_text()
+ERROR = 1
+
+
+def broken(text: str, *mistakes: tuple[str, str]) -> str:
+    for right, wrong in mistakes:
+        assert right in text
+        text = text.replace(right, wrong, 1)
+    return text
+
+
+MODELS = {
+    "letters": (
+        LAMP,
+        ("predicate Press", "Predicate Press"),
+        ("met_by(Switch.Press p)", "metby(Switch.Press p)"),
+        ("new Lamp()", "new Lam()"),
+        ("reading.start", "readin.start"),
+        ("goal(Lamp.On reading)", "goal(Lamp.Onn reading)"),
+    ),
+    "signs": (
+        LAMP,
+        ("class Switch extends Timeline", "class Switch : Timeline"),
+        ("Lamp::On {", "Lamp.On {"),
+        ("duration == 1;", "duration = 1;"),
+        ("new Switch();", "new Switch;"),
+        ("reading.end == 30;", "reading.end == 30"),
+    ),
+    "another language": (
+        ROVER,
+        ("predicate At { Place place; }", "predicate At(Place place);"),
+        ("way.target == place;", "way->target == place;"),
+        ("= new Arm(rover)", "= Arm(rover)"),
+        ("goal(Arm.Sampling first);", "goal Arm.Sampling first;"),
+        ("// A rover", "# A rover"),
+    ),
+    "brackets": (
+        LAMP,
+        ("    duration >= 1;\n}", "    duration >= 1;"),
+        ("met_by(Switch.Press p)", "met_by(Press p)"),
+        ("Lamp lamp = new Lamp();", "Lamp lamp = new Lamp(;"),
+        ("fact(Lamp.Off dark);", "fact(Lamp.Off dark;"),
+        ("predicate Press { }", "predicate Press;"),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_five_mistakes_are_mended_by_quick_fixes_only(client: Any, tmp_path: Path, name: str) -> None:
+    right, *mistakes = MODELS[name]
+    text = broken(right, *mistakes)
+    client.start(folder=tmp_path)
+    uri = (tmp_path / "model.nddl").as_uri()
+    told = client.open(uri, text)["diagnostics"]
+    fixes = 0
+    while errors := [each for each in told if each["severity"] == ERROR]:
+        fixes += 1
+        assert fixes <= 2 * len(mistakes), errors
+        actions = client.ask(
+            "textDocument/codeAction",
+            textDocument={"uri": uri},
+            range=errors[0]["range"],
+            context={"diagnostics": errors[:1], "only": ["quickfix"]},
+        )
+        assert actions, errors[0]
+        first = next((each for each in actions if each.get("isPreferred")), actions[0])
+        text = mended(text, first["edit"]["changes"][uri])
+        told = client.change(uri, {"text": text})["diagnostics"]
+    assert text == right
+    assert fixes == len(mistakes)
+    assert client.leave() == 0
+
+
+def mended(text: str, edits: list[Any]) -> str:
+    """The text after an action; it stands in ASCII, so units are characters."""
+    lines = text.split("\n")
+
+    def offset(place: dict[str, int]) -> int:
+        return sum(len(line) + 1 for line in lines[: place["line"]]) + place["character"]
+
+    for edit in sorted(edits, key=lambda each: offset(each["range"]["start"]), reverse=True):
+        begin, end = (offset(edit["range"][side]) for side in ("start", "end"))
+        text = text[:begin] + edit["newText"] + text[end:]
+    return text
