@@ -7,7 +7,7 @@ import numpy as np
 from checker.judge.alike import BranchRows, GuardRows, RunRows
 from checker.judge.bench import Bench
 from checker.judge.bulk_meanings import difference_of
-from checker.judge.columns import INT, TEXT, Array, Column, Mask, column_of, constant, distinct, unknown
+from checker.judge.columns import INT, TEXT, Array, Column, Mask, Texts, column_of, constant, distinct, unknown
 from checker.judge.operands import VariableNames, domain_value, member_of
 from checker.judge.tables import RowTokens, Tables
 from compiler.program import (
@@ -137,6 +137,9 @@ def row_reader(operand: Operand, names: VariableNames) -> RowRead:
     match operand:
         case Constant(domain=domain):
             value = domain_value(domain)
+            column = constant(value, Texts())
+            if column.kind != TEXT:  # names are numbered anew for each record
+                return lambda frame: column
             return lambda frame: constant(value, frame.tables.texts)
         case GlobalVariable(index=index):
             if index == names.clock:

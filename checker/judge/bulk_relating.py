@@ -7,7 +7,7 @@ from checker.judge.bulk_meanings import near
 from checker.judge.columns import TEXT, Column, Mask
 from checker.judge.operands import VariableNames
 from checker.judge.relations import Demand, demands
-from checker.judge.tables import RowTokens, Tables
+from checker.judge.tables import RowTokens
 from compiler.program import END, OBJECT, START, Child, Relate
 from runtime.executive.record import NOBODY
 
@@ -17,6 +17,7 @@ def row_child(child: Child, names: VariableNames) -> RowStep:
     slot, origin = child.slot, child.origin
     pairs = demands(child.relation, child.bounds)
     given = None if isinstance(child.object, str) else row_reader(child.object, names)
+    fitting: dict[tuple[str, ...], Mask] = {}  # by the predicates of a record, which are mostly the same
 
     def step(frame: RowFrame) -> None:
         keys = next(frame.children, None)
@@ -25,7 +26,10 @@ def row_child(child: Child, names: VariableNames) -> RowStep:
         tables, tally = frame.tables, frame.tally
         found = tables.rows_of(keys)
         rows = np.where(found == NOBODY, 0, found)
-        tally.need((found != NOBODY) & _is_of(tables, rows, child, names))
+        predicates = tuple(tables.predicates)
+        if predicates not in fitting:
+            fitting[predicates] = _fitting(predicates, child, names)
+        tally.need((found != NOBODY) & fitting[predicates].take(tables.predicate.take(rows)))
         tokens = frame.tokens[slot] = RowTokens(tables, rows)
         holder = frame.tok.column(OBJECT) if child.object == "own" else None if given is None else given(frame)
         if holder is not None:
@@ -36,7 +40,7 @@ def row_child(child: Child, names: VariableNames) -> RowStep:
         first = frame.tokens[origin]
         if first is None:
             raise UnplainError
-        tally.need(tables.is_active[rows] | tables.is_merged[rows])
+        tally.need(tables.is_active.take(rows) | tables.is_merged.take(rows))
         _relate(frame, pairs, first, tokens)
 
     return step
@@ -55,22 +59,22 @@ def row_relate(given: Relate) -> RowStep:
     return step
 
 
-def _is_of(tables: Tables, rows: np.ndarray, child: Child, names: VariableNames) -> Mask:
-    """Where the tokens are of the predicate that a rule asks for; on its own object, of a subclass too."""
+def _fitting(predicates: tuple[str, ...], child: Child, names: VariableNames) -> Mask:
+    """Which predicates are the one that a rule asks for; on its own object, of a subclass too."""
     wanted, _, suffix = child.predicate.rpartition(".")
-    fitting = []
-    for name in tables.predicates:
+    found = []
+    for name in predicates:
         kind, _, last = name.rpartition(".")
         is_heir = child.object == "own" and last == suffix and names.is_kind_of(kind, wanted)
-        fitting.append(name == child.predicate or is_heir)
-    return np.asarray(np.array(fitting, bool).take(tables.predicate.take(rows)))
+        found.append(name == child.predicate or is_heir)
+    return np.array(found, bool)
 
 
 def _relate(frame: RowFrame, pairs: tuple[Demand, ...], origin: RowTokens, target: RowTokens) -> None:
     """Judge a relation between two tokens in all rows; where a time is open, whether it can hold."""
     tables, tally = frame.tables, frame.tally
-    tally.need(~(tables.is_cut[origin.rows] | tables.is_cut[target.rows]))
-    planned = tables.is_active[target.rows] | tables.is_merged[target.rows]
+    if tables.has_cut:
+        tally.need(~(tables.is_cut.take(origin.rows) | tables.is_cut.take(target.rows)))
     times = ((origin, START), (origin, END), (target, START), (target, END))
     for first, second, lower, upper in pairs:
         a, b = (frame.use(tokens.column(variable)) for tokens, variable in (times[first], times[second]))
@@ -82,6 +86,7 @@ def _relate(frame: RowFrame, pairs: tuple[Demand, ...], origin: RowTokens, targe
         is_open = (least_a != most_a) | (least_b != most_b)
         holds = (least_b - most_a <= upper) & (lower <= most_b - least_a)
         if lower == upper:
+            planned = tables.is_active.take(target.rows) | tables.is_merged.take(target.rows)
             holds &= ~is_open | ~planned | ((least_a != most_a) & (least_b != most_b))
         tally.need(holds)
         tally.more.append(~is_open)

@@ -167,6 +167,8 @@ def unknown() -> Column:
 
 def distinct(numbers: Array) -> tuple[list[int], Array]:
     """The small numbers, not below 0, that occur, in order; and the index in that order of each."""
+    if len(numbers) and (numbers == numbers[0]).all():  # mostly so, and this is quickly seen
+        return [int(numbers[0])], np.zeros(len(numbers), np.int64)
     found = np.flatnonzero(np.bincount(numbers))
     indices = np.zeros(int(found[-1]) + 1 if len(found) else 0, np.int64)
     indices[found] = np.arange(len(found))

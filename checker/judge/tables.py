@@ -86,6 +86,7 @@ class Tables:
         else:
             self._read(record.tokens)
         self.count = len(self.keys)
+        self.has_cut = bool(self.is_cut.any())
         self.is_ordered = bool((self.keys[1:] > self.keys[:-1]).all())
         self._rows: Array | None = None  # by key, where there are not many more keys than tokens
         if self.is_ordered and self.count and self.keys[0] >= 0 and self.keys[-1] < _SPARSE * self.count:
@@ -221,6 +222,8 @@ class RowTokens:
     def _sort(self) -> list[tuple[Mask, _Picked]]:
         """The arguments by predicate, with the rows of each."""
         kinds, indices = distinct(self.tables.predicate.take(self.standing))
+        if len(kinds) == 1:
+            return [(indices == 0, self.tables.arguments.of(kinds[0], self.standing))]
         found = []
         for k, kind in enumerate(kinds):
             rows = indices == k

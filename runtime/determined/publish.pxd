@@ -21,8 +21,8 @@ cdef class Publisher:
     cdef public object program, trace, columns
     cdef public Samples samples
     cdef public Log log
-    cdef public dict asked
-    cdef public list wishes, line_names, short_names, shapes
+    cdef public dict asked, symbols
+    cdef public list wishes, line_names, short_names, shapes, names
     cdef public long long busy
 
     @cython.locals(log=Log, first="long long", count="long long")

@@ -17,6 +17,7 @@ from runtime.user.reactor import Argument, Asked, Now, Published, Reactor, Seen,
 
 _NEVER = 2**62
 _MOST_CAUSES = 3
+_NEW = tuple.__new__  # a named tuple in a tenth of the time that its class takes
 _NOBODY: frozenset[int] = frozenset()
 _Kinds = Callable[[str, str], "Mapping[str, tuple[str, str]] | None"]  # timeline, predicate: parameters; None: unknown
 
@@ -80,7 +81,7 @@ class CodedReactor(TeleoReactor):
                     arguments[name] = interval[0]
                 else:
                     arguments[name] = _shown(domain)
-            self.seen[timeline] = Seen(observation.predicate, arguments, observation.tick)
+            self.seen[timeline] = _NEW(Seen, (observation.predicate, arguments, observation.tick))
             self.events[timeline] = observation.event
             if observation.tick == tick or timeline in self.wakes_on:
                 told.append(timeline)

@@ -49,8 +49,9 @@ class Dispatch:
         """Note what owners begin of what they were asked for; if it had been refused, there was room for it again."""
         if not self.sent:
             return 0
+        asked = {request.timeline for request in self.sent.values()}
         for line in self.timelines:
-            if line.news is not None:
+            if line.news is not None and line.name in asked:
                 for cause in self.trace.events[line.news.event].causes:
                     for request in self.sent.values():
                         if request.event == cause:

@@ -55,6 +55,7 @@ BASES = {
     for name, place in (
         ("Store", "constraints/domains/store.pxd"),
         ("SupportWalk", "constraints/explanation/support_walk.pxd"),
+        ("TeleoReactor", "executive/reactor.pxd"),
     )
 }
 

@@ -4,6 +4,7 @@ cimport cython
 from runtime.constraints.engine cimport Engine
 from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
+from runtime.constraints.domains.base_domain cimport is_base_single
 from runtime.constraints.domains.narrow cimport is_single
 from runtime.constraints.stn.distances cimport Distances
 from runtime.solver.flaws.filters cimport Filters
@@ -42,8 +43,6 @@ cdef class Agenda:
     cdef public long long[::1] fired_scope, fired_end, waiting_guards
     cdef public signed char[::1] watched
     cdef public double found_priority
-
-    cpdef int _make_tables(self) except -1
 
     @cython.locals(slots="long long", used="long long", v="long long")
     cpdef int _empty_tables(self) except -1

@@ -7,6 +7,7 @@ key that a slot has now is in `token_key` or `variable_key`, NO_KEY if it is in 
 from array import array
 
 from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
+from runtime.constraints.domains.base_domain import is_base_single
 from runtime.constraints.domains.narrow import is_single
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
@@ -64,10 +65,6 @@ class Agenda:
         self.level = 0
         self.found_manager = self.found_kind = self.found_item = self.found_handler = NONE
         self.found_priority = 0.0
-        self._make_tables()
-
-    def _make_tables(self) -> None:
-        """Make the tables, empty."""
         self.token_row = array("q", [NONE]) * (64 * self.managers)
         self.token_key = array("q", [NO_KEY]) * (64 * self.managers)
         self.token_waiting = array("q", [NONE]) * 64
@@ -165,7 +162,7 @@ class Agenda:
         In a rule EUROPA only equates the object of a new token with the one that the rule names: unless its class has
         a single object, it still is to be decided, in a step with one choice. Elsewhere it counts as given.
         """
-        if (not self.engine.decided[v] and not is_single(self.engine, v)) or not self.engine.is_decided(v):
+        if not self.engine.decided[v] and not (is_single(self.engine, v) and is_base_single(self.engine, v)):
             return False
         if not self.exact or self.engine.decided[v] or self.plan.variable_role[v] != ROLE_TOKEN:
             return True
