@@ -120,14 +120,18 @@ def refusals(outcome: Outcome) -> tuple[Event, ...]:
     refused = [(index, event) for index, event in numbered(events) if event.kind in _ANSWERS]
     found: dict[int, None] = dict.fromkeys(answers)
     for index in found.copy():
-        found |= dict.fromkeys(_behind(index, outcome, senders, refused))
+        _note_behind(index, outcome, senders, refused, found)
     return tuple(events[index] for index in reversed(found))
 
 
-def _behind(
-    answer: int, outcome: Outcome, senders: dict[int | None, str], refused: Sequence[tuple[int, Event]]
-) -> list[int]:
-    """The last refusals of what an answer's reactor asked for and its conflict speaks of, the nearest first."""
+def _note_behind(
+    answer: int,
+    outcome: Outcome,
+    senders: dict[int | None, str],
+    refused: Sequence[tuple[int, Event]],
+    found: dict[int, None],
+) -> None:
+    """Note the last refusals of what an answer's reactor asked for and its conflict speaks of, the nearest first."""
     event = outcome.events[answer]
     repairs = [one for cause in event.causes if (one := outcome.events[cause]).kind is EventKind.RELAX]
     spoken = {name for one in (event, *repairs) for name in _predicates_in(one)}
@@ -136,8 +140,10 @@ def _behind(
         for index, one in refused
         if index < answer and senders.get(one.request) == event.reactor and one.predicate in spoken
     }
-    found = sorted(last.values(), reverse=True)
-    return [*found, *(deeper for index in found for deeper in _behind(index, outcome, senders, refused))]
+    behind = [index for index in sorted(last.values(), reverse=True) if index not in found]
+    found |= dict.fromkeys(behind)
+    for index in behind:
+        _note_behind(index, outcome, senders, refused, found)
 
 
 def _predicates_in(event: Event) -> set[str]:

@@ -5,7 +5,7 @@ from runtime.determined.machine cimport Machine
 from runtime.determined.publish cimport Publisher
 from runtime.executive.reactor cimport TeleoReactor
 
-cdef long long FAR, NONE, ROW, STOPS, _AHEAD
+cdef long long FAR, LINE, NONE, ROW, STOPS, _AHEAD
 
 
 cdef class DeterminedReactor(TeleoReactor):

@@ -12,7 +12,7 @@ from runtime.determined.expand import expand, record_of
 from runtime.determined.inputs import Inputs, catch_up, take_over
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.publish import Publisher, Samples, Wish
-from runtime.determined.tags import FAR, NONE, ROW, STOPS
+from runtime.determined.tags import FAR, LINE, NONE, ROW, STOPS
 from runtime.executive.configuration import ReactorConfiguration
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, Draw, EventKind, OpenGoal, Reason, ReasonKind
@@ -368,7 +368,7 @@ class DeterminedReactor(TeleoReactor):
         general = self.general or self._asked()
         log = self.machine.log
         if 0 <= token < log.row_count and log.rows[ROW * token] == key:
-            line = general.by_name[self.program.model.lines[int(log.rows[ROW * token + 1])].name]
+            line = general.by_name[self.program.model.lines[int(log.rows[ROW * token + LINE])].name]
             if line.current >= 0 and general.bench.started_at(line.current) == key:
                 return latest(general.bench, general.bench.end(line.current))
         return general.why_it_lasts(token, key)
