@@ -91,7 +91,7 @@ compiled: build
 
 # The form of the engine cannot matter to the front end, and the build has tests of its own.
 interpreted: setup
-	NDDLC_INTERPRETED=1 $(PYTEST) $(filter-out tests/build tests/nddl_lang tests/lsp %.py tests/__pycache__,$(wildcard tests/*))
+	NDDLC_INTERPRETED=1 $(PYTEST) -m 'not once' $(filter-out tests/build tests/nddl_lang tests/lsp %.py tests/__pycache__,$(wildcard tests/*))
 
 # Wheels and rebuilds take a minute, so they are made again only when what decides about them has changed.
 build/builds-tested: setup.py pyproject.toml $(wildcard build_backend/*.py tests/build/*.py) runtime/build_form.py | build

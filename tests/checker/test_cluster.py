@@ -73,6 +73,7 @@ def test_a_cluster_without_workers_is_not_waited_for(monkeypatch: pytest.MonkeyP
     assert [result.judgement.message for result in results] == ["the cluster has no worker left"] * 3
 
 
+@pytest.mark.once
 @pytest.mark.slow
 def test_reports_are_the_same_however_many_fly(
     address: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

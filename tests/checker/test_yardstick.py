@@ -34,6 +34,7 @@ OLDER = (("quay", 5), ("kiln", 9), ("gale", 6))
 NEWER = (("glider", 6), ("mooring", 10), ("sol", 9))
 
 
+@pytest.mark.once
 @pytest.mark.parametrize("missions", [OLDER, NEWER])
 def test_most_faults_are_found_and_each_is_one_to_a_user(missions: tuple[tuple[str, int], ...]) -> None:
     found = [one for name, limit in missions for one in reports(name, limit)]
