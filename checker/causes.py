@@ -150,14 +150,7 @@ def _predicates_in(event: Event) -> set[str]:
     """The predicates, without their classes, of the tokens that an event's conflicts speak of."""
     conflicts = [event.conflict] if event.conflict is not None else []
     conflicts += event.deadlock.conflicts() if event.deadlock is not None else ()
-    tokens = {
-        operand.token
-        for conflict in conflicts
-        for element in conflict.elements
-        for term in element.terms
-        for operand in term.arguments
-        if isinstance(operand, VariableName)
-    }
+    tokens = {variable.token for conflict in conflicts for variable in conflict.variables}
     if event.reason is not None:
         tokens.add(event.reason.token)
     return {token.predicate.rpartition(".")[2] for token in tokens if token is not None}
@@ -214,13 +207,11 @@ def _conflict_graph(conflict: Conflict) -> "nx.Graph[int]":
     graph.add_nodes_from(range(len(conflict.elements)))
     speakers: dict[VariableName, list[int]] = {}
     for number, element in enumerate(conflict.elements):
-        for term in element.terms:
-            for operand in term.arguments:
-                if isinstance(operand, VariableName):
-                    for other in speakers.setdefault(operand, []):
-                        if other != number:
-                            graph.add_edge(other, number)
-                    speakers[operand].append(number)
+        for variable in element.variables:
+            for other in speakers.setdefault(variable, []):
+                if other != number:
+                    graph.add_edge(other, number)
+            speakers[variable].append(number)
     return graph
 
 

@@ -23,7 +23,7 @@ from runtime.executive.outcome import (
     Outcome,
     SourcePlace,
 )
-from runtime.plan.readout.names import TokenName, VariableName
+from runtime.plan.readout.names import TokenName
 
 
 class NodeKind(StrEnum):
@@ -268,5 +268,4 @@ class _Maker:
 
 def _reactor_of(element: ConflictElement) -> str:
     """The reactor whose plan an element is about, if it names a variable."""
-    operands = (one for term in element.terms for one in term.arguments)
-    return next((one.reactor for one in operands if isinstance(one, VariableName)), "")
+    return next((one.reactor for one in element.variables), "")

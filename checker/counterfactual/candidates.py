@@ -2,12 +2,11 @@
 
 Four sources: the conflict that ended it (and those of what was tried and repaired before), what is said of tokens and
 goals that found no place, rules and branches that passing missions do not reach, and, by the dependence graph, the
-lines that bear on these. Where a property was violated, or
-a reactor ended without a conflict, what was observed there stands for them. Lines of rules whose predicate never held,
-nor was asked for in the mission, come after all others.
+lines that bear on these. Where a property was violated, or a reactor ended without a conflict, what was observed there
+stands for them. Lines of rules whose predicate never held, nor was asked for in the mission, come after all others.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -20,8 +19,8 @@ from checker.proofs.places import ModelText
 from nddl_lang.text.read import real_path
 from nddl_lang.text.source import Span
 from runtime.executive.configuration import PropertyConfiguration
+from runtime.executive.events import heads_of, single_events
 from runtime.executive.outcome import Conflict, Deadlock, ElementKind, Event, EventKind, Outcome, SourcePlace
-from runtime.plan.readout.names import VariableName
 
 _CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.5, 0.75, 1.0, 1.0, 1.5
 _OUTSIDE = 3.0  # added where other lines contradict each other, whatever happens
@@ -73,19 +72,20 @@ def candidates_of(
     at_odds = lines_at_odds(failed, text) if text is not None else frozenset()
     for place in (culprit.place, *culprit.limits, *sorted(at_odds, key=lambda one: (one.file, one.line, one.column))):
         note(place, _CULPRIT, Suspicion.CONFLICT)
-    for place, far, source in _named(outcome, failed.conflict):
+    troubles = [event for event in single_events(outcome.events) if event.kind in _TROUBLES]
+    first = next((one for one in troubles if one.conflict is not None or one.deadlock is not None), None)
+    for place, far, source in _named(outcome, failed.conflict, troubles, first):
         note(place, far, source)
-    first = _first_trouble(outcome)
     observed = _observed(failed.conflict) | _observed(first.conflict if first is not None else None)
     for token, variable in sorted(observed):
         for number in graph.setting(token, variable):
             if number not in roots or roots[number][0] > _OBSERVED:
                 roots[number] = (_OBSERVED, Suspicion.CONFLICT)
-    predicates = _ended_by(outcome) | _violated(outcome, properties)
+    held = {predicate for *_, predicate in heads_of(outcome.events)}
+    predicates = _ended_by(outcome, held) | _violated(outcome, properties)
     if not roots and not predicates:
-        predicates = {event.predicate for event in _latest(outcome)}
+        predicates = set(_latest(outcome).values())
     named = {number for predicate in predicates for number in graph.of_predicate(predicate)}
-    held = {event.predicate for event in outcome.events if event.kind is EventKind.OBSERVATION}
     awaited = graph.expected_with(roots or named, held) if failed.deadlock is None else ()
     for far, numbers in (
         (_AWAITED, {number for predicate in awaited for number in graph.of_predicate(predicate)}),
@@ -99,7 +99,7 @@ def candidates_of(
             if number not in roots or roots[number][0] > _COVERED:
                 roots[number] = (_COVERED, Suspicion.COVERAGE)
     distances = graph.distances({number: far for number, (far, _) in roots.items()})
-    seen = _held(outcome)
+    seen = held | _named_predicates(outcome)
     if failed.deadlock is not None:  # a search tries tokens that are never flown
         near = [number for number, (far, _) in roots.items() if far <= _LOG]
         seen |= {name.rpartition(".")[2] for name in graph.tokens_at(near)}
@@ -118,23 +118,21 @@ def candidates_of(
 def _observed(conflict: Conflict | None) -> set[tuple[str, str]]:
     """Predicates, each with a parameter or time that a conflict has from observation: a line of the owner set it."""
     return {
-        (operand.token.predicate, operand.name)
+        (variable.token.predicate, variable.name)
         for element in (conflict.elements if conflict is not None else ())
         if element.kind is ElementKind.OBSERVATION
-        for term in element.terms
-        for operand in term.arguments
-        if isinstance(operand, VariableName) and operand.token is not None
+        for variable in element.variables
+        if variable.token is not None
     }
 
 
-def _first_trouble(outcome: Outcome) -> Event | None:
-    """The first repair, refusal or rejection that is known to have a cause: what comes later may follow from it."""
-    troubles = (event for event in outcome.events if event.kind in _TROUBLES)
-    return next((one for one in troubles if one.conflict is not None or one.deadlock is not None), None)
+def _named(
+    outcome: Outcome, conflict: Conflict | None, troubles: Sequence[Event], first: Event | None
+) -> Iterator[tuple[SourcePlace | None, float, Suspicion]]:
+    """The places that the outcome names, how near each is, and where it stands.
 
-
-def _named(outcome: Outcome, conflict: Conflict | None) -> Iterator[tuple[SourcePlace | None, float, Suspicion]]:
-    """The places that the outcome names, how near each is, and where it stands."""
+    Of the repairs, refusals and rejections the `first` with a known cause counts most: what comes later may follow.
+    """
     for element in conflict.elements if conflict is not None else ():
         yield element.place, _CONFLICT, Suspicion.CONFLICT
     refused = [one for one in refusals(outcome) if one.conflict is not None or one.deadlock is not None]
@@ -149,11 +147,9 @@ def _named(outcome: Outcome, conflict: Conflict | None) -> Iterator[tuple[Source
     for goal in outcome.open_goals:
         yield from _places(goal.conflict, far, Suspicion.CONFLICT)
         yield from _logged(goal.deadlock)
-    first = _first_trouble(outcome)
-    for event in outcome.events:
-        if event.kind in _TROUBLES:
-            yield from _places(event.conflict, _CONFLICT if event is first else _EVENT, Suspicion.TRACE)
-            yield from _logged(event.deadlock, _LOG if event is first else _EVENT)
+    for event in troubles:
+        yield from _places(event.conflict, _CONFLICT if event is first else _EVENT, Suspicion.TRACE)
+        yield from _logged(event.deadlock, _LOG if event is first else _EVENT)
 
 
 def _logged(deadlock: Deadlock | None, far: float = _LOG) -> Iterator[tuple[SourcePlace | None, float, Suspicion]]:
@@ -168,9 +164,8 @@ def _places(
         yield element.place, far, source
 
 
-def _ended_by(outcome: Outcome) -> set[str]:
+def _ended_by(outcome: Outcome, begun: Container[str]) -> set[str]:
     """The predicates of what ended the mission, or of what it left open, but for goals that it ended before."""
-    begun = {event.predicate for event in outcome.events if event.kind is EventKind.OBSERVATION}
     later = {
         goal.predicate
         for goal in outcome.open_goals
@@ -197,25 +192,20 @@ def _violated(outcome: Outcome, properties: Sequence[PropertyConfiguration]) -> 
         assert broken is not None
         for pattern in (each.pattern, each.then) if each.name == broken.name else ():
             if pattern is not None:
-                held = (
-                    event.predicate for event in _latest(outcome, broken.tick) if event.timeline == pattern.timeline
-                )
-                found |= {pattern.predicate} if pattern.predicate else set(held)
-    return found
+                found.add(pattern.predicate or _latest(outcome, broken.tick).get(pattern.timeline, ""))
+    return found - {""}
 
 
-def _latest(outcome: Outcome, tick: int | None = None) -> list[Event]:
-    """What was observed last on each timeline, until the end or a tick."""
-    last: dict[str, Event] = {}
-    for event in outcome.events:
-        if event.kind is EventKind.OBSERVATION and (tick is None or event.tick <= tick):
-            last[event.timeline] = event
-    return list(last.values())
+def _latest(outcome: Outcome, tick: int | None = None) -> dict[str, str]:
+    """The predicate that was observed last on each timeline, until the end or a tick."""
+    return {
+        timeline: predicate for _, at, timeline, predicate in heads_of(outcome.events) if tick is None or at <= tick
+    }
 
 
-def _held(outcome: Outcome) -> set[str]:
-    """The predicates, without their classes, of all that was observed or asked for, and of what the conflicts name."""
-    found = {event.predicate for event in outcome.events}
+def _named_predicates(outcome: Outcome) -> set[str]:
+    """The predicates, without their classes, of what was asked for and came of it, and of what the conflicts name."""
+    found = {event.predicate for event in single_events(outcome.events)}
     found |= _predicates(outcome)
     conflict = failed_by(outcome).conflict
     for element in conflict.elements if conflict is not None else ():

@@ -131,15 +131,14 @@ class _Reader:
 
     def written(self, element: ConflictElement) -> Claim | None:
         """What the line of an element demands; None where no line says it, or it is not clear of which tokens."""
-        variables = [one for term in element.terms for one in term.arguments if isinstance(one, VariableName)]
-        reactor = next((one.reactor for one in variables), "")
+        reactor = next((one.reactor for one in element.variables), "")
         if self.text is None or element.place is None or len(element.terms) != 1:
             return None
         term = element.terms[0]
         found = [
             claim
             for line in self.text.at(reactor, element.place, element.token.predicate if element.token else "")
-            if (claim := self._claim(line, term, variables, element.token, reactor)) is not None
+            if (claim := self._claim(line, term, element.variables, element.token, reactor)) is not None
         ]
         return found[0] if len(found) == 1 else None
 
@@ -150,7 +149,7 @@ class _Reader:
         return start + length == end
 
     def _claim(
-        self, line: WrittenLine, term: Term, variables: list[VariableName], own: TokenName | None, reactor: str
+        self, line: WrittenLine, term: Term, variables: Sequence[VariableName], own: TokenName | None, reactor: str
     ) -> Claim | None:
         instruction = line.instruction
         binding = _TermBinding(line, self.symbols, variables, own, reactor)
@@ -212,8 +211,7 @@ class _Reader:
 
     def definitions(self, conflict: Conflict) -> list[Claim]:
         """What variables are: truth values are 0 or 1, a token ends its duration after its start."""
-        operands = [one for element in conflict.elements for term in element.terms for one in term.arguments]
-        named = dict.fromkeys(one for one in operands if isinstance(one, VariableName))
+        named = conflict.variables
         found = [z3.And(self.number(one) >= 0, self.number(one) <= 1) for one in named if one.kind == "bool"]
         owners = dict.fromkeys((one.reactor, one.token) for one in named if one.token is not None)
         return found + [self._lasts(reactor, token) for reactor, token in owners]
@@ -260,7 +258,12 @@ class _TermBinding:
     """What the slots of a body stand for, from the variables that the engine names in the line's term."""
 
     def __init__(
-        self, line: WrittenLine, symbols: Symbols, variables: list[VariableName], own: TokenName | None, reactor: str
+        self,
+        line: WrittenLine,
+        symbols: Symbols,
+        variables: Sequence[VariableName],
+        own: TokenName | None,
+        reactor: str,
     ) -> None:
         self.names: ProgramNames = line.names
         self.symbols = symbols

@@ -22,8 +22,7 @@ class Terms:
     """The terms of one conflict: its variables as z3 constants, its symbols as numbers."""
 
     def __init__(self, conflict: Conflict, freed: frozenset[str] = frozenset()) -> None:
-        operands = (one for element in conflict.elements for term in element.terms for one in term.arguments)
-        self.variables = tuple(dict.fromkeys(one for one in operands if isinstance(one, VariableName)))
+        self.variables = conflict.variables
         self.freed = freed
         self._symbols: dict[str, int] = {}
 

@@ -66,6 +66,11 @@ class ConflictElement:
     terms: tuple[Term, ...]
     observed: tuple[str, str] | None = None
 
+    @property
+    def variables(self) -> tuple[VariableName, ...]:
+        """The variables that its terms speak of, as often as they do."""
+        return tuple([one for term in self.terms for one in term.arguments if isinstance(one, VariableName)])
+
     def names(self, token: TokenName) -> bool:
         """Whether what it says speaks of `token`."""
         operands = self.says.arguments if isinstance(self.says, Term) else ()
@@ -78,6 +83,11 @@ class Conflict:
     """A minimal set of elements that cannot hold together, in the order in which the story is told."""
 
     elements: tuple[ConflictElement, ...]
+
+    @property
+    def variables(self) -> tuple[VariableName, ...]:
+        """The variables that its elements speak of, once each, in their order."""
+        return tuple(dict.fromkeys(one for element in self.elements for one in element.variables))
 
     @property
     def parameters(self) -> tuple[str, ...]:

@@ -1,15 +1,13 @@
 """What a plan waits for in vain leads into the rule that should have brought it about."""
 
-import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from checker.counterfactual.smallness import cost_of, usage_of
 from checker.mutation.edits import EditKind, sites_of
 from checker.mutation.variant import load_graph
-from nddlc.main import run
+from tests.checker.checked import faults_of
 
 SHARED = """#include "TREX.nddl"
 class Horn extends AgentTimeline {
@@ -107,39 +105,26 @@ missions = 10
 """
 
 
-def written(folder: Path, sea: str) -> Path:
-    """The mission with its models in `folder`."""
-    for name, text in (("shared", SHARED), ("watch", WATCH), ("ship", SHIP), ("sea", sea)):
-        (folder / f"{name}.nddl").write_text(text, encoding="utf-8")
-    (folder / "mission.toml").write_text(MISSION, encoding="utf-8")
-    return folder / "mission.toml"
-
-
-def faults(mission: Path, capsys: pytest.CaptureFixture[str]) -> list[dict[str, Any]]:
-    report = mission.parent / "report"
-    run(["check", str(mission), "--no-store", "--workers", "1", "--output", str(report)])
-    capsys.readouterr()
-    found: list[dict[str, Any]] = json.loads((report / "report.json").read_text(encoding="utf-8"))["faults"]
-    return found
+FILES = {"shared.nddl": SHARED, "watch.nddl": WATCH, "ship.nddl": SHIP, "sea.nddl": SEA, "mission.toml": MISSION}
+WRONG = FILES | {"sea.nddl": SEA.replace("meets(object.Thick t)", "any(object.Thick t)")}
 
 
 def test_the_models_are_right_as_they_stand(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert faults(written(tmp_path, SEA), capsys) == []
+    assert faults_of(tmp_path, capsys, FILES) == []
 
 
 def test_the_rule_is_named_that_should_have_brought_about_what_is_waited_for(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    wrong = SEA.replace("meets(object.Thick t)", "any(object.Thick t)")
-    (fault,) = faults(written(tmp_path, wrong), capsys)
+    (fault,) = faults_of(tmp_path, capsys, WRONG)
     first = fault["causes"]["ranked"][0]
     assert (first["file"], first["claim"]) == ("sea.nddl", "mends")
     assert first["text"] == "any(object.Thick t);"
 
 
 def test_beside_a_token_of_its_own_timeline_a_relation_is_meant_that_can_hold_there(tmp_path: Path) -> None:
-    wrong = SEA.replace("meets(object.Thick t)", "any(object.Thick t)")
-    written(tmp_path, wrong)
+    for name, text in WRONG.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
     sites = sites_of(load_graph(tmp_path / "sea.nddl", ())) + sites_of(load_graph(tmp_path / "watch.nddl", ()))
     (site,) = (one for one in sites if one.text == "any(object.Thick t);")
     costs = {one.new: cost_of(one, site, usage_of(sites)) for one in site.edits if one.kind is EditKind.RELATION}

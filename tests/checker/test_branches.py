@@ -1,6 +1,5 @@
 """A line that is missing in one branch is told by what the other branch sets; lines at odds by what z3 needs."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +8,7 @@ import pytest
 from checker.counterfactual.smallness import cost_of, usage_of
 from checker.mutation.edits import EditKind, sites_of
 from checker.mutation.variant import load_graph
-from nddlc.main import run
+from tests.checker.checked import faults_of
 
 MODEL = """#include "TREX.nddl"
 enum Load { light, heavy }
@@ -74,12 +73,7 @@ LIGHT_TIME = "    duration == LIGHT_TIME;\n"
 
 def causes(folder: Path, capsys: pytest.CaptureFixture[str], model: str) -> list[dict[str, Any]]:
     """The ranked causes of the first fault; none where all missions pass."""
-    (folder / "crane.nddl").write_text(model, encoding="utf-8")
-    (folder / "mission.toml").write_text(MISSION, encoding="utf-8")
-    report = folder / "report"
-    run(["check", str(folder / "mission.toml"), "--no-store", "--workers", "1", "--output", str(report)])
-    capsys.readouterr()
-    faults = json.loads((report / "report.json").read_text(encoding="utf-8"))["faults"]
+    faults = faults_of(folder, capsys, {"crane.nddl": model, "mission.toml": MISSION})
     found: list[dict[str, Any]] = faults[0]["causes"]["ranked"] if faults else []
     return found
 

@@ -1,12 +1,10 @@
 """A search that found nothing is explained by a line of a rule whose token was never flown."""
 
-import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from nddlc.main import run
+from tests.checker.checked import faults_of
 
 MODEL = """#include "TREX.nddl"
 int SWEEP_MAX = 90;
@@ -61,18 +59,8 @@ missions = 4
 """
 
 
-def faults(folder: Path, capsys: pytest.CaptureFixture[str], model: str) -> list[dict[str, Any]]:
-    (folder / "sweep.nddl").write_text(model, encoding="utf-8")
-    (folder / "mission.toml").write_text(MISSION, encoding="utf-8")
-    report = folder / "report"
-    run(["check", str(folder / "mission.toml"), "--no-store", "--workers", "1", "--output", str(report)])
-    capsys.readouterr()
-    found: list[dict[str, Any]] = json.loads((report / "report.json").read_text(encoding="utf-8"))["faults"]
-    return found
-
-
 def test_the_model_is_right_as_it_stands(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert faults(tmp_path, capsys, MODEL) == []
+    assert faults_of(tmp_path, capsys, {"sweep.nddl": MODEL, "mission.toml": MISSION}) == []
 
 
 @pytest.mark.parametrize(
@@ -86,6 +74,6 @@ def test_the_model_is_right_as_it_stands(tmp_path: Path, capsys: pytest.CaptureF
 def test_the_line_of_a_token_that_was_never_flown_is_first(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], old: str, new: str
 ) -> None:
-    (fault,) = faults(tmp_path, capsys, MODEL.replace(old, new))
+    (fault,) = faults_of(tmp_path, capsys, {"sweep.nddl": MODEL.replace(old, new), "mission.toml": MISSION})
     assert fault["code"] == "F10"
     assert new in fault["causes"]["ranked"][0]["text"]

@@ -1,12 +1,11 @@
 """What a planner below refused is explained by what made it refuse, not by who missed it."""
 
-import json
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from nddlc.main import run
+from tests.checker.checked import faults_of
 
 SHARED = """#include "TREX.nddl"
 class Arm extends AgentTimeline {
@@ -92,14 +91,9 @@ MISSION = (
 
 
 def faults(folder: Path, capsys: pytest.CaptureFixture[str], old: str = "", new: str = "") -> list[dict[str, Any]]:
-    for name, text in (("shared", SHARED), ("chief", CHIEF), ("hand", HAND), ("world", WORLD)):
-        (folder / f"{name}.nddl").write_text(text.replace(old, new) if old else text, encoding="utf-8")
-    (folder / "mission.toml").write_text(MISSION, encoding="utf-8")
-    report = folder / "report"
-    run(["check", str(folder / "mission.toml"), "--no-store", "--workers", "1", "--output", str(report)])
-    capsys.readouterr()
-    found: list[dict[str, Any]] = json.loads((report / "report.json").read_text(encoding="utf-8"))["faults"]
-    return found
+    models = {"shared.nddl": SHARED, "chief.nddl": CHIEF, "hand.nddl": HAND, "world.nddl": WORLD}
+    changed = {name: text.replace(old, new) if old else text for name, text in models.items()}
+    return faults_of(folder, capsys, changed | {"mission.toml": MISSION})
 
 
 def test_the_models_are_right_as_they_stand(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
