@@ -55,7 +55,8 @@ def command(
 ) -> int:
     """Explain why a mission failed.
 
-    RUN is the id that `nddlc check` printed, or `latest`. Without a mission the first failed one is explained.
+    RUN is the id that `nddlc check` printed, a mission file for its last run, or `latest`. Without a mission the first
+    failed one is explained.
     """
     name, _, number = what.partition("#")
     if number and not number.removeprefix("k").isdigit():
