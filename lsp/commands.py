@@ -77,7 +77,9 @@ def answer_commands(session: Session) -> None:
     @session.command(CERTIFY)
     async def certify(uri: str) -> str:
         path = _path(uri)
-        ended = await _run(session, f"nddlc: certifying {path.name}", path.parent, "certify", _seen_from(path.parent, path))
+        ended = await _run(
+            session, f"nddlc: certifying {path.name}", path.parent, "certify", _seen_from(path.parent, path)
+        )
         if ended.code not in (_HOLDS, _FINDINGS):
             raise RequestFailed(ended.errors.strip() or ended.output.strip() or f"nddlc ended with {ended.code}")
         _show(session, ended.output, is_good=ended.code == _HOLDS)

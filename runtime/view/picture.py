@@ -168,7 +168,7 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     lines = [
         "<tr>" + "".join(f'<td title="{escape(cell)}">{escape(cell)}</td>' for cell in row) + "</tr>" for row in rows
     ]
-    return _wide(f"{head[0]}s", f'<table><tr>{names}</tr>{"".join(lines)}</table>')
+    return _wide(f"{head[0]}s", f"<table><tr>{names}</tr>{''.join(lines)}</table>")
 
 
 def _wide(name: str, part: str) -> str:
