@@ -59,9 +59,10 @@ def command(
 ) -> int:
     """Explain why a mission failed.
 
-    RUN is the id that `nddlc check` printed, or `latest`. Without a mission the first failed one is explained. With
-    --mission it is a log of T-REX (.tr.log), a directory of such logs, or a trace (.jsonl) of that mission: the
-    reactors that ask nobody do what is on record, the others plan anew with the models as they are.
+    RUN is the id that `nddlc check` printed, a mission file for its last run, or `latest`. Without a mission the first
+    failed one is explained. With --mission it is a log of T-REX (.tr.log), a directory of such logs, or a trace
+    (.jsonl) of that mission: the reactors that ask nobody do what is on record, the others plan anew with the models
+    as they are.
     """
     if mission_path is not None:
         return _print(_replayed(Path(what), mission_path, Bounds(flights, seconds), is_trusted), style, events, verbose)
