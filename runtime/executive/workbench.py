@@ -5,9 +5,11 @@ from math import inf
 from compiler.program import FIRST_PARAMETER, OBJECT, DomainConstant
 from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.tags import FLAG_DECISION, KIND_FLOAT
+from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.messages import Arguments
 from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST, PlanView
+from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import activate, fire, merge
 from runtime.plan.store.marks import commit, mark, release, rewind
 from runtime.plan.store.prototypes import restrict_constant
@@ -28,7 +30,15 @@ from runtime.plan.tokens.tokens import make_token
 
 
 class Workbench(PlanView):
-    """A plan database under execution; every narrowing is propagated at once, so False always means a conflict."""
+    """A plan database under execution; every narrowing is propagated at once, so False always means a conflict.
+
+    `goals` are those of the mission; `goal_numbers` says of the tokens (by key) that stand for one which it is.
+    """
+
+    def __init__(self, database: PlanDatabase, name: str) -> None:
+        super().__init__(database, name)
+        self.goals: tuple[GoalConfiguration, ...] = ()
+        self.goal_numbers: dict[int, int] = {}
 
     # ---- going back ----
 
@@ -93,11 +103,16 @@ class Workbench(PlanView):
         return found
 
     def restrict_parameters(self, t: int, arguments: Arguments, span: int) -> bool:
-        """Narrow parameters to what somebody else knows of them; a name that `t` does not have is a misfit."""
+        """Narrow parameters to what somebody else knows of them.
+
+        A name that `t` does not have is left out of what was observed, and a misfit in what is asked for.
+        """
         names = self._parameter_numbers(self.rows.predicate[t])
         for name, domain in arguments:
             if name not in names:
-                return False
+                if span != SPAN_OBSERVATION:
+                    return False
+                continue
             v = self.rows.var0[t] + FIRST_PARAMETER + names[name]
             if not self._restrict(v, domain, span, t):
                 return False
