@@ -4,7 +4,15 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from checker.batch.result import MissionResult
-from checker.causes import culprit_of, draws_behind, events_to_abort, failed_by, in_telling_order, lines_that_rule_out
+from checker.causes import (
+    culprit_of,
+    draws_behind,
+    events_to_abort,
+    failed_by,
+    in_telling_order,
+    lines_that_rule_out,
+    missed_after,
+)
 from checker.findings import Fault
 from checker.influence import Influence
 from checker.losses import Limit
@@ -74,6 +82,7 @@ class Story:
     steps: tuple[Step, ...]
     fault: Fault | None
     confirmation: Confirmation | None = None  # z3's word on the conflict of this mission
+    refusal: Event | None = None  # what was missed had been refused with
 
 
 def tell(
@@ -115,6 +124,7 @@ def tell(
         tuple(_without_repeats(steps)),
         fault,
         confirmation,
+        missed_after(outcome),
     )
 
 
