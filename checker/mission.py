@@ -33,6 +33,7 @@ from runtime.executive.configuration import (
     ReactorConfiguration,
     Value,
 )
+from runtime.executive.outcome import SourcePlace
 from runtime.user.limit import USUAL
 
 LARGEST_SEED = (1 << 53) - 1  # what JSON readers agree on
@@ -249,6 +250,19 @@ def _read_reactors(
     )
 
 
+def _goal_places(*tables: Table) -> tuple[tuple[str, SourcePlace], ...]:
+    """Where the mission file gives the bounds and the parameters of a goal, by key."""
+    found = []
+    for table in tables:
+        source = table.text.source
+        name = source.name.replace("\\", "/").rpartition("/")[2]
+        for key in table.values:
+            span = table.text.entry_span((*table.path, key))
+            line, column = source.locate(span.begin)
+            found.append((key, SourcePlace(name, line, column, " ".join(span.text.split()))))
+    return tuple(found)
+
+
 def _read_goals(
     tables: list[Table], reactors: tuple[ReactorConfiguration | CodeConfiguration, ...], text: MissionText
 ) -> tuple[GoalConfiguration, ...]:
@@ -267,6 +281,7 @@ def _read_goals(
             duration=table.bounds("duration"),
             parameters=tuple((key, _goal_value(parameters, key)) for key in parameters.values),
             recall=table.whole("recall", 0, 1) or None,
+            places=_goal_places(table, parameters),
         )
         if goal.recall is not None and goal.recall <= goal.at:
             table.complain_of_value("recall", goal.recall, f"later than `at`, {goal.at}")

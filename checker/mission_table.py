@@ -39,6 +39,10 @@ class MissionText:
             path = path[:-1]
         return self.span(*self.places[path].key) if path else self.span(0, 0)
 
+    def entry_span(self, path: Path) -> Span:
+        """The key and the value at `path`."""
+        return self.span(self.places[path].key[0], self.places[path].value[1])
+
     def value_span(self, path: Path) -> Span:
         """The value at `path`, or the key of the nearest table around it."""
         return self.span(*self.places[path].value) if path in self.places else self.key_span(path)
