@@ -33,6 +33,8 @@ def claim_text(cause: RankedLine) -> str:
             return f"one branch sets `{cause.variable}`, the other does not: a line may be missing (nothing was flown)"
         case Claim.UNREAD:
             return f"nothing reads `{cause.variable}`: a line that does may be missing here (nothing was flown)"
+        case Claim.UNSET:
+            return f"nothing says what `{cause.variable}` is: a line that does may be missing (nothing was flown)"
         case _:
             assert_never(cause.claim)
 
