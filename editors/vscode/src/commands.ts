@@ -1,5 +1,5 @@
 // Commands: check a mission, explain its last failure, show a plan, show places that a lens counts.
-import { commands, type Disposable, Location, Position, Uri, ViewColumn, window, workspace } from "vscode";
+import { type CancellationToken, commands, type Disposable, Location, Position, Uri, ViewColumn, window, workspace } from "vscode";
 import type { Server } from "./client";
 import { showPage, showText } from "./views";
 
@@ -8,6 +8,7 @@ export interface Fault {
   meaning: string;
   because: string;
   count: number;
+  place: { file: string; line: number; column: number } | null;
 }
 
 export interface CheckResult {
@@ -35,23 +36,27 @@ export function registerCommands(server: Server): Disposable[] {
   ];
 }
 
-export async function checkMission(server: Server, uri: Uri): Promise<CheckResult> {
+export async function checkMission(server: Server, uri: Uri, token?: CancellationToken): Promise<CheckResult> {
   await workspace.saveAll(false);
   const missions = workspace.getConfiguration("nddlc").get<number>("missions", 0);
-  return ask(server, "workspace/executeCommand", { command: "nddl.check", arguments: [uri.toString(), missions] });
+  return ask(server, "workspace/executeCommand", { command: "nddl.check", arguments: [uri.toString(), missions] }, token);
+}
+
+export function faultText(fault: Fault): string {
+  return `${fault.count} × ${fault.code}, ${fault.meaning}: ${fault.because}`;
 }
 
 export function summary(result: CheckResult): string {
   const { pass, fail, error } = result.counts;
-  const reasons = result.faults.map((fault) => `${fault.count} × ${fault.code}, ${fault.meaning}: ${fault.because}`);
+  const reasons = result.faults.map(faultText);
   return [`${pass + fail + error} missions: ${fail} failed, ${error} ended with an error`, ...reasons].join("\n");
 }
 
-async function ask<Answer>(server: Server, method: string, params: object): Promise<Answer> {
+async function ask<Answer>(server: Server, method: string, params: object, token?: CancellationToken): Promise<Answer> {
   if (server.client === undefined) {
     throw new Error("the language server does not run");
   }
-  return server.client.sendRequest<Answer>(method, params);
+  return server.client.sendRequest<Answer>(method, params, token);
 }
 
 async function tell(action: () => Promise<void>): Promise<void> {

@@ -2,17 +2,19 @@
 import {
   type CancellationToken,
   type Disposable,
+  Location,
+  Position,
   RelativePattern,
   type TestController,
   TestMessage,
   type TestRunRequest,
   TestRunProfileKind,
   tests,
-  type Uri,
+  Uri,
   workspace,
 } from "vscode";
 import type { Server } from "./client";
-import { checkMission, summary } from "./commands";
+import { type CheckResult, checkMission, faultText, summary } from "./commands";
 
 const PATTERN = "**/mission*.toml";
 
@@ -49,15 +51,34 @@ async function run(
     session.started(item);
     const begun = Date.now();
     try {
-      const result = await checkMission(server, item.uri);
+      const result = await checkMission(server, item.uri, token);
+      session.appendOutput(`${summary(result).replaceAll("\n", "\r\n")}\r\n`, undefined, item);
       if (result.verdict === "holds") {
         session.passed(item, Date.now() - begun);
       } else {
-        session.failed(item, new TestMessage(summary(result)), Date.now() - begun);
+        session.failed(item, messages(result, item.uri), Date.now() - begun);
       }
     } catch (problem) {
+      if (token.isCancellationRequested) {
+        session.skipped(item);
+        continue;
+      }
       session.errored(item, new TestMessage(problem instanceof Error ? problem.message : String(problem)));
     }
   }
   session.end();
+}
+
+// What failed, each reason at the line that gave way.
+function messages(result: CheckResult, mission: Uri): TestMessage[] {
+  const found = result.faults.map((fault) => {
+    const message = new TestMessage(faultText(fault));
+    if (fault.place) {
+      const { file, line, column } = fault.place;
+      const uri = file.startsWith("/") ? mission.with({ path: file }) : Uri.joinPath(mission, "..", file);
+      message.location = new Location(uri, new Position(line - 1, column - 1));
+    }
+    return message;
+  });
+  return found.length > 0 ? found : [new TestMessage(summary(result))];
 }
