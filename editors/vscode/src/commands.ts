@@ -3,6 +3,8 @@ import { type CancellationToken, commands, type Disposable, Location, Position, 
 import type { Server } from "./client";
 import { showPage, showText } from "./views";
 
+export const MISSIONS = "**/mission*.toml";
+
 export interface Fault {
   code: string;
   meaning: string;
@@ -56,7 +58,9 @@ async function ask<Answer>(server: Server, method: string, params: object, token
   if (server.client === undefined) {
     throw new Error("the language server does not run");
   }
-  return server.client.sendRequest<Answer>(method, params, token);
+  // A third argument that is undefined would be taken for a parameter.
+  const { client } = server;
+  return token ? client.sendRequest<Answer>(method, params, token) : client.sendRequest<Answer>(method, params);
 }
 
 async function tell(action: () => Promise<void>): Promise<void> {
@@ -75,12 +79,32 @@ function chosen(uri: Uri | undefined): Uri {
   return found;
 }
 
+// The mission file at hand, else the only one of the workspace, else the one that the user picks.
+async function chosenMission(given?: Uri): Promise<Uri | undefined> {
+  const open = given ?? window.activeTextEditor?.document.uri;
+  if (open !== undefined && open.path.endsWith(".toml")) {
+    return open;
+  }
+  const found = await workspace.findFiles(MISSIONS, "**/node_modules/**");
+  if (found.length === 0) {
+    throw new Error("there is no mission file here: `nddlc new` begins one");
+  }
+  const items = found.map((uri) => ({ label: workspace.asRelativePath(uri), uri })).sort((a, b) => a.label.localeCompare(b.label));
+  return items.length === 1 ? items[0].uri : (await window.showQuickPick(items, { placeHolder: "Which mission?" }))?.uri;
+}
+
 async function checkAndTell(server: Server, given?: Uri): Promise<void> {
-  await showResult("nddl.check", await checkMission(server, chosen(given)), chosen(given));
+  const uri = await chosenMission(given);
+  if (uri !== undefined) {
+    await showResult("nddl.check", await checkMission(server, uri), uri);
+  }
 }
 
 async function carryOut(server: Server, command: string, given?: Uri): Promise<void> {
-  const uri = chosen(given);
+  const uri = await chosenMission(given);
+  if (uri === undefined) {
+    return;
+  }
   await workspace.saveAll(false);
   await showResult(command, await ask(server, "workspace/executeCommand", { command, arguments: [uri.toString()] }), uri);
 }

@@ -14,9 +14,7 @@ import {
   workspace,
 } from "vscode";
 import type { Server } from "./client";
-import { type CheckResult, checkMission, faultText, summary } from "./commands";
-
-const PATTERN = "**/mission*.toml";
+import { type CheckResult, checkMission, faultText, MISSIONS, summary } from "./commands";
 
 export function registerTests(server: Server): Disposable {
   const controller = tests.createTestController("nddlc", "NDDL missions");
@@ -24,11 +22,11 @@ export function registerTests(server: Server): Disposable {
   controller.resolveHandler = async (item) => {
     if (item === undefined) {
       for (const folder of workspace.workspaceFolders ?? []) {
-        (await workspace.findFiles(new RelativePattern(folder, PATTERN), "**/node_modules/**")).forEach(add);
+        (await workspace.findFiles(new RelativePattern(folder, MISSIONS), "**/node_modules/**")).forEach(add);
       }
     }
   };
-  const watcher = workspace.createFileSystemWatcher(PATTERN, false, true, false);
+  const watcher = workspace.createFileSystemWatcher(MISSIONS, false, true, false);
   watcher.onDidCreate(add);
   watcher.onDidDelete((uri) => controller.items.delete(uri.toString()));
   controller.createRunProfile("Check", TestRunProfileKind.Run, (request, token) => run(server, controller, request, token), true);
