@@ -57,7 +57,8 @@ def conflict_of(bench: Workbench) -> Conflict | None:
 def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
     """What sets the latest value of `v`, and that nothing ends it earlier: each link of the chain is used up.
 
-    The root comes first; that a token lasts as long as it may comes right after the limit that it uses up.
+    The root comes first; that a token lasts as long as it may comes right after the limit that it uses up. Where that
+    is no difference, it says how long that is, and then the terms from which it follows.
     """
     reader = _ElementReader(bench)
     elements: dict[ConflictElement, None] = {}
@@ -69,8 +70,12 @@ def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
         elements[element] = None
         if link.side == SIDE_UPPER:
             tight += _used_up(element)
-    if not tight and bench.engine.upper(v) >= HALF_INF:  # nothing ends it: it outlasts every tick
-        tight.append(Term("bounds", (reader.name(v), HALF_INF, inf)))
+    if (
+        not tight
+    ):  # nothing ends it, and it outlasts every tick; or something that is no difference does, such as `ceil`
+        most = bench.engine.upper(v)
+        tight.append(Term("bounds", (reader.name(v), int(min(most, HALF_INF)), inf)))
+        tight += [term for element in elements for term in element.terms] if most < HALF_INF else []
     token = bench.name_of(bench.database.plan.variable_owner[v])
     policy = ConflictElement(ElementKind.LONGEST, None, "", token, None, tuple(dict.fromkeys(tight)))
     chain = list(reversed(elements))
