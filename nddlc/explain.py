@@ -27,6 +27,7 @@ from checker.oracle import Verdict
 from nddlc.check import STORE
 from nddlc.inputs import Unusable, readable
 from nddlc.mission_trust import models_of
+from nddlc.progress import SeekingDisplay
 from nddlc.samplers import SAMPLERS, find_sampler
 from nddlc.trust import trust_option
 from runtime.executive.rendering import event_data, trace_line
@@ -59,9 +60,10 @@ def command(
 ) -> int:
     """Explain why a mission failed.
 
-    RUN is the id that `nddlc check` printed, or `latest`. Without a mission the first failed one is explained. With
-    --mission it is a log of T-REX (.tr.log), a directory of such logs, or a trace (.jsonl) of that mission: the
-    reactors that ask nobody do what is on record, the others plan anew with the models as they are.
+    RUN is the id that `nddlc check` printed, a mission file for its last run, or `latest`. Without a mission the first
+    failed one is explained. With --mission it is a log of T-REX (.tr.log), a directory of such logs, or a trace
+    (.jsonl) of that mission: the reactors that ask nobody do what is on record, the others plan anew with the models
+    as they are.
     """
     if mission_path is not None:
         return _print(_replayed(Path(what), mission_path, Bounds(flights, seconds), is_trusted), style, events, verbose)
@@ -107,9 +109,15 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
     results = tuple(campaign.judged(one) for one in store.results(run.id))
     first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
     conditions = {example: read_condition(text) for example, text in store.conditions(run.id).items()}
-    findings = campaign.assess(
-        results, may_fly=is_same, focus=first, bounds=bounds if bounds.flights else None, conditions=conditions
-    )
+    with SeekingDisplay() as seeking:
+        findings = campaign.assess(
+            results,
+            may_fly=is_same,
+            focus=first,
+            bounds=bounds if bounds.flights else None,
+            conditions=conditions,
+            progress=seeking,
+        )
     findings = replace(findings, run_id=run.id)
     result = _result(run, first, campaign, results, is_same)
     fault = next((one for one in findings.faults if result.number in one.bucket.missions), None)
