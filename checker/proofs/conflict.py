@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
+from itertools import pairwise
 
 import z3
 
@@ -182,16 +183,19 @@ class _Reader:
     def told(self, element: ConflictElement, untranslated: list[str]) -> list[tuple[Claim, frozenset[Term]]]:
         """What an element says by itself, where no line does; each with the limits that it uses up, if it does."""
         found = []
-        terms, is_longest = element.terms, element.kind is ElementKind.LONGEST
-        is_value = is_longest and len(terms) > 1 and terms[0].name == "bounds"
-        for number, term in enumerate(terms[:1] if is_value else terms):
+        terms = element.terms
+        latest = [number for number, term in enumerate(terms) if term.name == "latest"]
+        for number, term in enumerate(terms[: latest[0]] if latest else terms):
             claim = self._term(term)
-            limit = _limit_of(terms, number) if is_longest else None
+            limit = _limit_of(terms, number) if element.kind is ElementKind.LONGEST else None
             if claim is None:
                 untranslated.append(term.name)
             else:
-                limits = terms[1:] if is_value else () if limit is None else (limit,)
-                found.append((claim, frozenset(one for one in limits if not _is_length(one))))
+                found.append((claim, frozenset(() if limit is None else (limit,))))
+        for number, after in pairwise([*latest, len(terms)]):
+            variable, value = terms[number].arguments
+            limits = frozenset(one for one in terms[number + 1 : after] if not _is_length(one))
+            found.append((self.number(variable) >= self.number(value), limits))
         return found
 
     def _term(self, term: Term) -> Claim | None:
