@@ -124,6 +124,13 @@ def refusals(outcome: Outcome) -> tuple[Event, ...]:
     return tuple(events[index] for index in reversed(found))
 
 
+def missed_after(outcome: Outcome | None) -> Event | None:
+    """Of what was missed (F6), the answer of an owner that it began with; None for another end."""
+    if outcome is None or outcome.abort is None:
+        return None
+    return next(iter(refusals(outcome)), None)
+
+
 def _note_behind(
     answer: int,
     outcome: Outcome,
@@ -231,7 +238,7 @@ def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int,
     From the draw of the first of `parameters` that is connected with the abort; else from whatever draw is; else the
     latest cause of each event, backwards. Of a long way, its root and its end.
     """
-    target = outcome.abort.event if outcome.abort is not None else _lost_at(outcome)
+    target = decided_at(outcome)
     if target < 0 or not outcome.events:
         return ()
     graph = _event_graph(outcome.events)
@@ -252,8 +259,10 @@ def events_to_abort(outcome: Outcome, parameters: tuple[str, ...]) -> tuple[int,
     return tuple(way if len(way) <= _MOST_EVENTS else [way[0], *way[1 - _MOST_EVENTS :]])
 
 
-def _lost_at(outcome: Outcome) -> int:
-    """The event in which a goal was given up for a known reason; -1 if there is none."""
+def decided_at(outcome: Outcome) -> int:
+    """The index of the abort, or else of the event in which a goal was given up for a known reason; -1 if none."""
+    if outcome.abort is not None:
+        return outcome.abort.event
     return next((goal.event for goal in outcome.open_goals if goal.reason is not None), -1)
 
 

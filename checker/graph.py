@@ -24,6 +24,7 @@ from runtime.executive.outcome import (
     SourcePlace,
 )
 from runtime.plan.readout.names import TokenName
+from runtime.plan.readout.statements import Argument
 
 
 class NodeKind(StrEnum):
@@ -131,6 +132,7 @@ class _Maker:
         self.edges: set[tuple[int, int]] = set()
         self.ends: list[int] = []
         self._events: list[int] = []
+        self._end = len(outcome.events)  # of what is made now: what came later did not cause it
         self._tokens: dict[tuple[str, TokenName], int] = {}
         self._rules: dict[tuple[str, TokenName, str], int] = {}
         for event in outcome.events:
@@ -166,6 +168,7 @@ class _Maker:
         number = self._node(NodeKind.GOAL, goal, tick, "")
         if goal.event >= 0:
             self._join(self._events[goal.event], [number])
+        self._end = goal.event + 1 if goal.event >= 0 else len(self._events)
         if goal.conflict is not None:
             self._join(self._conflict(goal.conflict, "", tick), [number])
         if goal.deadlock is not None:
@@ -232,8 +235,9 @@ class _Maker:
         """The events that an element comes from: a draw, what was observed, what was asked for."""
         for term in element.terms:
             if term.name == "sampledParameter":
-                drawn = (number for number in reversed(self._events) if self._draws(number, str(term.arguments[1])))
-                yield from (number for number in [next(drawn, None)] if number is not None)
+                drawn = [number for number in self._past() if self._draws(number, str(term.arguments[1]))]
+                meant = (number for number in drawn if self._drew(number, term.arguments[2]))
+                yield from (number for number in [next(meant, next(iter(drawn), None))] if number is not None)
         found: int | None = None
         if element.observed is not None:
             found = self._latest(*element.observed)
@@ -243,13 +247,21 @@ class _Maker:
         if found is not None:
             yield found
 
+    def _past(self) -> Iterator[int]:
+        """The events so far, the latest first."""
+        return reversed(self._events[: self._end])
+
     def _draws(self, number: int, parameter: str) -> bool:
         event = self.nodes[number].subject
         return isinstance(event, Event) and event.draw is not None and event.draw.parameter == parameter
 
+    def _drew(self, number: int, value: Argument) -> bool:
+        event = self.nodes[number].subject
+        return isinstance(event, Event) and event.draw is not None and event.draw.value == value
+
     def _latest(self, predicate: str, timeline: str) -> int | None:
         """The last time that a timeline was seen to hold a predicate."""
-        for number in reversed(self._events):
+        for number in self._past():
             event = self.nodes[number].subject
             assert isinstance(event, Event)
             if (event.kind, event.predicate, event.timeline) == (EventKind.OBSERVATION, predicate, timeline):
@@ -258,7 +270,7 @@ class _Maker:
 
     def _latest_of(self, token: TokenName, kinds: tuple[EventKind, ...]) -> int | None:
         """The last event of these kinds that is about a token of the same class and predicate."""
-        for number in reversed(self._events):
+        for number in self._past():
             event = self.nodes[number].subject
             assert isinstance(event, Event)
             if event.kind in kinds and event.token is not None and event.token.predicate == token.predicate:

@@ -16,7 +16,7 @@ from checker.codes import CYCLE, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_
 from checker.figures import Figures, read_figures
 from checker.goal_fit import goals_out_of_time
 from checker.losses import Limit
-from checker.mission_table import MissionText, Table, TomlTable
+from checker.mission_table import MissionText, Table, TomlTable, is_finite_number
 from checker.parameter_tables import read_parameters
 from checker.property_tables import read_properties
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
@@ -33,9 +33,11 @@ from runtime.executive.configuration import (
     ReactorConfiguration,
     Value,
 )
+from runtime.executive.outcome import SourcePlace
 from runtime.user.limit import USUAL
 
 LARGEST_SEED = (1 << 53) - 1  # what JSON readers agree on
+MOST_MISSIONS = 1_000_000  # of a batch: each has its place in memory
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +100,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
         reactors=reactors,
         goals=goals,
         parameters=parameters,
-        tick=head.number("tick", 1.0, 1e-9),
+        tick=head.number("tick", 1.0, 1e-9, is_finite=True),
         on_failure=cast("OnFailure", head.choice("on_failure", ("abort_agent", "kill_reactor"), "abort_agent")),
         constraints=constraints,
         constraint_seconds=seconds,
@@ -111,7 +113,8 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
         agent, check = _with_batch(agent, check, file, root, top)
     head.close()
     top.close()
-    text.diagnostics += goals_out_of_time(agent, text)
+    if head.values.get("final_tick") == agent.final_tick:
+        text.diagnostics += goals_out_of_time(agent, text)
     found = tuple(sorted(text.diagnostics, key=lambda diagnostic: diagnostic.span.begin))
     if any(diagnostic.severity is Severity.ERROR for diagnostic in found):
         return None, found
@@ -145,15 +148,13 @@ def _not_toml(source: Source, problem: str) -> Diagnostic:
 def _read_check(table: Table) -> CheckConfiguration:
     default = CheckConfiguration()
     check = CheckConfiguration(
-        missions=table.whole("missions", default.missions, 1),
-        seed=table.whole("seed", default.seed, 0),
+        missions=table.whole("missions", default.missions, 1, MOST_MISSIONS),
+        seed=table.whole("seed", default.seed, 0, LARGEST_SEED),
         max_failure_rate=table.number("max_failure_rate", default.max_failure_rate, 0.0, 1.0),
         confidence=table.number("confidence", default.confidence, 0.5, 0.999999),
         time_limit=table.number("time_limit", default.time_limit, 0.001),
         limits=tuple((limit, most) for limit in Limit if (most := table.whole(limit.value, -1, 0)) >= 0),
     )
-    if check.seed > LARGEST_SEED:
-        table.complain_of_value("seed", check.seed, f"at most {LARGEST_SEED}")
     table.close()
     return check
 
@@ -185,7 +186,10 @@ def _read_code(table: Table) -> CodeConfiguration:
 
 def _setting(table: Table, key: str) -> Value:
     value = table.values[key]
-    return value if isinstance(value, bool | int | float | str) else table.string(key)  # complains
+    if isinstance(value, bool | int | float | str):
+        return value
+    table.complain_of_type(key, "a number, a text in quotes, or true or false")
+    return 0
 
 
 def _read_model(table: Table) -> ReactorConfiguration:
@@ -249,6 +253,19 @@ def _read_reactors(
     )
 
 
+def _goal_places(*tables: Table) -> tuple[tuple[str, SourcePlace], ...]:
+    """Where the mission file gives the bounds and the parameters of a goal, by key."""
+    found = []
+    for table in tables:
+        source = table.text.source
+        name = source.name.replace("\\", "/").rpartition("/")[2]
+        for key in table.values:
+            span = table.text.entry_span((*table.path, key))
+            line, column = source.locate(span.begin)
+            found.append((key, SourcePlace(name, line, column, " ".join(span.text.split()))))
+    return tuple(found)
+
+
 def _read_goals(
     tables: list[Table], reactors: tuple[ReactorConfiguration | CodeConfiguration, ...], text: MissionText
 ) -> tuple[GoalConfiguration, ...]:
@@ -267,6 +284,7 @@ def _read_goals(
             duration=table.bounds("duration"),
             parameters=tuple((key, _goal_value(parameters, key)) for key in parameters.values),
             recall=table.whole("recall", 0, 1) or None,
+            places=_goal_places(table, parameters),
         )
         if goal.recall is not None and goal.recall <= goal.at:
             table.complain_of_value("recall", goal.recall, f"later than `at`, {goal.at}")
@@ -303,9 +321,13 @@ def _goal_value(table: Table, key: str) -> Value | Bounds:
     value = table.values[key]
     if isinstance(value, list):
         return table.bounds(key) or 0
+    if isinstance(value, int) and not isinstance(value, bool) and not is_finite_number(value):
+        table.complain_of_value(key, value, "a number that can be held")
+        return 0
     if isinstance(value, int | float | str):
         return value
-    return table.string(key)  # complains
+    table.complain_of_type(key, "a number, a text in quotes, true or false, or a pair [lower, upper] of numbers")
+    return 0
 
 
 def _find_cycle(reactors: list[ReactorConfiguration | CodeConfiguration], owners: dict[str, str]) -> list[str]:

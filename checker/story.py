@@ -4,7 +4,16 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from checker.batch.result import MissionResult
-from checker.causes import culprit_of, draws_behind, events_to_abort, failed_by, in_telling_order, lines_that_rule_out
+from checker.causes import (
+    culprit_of,
+    decided_at,
+    draws_behind,
+    events_to_abort,
+    failed_by,
+    in_telling_order,
+    lines_that_rule_out,
+    missed_after,
+)
 from checker.findings import Fault
 from checker.influence import Influence
 from checker.losses import Limit
@@ -74,6 +83,7 @@ class Story:
     steps: tuple[Step, ...]
     fault: Fault | None
     confirmation: Confirmation | None = None  # z3's word on the conflict of this mission
+    refusal: Event | None = None  # what was missed had been refused with
 
 
 def tell(
@@ -89,8 +99,9 @@ def tell(
     conflict = failed_by(outcome).conflict
     confirmation = confirm(conflict, text) if conflict is not None else None
     parameters = _suspects(outcome, fault)
-    draws = _draws(outcome, agent, influence, parameters)
-    shown = _tokens_of(outcome, influence, parameters)
+    until = _decided_at(result, outcome)
+    draws = _draws(outcome, agent, influence, parameters, until)
+    shown = _tokens_of(outcome, influence, parameters, until)
     indices = {*shown, *(index for index in events_to_abort(outcome, parameters) if index >= min(shown, default=0))}
     way = [outcome.events[index] for index in sorted(indices)]
     if draws:
@@ -115,6 +126,7 @@ def tell(
         tuple(_without_repeats(steps)),
         fault,
         confirmation,
+        missed_after(outcome),
     )
 
 
@@ -135,26 +147,41 @@ def _suspects(outcome: Outcome, fault: Fault | None) -> tuple[str, ...]:
     return draws_behind(outcome)
 
 
-def _tokens_of(outcome: Outcome, influence: Influence, parameters: tuple[str, ...]) -> list[int]:
-    """The last observations of the tokens whose rules the draws act through: where a draw shows outside its reactor."""
-    last = {predicate: index for index, *_, predicate in heads_of(outcome.events)}
+def _decided_at(result: MissionResult, outcome: Outcome) -> int:
+    """The tick at which it was decided that the mission fails; what came later is no part of why."""
+    if result.judgement.broken is not None and result.judgement.broken.tick is not None:
+        return result.judgement.broken.tick
+    end = decided_at(outcome)
+    return outcome.events[end].tick if end >= 0 else outcome.last_tick
+
+
+def _tokens_of(outcome: Outcome, influence: Influence, parameters: tuple[str, ...], until: int) -> list[int]:
+    """The last observations, up to a tick, of the tokens whose rules the draws act through.
+
+    There a draw shows outside its reactor.
+    """
+    last = {predicate: index for index, tick, _, predicate in heads_of(outcome.events) if tick <= until}
     wanted = dict.fromkeys(line.predicate for name in parameters for line in influence.get(name, ()))
     return [last[predicate] for predicate in wanted if predicate in last]
 
 
 def _draws(
-    outcome: Outcome, agent: AgentConfiguration, influence: Influence, parameters: tuple[str, ...]
+    outcome: Outcome, agent: AgentConfiguration, influence: Influence, parameters: tuple[str, ...], until: int
 ) -> list[Step]:
+    """What was drawn last up to a tick, or of what the conflict speaks, and the lines that pass it on."""
     by_name = {parameter.name: parameter for parameter in agent.parameters}
+    conflict = failed_by(outcome).conflict
+    spoken = dict(conflict.drawn) if conflict is not None else {}
     steps: list[Step] = []
     for name in parameters:
-        drawn = [draw for draw in outcome.draws if draw.parameter == name]
+        drawn = [draw for draw in outcome.draws if draw.parameter == name and draw.tick <= until]
+        drawn = [draw for draw in drawn if draw.value == spoken.get(name)] or drawn
         if not drawn:
             continue
         draw, lines = drawn[-1], influence.get(name, ())
-        tick = draw.tick if name in by_name and by_name[name].mode == "intra" else None
+        since = draw.tick if name in by_name and by_name[name].mode == "intra" else None
         place = lines[0].place if lines else _sampled_at(outcome, name)
-        steps.append(Step(StepKind.DRAW, tick, (draw, by_name.get(name)), place))
+        steps.append(Step(StepKind.DRAW, since, (draw, by_name.get(name)), place))
         steps += [Step(StepKind.LINE, None, line.rule, line.place) for line in lines[1:]]
     return steps
 

@@ -37,5 +37,7 @@ def run_id(
     """Eight hexadecimal digits; where the checkout lies, how fast it is and how many fly make no difference."""
     content = asdict(agent)
     del content["root"], content["constraint_seconds"]
+    for goal in content["goals"]:
+        del goal["places"]
     text = json.dumps([content, models, seed, missions, engine, sampler], sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:_ID_LENGTH]

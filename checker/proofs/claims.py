@@ -40,6 +40,13 @@ def bounds_claim(term: Term, number: Callable[[Argument], Number]) -> Claim:
     return z3.And(*parts)
 
 
+def member_claim(term: Term, number: Callable[[Argument], Number]) -> Claim:
+    """What `a.b` of an object `a` that was open demands: it is the `b` of one of the objects, and `a` is that one."""
+    result, index, *members = (number(one) for one in term.arguments)
+    objects = [number(name) for name in term.values]
+    return z3.Or(*[z3.And(index == one, result == member) for one, member in zip(objects, members, strict=True)])
+
+
 def is_silent(name: str) -> bool:
     """Whether a constraint says nothing about values."""
     return name in _SILENT

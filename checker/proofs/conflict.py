@@ -11,7 +11,7 @@ from enum import Enum
 
 import z3
 
-from checker.proofs.claims import Claim, Number, bounds_claim, claim_of
+from checker.proofs.claims import Claim, Number, bounds_claim, claim_of, member_claim
 from checker.proofs.instructions import assign_claim, domain_claim, object_claim, post_claim, relation_claim
 from checker.proofs.operands import BodyLayout, ProgramNames, Symbols, variable_name
 from checker.proofs.places import ModelText, WrittenLine
@@ -194,6 +194,8 @@ class _Reader:
     def _term(self, term: Term) -> Claim | None:
         if term.name == "bounds":
             return bounds_claim(term, self.number)
+        if term.name == "memberOf":
+            return member_claim(term, self.number)
         if term.name == "sampledParameter":
             return self.number(term.arguments[0]) == self.number(term.arguments[2])
         if any(isinstance(one, float) and not math.isfinite(one) for one in term.arguments):

@@ -7,6 +7,7 @@ from importlib.resources import files
 
 from checker.batch.result import MissionResult
 from checker.conditions.rendering import condition_evidence, condition_text
+from checker.counterfactual.rendering import cause_text
 from checker.drawn import Drawn
 from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
@@ -133,12 +134,14 @@ def _fault(
     first, last = bucket.first_tick, bucket.last_tick
     when = f"at tick {first}" if first == last else f"at ticks {first} to {last}"
     meaning = escape(CODE_NAMES.get(bucket.code, "unknown"))
-    why = _words(failure_text(bucket.judgement, bucket.open_goals))
+    why = _words(failure_text(bucket.judgement, bucket.open_goals, bucket.refusal))
     parts = [
         f'<section class="card fault" style="--colour: var(--f{index % _COLOURS})">',
         f"<h3>{missions(len(bucket.missions))} ({percent(bucket.share)}): {why}</h3>",
         f'<p class="soft">{bucket.code}, {meaning}; {escape(bucket.reactor)} gives up {when}</p>',
     ]
+    if fault.causes.is_sought:
+        parts.append(f"<p>cause: {_words(cause_text(fault.causes))}</p>")
     places = fault.places
     if places:
         parts.append("<pre>" + "\n".join(_excerpt(place, excerpts, marked=True) for place in places) + "</pre>")
@@ -178,7 +181,8 @@ def _excerpt(place: SourcePlace, excerpts: Excerpts, *, marked: bool) -> str:
     if marked and start >= 0:
         end = start + len(first)
         text = f"{escape(line[:start])}<mark>{escape(line[start:end])}</mark>{escape(line[end:])}"
-    return f'<span class="at">{escape(excerpts.path(place))}</span>\n<span class="no">{place.line} | </span>{text}'
+    at = f'<span class="at" data-file="{escape(excerpts.file(place))}" data-line="{place.line}">'
+    return f'{at}{escape(excerpts.path(place))}</span>\n<span class="no">{place.line} | </span>{text}'
 
 
 def _paths(drawn: Drawn | None) -> list[str]:

@@ -10,7 +10,7 @@ from fractions import Fraction
 
 import z3
 
-from checker.proofs.claims import Claim, Number, bounds_claim
+from checker.proofs.claims import Claim, Number, bounds_claim, member_claim
 from checker.proofs.operands import rational
 from runtime.constraints.propagators.registry import BY_NAME
 from runtime.executive.outcome import Conflict
@@ -52,6 +52,8 @@ class Terms:
         """What `term` demands; None where it has no translation."""
         if term.name == "bounds":
             return bounds_claim(term, self.number)
+        if term.name == "memberOf":
+            return member_claim(term, self.number)
         if term.name == "sampledParameter":
             variable, name, value = term.arguments[:3]
             target = self.number(variable)

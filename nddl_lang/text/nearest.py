@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 
 _MOST_SLIPS = 3
+_SHORTENED = 3
 _MOST_COMPARED = 150  # names that look alike; so that a thousand complaints stay quick
 
 
@@ -33,6 +34,13 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
         if distance < best_distance or likeness > best_likeness:
             best, best_distance, best_likeness = candidate, distance, likeness
     return best
+
+
+def begun(name: str, candidates: Iterable[str]) -> str | None:
+    """The only candidate that begins with `name`, which was cut short; None for a name of one or two letters."""
+    folded = name.casefold()
+    found = {each for each in candidates if each != name and each.casefold().startswith(folded)}
+    return found.pop() if len(found) == 1 and len(name) >= _SHORTENED else None
 
 
 def _common(one: str, other: str) -> int:

@@ -5,9 +5,11 @@ picklable, compares by content and names no machine: model files are named relat
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Literal
+
+from runtime.executive.outcome import SourcePlace
 
 Value = int | float | bool | str
 Bounds = tuple[float, float]  # both ends included; -inf and inf where there is none
@@ -52,7 +54,8 @@ class GoalConfiguration:
     """A rejectable goal, sent to the owner of `timeline` at tick `at`, and taken back at tick `recall`.
 
     A mandatory goal that is not achieved at the end stands in `Outcome.open_goals`; others do not.
-    A parameter is given one value, or the two ends of a range.
+    A parameter is given one value, or the two ends of a range. `places` are those of its bounds and parameters in the
+    mission file, by key; they change no mission.
     """
 
     timeline: str
@@ -64,6 +67,7 @@ class GoalConfiguration:
     duration: Bounds | None = None
     parameters: tuple[tuple[str, Value | Bounds], ...] = ()
     recall: int | None = None
+    places: tuple[tuple[str, SourcePlace], ...] = field(default=(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -85,6 +85,8 @@ class Goals:
             return
         bench.commit()
         bench.remember_request(token)
+        if request.number < 0:
+            bench.goal_numbers[bench.key(token)] = -1 - request.number
         self.posted.append(Goal(request, token, bench.key(token)))
         self.is_changed = True
 

@@ -28,7 +28,8 @@ class Observation(NamedTuple):
 class Request:
     """A token on another reactor's timeline that a user or a reactor asks the owner for (T-REX 1.8).
 
-    Bounds are ticks; infinite ones are ±(2**52 - 1). `sender` is empty for a goal of the mission file.
+    Bounds are ticks; infinite ones are ±(2**52 - 1). `sender` is empty for a goal of the mission file, of
+    which the first has the number -1, the second -2, and so on.
     """
 
     number: int

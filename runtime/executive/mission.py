@@ -178,6 +178,7 @@ def _plan_reactor(
 
     parts = (programs.programs[number], solver, programs.constraints)
     loaded = loans.borrow(configuration, number, parts, draws.draw, make)
+    loaded.bench.goals = configuration.goals
     draws.view = loaded.bench
     return PlanReactor(each, loaded.bench, loaded.planner, last, world.trace, draws)
 

@@ -11,7 +11,7 @@ from enum import StrEnum
 
 from runtime.executive.messages import Arguments
 from runtime.plan.readout.names import TokenName, VariableName
-from runtime.plan.readout.statements import ResourceTerm, Term
+from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.solver.learning.attempts import Flaw, Resolver
 
 # ---- names ----
@@ -92,8 +92,13 @@ class Conflict:
     @property
     def parameters(self) -> tuple[str, ...]:
         """The sampled parameters that it depends on."""
+        return tuple(dict.fromkeys(name for name, _ in self.drawn))
+
+    @property
+    def drawn(self) -> tuple[tuple[str, Argument], ...]:
+        """The sampled parameters that it depends on, each with a value that was drawn for it."""
         terms = [term for element in self.elements for term in element.terms if term.name == "sampledParameter"]
-        return tuple(dict.fromkeys(str(term.arguments[1]) for term in terms))
+        return tuple(dict.fromkeys((str(term.arguments[1]), term.arguments[2]) for term in terms))
 
 
 # ---- what was tried ----

@@ -29,7 +29,7 @@ from runtime.executive.workbench import Workbench
 from runtime.plan.readout.names import TokenName, VariableName
 from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.plan.readout.terms import TermReader
-from runtime.plan.tags import NONE, ROLE_LOCAL, ROLE_TOKEN
+from runtime.plan.tags import NONE, ROLE_INTERNAL, ROLE_LOCAL, ROLE_TOKEN
 from runtime.solver.learning.attempts import CauseOrigin, FailedFlaw, FoundCause
 from runtime.solver.learning.failure_log import FailureLog
 from runtime.solver.search import Solver
@@ -121,6 +121,8 @@ class _ElementReader(TermReader):
         place = _place_of(spans[cause.span]) if 0 <= cause.span < len(spans) else None
         if cause.span == NONE and kind is ElementKind.DECLARATION:
             place = self.declared(found)
+        if cause.span == SPAN_REQUEST:
+            place = self.asked(found)
         token = self.token_name(cause.owner) if cause.owner >= 0 else None
         return _element(kind, place, token, found, terms)
 
@@ -133,6 +135,14 @@ class _ElementReader(TermReader):
             if isinstance(made, NewGlobal) and made.name == about.name and made.domain is not None:
                 return _place_of(made.span)
         return None
+
+    def asked(self, found: Term | ResourceTerm) -> SourcePlace | None:
+        """Where the mission file bounds a time or parameter of a goal."""
+        about = found.arguments[0] if isinstance(found, Term) and found.arguments else None
+        if not isinstance(about, VariableName) or about.token is None:
+            return None
+        number = self.bench.goal_numbers.get(about.token.key)
+        return None if number is None else dict(self.bench.goals[number].places).get(about.name)
 
     def term(self, cause: Cause) -> Term | ResourceTerm:
         """What a cause says; of a draw, the name of its parameter and the value."""
@@ -162,7 +172,11 @@ class _ElementReader(TermReader):
         if role == ROLE_LOCAL and owner >= 0:
             name = self.database.names.text(plan.variable_name[v])
             return VariableName(name, kind, self.token_name(owner), True, reactor)
-        if role >= 0:
+        if is_known and self.is_member_of_open_object(v):
+            owning = self.name(plan.proxy_index[v])
+            name = f"{owning.name}.{self.open_member(v)}"
+            return VariableName(name, kind, owning.token, owning.is_local, reactor)
+        if role > ROLE_INTERNAL:
             return VariableName(self.variable(v), kind, reactor=reactor)
         token = self.token_name(owner) if owner >= 0 else None
         return VariableName(f"_{v}", kind, token, token is not None, reactor)
@@ -209,6 +223,8 @@ class SearchLog:
         place = None if found.span is None else _place_of(found.span)
         if found.number == NONE and kind is ElementKind.DECLARATION:
             place = self.reader.declared(found.term)
+        if found.number == SPAN_REQUEST:
+            place = self.reader.asked(found.term)
         return _element(kind, place, self.reader.tokens.get(found.owner), found.term, ())
 
 

@@ -17,6 +17,8 @@ cdef double inf
 
 
 cdef class Workbench(PlanView):
+    cdef public tuple goals
+    cdef public dict goal_numbers
 
     cpdef long long mark(self) except? -1
 

@@ -5,9 +5,11 @@ from math import inf
 from compiler.program import FIRST_PARAMETER, OBJECT, DomainConstant
 from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.tags import FLAG_DECISION, KIND_FLOAT
+from runtime.executive.configuration import GoalConfiguration
 from runtime.executive.messages import Arguments
 from runtime.executive.timelines import TimelineState
 from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE, SPAN_MISSION, SPAN_OBSERVATION, SPAN_REQUEST, PlanView
+from runtime.plan.database import PlanDatabase
 from runtime.plan.lifecycle import activate, fire, merge
 from runtime.plan.store.marks import commit, mark, release, rewind
 from runtime.plan.store.prototypes import restrict_constant
@@ -28,7 +30,15 @@ from runtime.plan.tokens.tokens import make_token
 
 
 class Workbench(PlanView):
-    """A plan database under execution; every narrowing is propagated at once, so False always means a conflict."""
+    """A plan database under execution; every narrowing is propagated at once, so False always means a conflict.
+
+    `goals` are those of the mission; `goal_numbers` says of the tokens (by key) that stand for one which it is.
+    """
+
+    def __init__(self, database: PlanDatabase, name: str) -> None:
+        super().__init__(database, name)
+        self.goals: tuple[GoalConfiguration, ...] = ()
+        self.goal_numbers: dict[int, int] = {}
 
     # ---- going back ----
 

@@ -114,7 +114,7 @@ def test_trials_keep_to_their_bounds_and_can_be_ended(tmp_path: Path, flyer: Fly
     faulty = Faulty(tmp_path, flyer, "SURFACE_MAX = 64", "SURFACE_MAX = 30")
     few = faulty.causes(Bounds(flights=5))
     assert (few.flights, few.ended) == (5, TrialsEnd.FLIGHTS)
-    assert effort_text(few).endswith("no more are made")
+    assert effort_text(few).endswith("the most that are made")
     assert faulty.causes(Bounds(seconds=0.0)).ended is TrialsEnd.SECONDS
     cancelled = faulty.causes(Bounds(is_cancelled=lambda: True))
     assert (cancelled.flights, cancelled.ended) == (0, TrialsEnd.CANCELLED)
@@ -142,5 +142,5 @@ def test_a_pass_that_loses_goals_is_no_mending(tmp_path: Path, flyer: Flyer) -> 
     causes = faulty.causes()
     evading = [one for one in causes.ranked if one.claim is Claim.EVADES]
     assert evading
-    assert "do less then" in claim_text(evading[0]) or "does less then" in claim_text(evading[0])
+    assert "do less" in claim_text(evading[0]) or "does less" in claim_text(evading[0])
     assert causes.ranked[0].claim is not Claim.EVADES

@@ -39,6 +39,8 @@ from runtime.plan.readout.statements import Term
         (Term("temporalDistance", ("a.start", "a.duration", "a.end")), "a.start + a.duration == a.end"),
         (Term("mulEq", ("x", 2.5, "y")), "x * 2.5 == y"),
         (Term("sampledParameter", ("x", "RATE", 0.25)), "x = RATE = 0.25"),
+        (Term("memberOf", ("t::r.to", "t::r", "a.to", "b.to"), ("a", "b")), "t::r.to is that of a or b"),
+        (Term("memberOf", ("t::r.to", "t::r", "a.to"), ("a",)), "t::r.to is that of a"),
         (Term("allDiff", ("x", "y", 3)), "allDiff(x, y, 3)"),
     ],
 )

@@ -186,7 +186,7 @@ _SETS = (
     _of_domains(op.OP_EQ_UNION, "eqUnion", "result x rest*"),
     _of_domains(op.OP_MEMBER_IMPLY, "memberImply", "a b c d"),
     _of_domains(op.OP_LOCK, "lockCT", "x domain"),
-    Propagator(op.OP_ELEMENT, arguments="result index rest*"),  # see `post_element`
+    Propagator(op.OP_ELEMENT, arguments="result index rest*", shown="memberOf"),  # see `post_element`
     Propagator(op.OP_HAS_ANCESTOR, "hasAncestor", "x ancestors"),
     Propagator(op.OP_COMMON_ANCESTOR, "commonAncestor", "x y ancestors"),
     Propagator(op.OP_FREEZE, arguments="x domain", shown="foreach"),  # keeps the values; once closed, no others
@@ -216,8 +216,8 @@ _GEODESY = (
     Propagator(op.OP_ABSF, "absf", "result x", claims.absolute),
     Propagator(op.OP_FLOORF, "floorf", "result x", claims.rounded_down),
     Propagator(op.OP_CEILF, "ceilf", "result x", claims.rounded_up),
-    Propagator(op.OP_MAXF, arguments="result x rest*"),
-    Propagator(op.OP_MINF, arguments="result x rest*"),
+    Propagator(op.OP_MAXF, arguments="result x rest*", shown="maxf"),
+    Propagator(op.OP_MINF, arguments="result x rest*", shown="minf"),
     Propagator(op.OP_EXPF, "expf", "result x"),
     Propagator(op.OP_LOGF, "logf", "result x"),
     Propagator(op.OP_DEG_TO_RAD, "deg_to_rad", "radians degrees"),

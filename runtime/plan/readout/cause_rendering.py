@@ -20,10 +20,16 @@ def words(cause: Term | ResourceTerm) -> str:
             return _bounds(str(variable), lower, upper, cause.values)
         case Term("sampledParameter", (variable, parameter, value)):
             return f"{variable} = {parameter} = {value}"
+        case Term("memberOf", (result, _, *_)):
+            return f"{result} is that of {_one_of(cause.values)}"
         case Term(name, arguments):
             return _constraint(name, [str(argument) for argument in arguments])
         case _:
             assert_never(cause)
+
+
+def _one_of(names: tuple[str, ...]) -> str:
+    return f"{', '.join(names[:-1])} or {names[-1]}" if len(names) > 1 else "".join(names)
 
 
 def _precedence(source: str, target: str, weight: Argument) -> str:

@@ -14,7 +14,8 @@ class Term:
     `name` is a row of the constraint table (`eq`, `mulEq`, `leq`, ...), `precedence` (arguments source, target,
     bound: target - source <= bound), or `bounds` (arguments variable, lower, upper: a base domain; `values` lists its
     members where they are names). Arguments are variables, numbers, or names of values. A `sampledParameter` term has
-    the variable, the parameter name and the value drawn.
+    the variable, the parameter name and the value drawn. A `memberOf` term has `a.b` of an object `a` that was open
+    when it was needed, `a`, and what `b` is in each of the objects that `values` names.
     """
 
     name: str

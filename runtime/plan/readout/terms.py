@@ -5,12 +5,23 @@ from collections.abc import Callable
 from compiler.program import TOKEN_VARIABLES
 from runtime.constraints.domains.tags import FLAG_VALUES, HALF_INF, KIND_FLOAT, KIND_INT
 from runtime.constraints.explanation.cause import Cause, CauseKind
+from runtime.constraints.propagators.opcodes import OP_ELEMENT
 from runtime.constraints.propagators.registry import EXACT_TWINS, NAMES
 from runtime.plan.database import PlanDatabase
 from runtime.plan.readout.statements import Argument, ResourceTerm, Term
 from runtime.plan.resources.violation import Violation
 from runtime.plan.store.domain_texts import domain_text, set_text, wide
-from runtime.plan.tags import END, FIRST_PARAMETER, FLAG_EVENT, ROLE_GLOBAL, ROLE_LOCAL, ROLE_MEMBER, ROLE_TOKEN, START
+from runtime.plan.tags import (
+    END,
+    FIRST_PARAMETER,
+    FLAG_EVENT,
+    ROLE_GLOBAL,
+    ROLE_INTERNAL,
+    ROLE_LOCAL,
+    ROLE_MEMBER,
+    ROLE_TOKEN,
+    START,
+)
 from runtime.user.written import Written
 
 _WAITING = {twin: code for code, twin in EXACT_TWINS.items()}
@@ -36,7 +47,7 @@ class TermReader:
                 return self._constraint(cause.id)
 
     def variable(self, v: int) -> str:
-        """The name of a variable (`a.start`, `a::local`, `rover.mode`, `GLOBAL`); without one, its domain."""
+        """The name of a variable (`a.start`, `a::local`, `a::rover.mode`, `GLOBAL`); without one, its domain."""
         plan, program = self.plan, self.database.program
         role, owner, name = plan.variable_role[v], plan.variable_owner[v], plan.variable_name[v]
         if role == ROLE_TOKEN:
@@ -48,7 +59,17 @@ class TermReader:
             return f"{self.database.objects.names[owner]}.{member}"
         if role == ROLE_LOCAL:
             return f"{self.token(owner)}::{self.database.names.text(name)}"
+        if self.is_member_of_open_object(v):
+            return f"{self.variable(plan.proxy_index[v])}.{self.open_member(v)}"
         return self.value(v)
+
+    def is_member_of_open_object(self, v: int) -> bool:
+        """Whether a variable stands for `a.b` where the object `a` was not known yet."""
+        return bool(self.plan.variable_role[v] == ROLE_INTERNAL and self.plan.proxy_index[v] >= 0)
+
+    def open_member(self, v: int) -> str:
+        """Of such a variable the name `b`."""
+        return self.database.names.text(self.plan.proxy_member[v])
 
     def value(self, v: int) -> str:
         """The domain of a variable, without its type."""
@@ -99,8 +120,10 @@ class TermReader:
         code = engine.op[c]
         if self.database.narrows_functions:
             code = _WAITING.get(code, code)
-        name = external.name if isinstance(external, Written) else NAMES.get(code, f"constraint {code}")
-        return Term(name, tuple(self.argument(v) for v in engine.arguments(c)))
+        arguments = tuple(self.argument(v) for v in engine.arguments(c))
+        if code == OP_ELEMENT:
+            return Term(NAMES[code], arguments, tuple(self.database.objects.names[o] for o in engine.keys(c)))
+        return Term(external.name if isinstance(external, Written) else NAMES[code], arguments)
 
     def _violation(self, violation: Violation) -> ResourceTerm:
         users = tuple((self._user(t), amount) for t, amount in violation.charged if t >= 0)
