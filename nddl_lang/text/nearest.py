@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 
 _MOST_SLIPS = 3
+_LEAST_BEGUN = 5  # letters of a name that is the beginning of another
 _MOST_COMPARED = 150  # names that look alike; so that a thousand complaints stay quick
 
 
@@ -10,14 +11,18 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
     """The candidate that differs least from `name`; None where all differ too much.
 
     A slip is a letter put in, left out or replaced, or two neighbours swapped; capitals are none. Of several the one
-    of the same letters is taken, then the one that begins most alike, that ends most alike, and then the first.
+    of the same letters is taken, then the one that begins most alike, that ends most alike, and then the first. Where
+    none is near, the only one is taken that begins with all of the name, unless that is short.
     """
     limit = min(max(1, len(name) // 3), _MOST_SLIPS)
     folded = name.casefold()
     best: str | None = None
     best_distance, best_likeness = limit, (False, -1, -1)
     letters, compared = set(folded), 0
+    begun: set[str] = set()
     for candidate in candidates:
+        if len(name) >= _LEAST_BEGUN and candidate.casefold().startswith(folded) and candidate != name:
+            begun.add(candidate)
         if candidate == name or abs(len(candidate) - len(name)) > best_distance or compared >= _MOST_COMPARED:
             continue
         other = candidate.casefold()
@@ -32,7 +37,7 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
         likeness = (same_letters, _common(folded, other), _common(folded[::-1], other[::-1]))
         if distance < best_distance or likeness > best_likeness:
             best, best_distance, best_likeness = candidate, distance, likeness
-    return best
+    return begun.pop() if best is None and len(begun) == 1 else best
 
 
 def _common(one: str, other: str) -> int:
