@@ -11,6 +11,7 @@
 #   make plan-proof   MODELS (20000) random whole models beside judges that know only the models
 #   make fuzz         the property tests with many more examples, and MUTATIONS (1000000) mutations of texts
 #   make sampling-study  BATCHES (10000) simulated batches per sampler: how often each interval covers the true rate
+#   make truths       conditions of models whose truth is known, each on FRESH (2000) fresh missions
 #   make kills        KILLS (20) batches killed by SIGKILL and as many by SIGTERM, resumed, beside undisturbed ones
 #   make mutants      MUTANTS (2000) faulty missions, flown compiled, interpreted and by the general engine, and judged
 #   make renames      rename every name of every model, and compare what the models mean
@@ -34,7 +35,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
-.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study kills mutants renames editor-proof vsix conformance corpus rules docs bench clean
+.PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study truths kills mutants renames editor-proof vsix conformance corpus rules docs bench clean
 
 help:
 	@sed -n 's/^#   //p' Makefile
@@ -119,6 +120,11 @@ BATCHES := 10000
 
 sampling-study: build
 	$(BIN)/python -m tests.checker.sampling_study $(BATCHES)
+
+FRESH := 2000
+
+truths: build
+	$(BIN)/python -m tests.checker.conditions.truth_study $(FRESH)
 
 KILLS := 20
 

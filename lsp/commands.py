@@ -5,6 +5,7 @@ Nothing is run that the user did not ask for; Python of a project only as `nddlc
 
 import asyncio
 import json
+import os
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -44,7 +45,7 @@ def answer_commands(session: Session) -> None:
         wanted = missions[0] if missions and isinstance(missions[0], int) else 0
         count = ["--missions", str(wanted)] if wanted > 0 else []
         title = f"nddlc: flying the missions of {path.name}"
-        ended = await _run(session, title, folder, "check", str(path), "--format", "json", *count)
+        ended = await _run(session, title, folder, "check", _seen_from(folder, path), "--format", "json", *count)
         if ended.code not in (_HOLDS, _FINDINGS):
             raise RequestFailed(ended.errors.strip() or ended.output.strip() or f"nddlc ended with {ended.code}")
         report = json.loads(ended.output)
@@ -64,8 +65,10 @@ def answer_commands(session: Session) -> None:
 
     @session.command(EXPLAIN)
     async def explain(uri: str) -> str:
-        folder = _folder(session, _path(uri))
-        ended = await _run(session, "nddlc: explaining the last failure", folder, "explain")
+        path = _path(uri)
+        folder = _folder(session, path)
+        title = f"nddlc: explaining the last failure of {path.name}"
+        ended = await _run(session, title, folder, "explain", _seen_from(folder, path))
         if ended.code not in (_HOLDS, _FINDINGS):
             raise RequestFailed(ended.errors.strip() or ended.output.strip())
         _show(session, ended.output, is_good=False)
@@ -74,7 +77,9 @@ def answer_commands(session: Session) -> None:
     @session.command(CERTIFY)
     async def certify(uri: str) -> str:
         path = _path(uri)
-        ended = await _run(session, f"nddlc: certifying {path.name}", path.parent, "certify", str(path))
+        ended = await _run(
+            session, f"nddlc: certifying {path.name}", path.parent, "certify", _seen_from(path.parent, path)
+        )
         if ended.code not in (_HOLDS, _FINDINGS):
             raise RequestFailed(ended.errors.strip() or ended.output.strip() or f"nddlc ended with {ended.code}")
         _show(session, ended.output, is_good=ended.code == _HOLDS)
@@ -82,13 +87,13 @@ def answer_commands(session: Session) -> None:
 
     async def view(params: Any, *options: str) -> dict[str, Any]:
         path = _path(_field(params, "uri"))
-        plan = ("plan", str(path), "--max-seconds", _SECONDS, *options)
+        plan = ("plan", _seen_from(path.parent, path), "--max-seconds", _SECONDS, *options)
         ended = await _run(session, f"nddlc: planning {path.name}", path.parent, *plan)
         return {"code": ended.code, "text": ended.output, "errors": ended.errors}
 
     @session.feature(_PLAN)
     async def view_plan(params: Any) -> dict[str, Any]:
-        return await view(params, "--format", "html")
+        return await view(params, "--format", "html", "--explain")
 
     @session.feature(_NETWORK)
     async def view_network(params: Any) -> dict[str, Any]:
@@ -132,6 +137,11 @@ def _folder(session: Session, path: Path) -> Path:
     """The folder of the workspace that holds a file: there `nddlc` keeps its runs and reports; else its own folder."""
     holding = [folder for folder in session.documents.folders if path.is_relative_to(folder)]
     return max(holding, key=lambda folder: len(folder.parts), default=path.parent)
+
+
+def _seen_from(folder: Path, path: Path) -> str:
+    """The path of a file as a user in that folder would write it; no option, whatever it begins with."""
+    return f".{os.sep}{path.relative_to(folder)}"
 
 
 async def _run(session: Session, title: str, folder: Path, *arguments: str) -> _Ended:

@@ -17,6 +17,7 @@ from nddl_lang.semantics.codes import UNKNOWN_CLASS, UNKNOWN_NAME, UNKNOWN_PREDI
 from nddl_lang.semantics.schema import Class, Predicate
 from nddl_lang.syntax.dialect import Dialect
 from nddl_lang.syntax.nodes import ClassDecl, FloatLiteral, Include, IntLiteral, PredicateDecl, RuleDecl, UnaryExpr
+from nddl_lang.syntax.words import RESERVED
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import read_text
 
@@ -131,6 +132,8 @@ def _missing_predicate(
     if brace < 0:
         return
     name = diagnostic.span.text
+    if name in RESERVED:
+        return
     is_own_line = not text[text.rfind("\n", 0, brace) + 1 : brace].strip()
     at = text.rfind("\n", 0, brace) + 1 if is_own_line else brace
     written = f"  predicate {name} {{ }}\n" if is_own_line else f"predicate {name} {{ }} "

@@ -263,7 +263,7 @@ class _Echoes:
         for complaint in complaints:
             if self._mended and self._is_mended(complaint.span):
                 continue
-            if complaint.code in _UNKNOWN and not complaint.fixes and not complaint.notes:
+            if complaint.code in _UNKNOWN and not complaint.notes and not _replaces(complaint):
                 if complaint.message in self._unknown:
                     continue
                 self._unknown.add(complaint.message)
@@ -273,6 +273,11 @@ class _Echoes:
         places = self._mended.get(span.source, [])
         at = bisect_left(places, span.begin)
         return at < len(places) and places[at] < span.finish and "\n" not in span.text
+
+
+def _replaces(complaint: Diagnostic) -> bool:
+    """Whether a fix writes something else in this place: then each place is told, with its own."""
+    return any(edit.span.finish > edit.span.begin for fix in complaint.fixes for edit in fix.edits)
 
 
 class _Chains:

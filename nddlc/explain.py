@@ -19,11 +19,13 @@ from checker.findings import Fault
 from checker.flight import load
 from checker.graph import causal_graph, focused
 from checker.graph_rendering import graph_data, graph_dot, graph_svg, graph_text
+from checker.judge.written_values import DocumentError
+from checker.logged import Departure, MissionLog, ReactorLog, first_departure, read_mission_log, with_players
 from checker.mission import read_mission
-from checker.models import ModelSet
+from checker.models import ModelSet, load_models
 from checker.oracle import Verdict
 from nddlc.check import STORE
-from nddlc.inputs import Unusable
+from nddlc.inputs import Unusable, readable
 from nddlc.mission_trust import models_of
 from nddlc.progress import SeekingDisplay
 from nddlc.samplers import SAMPLERS, find_sampler
@@ -35,6 +37,7 @@ _DRAWN = {"dot": graph_dot, "svg": graph_svg}
 
 @click.command()
 @click.argument("what", metavar="RUN[#MISSION]", default=LATEST)
+@click.option("--mission", "mission_path", type=click.Path(path_type=Path, exists=True), help="Whose log RUN is.")
 @click.option(
     "--format", "style", type=click.Choice(["text", "json", "dot", "svg"]), default="text", help="How to print it."
 )
@@ -46,6 +49,7 @@ _DRAWN = {"dot": graph_dot, "svg": graph_svg}
 @trust_option
 def command(
     what: str,
+    mission_path: Path | None,
     style: str,
     store_path: Path,
     verbose: int,
@@ -56,8 +60,13 @@ def command(
 ) -> int:
     """Explain why a mission failed.
 
-    RUN is the id that `nddlc check` printed, or `latest`. Without a mission the first failed one is explained.
+    RUN is the id that `nddlc check` printed, a mission file for its last run, or `latest`. Without a mission the first
+    failed one is explained. With --mission it is a log of T-REX (.tr.log), a directory of such logs, or a trace
+    (.jsonl) of that mission: the reactors that ask nobody do what is on record, the others plan anew with the models
+    as they are.
     """
+    if mission_path is not None:
+        return _print(_replayed(Path(what), mission_path, Bounds(flights, seconds), is_trusted), style, events, verbose)
     name, _, number = what.partition("#")
     if number and not number.removeprefix("k").isdigit():
         raise Unusable(f"`{number}` is no number of a mission", "write RUN#MISSION, such as latest#37")
@@ -88,6 +97,7 @@ class _Found:
     fault: Fault | None
     is_same: bool
     results: tuple[MissionResult, ...]
+    of_log: tuple[str, ...] = ()
 
 
 def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_trusted: bool) -> _Found:
@@ -114,6 +124,48 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
     return _Found(campaign, run.id, result, fault, is_same, results)
 
 
+def _replayed(path: Path, mission_path: Path, bounds: Bounds, is_trusted: bool) -> _Found:
+    """The mission of a log flown again, with players where the log tells what a reactor did that asks nobody."""
+    (file,) = readable((str(mission_path),), ())
+    try:
+        log = read_mission_log(path)
+    except (OSError, ValueError, DocumentError) as problem:
+        raise Unusable(f"`{path}` is no log of a mission: {problem}") from None
+    mission, _ = read_mission(file)
+    if mission is None or models_of(mission, is_trusted=is_trusted).has_errors:
+        raise Unusable(f"`{mission_path}` or its models are in error", f"nddlc check {mission_path}")
+    changed, others = with_players(mission, log)
+    players = [one.name for one in changed.agent.coded if one.class_name == "LogPlayer"]
+    if not players:
+        raise Unusable(
+            f"`{path}` has no log of a reactor of the mission that asks nobody", "these are what can be played again"
+        )
+    campaign = Campaign(changed, load_models(changed), load)
+    result = campaign.judged(fly_one(load(campaign.models.agent), campaign.task(1), keep_trace=True))
+    findings = campaign.assess((result,), focus=1, bounds=bounds if bounds.flights else None)
+    fault = next(iter(findings.faults), None)
+    return _Found(campaign, path.name, result, fault, True, (result,), _told_of_log(log, players, others, result))
+
+
+def _told_of_log(
+    log: MissionLog, players: list[str], others: dict[str, ReactorLog], result: MissionResult
+) -> tuple[str, ...]:
+    """What the log says of the end of the mission, and where the flight is another."""
+    told = [f"played from the log: {', '.join(players)}"]
+    told += [f"`{name}` breaks off at tick {log.last_tick}" for name in log.cut_off]
+    told += [f"nothing is on record after tick {log.last_tick}: what held then goes on"] if log.ends is None else []
+    told += [f"T-REX ended `{one.reactor}` at tick {one.failed}" for one in log.reactors if one.failed is not None]
+    lines = [line for one in others.values() for line in one.provided]
+    events = result.outcome.events if result.outcome is not None else ()
+    departure: Departure | None = first_departure(log, lines, events)
+    if departure is not None:
+        told.append(
+            f"departs from the log at tick {departure.tick}: `{departure.timeline}` began to hold"
+            f" {departure.logged or 'nothing else'} there, and {departure.flown or 'nothing else'} now"
+        )
+    return tuple(told)
+
+
 def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
     result, campaign = found.result, found.campaign
     excerpts = Excerpts(Path(campaign.models.agent.root))
@@ -123,6 +175,8 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
             raise Unusable(f"mission {result.number} of run {found.run_id} has no causes to draw", "it did not fail")
         click.echo(_DRAWN[style](graph), nl=False)
         return 0
+    if found.of_log and style == "text":
+        click.echo("\n".join([*found.of_log, ""]))
     if not found.is_same and style == "text":
         click.echo("model, mission file or nddlc have changed since this run; the explanation is of what was flown\n")
     if result.verdict is Verdict.FAIL:
@@ -144,6 +198,7 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
         lines = [trace_line(event) for event in result.outcome.events]
         text += "\n" + "\n".join(lines) + "\n"
         plain |= {"events": lines, "trace": [event_data(event) for event in result.outcome.events]}
+    plain |= {"log": list(found.of_log)} if found.of_log else {}
     click.echo(text if style == "text" else json.dumps(plain, ensure_ascii=False, indent=1), nl=style != "text")
     return 0
 

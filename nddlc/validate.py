@@ -15,6 +15,7 @@ from checker.judge.rendering import report_data, report_text
 from checker.judge.report import JudgeReport
 from checker.judge.trace_reading import plan_of_trace
 from checker.judge.written_values import DocumentError
+from checker.logged import MissionLog, is_log, read_mission_log
 from checker.mission import read_mission
 from checker.one_flight import read_trace
 from checker.proofs.judgement import ProvedJudgement, judgement_data, judgement_text, prove_record
@@ -48,7 +49,7 @@ class _Judged(NamedTuple):
 
 
 @click.command()
-@click.argument("plan", metavar="PLAN", type=click.Path(path_type=Path, exists=True, dir_okay=False))
+@click.argument("plan", metavar="PLAN", type=click.Path(path_type=Path, exists=True))
 @click.option("--mission", "mission_path", type=click.Path(path_type=Path, exists=True), help="Whose trace or record.")
 @click.option("--seed", type=int, default=0, help="Of a mission that is flown here.")
 @click.option("--record", "target", type=click.Path(path_type=Path), help="Write the record of what was flown.")
@@ -66,18 +67,22 @@ def command(
 ) -> int:
     """Judge PLAN against its model, by code that shares nothing with the planner.
 
-    PLAN is a mission file (.toml), which is flown; a record or a plan (.json); or a trace (.jsonl), which needs
-    --mission unless it names its own. docs/validate.md describes the documents. The exit code is 1 where something
-    breaks the model. With --smt z3 judges the same values, by what the text of the model demands.
+    PLAN is a mission file (.toml), which is flown; a record or a plan (.json); a trace (.jsonl), which needs --mission
+    unless it names its own; or with --mission a log of T-REX (.tr.log), or the directory of a mission's logs.
+    docs/validate.md describes the documents. The exit code is 1 where something breaks the model. With --smt z3 judges
+    the same values, by what the text of the model demands.
     """
     try:
-        match plan.suffix:
-            case ".toml":
-                judged = _flown(plan, seed, target, is_trusted)
-            case ".jsonl":
-                judged = _traced(plan, mission_path, is_trusted)
-            case _:
-                judged = _documented(plan, mission_path, is_trusted)
+        if is_log(plan):
+            judged = _logged(plan, mission_path, is_trusted)
+        elif plan.is_dir():
+            raise Unusable(f"there is no log of T-REX (*.tr.log) in `{plan}`")
+        elif plan.suffix == ".toml":
+            judged = _flown(plan, seed, target, is_trusted)
+        elif plan.suffix == ".jsonl":
+            judged = _traced(plan, mission_path, is_trusted)
+        else:
+            judged = _documented(plan, mission_path, is_trusted)
     except DocumentError as problem:
         raise Unusable(f"`{plan}`: {problem}", problem.advice or "docs/validate.md describes the form") from None
     except UnusableModelError as problem:
@@ -144,23 +149,49 @@ def _traced(path: Path, mission_path: Path | None, is_trusted: bool) -> _Judged:
     except ValueError as problem:
         raise Unusable(f"`{path}`: {problem}", "name the mission file with --mission") from None
     readable((str(whose),), ())
-    agent, programs = _loaded(whose, is_trusted, is_named=mission_path is not None)
-    lines = _text(path).splitlines()
+    _text(path)
+    return _observed(read_mission_log(path), whose, is_trusted, is_named=mission_path is not None)
+
+
+def _logged(path: Path, mission_path: Path | None, is_trusted: bool) -> _Judged:
+    if mission_path is None:
+        raise Unusable(f"`{path}` does not say of which mission it is", "name the mission file with --mission")
+    try:
+        log = read_mission_log(path)
+    except ValueError as problem:
+        raise Unusable(f"`{path}` is no log of T-REX: {problem}") from None
+    return _observed(log, mission_path, is_trusted, is_named=True)
+
+
+def _observed(log: MissionLog, whose: Path, is_trusted: bool, *, is_named: bool) -> _Judged:
+    """What was observed on the timelines of each reactor, judged against its model."""
+    agent, programs = _loaded(whose, is_trusted, is_named=is_named)
     reports, plans = [], []
     for place, program in zip(agent.reactors, programs.programs, strict=True):
         timelines = (*place.internal, *place.external)
-        plan = plan_of_trace(lines, timelines, _base(program, place.name, programs), program)
-        told = frozenset(each.class_name for each in plan.objects if each.name in timelines)
+        base = _base(program, place.name, programs)
+        plan = plan_of_trace(log.events, timelines, base, program, last=log.last_tick, step=log.step)
+        seen = [line for line in timelines if line in log.timelines]
+        told = frozenset(each.class_name for each in plan.objects if each.name in seen)
         report, followed = judge_plan(program, plan, programs.constraints, told)
         reports.append(report)
         plans.append(followed._replace(reactor=place.name))
+    owned = {line for lines in _owned(agent) for line in lines}
+    foreign = [
+        f"`{line}`, a timeline that no reactor of the mission owns" for line in log.timelines if line not in owned
+    ]
+    cut_off = [f"what came after the end of `{name}`, which breaks off" for name in log.cut_off]
     report = JudgeReport(
         tuple(one for report in reports for one in report.disagreements),
         sum(report.judged for report in reports),
         sum(report.open for report in reports),
-        tuple(row for report in reports for row in report.skipped),
+        (*(row for report in reports for row in report.skipped), *((reason, 1) for reason in (*foreign, *cut_off))),
     )
     return _Judged(report, agent, programs.programs, MissionRecord(tuple(plans)), None)
+
+
+def _owned(agent: AgentConfiguration) -> list[tuple[str, ...]]:
+    return [*(one.internal for one in agent.reactors), *(one.internal for one in agent.coded)]
 
 
 def _text(path: Path) -> str:

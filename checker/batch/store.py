@@ -20,6 +20,7 @@ from checker.oracle import Verdict
 from checker.regression import RegressionCase
 
 LATEST = "latest"
+_MISSION = ".toml"
 _FOLDER = ".nddlc"
 _VERSION = 5  # of the schema and of `write_result`; other versions are not read
 _MARK = 0x4E44444C  # `NDDL`: the application id of SQLite's file format
@@ -139,10 +140,15 @@ class RunStore:
         self._flushed = time.monotonic()
 
     def find(self, name: str) -> Run | None:
-        """The run with that id, or the one that began last for `latest`; a unique beginning of an id will do."""
+        """The run with that id, or the one that began last: of all for `latest`, of one mission file for its path.
+
+        A unique beginning of an id will do.
+        """
         chosen = "SELECT id, mission_file, seed, missions, sampler FROM runs "
         if name == LATEST:
             rows = self._rows(chosen + "ORDER BY turn DESC LIMIT 1")
+        elif name.endswith(_MISSION):
+            rows = self._rows(chosen + "WHERE mission_file = ? ORDER BY turn DESC LIMIT 1", str(Path(name).resolve()))
         else:
             rows = self._rows(chosen + "WHERE substr(id, 1, ?) = ?", len(name), name)
         return Run(*rows[0]) if len(rows) == 1 else None

@@ -2,7 +2,7 @@
 
 First come small changes that mend every failed mission that they were tried on, without a goal lost. Where there are
 none, a line may be missing: variables that too few lines speak of come before what only takes a demand away, unless
-that is usual or far off.
+that is usual or far off. Where a branch lacks what the other sets, that mends which leads around it shows no more.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ from pathlib import Path
 from checker.counterfactual.candidates import Candidate
 from checker.counterfactual.smallness import is_loosening
 from checker.counterfactual.trials import HEAVY, LineTrial, Loose, Trials, TrialsEnd
-from checker.mutation.edits import SmallEdit
+from checker.mutation.edits import EditKind, SmallEdit
 from checker.names import relative_name
 from runtime.executive.outcome import SourcePlace
 
@@ -76,7 +76,9 @@ NO_CAUSES = Causes()
 
 def rank(trials: Trials, root: Path) -> Causes:
     """All causes of a fault in order, each line once."""
-    small = [one for one in trials.causes if _claim(one) is Claim.MENDS]
+    uneven = {one.candidate.site for one in trials.loose if one.is_uneven}
+    mending = [one for one in trials.causes if _claim(one) is Claim.MENDS]
+    small = [one for one in mending if one.edit.kind is not EditKind.VALUE or one.candidate.site not in uneven]
     small += [one for one in trials.causes if _claim(one) is Claim.CODED]
     large = [one for one in trials.causes if one not in small]
     loose = list({one.candidate.site: one for one in trials.loose}.values())[:_MOST_LOOSE]
@@ -95,7 +97,7 @@ def _claim(trial: LineTrial) -> Claim:
         return Claim.EVADES
     if trial.helped < trial.missions or trial.spoilt:
         return Claim.PARTLY
-    if not is_loosening(trial.edit):
+    if not is_loosening(trial.edit, trial.candidate.site):
         return Claim.MENDS
     return Claim.CODED if trial.candidate.site.coded else Claim.LOOSENS
 

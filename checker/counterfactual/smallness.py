@@ -11,6 +11,8 @@ from collections.abc import Container, Sequence
 from dataclasses import dataclass
 
 from checker.counterfactual.affinity import WORD, Affinity
+from checker.counterfactual.bounds import Directions
+from checker.counterfactual.mentions import Mentions, is_doubled
 from checker.mutation.edits import DROPPED, EditKind, EditSite, SmallEdit
 
 _SAMPLED = re.compile(r"sampledParameter\s*\(\s*(\w+)")
@@ -62,6 +64,8 @@ _COMPARISONS = {
 }
 # The sign of what is added: between two times most write how much later one is.
 _SIGNED = {"time sum": {"+": 4.0, "-": 1.0}, "sum": {"+": 2.0, "-": 1.0}, "number": {}}
+_MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
+_UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
 _SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
 _RARE = 0.3  # all other words
 _LEAST_ODDS = -0.7  # in conditions, where any comparison may be meant
@@ -83,6 +87,8 @@ class Usage:
     sampled: Container[str]
     affinity: Affinity
     sums: Counter[tuple[str, str, str]]
+    mentions: Mentions
+    directions: Directions
     passing: float = 0.0
 
     def is_swapped(self, edit: SmallEdit) -> bool:
@@ -104,6 +110,14 @@ class Usage:
     def twins(self, edit: SmallEdit, site: EditSite) -> int:
         """1 for a change after which a line is written as another is, less 1 for a line that is so already."""
         return self.affinity.makes_twin(edit, site) - self.affinity.has_twin(site)
+
+    def fitness(self, edit: SmallEdit, site: EditSite) -> float:
+        """How much better a name fits into a line than the old one: by what lacks a mention, and by likeness."""
+        if edit.new in self.sampled or self.mentions.unsets(edit, site):
+            return _UNMEANT
+        weight = _MENTION if edit.kind is EditKind.NAME else 0.5 * _MENTION
+        gain = weight * self.mentions.gain(edit, site)
+        return gain + _ALIKE * self.mentions.likeness(edit, site) + _DOUBLED * is_doubled(edit, site)
 
     def odds(self, edit: SmallEdit, site: EditSite) -> float:
         """Logarithm of how much likelier the old word of a relation or comparison is meant than the new one."""
@@ -132,21 +146,25 @@ def usage_of(sites: Sequence[EditSite], *, passing: float = 0.0) -> Usage:
         sums.update(_sum(edit, site) for edit in words.values() if edit.kind is EditKind.SIGN)
     sampled = {name for site in sites for name in _SAMPLED.findall(site.text)}
     named = {site.named for site in sites if site.named}
-    return Usage(counts, named, kinds, meant, sampled, Affinity(sites, named), sums, passing)
+    mentions = Mentions(sites, named, counts)
+    directions = Directions(sites, named)
+    return Usage(counts, named, kinds, meant, sampled, Affinity(sites, named), sums, mentions, directions, passing)
 
 
-def is_loosening(edit: SmallEdit) -> bool:
-    """Whether an edit takes a demand away altogether."""
+def is_loosening(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether an edit takes a demand away altogether, or takes a variable away from the world's draws."""
+    is_comparison = edit.kind is EditKind.COMPARISON
     return (
         edit.kind in DROPPED
+        or (is_comparison and _sign(edit.old) == _EQUAL and _SAMPLED.search(site.text) is not None)
         or (edit.kind is EditKind.RELATION and edit.new == _LOOSE)
-        or (edit.kind is EditKind.COMPARISON and _sign(edit.new) == _UNEQUAL)
+        or (is_comparison and _sign(edit.new) == _UNEQUAL)
     )
 
 
 def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
     """How unlikely an edit is the repair; what takes a demand away altogether costs most."""
-    form = _DROP if is_loosening(edit) else _form(edit, site, usage) + _structural(edit, usage)
+    form = _DROP if is_loosening(edit, site) else _form(edit, site, usage) + _structural(edit, usage)
     return form + _KINDS * math.log(max(usage.kinds[edit.kind], 1)) - _TWIN * usage.twins(edit, site)
 
 
@@ -164,6 +182,10 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
             return 1.0 + _OCTAVE * _octaves(edit) + _DIGIT * (_digits(edit.new) - _digits(edit.old))
+        case EditKind.PREDICATE:
+            return 3.0
+        case EditKind.NAME | EditKind.POINT | EditKind.TOKEN:
+            return 2.0 - usage.fitness(edit, site)
         case _:
             return 1.0
 
@@ -174,7 +196,9 @@ def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     What loosens most comes first: where it does not help, smaller ones seldom do.
     """
     delay = _delay(edit, site, usage)
-    return None if delay is None else delay - _TWIN_SOON * usage.twins(edit, site)
+    if delay is None or edit.kind is EditKind.VALUE:  # what is asked once is not asked again
+        return delay
+    return delay - _TWIN_SOON * usage.twins(edit, site)
 
 
 def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
@@ -189,6 +213,15 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
             return 0.5 + _UNUSUAL * usage.odds(edit, site) + _LATER * usage.passing
         case EditKind.ARGUMENTS:
             return 0.5 + _LATER * usage.passing
+        case EditKind.NAME:
+            fitness = usage.fitness(edit, site)
+            is_set = usage.mentions.is_set_by(edit, site)
+            neutral = _LATE if edit.new in usage.named or is_set else 0.7
+            return 0.5 - 0.6 * fitness if fitness > 0.0 else neutral - fitness
+        case EditKind.VALUE:
+            return -0.4 + _LATER * usage.passing
+        case EditKind.POINT | EditKind.TOKEN | EditKind.PREDICATE:
+            return 0.5 - 0.5 * usage.fitness(edit, site) + _LATER * usage.passing
         case EditKind.DROPPED_CONSTRAINT:
             return _LATE if "==" in edit.old or edit.old.startswith("eq") else 0.3
         case EditKind.DROPPED_BRANCH:
@@ -204,7 +237,9 @@ def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
         case EditKind.CONSTANT:
             if float(edit.new) <= 0.0 < float(edit.old):
                 return _LATE
-            return -0.3 if _is_farthest(edit, site) else 1.2 if _octaves(edit) >= 1.0 else None
+            tightens = usage.directions.of(edit, site) == (-1 if _direction(edit) else 1)
+            soon = 1.2 if tightens else -0.3
+            return soon if _is_farthest(edit, site) else 1.2 if _octaves(edit) >= 1.0 else None
         case EditKind.OFF_BY_ONE:
             return 0.4 if abs(float(edit.old)) <= _FEW else None
 

@@ -17,7 +17,7 @@ from checker.counterfactual.candidates import Candidate
 from checker.counterfactual.smallness import Usage, alternatives, cost_of, delay_of, follow_ups
 from checker.coverage import left_out
 from checker.losses import GoalFate
-from checker.mutation.edits import EditSite, SmallEdit
+from checker.mutation.edits import EditKind, EditSite, SmallEdit
 from checker.oracle import Verdict
 
 MOST_FLIGHTS = 40
@@ -139,8 +139,10 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
         turns: Counter[int] = Counter()
         far = max(candidate.far - _CONSTANT * candidate.site.is_number, 0.0)
         for delay, edit in _first_edits(candidate.site, usage):
-            at = _NEARNESS * far + delay + _TURN * turns[edit.begin] + _PLACE * len(turns)
-            turns[edit.begin] += 1
+            at = _NEARNESS * far + delay
+            if edit.kind is not EditKind.VALUE:  # of which there are few
+                at += _TURN * turns[edit.begin] + _PLACE * len(turns)
+                turns[edit.begin] += 1
             heapq.heappush(queue, (at, next(order), candidate, edit))
     reserve = min(_CONFIRMED * (len(failed) - 1 + len(missions.passed)), bounds.flights // 4)
     best: dict[EditSite, LineTrial] = {}

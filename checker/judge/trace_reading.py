@@ -1,5 +1,6 @@
 """Traces as plans: what observations of a mission tell of each timeline."""
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -11,10 +12,24 @@ from runtime.executive.record import ReactorRecord, TokenRecord
 _FORM = "one event a line, each with tick, kind, timeline, predicate"
 
 
-def plan_of_trace(lines: list[str], timelines: tuple[str, ...], base: ReactorRecord, program: Program) -> ReactorRecord:
-    """What a trace tells of some timelines: each observation holds until the next of its timeline."""
-    events = [_event(text, number) for number, text in enumerate(lines, 1) if text.strip()]
-    last = max((event["tick"] for event in events), default=0)
+def read_events(text: str) -> list[dict[str, Any]]:
+    """The events of a trace in JSON Lines."""
+    return [_event(line, number) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
+
+
+def plan_of_trace(
+    events: Sequence[dict[str, Any]],
+    timelines: tuple[str, ...],
+    base: ReactorRecord,
+    program: Program,
+    *,
+    last: int,
+    step: float = 0.0,
+) -> ReactorRecord:
+    """What a trace up to tick `last` tells of some timelines: each observation holds until the next of its timeline.
+
+    Floats are rounded to `step`.
+    """
     classes = {each.name: each.class_name for each in base.objects}
     types = TypedValues(program, base.objects)
     tokens: list[TokenRecord] = []
@@ -25,7 +40,7 @@ def plan_of_trace(lines: list[str], timelines: tuple[str, ...], base: ReactorRec
             assert tick is not None
             event = seen[tick]
             end = {"between": [last + 1, None]} if following is None else following
-            written = {name: _argument(value) for name, value in event.get("arguments", {}).items()}
+            written = {name: _argument(value, step) for name, value in event.get("arguments", {}).items()}
             data = {"predicate": f"{classes[timeline]}.{event['predicate']}", "object": timeline, "start": tick}
             data |= {"end": end, "origin": "observation", "tick": last}
             known = next((each for each in program.predicates if each.name == data["predicate"]), None)
@@ -51,9 +66,12 @@ def _is_observation(event: dict[str, Any], timeline: str) -> bool:
     return event.get("kind") == "observation" and event.get("timeline") == timeline
 
 
-def _argument(value: Any) -> Any:
+def _argument(value: Any, step: float) -> Any:
     """An argument of a trace: a value, `[lower, upper]` of numbers, or a list of names."""
+    if isinstance(value, float) and step > 0.0:
+        return {"between": [value - step / 2, value + step / 2]}
     if not isinstance(value, list):
         return value
-    is_range = len(value) == 2 and all(isinstance(each, (int, float)) or each is None for each in value)
-    return {"between": value} if is_range else {"one_of": value}
+    ends = [None if each in ("inf", "-inf") else each for each in value]
+    is_range = len(ends) == 2 and all(isinstance(each, (int, float)) or each is None for each in ends)
+    return {"between": ends} if is_range else {"one_of": value}

@@ -10,6 +10,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
+from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
+from checker.mutation.scope import LineScope, Scopes
 from nddl_lang.semantics.constraints import CONSTRAINTS
 from nddl_lang.syntax.includes import LIBRARY, LoadedModules
 from nddl_lang.syntax.nodes import (
@@ -24,6 +26,7 @@ from nddl_lang.syntax.nodes import (
     Foreach,
     GoalStatement,
     IfStatement,
+    Instance,
     IntLiteral,
     PathExpr,
     PredicateDecl,
@@ -50,6 +53,7 @@ _OTHER_SIGNS = {
     "!=": ("==",),
 }
 _OTHER_NAMES = {"leq": ("eq", "lt"), "lt": ("leq", "eq"), "eq": ("leq", "neq"), "neq": ("eq",)}
+_OUTSIDE = LineScope()  # of a rule
 
 
 class EditKind(StrEnum):
@@ -62,6 +66,11 @@ class EditKind(StrEnum):
     COMPARISON = "comparison"
     SIGN = "sign"
     ARGUMENTS = "swapped arguments"
+    NAME = "name"  # a variable, for another of its type
+    VALUE = "value"  # of an enumeration, or a truth value
+    POINT = "time point"  # the start of a token, for its end
+    TOKEN = "token"  # one token of a rule, for another
+    PREDICATE = "predicate"  # of a child
     DROPPED_CONSTRAINT = "dropped constraint"
     DROPPED_BRANCH = "dropped branch"
 
@@ -139,6 +148,7 @@ class _Reader:
     def __init__(self, loaded: LoadedModules, names: dict[str, str]) -> None:
         self._loaded = loaded
         self._limits = sorted(name for name, kind in names.items() if kind in _NUMBERS)
+        self._scopes = Scopes(loaded.module.statements, self._limits)
 
     def sites(self, statement: Any) -> Iterator[EditSite]:
         """The sites of a top-level statement."""
@@ -158,11 +168,13 @@ class _Reader:
                     (),
                     is_rule=True,
                 )
-                yield from self._body(body, rule, statement.span)
+                names = self._scopes.of_predicate(owner.name, predicate.name)
+                yield from self._body(body, rule, statement.span, names)
             case ClassDecl(name=owner, members=members):
                 for member in members or ():
                     if isinstance(member, PredicateDecl):
-                        yield from self._body(member.body, f"{owner.name}.{member.name.name}", member.span)
+                        names = self._scopes.of_predicate(owner.name, member.name.name)
+                        yield from self._body(member.body, f"{owner.name}.{member.name.name}", member.span, names)
             case VariableDecl(declarators=declarators):
                 yield self._site(statement, "", statement.span, (statement,), declarators[-1].name.name)
             case Assignment(target=target, value=value):
@@ -172,17 +184,19 @@ class _Reader:
             case _:
                 pass
 
-    def _body(self, body: Iterable[Any], rule: str, whole: Span) -> Iterator[EditSite]:
+    def _body(self, body: Iterable[Any], rule: str, whole: Span, names: LineScope) -> Iterator[EditSite]:
         for statement in body:
             match statement:
                 case IfStatement(condition=condition, then=then, otherwise=otherwise):
                     branches = [self._dropped(one[0].span.to(one[-1].span)) for one in (then, otherwise) if one]
-                    yield self._site(condition, rule, whole, (condition,), branches=branches)
-                    yield from self._body((*then, *(otherwise or ())), rule, whole)
+                    yield self._site(condition, rule, whole, (condition,), branches=branches, names=names)
+                    for branch in (then, otherwise or ()):
+                        yield from self._body(branch, rule, whole, names)
                 case Foreach(body=inner):
-                    yield from self._body(inner, rule, whole)
+                    yield from self._body(inner, rule, whole, names)
                 case CallConstraint() | ExprConstraint() | Relation() | VariableDecl() | Assignment():
-                    yield self._site(statement, rule, whole, (statement,))
+                    yield self._site(statement, rule, whole, (statement,), names=names)
+                    names = self._scopes.after(names, statement)
                 case _:
                     pass
 
@@ -194,8 +208,9 @@ class _Reader:
         roots: tuple[Any, ...],
         named: str = "",
         branches: Iterable[SmallEdit] = (),
+        names: LineScope = _OUTSIDE,
     ) -> EditSite:
-        edits = [edit for root in roots for edit in self._edits(root)]
+        edits = [edit for root in roots for edit in self._edits(root, names)]
         if isinstance(node, (CallConstraint, ExprConstraint)):
             edits.append(self._edit(EditKind.DROPPED_CONSTRAINT, node.span, _blank(node.span.text)))
         last = _lines(node.span)[1]
@@ -221,38 +236,43 @@ class _Reader:
     def _edit(self, kind: EditKind, span: Span, new: str) -> SmallEdit:
         return SmallEdit(kind, str(_path(span, self._loaded)), span.begin, span.finish, span.text, new, span.line)
 
-    def _edits(self, root: Any) -> Iterator[SmallEdit]:
+    def _edits(self, root: Any, names: LineScope) -> Iterator[SmallEdit]:
         sampled = {
             argument
             for node in descendants(root)
             if isinstance(node, CallExpr) and node.function.name == _SAMPLING
             for argument in node.arguments
         }
+        apart = sampled | {node.path for node in descendants(root) if isinstance(node, Instance)}
+        empty = {one for node in descendants(root) for one in tautologies(node)}
         for node in descendants(root):
-            if node not in sampled:
-                seen = {(node.span, node.span.text)}  # 9 halved is 9 less 5
-                for kind, span, new in self._changes(node):
+            if node not in apart:
+                seen = {(node.span, node.span.text)} | empty  # 9 halved is 9 less 5
+                renamed = self._renamed(node, names) if not sampled else ()  # draws are the world's
+                for kind, span, new in (*self._changes(node), *renamed):
                     if new != span.text and (span, new) not in seen:
                         seen.add((span, new))
                         yield self._edit(kind, span, new)
 
+    def _renamed(self, node: Any, names: LineScope) -> Iterator[tuple[EditKind, Span, str]]:
+        """What else may be named in a rule; nothing outside of rules."""
+        for kind, found in (
+            (EditKind.VALUE, other_values(node, names)),
+            (EditKind.NAME, other_names(node, names)),
+            (EditKind.POINT, other_points(node, names)),
+            (EditKind.TOKEN, other_tokens(node, names)),
+        ):
+            for span, new in found:
+                yield kind, span, new
+        for child in node.created if isinstance(node, Relation) else ():
+            for other in self._scopes.kind(names, child.path).others if names.owner else ():
+                yield EditKind.PREDICATE, child.path.parts[-1].span, other
+
     def _changes(self, node: Any) -> Iterator[tuple[EditKind, Span, str]]:
         match node:
-            case IntLiteral(value=value, span=span) if abs(value) < _INFINITE:
-                for factor in _FACTORS:
-                    if round(value * factor):
-                        yield EditKind.CONSTANT, span, str(round(value * factor))
-                for step in (5, -5):
-                    yield EditKind.CONSTANT, span, str(value + step)
-                for step in (1, -1):
-                    yield EditKind.OFF_BY_ONE, span, str(value + step)
-                if value < 0:
-                    yield EditKind.SIGN, span, str(-value)
-            case FloatLiteral(value=value, span=span) if abs(value) < _INFINITE:
-                for factor in _FACTORS:
-                    yield EditKind.CONSTANT, span, repr(round(value * factor, 12))
-                if value < 0.0:
-                    yield EditKind.SIGN, span, repr(-value)
+            case IntLiteral(value=value) | FloatLiteral(value=value) if abs(value) < _INFINITE:
+                for kind, new in changed_number(repr(value)):
+                    yield kind, node.span, new
             case PathExpr(parts=(name,), span=span) if name.name in self._limits:
                 for limit in self._limits:
                     yield EditKind.LIMIT, span, limit
@@ -275,6 +295,27 @@ class _Reader:
                 yield from _swapped(arguments)
             case _:
                 pass
+
+
+def changed_number(text: str) -> Iterator[tuple[EditKind, str]]:
+    """What a number may have been meant to be; a whole one stays whole."""
+    if "." in text or "e" in text:
+        real = float(text)
+        for factor in _FACTORS:
+            yield EditKind.CONSTANT, repr(round(real * factor, 12))
+        if real < 0.0:
+            yield EditKind.SIGN, repr(-real)
+        return
+    value = int(text)
+    for factor in _FACTORS:
+        if round(value * factor):
+            yield EditKind.CONSTANT, str(round(value * factor))
+    for step in (5, -5):
+        yield EditKind.CONSTANT, str(value + step)
+    for step in (1, -1):
+        yield EditKind.OFF_BY_ONE, str(value + step)
+    if value < 0:
+        yield EditKind.SIGN, str(-value)
 
 
 def _swapped(arguments: tuple[Expr, ...]) -> Iterator[tuple[EditKind, Span, str]]:

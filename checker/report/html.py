@@ -181,7 +181,8 @@ def _excerpt(place: SourcePlace, excerpts: Excerpts, *, marked: bool) -> str:
     if marked and start >= 0:
         end = start + len(first)
         text = f"{escape(line[:start])}<mark>{escape(line[start:end])}</mark>{escape(line[end:])}"
-    return f'<span class="at">{escape(excerpts.path(place))}</span>\n<span class="no">{place.line} | </span>{text}'
+    at = f'<span class="at" data-file="{escape(excerpts.file(place))}" data-line="{place.line}">'
+    return f'{at}{escape(excerpts.path(place))}</span>\n<span class="no">{place.line} | </span>{text}'
 
 
 def _paths(drawn: Drawn | None) -> list[str]:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from nddl_lang.semantics.arguments import check_count, check_types
 from nddl_lang.semantics.codes import FORMER_CONSTRAINT, NOT_IN_NDDL3, UNKNOWN_CONSTRAINT
-from nddl_lang.semantics.constraints import FORMER_CONSTRAINTS, ConstraintRow, Origin
+from nddl_lang.semantics.constraints import CONSTRAINTS_ELSEWHERE, FORMER_CONSTRAINTS, ConstraintRow, Origin
 from nddl_lang.semantics.expressions import NO_ENVIRONMENT, check_condition, sampled_parameter, type_of
 from nddl_lang.semantics.functions import FUNCTIONS
 from nddl_lang.semantics.names import suggest_name
@@ -77,6 +77,8 @@ def _complain_unknown(context: Context, node: CallConstraint) -> None:
             node.name.span, help="write it as an expression, such as `a + b <= c`", name=name
         )
     statements = () if node.arguments else ("close",)
-    complaint = suggest_name(complaint, node.name, (*context.callables.constraints, *statements))
+    complaint = suggest_name(
+        complaint, node.name, (*context.callables.constraints, *statements), CONSTRAINTS_ELSEWHERE.get(name.casefold())
+    )
     own = "one of your own is in a file that `modules` of `[constraints]` names, in nddlc.toml and the mission file"
     context.complain(complaint if complaint.help is not None else replace(complaint, help=own))

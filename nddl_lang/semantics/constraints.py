@@ -239,6 +239,20 @@ CONSTRAINTS: dict[str, ConstraintRow] = {
     row.name: row for rows in (_ARITHMETIC, _COMPARISON, _REIFIED, _STRUCTURE, _TREX, _OURS) for row in rows
 }
 
+# Names that other languages have, in lower case, for constraints with the same arguments.
+CONSTRAINTS_ELSEWHERE: dict[str, str] = {
+    "equals": "eq",
+    "isequal": "eq",
+    "notequal": "neq",
+    "notequals": "neq",
+    "different": "neq",
+    "less": "lt",
+    "lessequal": "leq",
+    "lessorequal": "leq",
+    "lessthanorequal": "leq",
+    "alldifferent": "allDiff",
+}
+
 # Names of earlier EUROPAs, with what to write today where that is the same; None where it has to be rewritten.
 FORMER_CONSTRAINTS: dict[str, str | None] = {
     "testEQ": "testEq",

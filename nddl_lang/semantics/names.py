@@ -35,7 +35,8 @@ from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.types import reference_type
 from nddl_lang.syntax.nodes import Identifier, PathExpr
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
-from nddl_lang.text.nearest import nearest
+from nddl_lang.text.nearest import begun, nearest
+from nddl_lang.text.source import Span
 
 TOKEN_OF_SCRIPT = "`{name}` is a token of the script; rules and predicates see only tokens of their own"
 
@@ -43,13 +44,16 @@ _VALUE_TABLES = ("global", "goal", "value")
 _LITERALS = ("true", "false", "inf", "inff")
 
 
-def resolve(context: Context, scope: Scope, path: PathExpr) -> Reference | None:
-    """What `path` names, noted in the tables; None, after a complaint, where it names nothing."""
+def resolve(context: Context, scope: Scope, path: PathExpr, *, type_name: str | None = None) -> Reference | None:
+    """What `path` names, noted in the tables; None, after a complaint, where it names nothing.
+
+    `type_name` is the type that a name would be declared with, where that is plain.
+    """
     parts = path.parts
     if len(parts) == 1:
         reference = find(context, scope, parts[0].name)
         if reference is None:
-            complain_unknown(context, scope, parts[0])
+            complain_unknown(context, scope, parts[0], type_name=type_name)
     else:
         reference = resolve_dotted(context, scope, parts)
     if reference is not None:
@@ -178,7 +182,8 @@ def _find_token_variable(context: Context, label: Label, name: Identifier) -> To
             complaint = _with(complaint, "an event has one `time`, in place of `start` and `end`", (fix,))
         else:
             names = [parameter.name for parameter in predicate.parameters]
-            complaint = suggest_name(complaint, name, [*names, *builtin_names(predicate.is_event)])
+            only = names[0] if len(names) == 1 else None
+            complaint = suggest_name(complaint, name, [*names, *builtin_names(predicate.is_event)], last=only)
         context.complain(complaint)
     return None
 
@@ -205,7 +210,13 @@ def complain_unknown_member(context: Context, class_name: str, name: Identifier)
     context.complain(suggest_name(complaint, name, members))
 
 
-def complain_unknown(context: Context, scope: Scope, name: Identifier, tables: tuple[str, ...] = ()) -> None:
+def complain_unknown(
+    context: Context,
+    scope: Scope,
+    name: Identifier,
+    tables: tuple[str, ...] = (),
+    type_name: str | None = None,
+) -> None:
     """Say that nothing of that name is known, once per statement, unless an earlier mistake may be the reason.
 
     What may have been meant is looked for among values, and in `tables` too.
@@ -232,7 +243,13 @@ def complain_unknown(context: Context, scope: Scope, name: Identifier, tables: t
         own = builtin_names(scope.own.predicate.is_event) if scope.own is not None else ()
         values = [each for each in _VALUE_TABLES if each != "goal" or scope.kind is BlockKind.SCRIPT]
         candidates = [*scope.visible(), *own, *symbols.names(*values, *tables), *_LITERALS]
-        context.complain(suggest_name(UNKNOWN_NAME.at(name.span, name=word), name, candidates))
+        meant = "this" if word == "self" and scope.own is not None else None
+        complaint = suggest_name(UNKNOWN_NAME.at(name.span, name=word), name, candidates, meant)
+        if type_name is not None:
+            before = Span(name.span.anchor, name.span.start, name.span.start)
+            fix = Fix(f"declare `{type_name} {word}`", (Edit(before, f"{type_name} "),), safe=False)
+            complaint = _with(complaint, complaint.help or fix.title, (*complaint.fixes, fix))
+        context.complain(complaint)
 
 
 def _is_own_member(context: Context, scope: Scope, name: str) -> bool:
@@ -242,10 +259,15 @@ def _is_own_member(context: Context, scope: Scope, name: str) -> bool:
 
 
 def suggest_name(
-    complaint: Diagnostic, name: Identifier, candidates: Iterable[str], meant: str | None = None
+    complaint: Diagnostic,
+    name: Identifier,
+    candidates: Iterable[str],
+    meant: str | None = None,
+    last: str | None = None,
 ) -> Diagnostic:
-    """The complaint with what was meant as help, else with the nearest of the candidates, if one is near."""
-    known = meant or nearest(name.name, candidates)
+    """The complaint with what was meant as help, else with the nearest of the candidates, if one is near, or `last`."""
+    candidates = [*candidates]
+    known = meant or nearest(name.name, candidates) or begun(name.name, candidates) or last
     if known is None:
         return complaint
     fix = Fix(f"write `{known}`", (Edit(name.span, known),), safe=False)

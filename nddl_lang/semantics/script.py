@@ -18,18 +18,22 @@ from nddl_lang.semantics.schema import (
     Values,
 )
 from nddl_lang.semantics.scope import BlockKind, Context, Scope
-from nddl_lang.semantics.tokens import check_instance, check_relation
+from nddl_lang.semantics.tokens import check_instances, check_relation
 from nddl_lang.semantics.types import reference_type
 from nddl_lang.semantics.values import check_value, constant, domain_key, reference_key
 from nddl_lang.syntax.nodes import (
     Allocation,
     Assignment,
+    BoolLiteral,
     Expr,
+    FloatLiteral,
     GoalStatement,
     Instance,
+    IntLiteral,
     NewExpr,
     PathExpr,
     Relation,
+    StringLiteral,
     VariableDecl,
 )
 
@@ -40,8 +44,7 @@ _REJECTABLE_STATES = (*_GOAL_STATES, "REJECTED")
 def check_goal(context: Context, node: GoalStatement) -> None:
     """Check `goal(object.p q);`, `fact(...)` or `rejectable(...)`."""
     scope = Scope(BlockKind.SCRIPT)
-    for instance in node.instances:
-        label = check_instance(context, scope, instance)
+    for instance, label in zip(node.instances, check_instances(context, scope, node.instances), strict=True):
         if label is not None:
             _note_token(context, label, node.kind, instance)
 
@@ -62,7 +65,7 @@ def check_new(context: Context, node: Allocation) -> None:
 def check_assignment(context: Context, node: Assignment) -> None:
     """Check `a = value;`: it fits, and leaves the variable a value."""
     scope = Scope(BlockKind.SCRIPT)
-    reference = resolve(context, scope, node.target)
+    reference = resolve(context, scope, node.target, type_name=_evident_type(node))
     if isinstance(node.value, NewExpr):
         check_allocation(context, scope, node.value)
         if isinstance(reference, GlobalReference):
@@ -76,6 +79,25 @@ def check_assignment(context: Context, node: Assignment) -> None:
         context.symbols.put_base_domain(key, left)
     if isinstance(reference, TokenVariableReference) and reference.name == "state":
         note_state(context, reference.label, left)
+
+
+def _evident_type(node: Assignment) -> str | None:
+    """The type of what is assigned to a single name, where it is plain from the text."""
+    if node.op != "=" or len(node.target.parts) != 1:
+        return None
+    match node.value:
+        case NewExpr(class_name=name):
+            return name.name
+        case IntLiteral():
+            return "int"
+        case FloatLiteral():
+            return "float"
+        case BoolLiteral():
+            return "bool"
+        case StringLiteral():
+            return "string"
+        case _:
+            return None
 
 
 def _target_type(context: Context, target: PathExpr, reference: Reference | None) -> Type | None:

@@ -1,5 +1,6 @@
 """Check what creates tokens and relates them: instances such as `object.p q`, and relations."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from nddl_lang.semantics.codes import (
@@ -41,12 +42,16 @@ from nddl_lang.semantics.scope import BlockKind, Context, Scope
 from nddl_lang.semantics.types import object_type, phrase, reference_type
 from nddl_lang.semantics.values import constant
 from nddl_lang.syntax.nodes import Identifier, Instance, IntervalExpr, PathExpr, Relation
-from nddl_lang.text.diagnostic import Edit, Fix, Note
+from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
+from nddl_lang.text.source import Span
 
 
 def check_relation(context: Context, scope: Scope, node: Relation) -> list[Label | None]:
     """Check a relation; the labels of the tokens that it creates, in order."""
     row = _find_relation(context, node.relation)
+    if node.created and (complaint := _between_tokens(context, scope, node)) is not None:
+        context.complain(complaint)
+        return [None] * len(node.created)
     origin = _find_origin(context, scope, node)
     if origin is not None:
         context.tables.origins[node] = origin
@@ -54,10 +59,72 @@ def check_relation(context: Context, scope: Scope, node: Relation) -> list[Label
         _check_bounds(context, scope, node, row)
     if node.existing is not None:
         _check_existing(context, scope, node, node.existing)
-    return [check_instance(context, scope, instance) for instance in node.created]
+    return check_instances(context, scope, node.created)
 
 
-def check_instance(context: Context, scope: Scope, instance: Instance) -> Label | None:
+def _between_tokens(context: Context, scope: Scope, node: Relation) -> Diagnostic | None:
+    """What is wrong with `before(a, b)` and `before(a)`, where these are tokens that exist; else None."""
+    names: list[Identifier] = []
+    for instance in node.created:
+        (name, *rest) = instance.path.parts
+        is_bare = not rest and instance.name is None and instance.role is None
+        if not is_bare or not (scope.find_label(name.name) or find_script_token(context, scope, name.name)):
+            return None
+        if scope.own_class is not None and context.symbols.find_predicate(scope.own_class, name.name) is not None:
+            return None
+        names.append(name)
+    has_origin = node.origin is not None
+    if len(names) > 2 or (len(names) == 2 and has_origin) or (len(names) == 1 and not has_origin and scope.own is None):
+        return None
+    first, last = names[0], names[-1]
+    text, base = node.span.text, node.span.start
+    opener = text.rfind("(", 0, first.span.start - base)
+    closer = text.find(")", last.span.end - base)
+    if opener < 0 or closer < 0:
+        return None
+    relation = text[node.relation.span.start - base : opener].rstrip()
+    origin = node.origin if len(names) == 1 else first
+    named = [] if origin is None or origin.name == "this" else [origin.name]
+    written = " ".join([*named, relation, last.name])
+    at = Span(node.span.anchor, base, base + closer + 1)
+    fix = Fix(f"write `{written}`", (Edit(at, written),))
+    help_ = f"without parentheses a relation leads to a token that exists: `{written}`"
+    if scope.own_class is not None:
+        return UNKNOWN_PREDICATE.at(first.span, help=help_, fixes=(fix,), owner=scope.own_class, name=first.name)
+    if node.origin is None:
+        return MISSING_ORIGIN.at(node.relation.span, help=help_, fixes=(fix,))
+    return MISSING_OBJECT.at(first.span, help=help_, fixes=(fix,), name=first.name)
+
+
+def check_instances(context: Context, scope: Scope, instances: Sequence[Instance]) -> list[Label | None]:
+    """The labels of the tokens that a goal or relation creates, in order."""
+    labels: list[Label | None] = []
+    for index, instance in enumerate(instances):
+        complaint = _name_behind_comma(context, scope, instances[index - 1], instance) if index else None
+        if complaint is None:
+            labels.append(_check_instance(context, scope, instance))
+        else:
+            context.complain(complaint)
+            _doubt(context, scope, instance.path.parts[0])
+            labels.append(None)
+    return labels
+
+
+def _name_behind_comma(context: Context, scope: Scope, before: Instance, instance: Instance) -> Diagnostic | None:
+    """What is wrong with `goal(a.p, g)`, where `g` is to be the name of the token; else None."""
+    (name, *rest) = instance.path.parts
+    if rest or instance.name is not None or before.name is not None or len(before.path.parts) == 1:
+        return None
+    fix = Fix("remove the comma", (Edit(Span(name.span.anchor, before.span.end, name.span.start), " "),), safe=False)
+    help_ = f"the name of a token follows without a comma: `{before.span.text} {name.name}`"
+    if scope.own_class is None:
+        return MISSING_OBJECT.at(name.span, help=help_, fixes=(fix,), name=name.name)
+    if context.symbols.find_predicate(scope.own_class, name.name) is not None:
+        return None
+    return UNKNOWN_PREDICATE.at(name.span, help=help_, fixes=(fix,), owner=scope.own_class, name=name.name)
+
+
+def _check_instance(context: Context, scope: Scope, instance: Instance) -> Label | None:
     """Check what `object.p q` creates and let its name be known; its label, None where it has none."""
     target = _find_target(context, scope, instance.path)
     if target is None:
@@ -241,12 +308,6 @@ def _find_own(context: Context, scope: Scope, name: Identifier) -> tuple[Predica
         context.complain(MISSING_OBJECT.at(name.span, name=name.name))
         return None
     predicate = context.symbols.find_predicate(owner.name, name.name)
-    if predicate is None and scope.find_label(name.name) is not None:
-        fix = Fix(f"write `{name.name}` without parentheses", (Edit(name.span, name.name),), safe=False)
-        help_ = f"`{name.name}` is a token: without parentheses the relation leads to it"
-        complaint = UNKNOWN_PREDICATE.at(name.span, help=help_, fixes=(fix,), owner=owner.name, name=name.name)
-        context.complain(complaint)
-        return None
     if predicate is None:
         predicate = find_predicate(context, owner, name, is_bare=True)
     return None if predicate is None else (predicate, "own")

@@ -29,17 +29,22 @@ from nddl_lang.syntax.former import put_in_parentheses
 from nddl_lang.syntax.misspelt import all_relations, meant_word
 from nddl_lang.syntax.nodes import BrokenStatement
 from nddl_lang.syntax.placement import break_statement
-from nddl_lang.syntax.rewrites import close_block, rewrite
+from nddl_lang.syntax.rewrites import close_block, link_tokens, rewrite
 from nddl_lang.syntax.skipping import end_of_statement, misaligned_brace
 from nddl_lang.syntax.tables import ACTIONS, END, GOTOS
 from nddl_lang.syntax.words import KINDS, RESERVED
 from nddl_lang.text.diagnostic import Code, Edit, Fix, Note
+from nddl_lang.text.source import Span
 
 _STATEMENT_WORDS = frozenset(
     ("BASETYPE", "class", "enum", "typedef", "GOAL", "predicate", "action", "if", "foreach", "#include", "filter")
 )
 _PUNCTUATION = frozenset("=,:.)]+-*/<>!") | {"==", "!=", "<=", ">=", "&&", "||", "::"}
-_TURNED = {("-", ">"): ".", ("=", ">"): ">=", ("=", "<"): "<=", ("<", ">"): "!=", ("=", "!"): "!="}
+_TURNED = {("-", ">"): ".", (":", "="): "=", ("=", ">"): ">=", ("=", "<"): "<=", ("<", ">"): "!=", ("=", "!"): "!="}
+_VALUE_ENDS = frozenset(("IDENT", "INT", "FLOAT", "STRING", "BOOL", "this", ")", "]", "}"))
+_LISTS = frozenset(("(", "SET"))
+_LITERALS = frozenset(("INT", "FLOAT", "STRING", "BOOL"))
+_MODIFIERS = frozenset(("const", "constexpr", "static", "final", "var", "let"))
 _OPENERS = {")": "(", "]": "[", "}": "SET"}
 _OPEN = frozenset(("(", "[", "{", "SET"))
 # A lexeme that was already complained about explains whatever follows in its statement.
@@ -75,6 +80,10 @@ class Recovery:
             return first
         if self._kinds[index] == "IDENT" and advise_operator(self._b.texts[index]) is not None and index > first:
             return self._give_up(states, values, depth, first, index)
+        if not self._is_quiet and (self._leave_modifier_out(first, index) or link_tokens(self._b, first, index)):
+            del states[depth + 1 :]
+            del values[depth:]
+            return first
         if (
             self._insert(states, values, index)
             or self._reread(states, index)
@@ -116,8 +125,13 @@ class Recovery:
             self._report_missing(index, ";", "after this statement")
             self._b.insert(index, ";")
             return True
+        opener = self._opener(values)
+        if opener is not None and kinds[opener] in _LISTS and self._are_values(index):
+            if not self._is_first_in_line(index) and accepts(states, [",", *following]):
+                self._report_missing(index, ",", "here")
+                self._b.insert(index, ",")
+                return True
         for kind, opens in _OPENERS.items():
-            opener = self._opener(values)
             if opener is None or kinds[opener] != opens:
                 continue
             note = Note(f"this `{self._b.texts[opener]}` is open", self._b.at(opener))
@@ -154,7 +168,7 @@ class Recovery:
         return False
 
     def _turn_comparison(self, first: int, index: int) -> bool:
-        """Read `=>`, `=<`, `<>`, `=!` and `->` as the signs that they were meant to be."""
+        """Read `=>`, `=<`, `<>`, `=!`, `:=` and `->` as the signs that they were meant to be."""
         b, kinds = self._b, self._kinds
         sign = _TURNED.get((kinds[index - 1], kinds[index])) if index > first else None
         if sign is None or b.ends[index - 1] != b.starts[index]:
@@ -188,6 +202,20 @@ class Recovery:
             fix = Fix(f"write `{word}`", (Edit(b.at(at), word),), safe=False)
             self._report(MISSPELT, at, text=b.texts[at], help=f"did you mean `{word}`?", fixes=(fix,))
         self._kinds[at], b.texts[at] = KINDS[word], word
+        return True
+
+    def _leave_modifier_out(self, first: int, index: int) -> bool:
+        """Leave out the `const` of `const int x = 3;`, or another such word that begins a declaration."""
+        b, kinds = self._b, self._kinds
+        if not first < index <= first + 2 or kinds[index] not in ("IDENT", "BASETYPE"):
+            return False
+        if b.texts[first] not in _MODIFIERS:
+            return False
+        gap = Span(b.anchor, b.starts[first], b.starts[first + 1])
+        self._report(
+            SUPERFLUOUS, first, text=b.texts[first], fixes=(Fix(f"remove `{b.texts[first]}`", (Edit(gap, ""),)),)
+        )
+        b.remove(first, first + 1)
         return True
 
     def _leave_out(self, states: list[int], values: list[Any], first: int, index: int) -> bool:
@@ -289,6 +317,11 @@ class Recovery:
     def _open_block(self, values: list[Any]) -> int | None:
         """The lexeme that opened the innermost block."""
         return next((value for value in reversed(values) if type(value) is int and self._kinds[value] == "{"), None)
+
+    def _are_values(self, index: int) -> bool:
+        """Whether a value ends before the lexeme `index` and one begins with it; a name may be that of a token."""
+        before, kind = self._kinds[index - 1], self._kinds[index]
+        return (kind in _LITERALS and before in _VALUE_ENDS) or (kind == "IDENT" and before in _LITERALS)
 
     def _may_begin_statement(self, index: int) -> bool:
         """Whether the lexeme `index` looks as if the statement before it had ended."""

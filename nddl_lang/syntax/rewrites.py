@@ -1,6 +1,7 @@
 """A statement written as other languages write it in; the edit that writes it in NDDL out."""
 
 from nddl_lang.syntax.builder import Builder
+from nddl_lang.syntax.codes import SUPERFLUOUS
 from nddl_lang.syntax.tables import END
 from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.source import Span
@@ -8,6 +9,9 @@ from nddl_lang.text.source import Span
 _INCLUDES = frozenset(("include", "import", "using", "require"))
 _DECLARED = frozenset(("BASETYPE", "IDENT", ","))
 _AFTER_OBJECT = frozenset((";", ",", ")"))
+_RULE = [".", "IDENT", "{"]
+_MEMBERS = frozenset(("predicate", "action", "}"))
+_SIGNS = {"is": "==", "and": "&&", "or": "||"}
 
 
 def rewrite(b: Builder, first: int, index: int) -> Fix | None:
@@ -19,6 +23,16 @@ def rewrite(b: Builder, first: int, index: int) -> Fix | None:
     match kinds[first]:
         case "class" if kind == ":":
             return Fix("write `extends`", (_word(b, index, "extends"),))
+        case "class" if index == first + 2 and kinds[index : index + 3] == ["(", "IDENT", ")"]:
+            text = f" extends {b.texts[index + 1]}"
+            return Fix(f"write `{text.strip()}`", (Edit(_from(b, index - 1, index + 2), text),))
+        case "enum" if kind == ";" and "}" in kinds[index:]:
+            return _commas_between_names(b, index)
+        case "if" if index == first + 1 and "{" in kinds[index:]:
+            return _parentheses_of_condition(b, index)
+        case "predicate" | "action" if index == first + 2 and kind in _MEMBERS:
+            end = b.ends[index - 1]
+            return Fix("add `{ }`", (Edit(Span(b.anchor, end, end), " { }"),))
         case "predicate" | "action" if index == first + 2 and kind == "(":
             return _braces_for_parameters(b, index)
         case "predicate" | "action" if index == first + 2 and kind == ";":
@@ -36,10 +50,26 @@ def rewrite(b: Builder, first: int, index: int) -> Fix | None:
         case "IDENT" if before == ["IDENT", "IDENT"] and kind == "::" and b.texts[first] == "rule":
             gap = Span(b.anchor, b.starts[first], b.starts[first + 1])
             return Fix("remove `rule`", (Edit(gap, ""),))
+        case "IDENT" if before == ["IDENT", "IDENT"] and b.texts[first] == "rule" and kinds[index : index + 3] == _RULE:
+            gap = Span(b.anchor, b.starts[first], b.starts[first + 1])
+            return Fix("write `::` and no `rule`", (Edit(gap, ""), Edit(b.at(index), "::")))
+        case "IDENT" if before[1:2] == ["("] and before[-1] == ")" and kind == ";":
+            return _commas_between_arguments(b, first, index)
+        case "IDENT" if before[:3] == ["IDENT", "IDENT", "("] and kind in (",", ")"):
+            text = f" = new {b.texts[first]}"
+            end = b.ends[first + 1]
+            return Fix(f"write `{text.strip()}`", (Edit(Span(b.anchor, end, end), text),))
         case "IDENT" if before == ["IDENT", ".", "IDENT"] and kind == "{":
             return Fix("write `::`", (Edit(b.at(first + 1), "::"),))
         case "IDENT" if before == ["IDENT", ":"] and kinds[index : index + 2] == ["IDENT", "{"]:
             return Fix("write `::`", (Edit(b.at(first + 1), "::"),))
+    for at in (index, index - 1):
+        if at > first and kinds[at] == "IDENT" and (sign := _SIGNS.get(b.texts[at])) is not None:
+            is_negated = b.texts[at : at + 2] == ["is", "not"]
+            sign = "!=" if is_negated else sign
+            return Fix(f"write `{sign}`", (Edit(b.span(at, at + is_negated), sign),))
+    if kind == "," and before[-1:] == ["INT"] and kinds[index + 1] == "INT":
+        return Fix(f"write `{b.texts[index - 1]}.{b.texts[index + 1]}`", (Edit(b.at(index), "."),), safe=False)
     if before[-2:] == ["new", "IDENT"] and kind in _AFTER_OBJECT:
         end = b.ends[index - 1]
         return Fix("add `()`", (Edit(Span(b.anchor, end, end), "()"),))
@@ -51,6 +81,71 @@ def _word(b: Builder, index: int, word: str) -> Edit:
     left = " " if b.starts[index] == b.ends[index - 1] else ""
     right = " " if index + 1 < len(b.starts) and b.starts[index + 1] == b.ends[index] else ""
     return Edit(b.at(index), f"{left}{word}{right}")
+
+
+def _from(b: Builder, before: int, last: int) -> Span:
+    """What stands behind one lexeme, up to the end of another."""
+    return Span(b.anchor, b.ends[before], b.ends[last])
+
+
+def _commas_between_names(b: Builder, index: int) -> Fix | None:
+    """`enum E { A; B; }` becomes `enum E { A, B }`."""
+    kinds = b.kinds
+    last = kinds.index("}", index)
+    inside = kinds[index:last]
+    if any(kind not in (";", "IDENT") for kind in inside):
+        return None
+    edits = [
+        Edit(b.at(at), "" if at + 1 == last else ",") for at, kind in enumerate(inside, start=index) if kind == ";"
+    ]
+    return Fix("separate the names by commas", tuple(edits))
+
+
+def _commas_between_arguments(b: Builder, first: int, index: int) -> Fix | None:
+    """`f(a b);`, which begins like a constructor, becomes `f(a, b);`."""
+    places = [at for at in range(first + 2, index - 2) if b.kinds[at : at + 2] == ["IDENT", "IDENT"]]
+    edits = [Edit(Span(b.anchor, b.ends[at], b.ends[at]), ",") for at in places]
+    return Fix("separate the arguments by commas", tuple(edits)) if edits else None
+
+
+def _parentheses_of_condition(b: Builder, index: int) -> Fix | None:
+    """`if a == b { }` becomes `if (a == b) { }`."""
+    last = b.kinds.index("{", index) - 1
+    if last < index or {";", "}"} & set(b.kinds[index:last]):
+        return None
+    begin, end = b.starts[index], b.ends[last]
+    edits = (Edit(Span(b.anchor, begin, begin), "("), Edit(Span(b.anchor, end, end), ")"))
+    return Fix("put the condition into parentheses", edits)
+
+
+def link_tokens(b: Builder, first: int, index: int) -> bool:
+    """Read `a.before(b)` as `a before b`, and `a.b.equals(c)`, where the left is no token, as `a.b == c`.
+
+    The statement begins at the lexeme `first`, and the parser did not know what to make of the lexeme `index`; whether
+    it is such a statement.
+    """
+    kinds, texts = b.kinds, b.texts
+    if kinds[index] != "RELATION" or kinds[index - 1] != "." or kinds[index + 1] != "(":
+        return False
+    if kinds[index + 2] not in ("IDENT", "this") or kinds[index + 3] != ")" or index < first + 2:
+        return False
+    is_between_tokens = index == first + 2
+    if is_between_tokens:
+        own = "" if kinds[first] == "this" else f"{texts[first]} "
+        text = f"{own}{texts[index]} {texts[index + 2]}"
+        help_text = f"a relation stands between two tokens: `{text}`"
+    elif texts[index] in ("equal", "equals"):
+        text = f"{b.span(first, index - 2).text} == {texts[index + 2]}"
+        kinds[index] = texts[index] = "=="
+        help_text = f"write `{text}`"
+    else:
+        return False
+    fix = Fix(f"write `{text}`", (Edit(b.span(first, index + 3), text),))
+    b.report(SUPERFLUOUS, b.at(index - 1), text=".", help=help_text, fixes=(fix,))
+    b.remove(index + 3, index + 4)
+    b.remove(index + 1, index + 2)
+    b.remove(index - 1, index)
+    return True
 
 
 def _braces_for_parameters(b: Builder, opener: int) -> Fix | None:

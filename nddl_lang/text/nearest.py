@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 _MOST_SLIPS = 3
-_LEAST_BEGUN = 5  # letters of a name that is the beginning of another
+_SHORTENED = 3
 _MOST_COMPARED = 150  # names that look alike; so that a thousand complaints stay quick
 
 
@@ -11,18 +11,14 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
     """The candidate that differs least from `name`; None where all differ too much.
 
     A slip is a letter put in, left out or replaced, or two neighbours swapped; capitals are none. Of several the one
-    of the same letters is taken, then the one that begins most alike, that ends most alike, and then the first. Where
-    none is near, the only one is taken that begins with all of the name, unless that is short.
+    of the same letters is taken, then the one that begins most alike, that ends most alike, and then the first.
     """
     limit = min(max(1, len(name) // 3), _MOST_SLIPS)
     folded = name.casefold()
     best: str | None = None
     best_distance, best_likeness = limit, (False, -1, -1)
     letters, compared = set(folded), 0
-    begun: set[str] = set()
     for candidate in candidates:
-        if len(name) >= _LEAST_BEGUN and candidate.casefold().startswith(folded) and candidate != name:
-            begun.add(candidate)
         if candidate == name or abs(len(candidate) - len(name)) > best_distance or compared >= _MOST_COMPARED:
             continue
         other = candidate.casefold()
@@ -37,7 +33,14 @@ def nearest(name: str, candidates: Iterable[str]) -> str | None:
         likeness = (same_letters, _common(folded, other), _common(folded[::-1], other[::-1]))
         if distance < best_distance or likeness > best_likeness:
             best, best_distance, best_likeness = candidate, distance, likeness
-    return begun.pop() if best is None and len(begun) == 1 else best
+    return best
+
+
+def begun(name: str, candidates: Iterable[str]) -> str | None:
+    """The only candidate that begins with `name`, which was cut short; None for a name of one or two letters."""
+    folded = name.casefold()
+    found = {each for each in candidates if each != name and each.casefold().startswith(folded)}
+    return found.pop() if len(found) == 1 and len(name) >= _SHORTENED else None
 
 
 def _common(one: str, other: str) -> int:

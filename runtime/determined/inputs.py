@@ -63,7 +63,9 @@ def catch_up(reactor: PlanReactor, shadow: Trace, inputs: Inputs, until: int, is
 
 
 def take_over(reactor: PlanReactor, trace: Trace) -> None:
-    """From now on, what a reactor does is put on record."""
+    """From now on, what a reactor does is put on record; so is what it has drawn for what is still to begin."""
+    for draw in reactor.trace.draws:
+        trace.record_draw(reactor.name, draw)
     reactor.trace = reactor.dispatch.trace = reactor.goals.trace = reactor.draws.world.trace = trace
 
 

@@ -371,4 +371,4 @@ class DeterminedReactor(TeleoReactor):
             line = general.by_name[self.program.model.lines[int(log.rows[ROW * token + LINE])].name]
             if line.current >= 0 and general.bench.started_at(line.current) == key:
                 return latest(general.bench, general.bench.end(line.current))
-        return general.why_it_lasts(token, key)
+        return self.general.why_it_lasts(token, key) if self.general is not None else None

@@ -19,6 +19,7 @@ _NEVER = 2**62
 _MOST_CAUSES = 3
 _NEW = tuple.__new__  # a named tuple in a tenth of the time that its class takes
 _NOBODY: frozenset[int] = frozenset()
+_NAMED = ("symbol", "string", "object")  # kinds whose values are written as texts
 _Kinds = Callable[[str, str], "Mapping[str, tuple[str, str]] | None"]  # timeline, predicate: parameters; None: unknown
 
 
@@ -105,7 +106,7 @@ class CodedReactor(TeleoReactor):
             if is_first:
                 self._check_wakes()
             self._take(now)
-        except (AttributeError, KeyError, LookupError, TypeError, ValueError) as problem:
+        except Exception as problem:
             what = Reason(ReasonKind.RAISED, tick=tick, message=str(problem))
             return Failure("F9", what, self.internal, None, 0)
         return None
@@ -267,22 +268,30 @@ def _shown(domain: DomainConstant) -> Argument:
 
 
 def _domain(name: str, value: object, kind: tuple[str, str] | None) -> DomainConstant:
-    """What users say of an argument, as a domain."""
+    """What users say of an argument, as a domain; ValueError for what is none, or of another type than models have."""
     if isinstance(value, tuple) and len(value) == 2:
         lower, upper = _number(name, value[0]), _number(name, value[1])
         if lower > upper:
             raise ValueError(f"`{name}` is between {value!r}")
-        return DomainConstant(*(kind or ("float", "float")), (lower, upper), None)
+        return DomainConstant(*_typed(name, value, kind, ("float", "int")), (lower, upper), None)
     if isinstance(value, bool):
-        return DomainConstant("bool", "bool", None, (value,))
+        return DomainConstant(*_typed(name, value, kind, ("bool",)), None, (value,))
     if isinstance(value, frozenset) and value:
-        return DomainConstant(*(kind or ("symbol", "symbol")), None, tuple(sorted(value, key=repr)))
+        kinds = _NAMED if all(isinstance(each, str) for each in value) else ("int", "float", "bool")
+        return DomainConstant(*_typed(name, value, kind, kinds), None, tuple(sorted(value, key=repr)))
     if isinstance(value, str):
-        return DomainConstant(*(kind or ("symbol", "symbol")), None, (value,))
+        return DomainConstant(*_typed(name, value, kind, _NAMED), None, (value,))
     number = _number(name, value)
-    whole = kind[0] != "float" if kind is not None else isinstance(value, int)
-    exact: int | float = int(number) if whole and number == int(number) else number
-    return DomainConstant(*(kind or (("int", "int") if whole else ("float", "float"))), (exact, exact), None)
+    found = _typed(name, value, kind, ("int", "float") if isinstance(value, int) else ("float", "int"))
+    exact: int | float = int(number) if found[0] != "float" and number == int(number) else number
+    return DomainConstant(*found, (exact, exact), None)
+
+
+def _typed(name: str, value: object, kind: tuple[str, str] | None, kinds: tuple[str, ...]) -> tuple[str, str]:
+    """The kind and type of a parameter, which must be one of `kinds`; the first of them where no model tells it."""
+    if kind is not None and kind[0] not in kinds:
+        raise ValueError(f"`{name}` is {value!r}, which is no {kind[1]}")
+    return kind or (kinds[0], kinds[0])
 
 
 def _number(name: str, value: object) -> float:

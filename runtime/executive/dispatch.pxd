@@ -1,6 +1,7 @@
 # The C types of `dispatch.py`.
 
 cimport cython
+from runtime.executive.holding cimport is_blocked, is_tied
 from runtime.executive.timelines cimport TimelineState
 from runtime.executive.view cimport whole_bound
 from runtime.executive.workbench cimport Workbench
@@ -31,13 +32,15 @@ cdef class Dispatch:
 
     cpdef bint takes_requests(self, TimelineState line) except -1
 
-    @cython.locals(asked=list, bench=Workbench, line=TimelineState, token="long long")
+    @cython.locals(asked=list, line=TimelineState, token="long long")
     cpdef list requests(self, long long tick, long long final_tick)
+
+    cpdef bint _is_due(self, TimelineState line, long long token, long long tick, long long final_tick) except -1
 
     @cython.locals(bench=Workbench, start="long long", time=double)
     cpdef double due_time(self, TimelineState line, long long token, long long tick) except? -1.0
 
-    @cython.locals(token="long long")
+    @cython.locals(before="long long", bench=Workbench, token="long long")
     cpdef long long next_request(self, TimelineState line) except? -1
 
     @cython.locals(bench=Workbench, other=TimelineState)

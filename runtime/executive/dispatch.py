@@ -1,5 +1,6 @@
 """Decide which planned tokens are asked of the owners of their timelines, and when requests are taken back."""
 
+from runtime.executive.holding import is_blocked, is_tied
 from runtime.executive.messages import Request
 from runtime.executive.outcome import EventKind, TimeBounds
 from runtime.executive.timelines import NOTHING, TimelineState
@@ -93,17 +94,18 @@ class Dispatch:
         for line in self.timelines:
             if line.is_internal or not self.takes_requests(line):
                 continue
-            token = self.next_request(line)
-            if token == NOTHING or self.bench.lower(self.bench.start(token)) >= final_tick:
-                continue
-            if self.due_time(line, token, tick) > tick:
-                continue
-            if not self.bench.is_blocked(token, line.current, tick):
+            while (token := self.next_request(line)) != NOTHING and self._is_due(line, token, tick, final_tick):
                 request = self._ask(line, token, tick)
                 asked.append(request)
                 self.sent[self.bench.key(token)] = request
                 self.sent_tokens[self.bench.key(token)] = token
         return asked
+
+    def _is_due(self, line: TimelineState, token: int, tick: int, final_tick: int) -> bool:
+        """Whether a token is to be asked for now."""
+        if self.bench.lower(self.bench.start(token)) >= final_tick or self.due_time(line, token, tick) > tick:
+            return False
+        return not is_blocked(self.bench, token, line.current, tick)
 
     def due_time(self, line: TimelineState, token: int, tick: int) -> float:
         """The tick at which the owner is to be asked for a token (T-REX 1.8).
@@ -118,11 +120,22 @@ class Dispatch:
         return time - max(self.notice(line), 1)
 
     def next_request(self, line: TimelineState) -> int:
-        """The planned token that is to be asked for next; NOTHING while another is open, or where none is planned."""
-        if line.current != NOTHING and self.is_asked(line.current):
-            return NOTHING
-        token = self.bench.next_of(line.object_id, line.current)
-        return NOTHING if token == NOTHING or self.is_asked(token) else token
+        """The planned token that is to be asked for next; NOTHING while another is open, or where none is planned.
+
+        What must begin as the open one ends cannot wait until that was seen: then nothing could begin in time.
+        """
+        bench = self.bench
+        before = line.current if line.current != NOTHING and self.is_asked(line.current) else NOTHING
+        token = bench.next_of(line.object_id, line.current)
+        while token != NOTHING:
+            if before != NOTHING:
+                if self.is_refused(before) or not is_tied(bench, bench.end(before), bench.start(token)):
+                    return NOTHING
+            if not self.is_asked(token):
+                return token
+            before = token
+            token = bench.following(token)
+        return NOTHING
 
     def _ask(self, line: TimelineState, token: int, tick: int) -> Request:
         bench = self.bench

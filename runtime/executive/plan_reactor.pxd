@@ -4,6 +4,7 @@ cimport cython
 from runtime.executive.clock cimport next_reading
 from runtime.executive.deferral cimport Deferral
 from runtime.executive.dispatch cimport Dispatch
+from runtime.executive.holding cimport is_blocked
 from runtime.executive.past cimport Past
 from runtime.executive.planning cimport Planner
 from runtime.executive.reactor cimport TeleoReactor

@@ -6,6 +6,7 @@ from runtime.executive.deferral import Deferral
 from runtime.executive.dispatch import Dispatch
 from runtime.executive.draws import Draws
 from runtime.executive.goals import Goals, Repair
+from runtime.executive.holding import is_blocked
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Conflict, ElementKind, EventKind, OpenGoal, Phase, Reason, ReasonKind, RepairStage
 from runtime.executive.past import Past
@@ -121,11 +122,11 @@ class PlanReactor(TeleoReactor):
                 token = first
                 # What nobody asked for begins when what holds cannot go on, unless the timeline is early.
                 is_due = line.is_early or (token != NOTHING and bench.is_requested(token))
-                if is_due and token != NOTHING and not bench.is_blocked(token, line.current, tick):
+                if is_due and token != NOTHING and not is_blocked(bench, token, line.current, tick):
                     soonest = min(soonest, bench.lower(bench.start(token)))
             else:
                 token = self.dispatch.next_request(line)
-                if token != NOTHING and not bench.is_blocked(token, line.current, tick):
+                if token != NOTHING and not is_blocked(bench, token, line.current, tick):
                     soonest = min(soonest, self.dispatch.due_time(line, token, tick))
         for token in bench.undecided():
             earliest = bench.lower(bench.start(token))

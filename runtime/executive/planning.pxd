@@ -19,6 +19,8 @@ cdef class _Window(PlanningScope):
     @cython.locals(bench=Workbench, earliest=double, start="long long")
     cpdef bint admits_token(self, long long t) except -1
 
+    cpdef bint _waits_for_others(self, long long t) except -1
+
     @cython.locals(bench=Workbench, o="long long", start="long long")
     cpdef bint may_begin(self, long long t) except -1
 

@@ -48,13 +48,17 @@ class _Window(PlanningScope):
         if bench.upper(bench.end(t)) <= self.tick:
             return self._is_left_over(t)
         if self.is_present:
-            if self.tick == self.final and bench.lower(start) == self.tick and bench.is_goal(t):
+            if self.tick == self.final and bench.lower(start) == self.tick and self._waits_for_others(t):
                 return False  # what can begin at the end at the earliest is not begun
             return bench.upper(start) <= self.tick < bench.upper(bench.end(t))
         earliest = bench.lower(start)
         if self.is_reactive and earliest > self.tick and bench.is_internal(t) and not bench.is_due_to_request(t):
             return False
         return earliest <= self.end and earliest < self.final
+
+    def _waits_for_others(self, t: int) -> bool:
+        """Whether `t` is a goal, or on a timeline that others let begin what it holds."""
+        return self.bench.is_goal(t) or self.bench.object_of(t) in self.bench.external_objects
 
     def may_begin(self, t: int) -> bool:
         """Whether `t` may begin now or later; what held on a shared timeline up to now is known."""

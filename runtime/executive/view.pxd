@@ -9,7 +9,7 @@ from runtime.plan.store.rows cimport Rows
 
 cdef long long ACTIVE, DURATION, END, FIRST_PARAMETER, FLAG_FACT, FLAG_GOAL, FREED, HEAD_OPEN, HEAD_THREAT, INACTIVE
 cdef long long KIND_BOOL, KIND_FLOAT, KIND_INT, KIND_STRING, LISTS, LIST_OPEN, LIST_ORDER, LIST_THREAT, MERGED, NONE
-cdef long long OBJECT, REJECTED, ROLE_TOKEN, START, SUPPORT_EDGE, SUPPORT_RESTRICTION
+cdef long long OBJECT, REJECTED, START
 cdef double inf
 
 
@@ -108,20 +108,6 @@ cdef class PlanView:
 
     @cython.locals(found=list, t="long long")
     cpdef list _listed(self, long long head, long long kind)
-
-    cpdef bint is_blocked(self, long long t, long long current, long long tick) except -1
-
-    @cython.locals(e="long long", engine=Engine, seen=set, stack=list, v="long long")
-    cpdef bint _follows_awaited(self, long long t, long long current, long long tick) except -1
-
-    @cython.locals(after="long long", e="long long", ended="long long", engine=Engine, seen=set, stack=list)
-    cpdef bint _ends_with(self, long long v, long long t) except -1
-
-    @cython.locals(_="long long", engine=Engine, is_own=bint, plan=Plan, support="long long", v="long long")
-    cpdef bint _is_held_back(self, long long t, long long tick) except -1
-
-    @cython.locals(other="long long", plan=Plan)
-    cpdef bint _is_awaited(self, long long v, long long t, long long current, long long tick) except -1
 
     @cython.locals(v="long long")
     cpdef long long object_of(self, long long t) except? -1

@@ -5,14 +5,7 @@ from collections.abc import Mapping
 from math import inf
 
 from compiler.program import DURATION, END, FIRST_PARAMETER, OBJECT, START, DomainConstant
-from runtime.constraints.domains.tags import (
-    KIND_BOOL,
-    KIND_FLOAT,
-    KIND_INT,
-    KIND_STRING,
-    SUPPORT_EDGE,
-    SUPPORT_RESTRICTION,
-)
+from runtime.constraints.domains.tags import KIND_BOOL, KIND_FLOAT, KIND_INT, KIND_STRING
 from runtime.executive.messages import Arguments
 from runtime.executive.recorder import Recorder
 from runtime.executive.timelines import TimelineState
@@ -34,7 +27,6 @@ from runtime.plan.tags import (
     MERGED,
     NONE,
     REJECTED,
-    ROLE_TOKEN,
 )
 
 # Spans of what no line of the model says: the executive's own reasons.
@@ -186,7 +178,7 @@ class PlanView:
 
     def is_alive(self, t: int, key: int) -> bool:
         """Whether `t` still is the token that had `key`."""
-        return bool(self.rows.status[t] != FREED and self.rows.key[t] == key)
+        return bool(t < len(self.rows.status) and self.rows.status[t] != FREED and self.rows.key[t] == key)
 
     def is_freed(self, t: int) -> bool:
         """Whether the row is empty."""
@@ -297,70 +289,6 @@ class PlanView:
             found.append(t)
             t = self.rows.link_after[LISTS * t + kind]
         return found
-
-    def is_blocked(self, t: int, current: int, tick: int) -> bool:
-        """Whether `t` cannot begin before an end that is still to be observed, or its earliest start is only "not yet".
-
-        `current`, the token that holds on the timeline of `t` now, does not block (NOTHING: it does): it ends when `t`
-        begins. Nor does what this reactor may end itself.
-        """
-        return self._follows_awaited(t, current, tick) or self._is_held_back(t, tick)
-
-    def _follows_awaited(self, t: int, current: int, tick: int) -> bool:
-        """Whether edges demand that `t` begins when, or after, a token of another reactor has ended."""
-        engine = self.engine
-        seen = {self.start(t)}
-        stack = list(seen)
-        while stack:
-            e = engine.out_head[stack.pop()]
-            while e >= 0:
-                v = engine.edge_target[e]
-                if engine.edge_weight[e] <= 0 and v not in seen and engine.upper(v) > tick:
-                    if self._is_awaited(v, t, current, tick) and not self._ends_with(v, t):
-                        return True
-                    seen.add(v)
-                    stack.append(v)
-                e = engine.out_next[e]
-        return False
-
-    def _is_held_back(self, t: int, tick: int) -> bool:
-        """Whether the earliest start of `t` rests on another token that has not begun, and may do so only later."""
-        engine, plan = self.engine, self.plan
-        v = self.start(t)
-        for _ in range(engine.edges_used):
-            support = engine.lower_support[v]
-            if support < 0 or support & 3 != SUPPORT_EDGE:
-                break
-            v = engine.edge_target[support >> 2]
-        support = engine.lower_support[v]
-        if support < 0 or support & 3 != SUPPORT_RESTRICTION or plan.variable_role[v] != ROLE_TOKEN:
-            return False
-        is_own = self.stands_for(plan.variable_owner[v]) == self.stands_for(t)
-        return bool(engine.restriction_span[support >> 2] == SPAN_CLOCK) and not is_own and engine.upper(v) > tick
-
-    def _is_awaited(self, v: int, t: int, current: int, tick: int) -> bool:
-        """Whether `v` is the open end of a token on another reactor's timeline, other than what `t` replaces."""
-        plan = self.plan
-        if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != END or self.engine.upper(v) <= tick:
-            return False
-        other = self.stands_for(plan.variable_owner[v])
-        return other not in (self.stands_for(t), current) and self.object_of(other) in self.external_objects
-
-    def _ends_with(self, v: int, t: int) -> bool:
-        """Whether `v` ends what was not asked for, when what is planned next there begins, which `t` cannot outwait."""
-        ended = self.stands_for(self.plan.variable_owner[v])
-        if (after := self.following(ended)) < 0 or self.key(ended) in self.asked:
-            return False
-        engine, seen, stack = self.engine, {self.start(after)}, [self.start(after)]
-        while stack:
-            e = engine.out_head[stack.pop()]
-            while e >= 0:
-                v = engine.edge_target[e]
-                if engine.edge_weight[e] <= 0 and v not in seen:
-                    seen.add(v)
-                    stack.append(v)
-                e = engine.out_next[e]
-        return self.start(t) in seen
 
     def object_of(self, t: int) -> int:
         """The object that a token is on; NONE while that is open."""

@@ -103,11 +103,16 @@ class Workbench(PlanView):
         return found
 
     def restrict_parameters(self, t: int, arguments: Arguments, span: int) -> bool:
-        """Narrow parameters to what somebody else knows of them; a name that `t` does not have is a misfit."""
+        """Narrow parameters to what somebody else knows of them.
+
+        A name that `t` does not have is left out of what was observed, and a misfit in what is asked for.
+        """
         names = self._parameter_numbers(self.rows.predicate[t])
         for name, domain in arguments:
             if name not in names:
-                return False
+                if span != SPAN_OBSERVATION:
+                    return False
+                continue
             v = self.rows.var0[t] + FIRST_PARAMETER + names[name]
             if not self._restrict(v, domain, span, t):
                 return False

@@ -1,4 +1,4 @@
-"""A reactor that does again what one did in a flight of which there is a trace (T-REX 3.3)."""
+"""A reactor that does again what one did in a flight of which there is a trace, or a log of T-REX (T-REX 3.3)."""
 
 import json
 from collections.abc import Mapping
@@ -6,12 +6,14 @@ from pathlib import Path
 from typing import Any
 
 from runtime.user.reactor import Argument, Now, Reactor, Ticks, Value
+from runtime.user.transaction_log import SUFFIX, read_transaction_log
 
 
 class LogPlayer(Reactor):
     """Stands in for the reactor `reactor` (a setting) of the trace at `trace`: same values, goals and recalls.
 
-    Where the trace ends before the mission, what it said last goes on.
+    Of a `.tr.log`, which is of one reactor, `reactor` may be left out. With `timelines`, names apart by commas, it
+    publishes only on these. Where the trace ends before the mission, what it said last goes on.
     """
 
     def __init__(self, settings: Mapping[str, Value]) -> None:
@@ -19,9 +21,15 @@ class LogPlayer(Reactor):
         self.events: dict[int, list[dict[str, Any]]] = {}
         self.numbers: dict[int, int] = {}
         trace = Path(str(settings["folder"])) / str(settings["trace"])
-        for line in trace.read_text(encoding="utf-8").splitlines():
-            event = json.loads(line)
-            if event.get("reactor") == settings["reactor"] and event["kind"] in ("observation", "request", "recall"):
+        if trace.name.endswith(SUFFIX):
+            found: list[dict[str, Any]] = list(read_transaction_log(trace).events)
+        else:
+            found = [json.loads(line) for line in trace.read_text(encoding="utf-8").splitlines()]
+            found = [event for event in found if event.get("reactor") == settings["reactor"]]
+        own = str(settings["timelines"]).split(",") if "timelines" in settings else None
+        for event in found:
+            is_told = own is None or event.get("timeline") in own
+            if event["kind"] in ("request", "recall") or (event["kind"] == "observation" and is_told):
                 self.events.setdefault(event["tick"], []).append(event)
 
     def tick(self, now: Now) -> None:

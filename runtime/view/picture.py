@@ -30,6 +30,7 @@ _STYLE = (
 )
 _LOOK = (
     ":root{color-scheme:light dark}body{font:14px sans-serif;margin:2em}.p{overflow-x:auto}"
+    "pre{white-space:pre-wrap;overflow-wrap:anywhere}"
     "table{border-collapse:collapse;margin-top:1em}"
     "td,th{padding:2px 10px;text-align:left;white-space:nowrap;border-bottom:1px solid #8884;max-width:40em;"
     "overflow:hidden;text-overflow:ellipsis}p{color:#777}"
@@ -149,7 +150,7 @@ def _level(name: str, profile: LevelProfile, drawn: Drawing, margin: int, y: int
 
 def page(report: PlanReport, drawn: Drawing, title: str, said: Sequence[str]) -> str:
     """The plan as an HTML page: what is `said` of it, the picture, tables of its tokens and of the values found."""
-    picture = f'<div class="p">{svg(drawn)}</div>' if drawn and not report.is_exhausted else ""
+    picture = _wide("timelines", svg(drawn)) if drawn and not report.is_exhausted else ""
     tables = _table(COLUMNS, [token_cells(token) for token in report.shown]) + _table(VARIABLES, report.values)
     hidden = f"<p>{escape(hidden)}</p>" if (hidden := report.hidden_text()) else ""
     return (
@@ -163,8 +164,13 @@ def _table(head: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """Rows under a head; nothing where there are none."""
     if not rows:
         return ""
-    names = "".join(f"<th>{name}</th>" for name in head)
+    names = "".join(f'<th scope="col">{name}</th>' for name in head)
     lines = [
         "<tr>" + "".join(f'<td title="{escape(cell)}">{escape(cell)}</td>' for cell in row) + "</tr>" for row in rows
     ]
-    return f'<div class="p"><table><tr>{names}</tr>{"".join(lines)}</table></div>'
+    return _wide(f"{head[0]}s", f"<table><tr>{names}</tr>{''.join(lines)}</table>")
+
+
+def _wide(name: str, part: str) -> str:
+    """What is scrolled on a narrow screen: with the pointer, and with the keyboard."""
+    return f'<div class="p" role="region" aria-label="{name}" tabindex="0">{part}</div>'

@@ -63,6 +63,7 @@ def test_each_kind_of_edit_is_made_where_it_fits(model: Path) -> None:
     assert changes(model, "duration <= MOST;") == {
         EditKind.LIMIT: {"LEAST"},
         EditKind.COMPARISON: {">=", "==", "<"},
+        EditKind.NAME: {"n", "child.n"},
         EditKind.DROPPED_CONSTRAINT: {""},
     }
     assert changes(model, "child.n >= n - 1;")[EditKind.SIGN] == {"+"}

@@ -15,6 +15,7 @@ from nddlc.main import run
 from runtime.executive.chance import draw
 
 GPS = Path("models/gps").resolve()
+SVG = "{http://www.w3.org/2000/svg}"
 STUDY = """\
 [study]
 name = "fixes"
@@ -74,7 +75,11 @@ def test_a_study_counts_what_the_draws_decide(folder: Path, capsys: pytest.Captu
         assert short["beyond"] == short["failures"] - rates_above(3.8, 12, is_normal=shape == "normal")
     assert code == (0 if cells["short", "uniform inter"]["rate"] >= 0.92 else 1)
     figure = ElementTree.fromstring(Path("nddlc-study/figure12.svg").read_text())
-    assert len(figure.findall("rect")) == 4 + 2
+    assert figure.tag == SVG + "svg"  # without its name space no viewer shows it
+    assert len(figure.findall(SVG + "rect")) == 4 + 2
+    assert len([one for one in figure.findall(SVG + "line") if one.get("class") == "whisker"]) == 4 * 3
+    assert {"n=30", "n=12", "expected"} <= {one.text for one in figure.findall(SVG + "text")}
+    assert len(figure.findall(SVG + "polygon")) == 1 + 1  # one rate is expected, and the legend has one
     page = Path("nddlc-study/study.html").read_text()
     assert "http" not in page
     assert "found by" in page

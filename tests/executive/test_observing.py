@@ -129,7 +129,8 @@ def test_a_predicate_that_the_user_does_not_know_is_undefined() -> None:
 
 
 @pytest.mark.parametrize(
-    ("declared", "is_known"), [("int n;", True), ("int n; n <= 5;", False), ("float k;", False), ("", False)]
+    ("declared", "is_known"),
+    [("int n;", True), ("int n; n <= 5;", False), ("bool n;", False), ("float k;", True), ("", True)],
 )
 def test_parameters_that_do_not_fit_make_an_observation_undefined(declared: str, is_known: bool) -> None:
     own = lamp("Lamp::Off { duration == 4; meets(On on); on.n == 7; }")

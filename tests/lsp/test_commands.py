@@ -74,6 +74,12 @@ def test_the_last_failure_is_explained(checked: Any, tmp_path: Path) -> None:
     uri = (tmp_path / "gps" / "mission.toml").as_uri()
     told = client.ask("workspace/executeCommand", command="nddl.explain", arguments=[uri])
     assert "GPS_HIT_RATE" in told
+    # The last run of that mission, whatever was flown since.
+    other = uri.replace("mission.toml", "mended.toml")
+    client.ask("workspace/executeCommand", command="nddl.check", arguments=[other, 1])
+    assert client.ask("workspace/executeCommand", command="nddl.explain", arguments=[uri]) == told
+    answer = client.ask("workspace/executeCommand", command="nddl.explain", arguments=[other])
+    assert "no mission of run" in answer["error"]["message"]
 
 
 def test_a_mission_is_certified(client: Any, tmp_path: Path) -> None:
@@ -108,6 +114,7 @@ def test_views_show_a_plan_its_tokens_and_why_there_is_none(client: Any, tmp_pat
     uri = (tmp_path / "model.nddl").as_uri()
     assert "<svg" in client.ask("nddl/viewPlan", uri=uri)["text"]
     assert '"tokens"' in client.ask("nddl/viewNetwork", uri=uri)["text"]
+    assert "never.nddl:6" in client.ask("nddl/viewPlan", uri=uri.replace("model", "never"))["text"]
     conflict = client.ask("nddl/viewConflict", uri=uri.replace("model", "never"))
     assert conflict["code"] == 1
     assert "never.nddl" in conflict["text"] + conflict["errors"]

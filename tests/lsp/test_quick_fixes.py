@@ -8,6 +8,40 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 LAMP = (ROOT / "models" / "classic" / "lamp.nddl").read_text()
 ROVER = (ROOT / "models" / "classic" / "rover.nddl").read_text()
+ROBOT = """\
+enum Mode { Slow, Fast }
+class Place {
+    string name;
+    float x;
+    Place(string n, float _x) { name = n; x = _x; }
+}
+class Robot extends Timeline {
+    predicate At { Place place; }
+    predicate Going { Place from; Place to; Mode mode; }
+}
+Robot::At {
+    met_by(object.Going way);
+    way.to == place;
+}
+Robot::Going {
+    met_by(object.At a);
+    any(object.At b);
+    a before b;
+    neq(from, to);
+    a.place == from;
+    if (mode == Fast) {
+        duration <= 5;
+    }
+}
+Place lab = new Place("lab", 1.5);
+Place hall = new Place("hall", 9.0);
+Robot robot = new Robot();
+close();
+fact(Robot.At first);
+first.start == 0;
+goal(Robot.At last);
+last.place == hall;
+"""
 ERROR = 1
 
 
@@ -50,6 +84,46 @@ MODELS = {
         ("Lamp lamp = new Lamp();", "Lamp lamp = new Lamp(;"),
         ("fact(Lamp.Off dark);", "fact(Lamp.Off dark;"),
         ("predicate Press { }", "predicate Press;"),
+    ),
+    "methods": (
+        ROBOT,
+        ("a before b;", "a.before(b);"),
+        ("a.place == from;", "a.place.equals(from);"),
+        ("class Robot extends Timeline {", "class Robot(Timeline) {"),
+        ("Robot::Going {", "rule Robot.Going {"),
+        ("fact(Robot.At first);", "fact(Robot.At, first);"),
+    ),
+    "functions": (
+        ROBOT,
+        ("a before b;", "before(a, b);"),
+        ("neq(from, to);", "notEqual(from, to);"),
+        ("duration <= 5;", "dur <= 5;"),
+        ("last.place == hall;", "last.location == hall;"),
+        ('"lab", 1.5', "'lab', 1.5"),
+    ),
+    "C": (
+        ROBOT,
+        ("if (mode == Fast) {", "if mode == Fast {"),
+        ("enum Mode { Slow, Fast }", "enum Mode { Slow; Fast; }"),
+        ('Place lab = new Place("lab", 1.5);', 'Place lab("lab", 1.5);'),
+        ("Robot robot = ", "const Robot robot = "),
+        ("float x;", "double x;"),
+    ),
+    "left out": (
+        LAMP,
+        ("predicate Press { }", "predicate Press"),
+        ("Lamp lamp = new", "lamp = new"),
+        ("close();", "Close();"),
+        ("goal(Lamp.On reading);", "goal(Lamp.On, reading);"),
+        ("reading.start == 20;", "reading.start == 20"),
+    ),
+    "words": (
+        ROBOT,
+        ("way.to == place;", "way.to is place;"),
+        ('"hall", 9.0', '"hall" 9.0'),
+        ("from, to);", "from to);"),
+        ("class Place {", "Class Place {"),
+        ("last.place == hall;", "last.plac == hall;"),
     ),
 }
 

@@ -32,6 +32,16 @@ def test_what_is_consumed_must_be_there() -> None:
     assert consistent(RESERVOIR + "goal(r.produce p); p.quantity = 1.0; p.time = [0 5];" + consume + "6.0;")
 
 
+def test_a_level_that_is_out_of_bounds_at_first_has_to_be_within_them_after_each_use() -> None:
+    too_full = "Reservoir r = new Reservoir(20.0, 0.0, 10.0); close(); goal(r.consume c); c.time = 5; c.quantity = "
+    assert consistent(too_full + "12.0;")
+    assert not consistent(too_full + "5.0;")
+    too_empty = "Reservoir r = new Reservoir(0.0, 5.0, 10.0); close(); goal(r.produce p); p.time = 5; p.quantity = "
+    assert consistent(too_empty + "6.0;")
+    assert not consistent(too_empty + "2.0;")
+    assert consistent(too_empty + "2.0; goal(r.produce more); more.quantity = 4.0; more.time = [0 5];")
+
+
 def test_a_conflict_ends_when_its_reason_goes() -> None:
     text = """
     class P extends Timeline { Reservoir r; P(Reservoir v) { r = v; } predicate a { } }

@@ -1,5 +1,5 @@
 // The client of the language server, as the settings want it.
-import { workspace } from "vscode";
+import { Uri, workspace } from "vscode";
 import { LanguageClient, type LanguageClientOptions, type ServerOptions } from "vscode-languageclient/node";
 import { showResult } from "./commands";
 
@@ -39,7 +39,9 @@ export function makeClient(): LanguageClient {
       executeCommand: async (command, args, next) => {
         await workspace.saveAll(false);
         const result: unknown = await next(command, args);
-        void showResult(command, result);
+        if (typeof args[0] === "string") {
+          void showResult(command, result, Uri.parse(args[0]));
+        }
         return result;
       },
     },

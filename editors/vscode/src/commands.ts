@@ -29,7 +29,7 @@ export function registerCommands(server: Server): Disposable[] {
     commands.registerCommand("nddlc.explain", (uri?: Uri) => tell(() => carryOut(server, "nddl.explain", uri))),
     commands.registerCommand("nddlc.certify", (uri?: Uri) => tell(() => carryOut(server, "nddl.certify", uri))),
     commands.registerCommand("nddlc.viewPlan", (uri?: Uri) => tell(() => viewPlan(server, uri))),
-    commands.registerCommand("nddlc.viewConflict", (uri?: Uri) => tell(() => viewConflict(server, uri))),
+    commands.registerCommand("nddlc.showReport", (uri?: Uri) => tell(() => showReport(folderOf(chosen(uri))))),
     commands.registerCommand("nddlc.showReferences", showPlaces("vscode.executeReferenceProvider")),
     commands.registerCommand("nddlc.showRules", showPlaces("vscode.executeImplementationProvider")),
   ];
@@ -71,33 +71,52 @@ function chosen(uri: Uri | undefined): Uri {
 }
 
 async function checkAndTell(server: Server, given?: Uri): Promise<void> {
-  await showResult("nddl.check", await checkMission(server, chosen(given)));
+  await showResult("nddl.check", await checkMission(server, chosen(given)), chosen(given));
 }
 
 async function carryOut(server: Server, command: string, given?: Uri): Promise<void> {
-  const uri = chosen(given).toString();
+  const uri = chosen(given);
   await workspace.saveAll(false);
-  await showResult(command, await ask(server, "workspace/executeCommand", { command, arguments: [uri] }));
+  await showResult(command, await ask(server, "workspace/executeCommand", { command, arguments: [uri.toString()] }), uri);
 }
 
 // Show the user how a command of the server ended.
-export async function showResult(command: string, result: unknown): Promise<void> {
+export async function showResult(command: string, result: unknown, uri: Uri): Promise<void> {
   switch (command) {
     case "nddl.check":
-      return showCheck(result as CheckResult);
+      return showCheck(result as CheckResult, folderOf(uri));
     case "nddl.explain":
-      return showText("Last failure", String(result));
+      return showText(`Last failure of ${nameOf(uri)}`, String(result), folderOf(uri));
     case "nddl.certify":
-      return showText("Certificate", String(result));
+      return showText(`Certificate of ${nameOf(uri)}`, String(result), folderOf(uri));
   }
 }
 
-async function showCheck(result: CheckResult): Promise<void> {
+async function showCheck(result: CheckResult, folder: Uri): Promise<void> {
   const choice = await window.showInformationMessage(summary(result), "Show the report");
   if (choice !== undefined) {
-    const report = Uri.parse(result.report);
-    showPage(report.path.split("/").at(-1) ?? "report", new TextDecoder().decode(await workspace.fs.readFile(report)));
+    await showReport(folder);
   }
+}
+
+async function showReport(folder: Uri): Promise<void> {
+  const report = Uri.joinPath(folder, "nddlc-report", "report.html");
+  let page: Uint8Array;
+  try {
+    page = await workspace.fs.readFile(report);
+  } catch {
+    throw new Error("there is no report yet: check a mission first");
+  }
+  showPage("Report of the last check", new TextDecoder().decode(page), folder);
+}
+
+// Where the server keeps the runs and reports of a mission file: the folder of the workspace, else its own.
+function folderOf(uri: Uri): Uri {
+  return workspace.getWorkspaceFolder(uri)?.uri ?? Uri.joinPath(uri, "..");
+}
+
+function nameOf(uri: Uri): string {
+  return uri.path.slice(uri.path.lastIndexOf("/") + 1);
 }
 
 async function viewPlan(server: Server, given?: Uri): Promise<void> {
@@ -105,17 +124,10 @@ async function viewPlan(server: Server, given?: Uri): Promise<void> {
   await workspace.saveAll(false);
   const view = await ask<View>(server, "nddl/viewPlan", { uri: uri.toString() });
   if (view.text.trim()) {
-    showPage(`Plan of ${uri.path.split("/").at(-1)}`, view.text);
+    showPage(`Plan of ${nameOf(uri)}`, view.text, folderOf(uri));
   } else {
     throw new Error(view.errors.trim() || "there is no plan");
   }
-}
-
-async function viewConflict(server: Server, given?: Uri): Promise<void> {
-  const uri = chosen(given);
-  await workspace.saveAll(false);
-  const view = await ask<View>(server, "nddl/viewConflict", { uri: uri.toString() });
-  showText(`Search of ${uri.path.split("/").at(-1)}`, view.text + view.errors);
 }
 
 // A lens counts places; the editor looks them up and shows them.

@@ -3,6 +3,7 @@ import { commands, type ExtensionContext, window, workspace } from "vscode";
 import { makeClient, type Server } from "./client";
 import { registerCommands } from "./commands";
 import { registerTests } from "./tests";
+import { registerViews } from "./views";
 
 const RESTARTING = ["command", "includeDirectories", "dialect"];
 
@@ -25,9 +26,10 @@ async function start(): Promise<void> {
     server.client = client;
   } catch (problem) {
     const reason = problem instanceof Error ? problem.message : String(problem);
-    void window.showErrorMessage(
-      `nddlc could not be started (${reason}). Install it, or name it in the setting nddlc.command.`,
-    );
+    const setting = "Open the setting";
+    void window
+      .showErrorMessage(`nddlc could not be started. Install it, or name it in the setting nddlc.command. (${reason})`, setting)
+      .then((choice) => choice && commands.executeCommand("workbench.action.openSettings", "nddlc.command"));
   }
 }
 
@@ -41,6 +43,7 @@ export async function activate(context: ExtensionContext): Promise<void> {
       }
     }),
     ...registerCommands(server),
+    ...registerViews(),
     registerTests(server),
   );
   await start();

@@ -137,15 +137,17 @@ class Profile:
             else:
                 least_produced += self.least[i]
         if self.initial_high - least_consumed < self.minimum - FLOAT_TOLERANCE:
+            is_anywhere = self.initial_high < self.minimum - FLOAT_TOLERANCE  # not only where something is consumed
             for i in range(self.count):
-                if self.sign[i] < 0:
+                if self.sign[i] < 0 or is_anywhere:
                     self.at = self.start_high[i]
                     self.amount = self.minimum - self.best_for_consumers(self.at)
                     if self.amount > FLOAT_TOLERANCE:
                         return TOO_LOW
         if self.initial_low + least_produced > self.maximum + FLOAT_TOLERANCE:
+            is_anywhere = self.initial_low > self.maximum + FLOAT_TOLERANCE
             for i in range(self.count):
-                if self.sign[i] > 0:
+                if self.sign[i] > 0 or is_anywhere:
                     self.at = self.start_high[i]
                     self.amount = self.worst_for_consumers(self.at) - self.maximum
                     if self.amount > FLOAT_TOLERANCE:

@@ -26,6 +26,10 @@ GUARDS = "bool u; bool v; u == (p > {0}); v == (q < {1});"
 Truth = Callable[[float, float, float], bool]
 
 
+def outside_of_a_circle(p: float, q: float, r: float) -> bool:
+    return (p - 0.5) ** 2 + (q - 0.4) ** 2 > 0.2
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("rule", "ranges", "text", "truth"),
@@ -53,9 +57,26 @@ Truth = Callable[[float, float, float], bool]
         ("p * q <= 0.5;", RANGES, "P * Q > 0.5", lambda p, q, r: p * q > 0.5),
         ("float s; s == p + 3.0 * q; s <= 2.5;", RANGES, "P + 3 * Q > 2.5", lambda p, q, r: p + 3 * q > 2.5),
         ("float s; s == p - q; s <= r;", RANGES, "P - Q - R > 0", lambda p, q, r: p - q - r > 0),
+        ("p * p + q * q <= 1.0;", RANGES, "P * P + Q * Q > 1", lambda p, q, r: p * p + q * q > 1.0),
+        ("1.37 * p + q <= 1.6;", RANGES, None, lambda p, q, r: 1.37 * p + q > 1.6),
+        ("(p - 0.5) * (p - 0.5) + (q - 0.4) * (q - 0.4) <= 0.2;", RANGES, None, outside_of_a_circle),
+        ("p * q + r <= 1.2;", RANGES, "P * Q + R > 1.2", lambda p, q, r: p * q + r > 1.2),
         ("float s; s == p + q; s <= 13.5;", WHOLE, "P + Q >= 14", lambda p, q, r: p + q >= 14),
     ],
-    ids=["half line", "conjunction", "band", "equivalence", "product", "weighted sum", "three", "whole numbers"],
+    ids=[
+        "half line",
+        "conjunction",
+        "band",
+        "equivalence",
+        "product",
+        "weighted sum",
+        "three",
+        "squares",
+        "odd weight",
+        "circle",
+        "sum of a product",
+        "whole numbers",
+    ],
 )
 def test_the_truth_is_stated(tmp_path: Path, rule: str, ranges: str, text: str | None, truth: Truth) -> None:
     (found,) = conditions(campaign(tmp_path, rule, ranges=ranges))

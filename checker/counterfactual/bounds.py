@@ -1,0 +1,51 @@
+"""The lines of models in; out: whether a larger number demands more or less of the world, or neither is known.
+
+`duration <= LEG_MAX;` demands less where the limit is larger: what loosens a demand is tried before what tightens it.
+"""
+
+import re
+from collections import defaultdict
+from collections.abc import Container, Sequence
+
+from checker.mutation.edits import EditSite, SmallEdit
+
+_WORD = re.compile(r"[A-Za-z_]\w*")
+_COMPARED = re.compile(r"([^<>=!&|?]+)(<=|<|>=|>)([^<>=!&|?]+);", re.DOTALL)
+_RESERVOIR = re.compile(r"\bnew\s+Reservoir\s*\(")
+_LEAST, _MOST = 1, 2  # of the arguments of a reservoir
+
+
+class Directions:
+    """Of each constant, whether it loosens by growing (1) or by shrinking (-1), if all lines that use it agree."""
+
+    def __init__(self, sites: Sequence[EditSite], constants: Container[str]) -> None:
+        found: dict[str, set[int]] = defaultdict(set)
+        for site in sites:
+            for name in _WORD.finditer(site.text):
+                if name.group() in constants and name.group() != site.named:
+                    found[name.group()].add(_direction(site.text, name.start()))
+        self._of = {name: ways.pop() for name, ways in found.items() if len(ways) == 1}
+
+    def of(self, edit: SmallEdit, site: EditSite) -> int:
+        """1 where a larger number demands less, -1 where a smaller one does, 0 where that is not known."""
+        at = edit.begin - site.begin
+        if reservoir := _RESERVOIR.search(site.text):
+            argument = site.text.count(",", reservoir.end(), max(at, 0))
+            return {_LEAST: -1, _MOST: 1}.get(argument, 0)
+        if site.named:
+            return self._of.get(site.named, 0)
+        return _direction(site.text, at)
+
+
+def _direction(text: str, at: int) -> int:
+    """The same of what stands at an offset of a line."""
+    sides = _COMPARED.fullmatch(text)
+    if sides is None:
+        return 0
+    is_right = at >= sides.start(3)
+    side = sides.group(3) if is_right else sides.group(1)
+    before = side[: at - sides.start(3 if is_right else 1)]
+    if "/" in side or "(" in side:
+        return 0
+    sign = -1 if before.rstrip().endswith("-") else 1
+    return sign * (1 if (sides.group(2)[0] == "<") == is_right else -1)

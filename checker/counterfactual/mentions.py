@@ -1,0 +1,88 @@
+"""The lines of models in; out: which variables of a rule are never read, never set or never mentioned in it.
+
+Who declares a variable means to set it and to read it, and a parameter is there to be read: where a line is changed so
+that one is that was not, or that a name stands where the other side of the comparison has the same, it is likelier.
+"""
+
+import re
+from collections import Counter, defaultdict
+from collections.abc import Container, Sequence
+
+from checker.mutation.edits import EditKind, EditSite, SmallEdit
+
+_PATH = re.compile(r"[A-Za-z_]\w*(?:\.\w+)*")
+_DECLARED = re.compile(r"\w+\s+(\w+)\s*(?:=(.*))?;", re.DOTALL)
+_SET = re.compile(r"\s*([A-Za-z_][\w.]*)\s*==")
+_SAME = re.compile(r"\s*([\w.]+)\s*==\s*([\w.]+)\s*;")
+
+
+class Mentions:
+    """What the lines of each rule set, read and declare; `constants` belong to no rule."""
+
+    def __init__(self, sites: Sequence[EditSite], constants: Container[str], counts: Counter[str]) -> None:
+        self._constants, self._counts = constants, counts
+        self._locals: dict[object, set[str]] = defaultdict(set)
+        self._set: dict[object, Counter[str]] = defaultdict(Counter)
+        self._read: dict[object, Counter[str]] = defaultdict(Counter)
+        self._declared: dict[str, set[str]] = defaultdict(set)
+        self._of_rule: dict[str, Counter[str]] = defaultdict(Counter)
+        for site in sites:
+            if not site.rule or site.is_rule:
+                continue
+            scope, text, skipped = _scope(site), site.text, 0
+            declared = _DECLARED.fullmatch(text)
+            if declared is not None:
+                self._locals[scope].add(declared.group(1))
+                self._declared[site.rule].add(declared.group(1))
+                if declared.group(2) is None:
+                    continue
+                skipped = declared.start(2)
+                self._set[scope][declared.group(1)] += 1
+            elif (first := _SET.match(text)) is not None:
+                skipped = first.end()
+                self._set[scope][first.group(1)] += 1
+            for name in _PATH.findall(text, skipped):
+                self._read[scope][name] += 1
+            self._of_rule[site.rule].update(_PATH.findall(text))
+
+    def gain(self, edit: SmallEdit, site: EditSite) -> int:
+        """1 where an edit mentions what lacked it, less 1 where it takes that from the old name."""
+        is_set = self.is_set_by(edit, site)
+        return self._lacks(edit.new, site, is_set, 0) - self._lacks(edit.old, site, is_set, 1)
+
+    def unsets(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether nothing sets a variable of a rule any more that a line has set."""
+        return self.is_set_by(edit, site) and self._lacks(edit.old, site, True, 1)
+
+    def is_set_by(self, edit: SmallEdit, site: EditSite) -> bool:
+        """Whether an edit changes what a line sets: the left side of `==`."""
+        return bool(_SET.match(site.text)) and not site.text[: edit.begin - site.begin].strip()
+
+    def likeness(self, edit: SmallEdit, site: EditSite) -> int:
+        """1 where both sides of `==` have one name then, as in `child.depth == depth`, less 1 where they have it."""
+        first, last = edit.begin - site.begin, edit.end - site.begin
+        return _is_alike(site.text[:first] + edit.new + site.text[last:]) - _is_alike(site.text)
+
+    def _lacks(self, name: str, site: EditSite, is_set: bool, but: int) -> bool:
+        """Whether a name is too little used, without `but` mentions of this very line."""
+        if name in self._constants:
+            return self._counts[name] <= but
+        scope = _scope(site)
+        if name in self._locals[scope]:
+            return (self._set if is_set else self._read)[scope][name] <= but
+        is_variable = "." in name or name in self._declared[site.rule]
+        return is_variable and self._of_rule[site.rule][name] <= but
+
+
+def is_doubled(edit: SmallEdit, site: EditSite) -> bool:
+    """Whether a name stands twice in a line, of which an edit takes one away."""
+    return edit.kind is EditKind.NAME and _PATH.findall(site.text).count(edit.old) > 1
+
+
+def _scope(site: EditSite) -> object:
+    return site.file, site.scope
+
+
+def _is_alike(text: str) -> bool:
+    sides = _SAME.fullmatch(text)
+    return sides is not None and sides.group(1).rpartition(".")[2] == sides.group(2).rpartition(".")[2]

@@ -1,0 +1,76 @@
+"""An expression or relation of a rule in; out: other names, values, times and tokens that may be meant in it."""
+
+from collections.abc import Iterator
+from typing import Any
+
+from checker.mutation.scope import LineScope
+from nddl_lang.syntax.nodes import BinaryExpr, BoolLiteral, Identifier, PathExpr, Relation
+from nddl_lang.text.source import Span
+
+_POINTS = {"start": "end", "end": "start"}
+_COMPARING = ("==", "!=", "<", "<=", ">", ">=")
+_TRUTHS = ("true", "false")
+
+
+def other_values(node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
+    """Other values of the enumeration, or the other truth value."""
+    match node:
+        case PathExpr(parts=parts, span=span) if enum := names.enum_of(_written(parts)):
+            yield from ((span, value) for value in names.enums[enum] if value != parts[-1].name)
+        case BoolLiteral(value=value, span=span):
+            yield span, _TRUTHS[value]
+        case _:
+            pass
+
+
+def other_names(node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
+    """Other variables of the type, where a variable, a constant or a value of an enumeration is written."""
+    if not isinstance(node, PathExpr):
+        return
+    parts = _written(node.parts)
+    kind = names.type_of(parts) or names.enum_of(parts) or ("float" if parts[0] in names.constants else "")
+    if names.is_value(kind):
+        is_constant = len(parts) == 1 and parts[0] in names.constants
+        for other in names.alike(kind):
+            if other != ".".join(parts) and not (is_constant and other in names.constants):
+                yield node.span, other
+
+
+def other_points(node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
+    """The other end of a token."""
+    match node:
+        case PathExpr(parts=(*owner, Identifier(name=name)), span=span) if name in _POINTS and _is_token(owner, names):
+            yield span, ".".join((*_written(owner), _POINTS[name]))
+        case _:
+            pass
+
+
+def other_tokens(node: Any, names: LineScope) -> Iterator[tuple[Span, str]]:
+    """Another token of the rule, in a relation or before one of its times."""
+    match node:
+        case PathExpr(parts=(*owner, Identifier(name=name)), span=span) if name in _POINTS and _is_token(owner, names):
+            for label in ("", *(label for label, kind in names.tokens.items() if not kind.is_event)):
+                if label != ".".join(_written(owner)):
+                    yield span, f"{label}.{name}" if label else name
+        case Relation(origin=Identifier() as origin, existing=PathExpr(parts=(target,))):
+            for label in names.tokens:
+                if label not in (origin.name, target.name):
+                    yield origin.span, label
+                    yield target.span, label
+        case _:
+            pass
+
+
+def tautologies(node: Any) -> Iterator[tuple[Span, str]]:
+    """What must not be written in a comparison: its other side."""
+    if isinstance(node, BinaryExpr) and node.op in _COMPARING:
+        yield node.left.span, node.right.span.text
+        yield node.right.span, node.left.span.text
+
+
+def _written(parts: Any) -> tuple[str, ...]:
+    return tuple(part.name for part in parts)
+
+
+def _is_token(owner: Any, names: LineScope) -> bool:
+    return not owner or (len(owner) == 1 and owner[0].name in names.tokens)

@@ -1,0 +1,26 @@
+# The C types of `holding.py`.
+
+cimport cython
+from runtime.constraints.engine cimport Engine
+from runtime.executive.workbench cimport Workbench
+from runtime.plan.store.plan cimport Plan
+
+cdef long long END, NONE, ROLE_TOKEN, SPAN_CLOCK, SPAN_EXECUTIVE, SUPPORT_EDGE, SUPPORT_RESTRICTION
+
+
+cpdef bint is_blocked(Workbench bench, long long t, long long current, long long tick) except -1
+
+@cython.locals(engine=Engine, mark="long long", may_wait=bint)
+cpdef bint is_tied(Workbench bench, long long end, long long start) except -1
+
+@cython.locals(e="long long", ends=list, engine=Engine, first="long long", seen=set, stack=list, v="long long")
+cpdef bint _follows_awaited(Workbench bench, long long t, long long current, long long tick) except -1
+
+@cython.locals(_="long long", engine=Engine, is_own=bint, plan=Plan, support="long long", v="long long")
+cpdef bint _is_held_back(Workbench bench, long long t, long long tick) except -1
+
+@cython.locals(other="long long", plan=Plan)
+cpdef bint _is_awaited(Workbench bench, long long v, long long t, long long current, long long tick) except -1
+
+@cython.locals(after="long long", e="long long", ended="long long", engine=Engine, seen=set, stack=list)
+cpdef bint _ends_with(Workbench bench, long long v, long long t) except -1

@@ -1,0 +1,91 @@
+"""What holds a planned token back: an end on another reactor's timeline that is still to be observed."""
+
+from compiler.program import END
+from runtime.constraints.domains.tags import SUPPORT_EDGE, SUPPORT_RESTRICTION
+from runtime.executive.view import SPAN_CLOCK, SPAN_EXECUTIVE
+from runtime.executive.workbench import Workbench
+from runtime.plan.tags import NONE, ROLE_TOKEN
+
+
+def is_blocked(bench: Workbench, t: int, current: int, tick: int) -> bool:
+    """Whether `t` cannot begin before an end that is still to be observed, or its earliest start is only "not yet".
+
+    `current`, the token that holds on the timeline of `t` now, does not block (NONE: it does): it ends when `t`
+    begins. Nor does what this reactor may end itself, nor an end that `t` cannot wait for, as it must begin with it.
+    """
+    return _follows_awaited(bench, t, current, tick) or _is_held_back(bench, t, tick)
+
+
+def is_tied(bench: Workbench, end: int, start: int) -> bool:
+    """Whether the plan has something start no later than the very tick of an end that it follows."""
+    engine = bench.engine
+    if engine.lower(start) != engine.lower(end) or engine.upper(start) != engine.upper(end):
+        return False
+    mark = bench.mark()
+    may_wait = engine.add_edge(start, end, -1, SPAN_EXECUTIVE, NONE)
+    bench.release(mark)
+    return not may_wait
+
+
+def _follows_awaited(bench: Workbench, t: int, current: int, tick: int) -> bool:
+    """Whether edges demand that `t` begins after a token of another reactor has ended."""
+    engine = bench.engine
+    first = bench.start(t)
+    seen = {first}
+    stack = [first]
+    ends = []
+    while stack:
+        e = engine.out_head[stack.pop()]
+        while e >= 0:
+            v = engine.edge_target[e]
+            if engine.edge_weight[e] <= 0 and v not in seen and engine.upper(v) > tick:
+                if _is_awaited(bench, v, t, current, tick) and not _ends_with(bench, v, t):
+                    ends.append(v)
+                seen.add(v)
+                stack.append(v)
+            e = engine.out_next[e]
+    while ends and is_tied(bench, ends[len(ends) - 1], first):
+        ends.pop()
+    return len(ends) > 0
+
+
+def _is_held_back(bench: Workbench, t: int, tick: int) -> bool:
+    """Whether the earliest start of `t` rests on another token that has not begun, and may do so only later."""
+    engine, plan = bench.engine, bench.plan
+    v = bench.start(t)
+    for _ in range(engine.edges_used):
+        support = engine.lower_support[v]
+        if support < 0 or support & 3 != SUPPORT_EDGE:
+            break
+        v = engine.edge_target[support >> 2]
+    support = engine.lower_support[v]
+    if support < 0 or support & 3 != SUPPORT_RESTRICTION or plan.variable_role[v] != ROLE_TOKEN:
+        return False
+    is_own = bench.stands_for(plan.variable_owner[v]) == bench.stands_for(t)
+    return bool(engine.restriction_span[support >> 2] == SPAN_CLOCK) and not is_own and engine.upper(v) > tick
+
+
+def _is_awaited(bench: Workbench, v: int, t: int, current: int, tick: int) -> bool:
+    """Whether `v` is the open end of a token on another reactor's timeline, other than what `t` replaces."""
+    plan = bench.plan
+    if plan.variable_role[v] != ROLE_TOKEN or plan.variable_name[v] != END or bench.engine.upper(v) <= tick:
+        return False
+    other = bench.stands_for(plan.variable_owner[v])
+    return other not in (bench.stands_for(t), current) and bench.object_of(other) in bench.external_objects
+
+
+def _ends_with(bench: Workbench, v: int, t: int) -> bool:
+    """Whether `v` ends what was not asked for, when what is planned next there begins, which `t` cannot outwait."""
+    ended = bench.stands_for(bench.plan.variable_owner[v])
+    if (after := bench.following(ended)) < 0 or bench.key(ended) in bench.asked:
+        return False
+    engine, seen, stack = bench.engine, {bench.start(after)}, [bench.start(after)]
+    while stack:
+        e = engine.out_head[stack.pop()]
+        while e >= 0:
+            v = engine.edge_target[e]
+            if engine.edge_weight[e] <= 0 and v not in seen:
+                seen.add(v)
+                stack.append(v)
+            e = engine.out_next[e]
+    return bench.start(t) in seen

@@ -1,0 +1,123 @@
+"""A wrong name, value, time or token in a line: what else may be meant there, and what speaks for it."""
+
+from pathlib import Path
+
+import pytest
+
+from checker.counterfactual.smallness import cost_of, delay_of, usage_of
+from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
+from checker.mutation.variant import load_graph
+
+MODEL = """enum Load { sand, stone, none }
+float STONE_TIME;
+float SPARE;
+STONE_TIME = 3.5;
+SPARE = 9.0;
+typedef float [0.0 60.0] Tons;
+class Crane extends Timeline {
+    predicate Still { }
+    predicate Lift { Load load; float tons; }
+    predicate Lower { Load load; float tons; }
+}
+class Ship extends Timeline { predicate Fill { Load load; Tons tons; } }
+Reservoir fuel = new Reservoir(80.0, 10.0, 100.0);
+Ship::Fill {
+    float hours;
+    float span;
+    contains(Crane.Lift lift);
+    contains(Crane.Lower lower);
+    lift.tons == hours;
+    lower.load == none;
+    hours == tons * tons;
+    if (load == stone) {
+        span == hours * STONE_TIME;
+    }
+    lift before lower;
+    lower.end <= lift.start;
+    any(Reservoir.consume use);
+    use.time == end;
+    use.quantity == tons;
+    duration >= SPARE - span;
+}
+"""
+
+
+@pytest.fixture
+def sites(tmp_path: Path) -> list[EditSite]:
+    """The sites of the model."""
+    path = tmp_path / "m.nddl"
+    path.write_text(MODEL)
+    return sites_of(load_graph(path, ()))
+
+
+def named(sites: list[EditSite], text: str) -> EditSite:
+    return next(site for site in sites if site.text == text)
+
+
+def changes(sites: list[EditSite], text: str, kind: EditKind) -> set[tuple[str, str]]:
+    return {(edit.old, edit.new) for edit in named(sites, text).edits if edit.kind is kind}
+
+
+def edit(sites: list[EditSite], text: str, old: str, new: str) -> tuple[SmallEdit, EditSite]:
+    site = named(sites, text)
+    return next(one for one in site.edits if (one.old, one.new) == (old, new)), site
+
+
+def test_a_variable_gives_way_to_those_of_its_type_that_are_made_before(sites: list[EditSite]) -> None:
+    assert changes(sites, "lift.tons == hours;", EditKind.NAME) == {
+        *(("lift.tons", new) for new in ("tons", "span", "lower.tons", "SPARE", "STONE_TIME")),
+        *(("hours", new) for new in ("tons", "span", "lower.tons", "SPARE", "STONE_TIME")),
+    }
+    assert ("none", "load") in changes(sites, "lower.load == none;", EditKind.NAME)
+    assert not any("use" in new for _, new in changes(sites, "hours == tons * tons;", EditKind.NAME))
+
+
+def test_a_value_gives_way_to_others_of_its_enumeration(sites: list[EditSite]) -> None:
+    assert changes(sites, "load == stone", EditKind.VALUE) == {("stone", "sand"), ("stone", "none")}
+
+
+def test_times_and_tokens_give_way_to_others_and_events_have_no_ends(sites: list[EditSite]) -> None:
+    text = "lower.end <= lift.start;"
+    assert changes(sites, text, EditKind.POINT) == {("lower.end", "lower.start"), ("lift.start", "lift.end")}
+    assert ("lift.start", "start") in changes(sites, text, EditKind.TOKEN)
+    assert changes(sites, "use.time == end;", EditKind.TOKEN) == {("end", "lift.end"), ("end", "lower.end")}
+
+
+def test_a_predicate_gives_way_to_one_with_the_same_parameters(sites: list[EditSite]) -> None:
+    assert changes(sites, "contains(Crane.Lift lift);", EditKind.PREDICATE) == {("Lift", "Lower")}
+    assert changes(sites, "any(Reservoir.consume use);", EditKind.PREDICATE) == {("consume", "produce")}
+
+
+def test_the_same_name_on_both_sides_is_likelier(sites: list[EditSite]) -> None:
+    usage = usage_of(sites)
+    text = "lift.tons == hours;"
+    meant, other = edit(sites, text, "hours", "tons"), edit(sites, text, "hours", "span")
+    assert cost_of(*meant, usage) < cost_of(*other, usage)
+    soon, late = delay_of(*meant, usage), delay_of(*other, usage)
+    assert soon is not None and late is not None and soon < late
+
+
+def test_what_a_name_takes_its_only_mention_from_is_less_likely_to_give_way(sites: list[EditSite]) -> None:
+    usage = usage_of(sites)
+    stranded, doubled = (
+        edit(sites, "use.quantity == tons;", "tons", "span"),
+        edit(sites, "hours == tons * tons;", "tons", "span"),
+    )
+    only = edit(sites, "duration >= SPARE - span;", "span", "hours")
+    assert cost_of(*doubled, usage) < cost_of(*stranded, usage) < cost_of(*only, usage)
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "looser", "tighter"),
+    [
+        ("SPARE = 9.0;", "9.0", "0.9", "90.0"),  # it stands at the greater side of `>=`
+        ("Reservoir fuel = new Reservoir(80.0, 10.0, 100.0);", "10.0", "1.0", "100.0"),
+        ("Reservoir fuel = new Reservoir(80.0, 10.0, 100.0);", "100.0", "1000.0", "10.0"),
+    ],
+)
+def test_a_looser_limit_is_tried_before_a_tighter_one(
+    sites: list[EditSite], text: str, old: str, looser: str, tighter: str
+) -> None:
+    usage = usage_of(sites)
+    soon, late = (delay_of(*edit(sites, text, old, new), usage) for new in (looser, tighter))
+    assert soon is not None and late is not None and soon < late
