@@ -238,9 +238,10 @@ def _read_reactors(
             if timeline in owners:
                 _complain_of_twin(table, span, "an owner of the timeline", timeline, owners[timeline][1])
             owners.setdefault(timeline, (reactor.name, span))
+    are_told = _are_owners_told(tables)
     for table, reactor in zip(tables, reactors, strict=True):
         for index, timeline in enumerate(reactor.external):
-            if timeline not in owners:
+            if timeline not in owners and are_told:
                 span = table.text.value_span((*table.path, "external", index))
                 table.text.diagnostics.append(NO_OWNER.at(span, timeline=timeline, help=_suggest(timeline, [*owners])))
     cycle = _find_cycle(reactors, {timeline: name for timeline, (name, _) in owners.items()})
@@ -251,6 +252,11 @@ def _read_reactors(
         tuple(one for one in reactors if isinstance(one, ReactorConfiguration)),
         tuple(one for one in reactors if isinstance(one, CodeConfiguration)),
     )
+
+
+def _are_owners_told(tables: list[Table]) -> bool:
+    """Whether every reactor's `internal` can be read, so that a timeline which stands in none has no owner."""
+    return all(isinstance(table.values.get("internal", []), list) for table in tables)
 
 
 def _goal_places(*tables: Table) -> tuple[tuple[str, SourcePlace], ...]:

@@ -52,6 +52,9 @@ class MissionText:
         return self.span(*self.places[path].value) if path in self.places else self.key_span(path)
 
 
+_LEAST_LETTERS = 4  # of a key that can be told from others when it is misspelt
+
+
 class Table:
     """One table under reading; `close` reports the keys that nobody asked for."""
 
@@ -92,7 +95,7 @@ class Table:
         value = self._take(key)
         if isinstance(value, list) and all(isinstance(item, str) for item in value):
             return tuple(value)
-        self._complain_of_type(key, value, "a list of texts")
+        self._complain_of_type(key, value, "a list of texts", f'write ["{value}"]' if isinstance(value, str) else None)
         return ()
 
     def flag(self, key: str) -> bool:
@@ -112,6 +115,8 @@ class Table:
             self.complain_of_value(key, value, f"at least {minimum}" if value < minimum else f"at most {maximum}")
         else:
             self._complain_of_type(key, value, "a whole number")
+            if isinstance(value, float) and math.isfinite(value):
+                return max(minimum, int(value))  # so that what depends on it is not complained of
         return minimum if default is None else default
 
     def number(
@@ -228,15 +233,23 @@ class Table:
 
     def _take(self, key: str, *, needed: bool = False) -> object:
         self.asked.append(key)
+        if key not in self.values and needed and (meant := self._misspelt(key)) is not None:
+            return self.values[meant]  # `close` tells
         if key not in self.values and needed and not self.is_told:
             span = self.text.key_span(self.path)
             self.text.diagnostics.append(MISSING_KEY.at(span, table=self.caption, key=key))
         return self.values.get(key)
 
-    def _complain_of_type(self, key: str, value: object, wanted: str) -> None:
+    def _misspelt(self, key: str) -> str | None:
+        """The key that stands in the table for a longer one which is missing."""
+        return nearest(key, self.values) if len(key) >= _LEAST_LETTERS else None
+
+    def _complain_of_type(self, key: str, value: object, wanted: str, advice: str | None = None) -> None:
         if key in self.values:
             span = self.text.value_span((*self.path, key))
-            self.text.diagnostics.append(WRONG_TYPE.at(span, key=key, wanted=wanted, found=describe(value)))
+            self.text.diagnostics.append(
+                WRONG_TYPE.at(span, key=key, wanted=wanted, found=describe(value), help=advice)
+            )
 
 
 def describe(value: object) -> str:

@@ -61,7 +61,7 @@ def effort_text(causes: Causes) -> str:
         case TrialsEnd.COMPLETE:
             return text
         case TrialsEnd.FLIGHTS:
-            return f"{text}, the most that are made"
+            return f"{text}, no more are made"
         case TrialsEnd.SECONDS:
             return f"{text}, then time was over"
         case TrialsEnd.CANCELLED:

@@ -114,7 +114,7 @@ def test_trials_keep_to_their_bounds_and_can_be_ended(tmp_path: Path, flyer: Fly
     faulty = Faulty(tmp_path, flyer, "SURFACE_MAX = 64", "SURFACE_MAX = 30")
     few = faulty.causes(Bounds(flights=5))
     assert (few.flights, few.ended) == (5, TrialsEnd.FLIGHTS)
-    assert effort_text(few).endswith("the most that are made")
+    assert effort_text(few).endswith("no more are made")
     assert faulty.causes(Bounds(seconds=0.0)).ended is TrialsEnd.SECONDS
     cancelled = faulty.causes(Bounds(is_cancelled=lambda: True))
     assert (cancelled.flights, cancelled.ended) == (0, TrialsEnd.CANCELLED)
