@@ -4,7 +4,7 @@ import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-_MANY = 100_000  # objects that are made, and not gone again, between two looks of the garbage collector
+_MANY = 1_000_000  # objects that are made, and not gone again, between two looks of the garbage collector
 
 
 @contextmanager
