@@ -213,13 +213,13 @@ class _AgentFile:
     ) -> None:
         """Put the attributes of an element into a table; those that mean nothing are told."""
         for attribute in element.attributes:
-            key = known.get(attribute.name)
+            close = nearest(attribute.name, [*known]) if attribute.name not in unread else None
+            key = known.get(attribute.name, known.get(close or ""))
             if key is not None:
                 is_text = key in ("name", "model", "solver", "code", "timeline", "predicate")
                 table[key] = attribute.value if is_text else _value(attribute.value)
                 self._put((*path, key), attribute.span)
-            elif attribute.name not in unread:
-                close = nearest(attribute.name, [*known])
+            if attribute.name not in known and attribute.name not in unread:
                 advice = f"did you mean `{close}`?" if close else "known attributes: " + ", ".join(known)
                 self.text.diagnostics.append(
                     UNKNOWN_KEY.at(attribute.span, key=attribute.name, table=f"<{element.tag}>", help=advice)

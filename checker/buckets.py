@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from checker.batch.result import MissionResult
-from checker.causes import Culprit, culprit_of, failed_by
+from checker.causes import Culprit, culprit_of, failed_by, missed_after
 from checker.losses import GoalFate, Limit, Repairs
 from checker.oracle import Judgement, Verdict
-from runtime.executive.outcome import OpenGoal
+from runtime.executive.outcome import Event, OpenGoal
 
 # File and line of the culprit; without one the code, the reactor and what the reason is about. Never the number of a
 # token, a tick, or which goals stayed open: these differ between missions that fail alike.
@@ -32,6 +32,7 @@ class Bucket:
     last_tick: int
     keys: frozenset[Key]
     parts: tuple[int, ...]
+    refusal: Event | None = None  # what the example missed had been refused with
 
     @property
     def code(self) -> str:
@@ -111,6 +112,7 @@ def _bucket(members: list[MissionResult], counted: int) -> Bucket:
         max(ticks),
         frozenset({bucket_key(members[0])}),
         (members[0].number,),
+        missed_after(example),
     )
 
 

@@ -150,8 +150,9 @@ class Campaign:
         seconds: float = math.inf,
         conditions: Conditions | None = None,
         cases: tuple[FlownCase, ...] = (),
+        progress: Callable[[int], None] | None = None,
     ) -> Findings:
-        """Judge the results; with `may_fly` conditions are sought and tested by flights.
+        """Judge the results; with `may_fly` conditions are sought and tested by flights, which `progress` counts.
 
         Lines that may be the cause of a fault are tried within `bounds`, for all faults together no longer than
         `seconds`. With a `focus` all that is done only for the fault that mission `focus` belongs to. Of `conditions`
@@ -160,7 +161,7 @@ class Campaign:
         run, agent = self.run, self.models.agent
         is_flying = may_fly and ending is not Ending.SIGNAL
         points = {result.number: result.point for result in results}
-        with Flyer(self.load, agent, self.mission.check.time_limit) as flyer:
+        with Flyer(self.load, agent, self.mission.check.time_limit, progress) as flyer:
 
             def refly(changed: AgentConfiguration, number: int, seed: int) -> MissionResult:
                 changed = with_point(changed, points.get(number, RANDOM_POINT))

@@ -124,6 +124,13 @@ def refusals(outcome: Outcome) -> tuple[Event, ...]:
     return tuple(events[index] for index in reversed(found))
 
 
+def missed_after(outcome: Outcome | None) -> Event | None:
+    """Of what was missed (F6), the answer of an owner that it began with; None for another end."""
+    if outcome is None or outcome.abort is None:
+        return None
+    return next(iter(refusals(outcome)), None)
+
+
 def _note_behind(
     answer: int,
     outcome: Outcome,

@@ -26,7 +26,7 @@ def story_text(story: Story, run_id: str, excerpts: Excerpts, most: int = MOST_C
     lines = [
         f"mission {story.number} of run {run_id} failed at tick {story.last_tick} of {story.final_tick} "
         f"({code}: {CODE_NAMES.get(code, 'unknown')})",
-        f"  {failure_text(story.judgement, story.open_goals)}",
+        f"  {failure_text(story.judgement, story.open_goals, story.refusal)}",
         "",
     ]
     if story.fault is not None and story.fault.causes.tried:
@@ -66,11 +66,13 @@ def _step_lines(index: int, step: Step, story: Story, excerpts: Excerpts, causes
     return lines
 
 
-def excerpt_lines(place: SourcePlace, excerpts: Excerpts, *, marked: bool = False, indent: str = "      ") -> list[str]:
-    """A place with its line of source; `marked` underlines what it is about."""
+def excerpt_lines(
+    place: SourcePlace, excerpts: Excerpts, *, marked: bool = False, indent: str = "      ", about: str = ""
+) -> list[str]:
+    """A place with its line of source; `marked` underlines what it is about, `about` says so."""
     text = excerpts.line(place).expandtabs(4)
     bar = " " * len(str(place.line))
-    lines = [f"{indent}--> {excerpts.path(place)}", f"{indent} {place.line} | {text}"]
+    lines = [f"{indent}--> {excerpts.path(place)}{f' ({about})' if about else ''}", f"{indent} {place.line} | {text}"]
     if marked:
         first = place.text.strip().split("\n")[0].strip()
         start = max(text.find(first), 0)
@@ -95,7 +97,7 @@ def story_data(story: Story, run_id: str, excerpts: Excerpts) -> dict[str, Any]:
         "mission": story.number,
         "seed": story.seed,
         "code": story.judgement.code,
-        "reason": failure_text(story.judgement, story.open_goals),
+        "reason": failure_text(story.judgement, story.open_goals, story.refusal),
         "last_tick": story.last_tick,
         "final_tick": story.final_tick,
         "causes": None if fault is None else causes_data(fault.causes),

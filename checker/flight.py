@@ -1,14 +1,14 @@
 """Fly real missions: load the models of an agent once, then run the executive from a seed."""
 
-import gc
 import sys
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, redirect_stdout
+from collections.abc import Mapping
+from contextlib import redirect_stdout
 from dataclasses import replace
 from functools import lru_cache, partial
 from pathlib import Path
 from typing import overload
 
+from checker.batch.garbage import seldom_collected
 from checker.batch.worker import Fly
 from checker.coverage import universe_of
 from checker.judge.judge import breaches, judge_mission
@@ -30,7 +30,6 @@ from runtime.user.reactor import Reactor
 from runtime.user.reactor_library import load_reactor
 
 Reactors = tuple[tuple[str, str | None], ...]  # model and solver of each
-_MANY = 100_000  # objects that are made, and not gone again, between two looks of the garbage collector
 
 
 def load(agent: AgentConfiguration) -> Fly:
@@ -81,7 +80,7 @@ def fly_recorded(
 ) -> tuple[Outcome, MissionRecord]:
     """The same, with the record of what was executed."""
     root = Path(agent.root)
-    with _seldom_collected(), redirect_stdout(sys.stderr):  # what constraints print would end up in reports
+    with seldom_collected(), redirect_stdout(sys.stderr):  # what constraints print would end up in reports
         outcome, record = record_mission(agent, programs, seed, values, until=until, tells_on=tells_on)
         report = judge_mission(agent, programs.programs, outcome, record, programs.constraints, values)
     if report.errors:
@@ -91,17 +90,6 @@ def fly_recorded(
     fates = property_fates(agent, arguments, record, outcome.last_tick, outcome.events, report.profiles)
     outcome = replace(outcome, breaches=breaches(report), behaviour=behaviour, properties=fates)
     return _relative(outcome, root), record
-
-
-@contextmanager
-def _seldom_collected() -> Iterator[None]:
-    """Have the garbage collector look seldom: of a mission much stays until its end, and next to nothing is a cycle."""
-    before = gc.get_threshold()
-    gc.set_threshold(max(before[0], _MANY) if before[0] else 0, *before[1:])
-    try:
-        yield
-    finally:
-        gc.set_threshold(*before)
 
 
 def _arguments(programs: MissionPrograms) -> dict[str, tuple[str, ...]]:

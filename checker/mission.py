@@ -16,7 +16,7 @@ from checker.codes import CYCLE, NO_FILE, NO_GOALS, NO_OWNER, NO_TEXT_FILE, NOT_
 from checker.figures import Figures, read_figures
 from checker.goal_fit import goals_out_of_time
 from checker.losses import Limit
-from checker.mission_table import MissionText, Table, TomlTable
+from checker.mission_table import MissionText, Table, TomlTable, is_finite_number
 from checker.parameter_tables import read_parameters
 from checker.property_tables import read_properties
 from nddl_lang.text.diagnostic import Diagnostic, Note, Severity
@@ -37,6 +37,7 @@ from runtime.executive.outcome import SourcePlace
 from runtime.user.limit import USUAL
 
 LARGEST_SEED = (1 << 53) - 1  # what JSON readers agree on
+MOST_MISSIONS = 1_000_000  # of a batch: each has its place in memory
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +100,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
         reactors=reactors,
         goals=goals,
         parameters=parameters,
-        tick=head.number("tick", 1.0, 1e-9),
+        tick=head.number("tick", 1.0, 1e-9, is_finite=True),
         on_failure=cast("OnFailure", head.choice("on_failure", ("abort_agent", "kill_reactor"), "abort_agent")),
         constraints=constraints,
         constraint_seconds=seconds,
@@ -112,7 +113,8 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
         agent, check = _with_batch(agent, check, file, root, top)
     head.close()
     top.close()
-    text.diagnostics += goals_out_of_time(agent, text)
+    if head.values.get("final_tick") == agent.final_tick:
+        text.diagnostics += goals_out_of_time(agent, text)
     found = tuple(sorted(text.diagnostics, key=lambda diagnostic: diagnostic.span.begin))
     if any(diagnostic.severity is Severity.ERROR for diagnostic in found):
         return None, found
@@ -146,15 +148,13 @@ def _not_toml(source: Source, problem: str) -> Diagnostic:
 def _read_check(table: Table) -> CheckConfiguration:
     default = CheckConfiguration()
     check = CheckConfiguration(
-        missions=table.whole("missions", default.missions, 1),
-        seed=table.whole("seed", default.seed, 0),
+        missions=table.whole("missions", default.missions, 1, MOST_MISSIONS),
+        seed=table.whole("seed", default.seed, 0, LARGEST_SEED),
         max_failure_rate=table.number("max_failure_rate", default.max_failure_rate, 0.0, 1.0),
         confidence=table.number("confidence", default.confidence, 0.5, 0.999999),
         time_limit=table.number("time_limit", default.time_limit, 0.001),
         limits=tuple((limit, most) for limit in Limit if (most := table.whole(limit.value, -1, 0)) >= 0),
     )
-    if check.seed > LARGEST_SEED:
-        table.complain_of_value("seed", check.seed, f"at most {LARGEST_SEED}")
     table.close()
     return check
 
@@ -186,7 +186,10 @@ def _read_code(table: Table) -> CodeConfiguration:
 
 def _setting(table: Table, key: str) -> Value:
     value = table.values[key]
-    return value if isinstance(value, bool | int | float | str) else table.string(key)  # complains
+    if isinstance(value, bool | int | float | str):
+        return value
+    table.complain_of_type(key, "a number, a text in quotes, or true or false")
+    return 0
 
 
 def _read_model(table: Table) -> ReactorConfiguration:
@@ -235,9 +238,10 @@ def _read_reactors(
             if timeline in owners:
                 _complain_of_twin(table, span, "an owner of the timeline", timeline, owners[timeline][1])
             owners.setdefault(timeline, (reactor.name, span))
+    are_told = _are_owners_told(tables)
     for table, reactor in zip(tables, reactors, strict=True):
         for index, timeline in enumerate(reactor.external):
-            if timeline not in owners:
+            if timeline not in owners and are_told:
                 span = table.text.value_span((*table.path, "external", index))
                 table.text.diagnostics.append(NO_OWNER.at(span, timeline=timeline, help=_suggest(timeline, [*owners])))
     cycle = _find_cycle(reactors, {timeline: name for timeline, (name, _) in owners.items()})
@@ -248,6 +252,11 @@ def _read_reactors(
         tuple(one for one in reactors if isinstance(one, ReactorConfiguration)),
         tuple(one for one in reactors if isinstance(one, CodeConfiguration)),
     )
+
+
+def _are_owners_told(tables: list[Table]) -> bool:
+    """Whether every reactor's `internal` can be read, so that a timeline which stands in none has no owner."""
+    return all(isinstance(table.values.get("internal", []), list) for table in tables)
 
 
 def _goal_places(*tables: Table) -> tuple[tuple[str, SourcePlace], ...]:
@@ -318,9 +327,13 @@ def _goal_value(table: Table, key: str) -> Value | Bounds:
     value = table.values[key]
     if isinstance(value, list):
         return table.bounds(key) or 0
+    if isinstance(value, int) and not isinstance(value, bool) and not is_finite_number(value):
+        table.complain_of_value(key, value, "a number that can be held")
+        return 0
     if isinstance(value, int | float | str):
         return value
-    return table.string(key)  # complains
+    table.complain_of_type(key, "a number, a text in quotes, true or false, or a pair [lower, upper] of numbers")
+    return 0
 
 
 def _find_cycle(reactors: list[ReactorConfiguration | CodeConfiguration], owners: dict[str, str]) -> list[str]:

@@ -1,6 +1,7 @@
 """Take values out of one TOML table, each with its type and its limits; complain with places about all else."""
 
 import math
+import sys
 from collections.abc import Sequence
 
 from checker.codes import (
@@ -17,6 +18,9 @@ from nddl_lang.text.source import Anchor, Source, Span
 from nddl_lang.text.toml_places import Path, Stretch
 from runtime.executive.configuration import Bounds
 
+_MOST_TICKS = 10**12  # far from where sums of times overflow
+_LARGEST = sys.float_info.max
+_MOST_SHOWN = 60  # characters of a value in a message
 TomlTable = dict[str, object]
 
 
@@ -48,6 +52,9 @@ class MissionText:
         return self.span(*self.places[path].value) if path in self.places else self.key_span(path)
 
 
+_LEAST_LETTERS = 4  # of a key that can be told from others when it is misspelt
+
+
 class Table:
     """One table under reading; `close` reports the keys that nobody asked for."""
 
@@ -74,9 +81,11 @@ class Table:
                 )
 
     def string(self, key: str, default: str | None = None) -> str:
-        """A text; without a default the key is needed."""
+        """A text; without a default the key is needed, and the text must not be empty."""
         value = self._take(key, needed=default is None)
         if isinstance(value, str):
+            if default is None and not value.strip():
+                self.complain_of_value(key, f'"{value}"', "a text that is not empty")
             return value
         self._complain_of_type(key, value, "a text in quotes")
         return default or ""
@@ -86,7 +95,7 @@ class Table:
         value = self._take(key)
         if isinstance(value, list) and all(isinstance(item, str) for item in value):
             return tuple(value)
-        self._complain_of_type(key, value, "a list of texts")
+        self._complain_of_type(key, value, "a list of texts", f'write ["{value}"]' if isinstance(value, str) else None)
         return ()
 
     def flag(self, key: str) -> bool:
@@ -97,24 +106,31 @@ class Table:
         self._complain_of_type(key, value, "true or false")
         return False
 
-    def whole(self, key: str, default: int | None, minimum: int) -> int:
-        """A whole number of at least `minimum`; without a default the key is needed."""
+    def whole(self, key: str, default: int | None, minimum: int, maximum: int = _MOST_TICKS) -> int:
+        """A whole number from `minimum` to `maximum`; without a default the key is needed."""
         value = self._take(key, needed=default is None)
         if isinstance(value, int) and not isinstance(value, bool):
-            if value >= minimum:
+            if minimum <= value <= maximum:
                 return value
-            self.complain_of_value(key, value, f"at least {minimum}")
+            self.complain_of_value(key, value, f"at least {minimum}" if value < minimum else f"at most {maximum}")
         else:
             self._complain_of_type(key, value, "a whole number")
+            if isinstance(value, float) and math.isfinite(value):
+                return max(minimum, int(value))  # so that what depends on it is not complained of
         return minimum if default is None else default
 
-    def number(self, key: str, default: float, lower: float, upper: float = math.inf) -> float:
+    def number(
+        self, key: str, default: float, lower: float, upper: float = math.inf, *, is_finite: bool = False
+    ) -> float:
         """A number from `lower` to `upper`."""
         value = self._take(key)
         if isinstance(value, int | float) and not isinstance(value, bool):
-            if lower <= value <= upper:
-                return float(value)
+            is_held = -_LARGEST <= value <= _LARGEST
+            if lower <= value <= upper and (is_held or not is_finite):
+                return float(value) if is_held else upper
             wanted = f"from {lower:g} to {upper:g}" if upper < math.inf else f"at least {lower:g}"
+            if not is_held and is_finite:
+                wanted = "finite"
             is_percent = (lower, upper) == (0.0, 1.0) and 1.0 < value <= 100.0
             self.complain_of_value(key, value, wanted, f"{value:g} % is {value / 100:g}" if is_percent else None)
         else:
@@ -124,17 +140,16 @@ class Table:
     def numbers(self, key: str) -> tuple[float, ...]:
         """A list of finite numbers, empty by default."""
         value = self._take(key)
-        if isinstance(value, list) and all(_is_number(item) and math.isfinite(item) for item in value):
+        if isinstance(value, list) and all(is_finite_number(item) for item in value):
             return tuple(float(item) for item in value)
-        self._complain_of_type(key, value, "a list of numbers")
+        self._complain_of_type(key, value, "a list of finite numbers")
         return ()
 
     def rows(self, key: str, width: int) -> tuple[tuple[float, ...], ...]:
         """A list of lists of `width` finite numbers, empty by default."""
         value = self._take(key)
         if isinstance(value, list) and all(
-            isinstance(row, list) and len(row) == width and all(_is_number(one) and math.isfinite(one) for one in row)
-            for row in value
+            isinstance(row, list) and len(row) == width and all(is_finite_number(one) for one in row) for row in value
         ):
             return tuple(tuple(float(one) for one in row) for row in value)
         self._complain_of_type(key, value, f"a list of rows of {width} numbers")
@@ -151,7 +166,7 @@ class Table:
             self._complain_of_type(key, value, "a pair [lower, upper] of numbers")
             return None
         lower, upper = value
-        if math.isnan(lower) or math.isnan(upper):
+        if lower != lower or upper != upper:  # nan
             self.complain_of_value(key, f"[{lower}, {upper}]", "numbers at both ends")
             return None
         if lower > upper:
@@ -160,8 +175,15 @@ class Table:
                 REVERSED.at(span, key=key, lower=lower, upper=upper, help=f"write [{upper}, {lower}]")
             )
             return None
-        if is_finite and not (math.isfinite(lower) and math.isfinite(upper)):
+        ends = (lower, upper)
+        if any(isinstance(end, int) and not is_finite_number(end) for end in ends):
+            self.complain_of_value(key, f"[{lower}, {upper}]", "numbers that can be held")
+            return None
+        if is_finite and not all(is_finite_number(end) for end in ends):
             self.complain_of_value(key, f"[{lower}, {upper}]", "finite at both ends")
+            return None
+        if is_finite and upper - lower > _LARGEST:
+            self.complain_of_value(key, f"[{lower}, {upper}]", "narrower: the width is no number that can be held")
             return None
         return (lower, upper)
 
@@ -196,6 +218,10 @@ class Table:
         self._complain_of_type(key, value, f"an array of tables, [[{key}]]")
         return []
 
+    def complain_of_type(self, key: str, wanted: str) -> None:
+        """Report a value of a type that cannot be."""
+        self._complain_of_type(key, self.values.get(key), wanted)
+
     def has(self, key: str) -> bool:
         """Whether the key is written."""
         return key in self.values
@@ -203,19 +229,27 @@ class Table:
     def complain_of_value(self, key: str, found: object, wanted: str, advice: str | None = None) -> None:
         """Report a value of the right type that cannot be."""
         span = self.text.value_span((*self.path, key))
-        self.text.diagnostics.append(OUT_OF_RANGE.at(span, key=key, wanted=wanted, found=found, help=advice))
+        self.text.diagnostics.append(OUT_OF_RANGE.at(span, key=key, wanted=wanted, found=_short(found), help=advice))
 
     def _take(self, key: str, *, needed: bool = False) -> object:
         self.asked.append(key)
+        if key not in self.values and needed and (meant := self._misspelt(key)) is not None:
+            return self.values[meant]  # `close` tells
         if key not in self.values and needed and not self.is_told:
             span = self.text.key_span(self.path)
             self.text.diagnostics.append(MISSING_KEY.at(span, table=self.caption, key=key))
         return self.values.get(key)
 
-    def _complain_of_type(self, key: str, value: object, wanted: str) -> None:
+    def _misspelt(self, key: str) -> str | None:
+        """The key that stands in the table for a longer one which is missing."""
+        return nearest(key, self.values) if len(key) >= _LEAST_LETTERS else None
+
+    def _complain_of_type(self, key: str, value: object, wanted: str, advice: str | None = None) -> None:
         if key in self.values:
             span = self.text.value_span((*self.path, key))
-            self.text.diagnostics.append(WRONG_TYPE.at(span, key=key, wanted=wanted, found=describe(value)))
+            self.text.diagnostics.append(
+                WRONG_TYPE.at(span, key=key, wanted=wanted, found=describe(value), help=advice)
+            )
 
 
 def describe(value: object) -> str:
@@ -224,15 +258,26 @@ def describe(value: object) -> str:
         case bool():
             return "true or false"
         case int() | float():
-            return f"the number {value}"
+            return f"the number {_short(value)}"
         case str():
-            return f'the text "{value}"'
+            return f'the text "{_short(value)}"'
         case list():
             return "a list"
         case dict():
             return "a table"
         case _:
             return "a date or time"
+
+
+def _short(value: object) -> str:
+    """A value in so many digits as a message has room for."""
+    text = str(value)
+    return text if len(text) <= _MOST_SHOWN else f"{text[:_MOST_SHOWN]}..."
+
+
+def is_finite_number(value: object) -> bool:
+    """Whether it is a number that a float can hold, or nearly."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and -_LARGEST <= value <= _LARGEST
 
 
 def _is_number(value: object) -> bool:

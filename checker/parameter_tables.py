@@ -11,6 +11,7 @@ from runtime.executive.configuration import Mode, ParameterConfiguration
 from runtime.executive.distributions import DISTRIBUTIONS
 from runtime.executive.expression import ExpressionError, parse_expression
 
+_ALL_CLIPPED = "every draw would be {:g}: write `value`"
 _OWN_KEYS = ("values", "weights", "value", "mean", "sigma", "expression")  # of some distributions only
 
 
@@ -40,9 +41,9 @@ def _read_parameter(name: str, table: Table) -> tuple[ParameterConfiguration, bo
     bounds = table.bounds("range", is_finite=True)
     values = table.numbers("values")
     weights = table.numbers("weights")
-    value = table.number("value", 0.0, float("-inf"))
-    mean = table.number("mean", 0.0, float("-inf")) if table.has("mean") else None
-    deviation = table.number("sigma", 1.0, 1e-300) if table.has("sigma") else None
+    value = table.number("value", 0.0, -math.inf, is_finite=True)
+    mean = table.number("mean", 0.0, -math.inf, is_finite=True) if table.has("mean") else None
+    deviation = table.number("sigma", 1.0, 1e-300, is_finite=True) if table.has("sigma") else None
     expression = table.string("expression", "")
     is_whole = table.choice("kind", ("float", "int"), "float") == "int"
     mode = cast("Mode", table.choice("mode", ("inter", "intra"), "inter"))
@@ -61,6 +62,11 @@ def _read_parameter(name: str, table: Table) -> tuple[ParameterConfiguration, bo
         bounds = (mean - half, mean + half)
     has_range = bounds is not None or shape == "dependent"
     lower, upper = bounds or (0.0, 0.0)
+    if bounds and clip and shape != "normal" and not (lower <= clip[1] and clip[0] <= upper):
+        end = clip[1] if clip[1] < lower else clip[0]
+        table.complain_of_value(
+            "clip", list(clip), f"such that it meets [{lower:g}, {upper:g}]", _ALL_CLIPPED.format(end)
+        )
     found = ParameterConfiguration(
         name, float(lower), float(upper), shape, mode, update, clip, is_whole, values, weights, mean, deviation,
         expression if shape == "dependent" else "",
@@ -74,7 +80,7 @@ def _ill_distribution(
     """What the keys of a distribution lack, or have in vain."""
     reasons: list[str] = []
     distribution = DISTRIBUTIONS[name]
-    if "values" in distribution.needs and not values:
+    if "values" in distribution.needs and table.values.get("values", []) == []:
         reasons.append(f"a {name} distribution needs `values`, a list of numbers")
     for key in ("value", "expression"):
         if key in distribution.needs and not table.has(key):
@@ -86,6 +92,8 @@ def _ill_distribution(
         if table.has(key) and key not in distribution.keys:
             owners = " or ".join(other for other, row in DISTRIBUTIONS.items() if key in row.keys)
             reasons.append(f"`{key}` belongs to a {owners} distribution, not to a {name} one")
+    if table.has("update") and table.values.get("mode", "inter") == "inter":
+        reasons.append('`update` has no effect without `mode = "intra"`: there is one draw per mission')
     if name == "dependent":
         reasons += [f"`{key}` has no effect on a dependent parameter" for key in ("range", "mode") if table.has(key)]
         try:

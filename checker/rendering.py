@@ -13,6 +13,8 @@ from checker.oracle import CODE_NAMES, Judgement
 from checker.proofs.conflict import Confirmation, Finding
 from checker.sampling.rendering import describe, number
 from checker.story import Step, StepKind, Story
+from compiler.program import DomainConstant
+from runtime.constraints.domains.tags import HALF_INF
 from runtime.executive.outcome import (
     Abort,
     ConflictElement,
@@ -60,8 +62,11 @@ _KINDS = {
 }
 
 
-def failure_text(judgement: Judgement, open_goals: Sequence[OpenGoal] = ()) -> str:
-    """Why a mission failed, or could not be flown; empty for one that passed."""
+def failure_text(judgement: Judgement, open_goals: Sequence[OpenGoal] = (), refusal: Event | None = None) -> str:
+    """Why a mission failed, or could not be flown; empty for one that passed.
+
+    `refusal` is the answer of an owner, as of which something was missed.
+    """
     if judgement.broken is not None:
         return f"the property `{judgement.broken.name}` is violated at tick {judgement.broken.tick}"
     if judgement.exceeded is not None:
@@ -69,7 +74,20 @@ def failure_text(judgement: Judgement, open_goals: Sequence[OpenGoal] = ()) -> s
     if judgement.reason is None:
         return judgement.message
     goals = ", ".join(goal_text(goal) for goal in open_goals)
-    return reason_text(judgement.reason) + (f": {goals}" if goals else "")
+    text = reason_text(judgement.reason) + (f": {goals}" if goals else "")
+    return text if refusal is None else f"{_refusal_text(refusal)}; so {text}"
+
+
+def _refusal_text(refusal: Event) -> str:
+    """That an owner did not take a request, and why; arguments that may be anything are left out."""
+    asked = token_text(refusal.predicate, tuple(one for one in refusal.arguments if not _is_anything(one[1])))
+    why = "" if refusal.reason is None else f" ({reason_text(refusal.reason)})"
+    verb = "refused" if refusal.kind is EventKind.REFUSE else "rejected"
+    return f"{refusal.reactor} {verb} {asked} on {refusal.timeline} at tick {refusal.tick}{why}"
+
+
+def _is_anything(domain: DomainConstant) -> bool:
+    return domain.interval is not None and domain.interval[0] <= -HALF_INF and domain.interval[1] >= HALF_INF
 
 
 def _exceeded_text(exceeded: Exceeded) -> str:
@@ -86,6 +104,11 @@ def _exceeded_text(exceeded: Exceeded) -> str:
 def kind_text(kind: ReasonKind | None) -> str:
     """What sort of reason it was, where reasons of one sort are counted together."""
     return _KINDS.get(kind, kind.value) if kind is not None else "for no known reason"
+
+
+def lines_text(rule: str, count: int) -> str:
+    """What so many steps in a row tell, each a line of one rule."""
+    return f"it acts through {count} lines of the rule of {rule}"
 
 
 def step_text(step: Step, story: Story) -> str:
@@ -133,15 +156,15 @@ def confirmation_text(found: Confirmation, condition: Condition | None = None) -
     """What z3 says, as the end of a sentence that begins with its name."""
     match found.finding:
         case Finding.CONFIRMED:
-            text = f"confirms the conflict: these {len(found.core)} causes contradict each other"
-            text += ", each of them is needed" if found.is_minimal else ""
+            text = f"confirms the conflict: its {len(found.core)} statements contradict each other"
+            text += ", and none can be left out" if found.is_minimal else ""
             text += f" ({found.written} read from the model's text)" if found.written else ""
             if condition is not None and condition.in_terms:
                 text += ", just where " + " and ".join(literal_text(one) for one in condition.in_terms)
         case Finding.REFUTED:
-            text = "does not confirm the conflict: by themselves the causes can hold together"
+            text = "does not confirm the conflict: by themselves its statements can hold together"
         case Finding.UNKNOWN:
-            text = "could not decide whether the causes can hold together"
+            text = "could not decide whether the statements of the conflict can hold together"
     missing = found.untranslated
     return text + (f" (not told to it: {', '.join(missing)})" if missing else "")
 

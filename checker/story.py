@@ -12,6 +12,7 @@ from checker.causes import (
     failed_by,
     in_telling_order,
     lines_that_rule_out,
+    missed_after,
 )
 from checker.findings import Fault
 from checker.influence import Influence
@@ -82,6 +83,7 @@ class Story:
     steps: tuple[Step, ...]
     fault: Fault | None
     confirmation: Confirmation | None = None  # z3's word on the conflict of this mission
+    refusal: Event | None = None  # what was missed had been refused with
 
 
 def tell(
@@ -124,6 +126,7 @@ def tell(
         tuple(_without_repeats(steps)),
         fault,
         confirmation,
+        missed_after(outcome),
     )
 
 

@@ -41,7 +41,7 @@ from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_
 from nddlc.known import known_callables
 from nddlc.main import named
 from nddlc.mission_trust import models_of
-from nddlc.progress import Display
+from nddlc.progress import Display, SeekingDisplay
 from nddlc.samplers import find_sampler
 from nddlc.trust import trust_option
 from nddlc.watch import WatchedCommand
@@ -135,14 +135,16 @@ def command(
             flown = campaign.fly(count, store, fresh=fresh, enough=enough, progress=show, promoted=promoted)
     except StoreError as problem:
         raise Unusable(str(problem), problem.advice) from None
-    findings = campaign.assess(
-        flown.results,
-        ending=flown.ending,
-        sampling=flown.sampling,
-        bounds=Bounds(flights, _SECONDS_A_FAULT) if flights else None,
-        seconds=_SECONDS,
-        cases=flown.cases,
-    )
+    with SeekingDisplay() as seeking:
+        findings = campaign.assess(
+            flown.results,
+            ending=flown.ending,
+            sampling=flown.sampling,
+            bounds=Bounds(flights, _SECONDS_A_FAULT) if flights else None,
+            seconds=_SECONDS,
+            cases=flown.cases,
+            progress=seeking,
+        )
     findings = replace(findings, is_stored=not no_store)
     if not no_store:
         _keep(findings, store_path)

@@ -27,6 +27,7 @@ from checker.oracle import Verdict
 from nddlc.check import STORE
 from nddlc.inputs import Unusable, readable
 from nddlc.mission_trust import models_of
+from nddlc.progress import SeekingDisplay
 from nddlc.samplers import SAMPLERS, find_sampler
 from nddlc.trust import trust_option
 from runtime.executive.rendering import event_data, trace_line
@@ -108,9 +109,15 @@ def _found(store: RunStore, name: str, number: int | None, bounds: Bounds, is_tr
     results = tuple(campaign.judged(one) for one in store.results(run.id))
     first = number or next((one.number for one in results if one.verdict is Verdict.FAIL), None)
     conditions = {example: read_condition(text) for example, text in store.conditions(run.id).items()}
-    findings = campaign.assess(
-        results, may_fly=is_same, focus=first, bounds=bounds if bounds.flights else None, conditions=conditions
-    )
+    with SeekingDisplay() as seeking:
+        findings = campaign.assess(
+            results,
+            may_fly=is_same,
+            focus=first,
+            bounds=bounds if bounds.flights else None,
+            conditions=conditions,
+            progress=seeking,
+        )
     findings = replace(findings, run_id=run.id)
     result = _result(run, first, campaign, results, is_same)
     fault = next((one for one in findings.faults if result.number in one.bucket.missions), None)

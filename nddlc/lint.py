@@ -28,7 +28,7 @@ from nddlc.watch import WatchedCommand
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "remark", Severity.HINT: "hint"}
 _LEVELS = [severity.value for severity in Severity]
 _STYLES = ["text", "json", "sarif", "github", "junit"]
-_MISSION = ".toml"
+_MISSIONS = (".toml", ".xml")
 
 
 @click.command(cls=WatchedCommand)
@@ -64,8 +64,8 @@ def command(
 ) -> int:
     """Report everything that is wrong with models.
 
-    FILE is a model, a mission file (.toml), or a directory with models; of those, files that others include are
-    looked at as parts of them.
+    FILE is a model, a mission file (.toml, or T-REX's .xml), or a directory with models; of those, files that others
+    include are looked at as parts of them.
     Errors stop a model, warnings are very likely mistakes, remarks are worth a look. Settings stand in nddlc.toml or
     in [tool.nddlc] of pyproject.toml, upwards from each file. Ends with 0 if nothing weighs as much as --fail-on,
     with 1 otherwise.
@@ -84,12 +84,12 @@ def command(
     mended = 0
     for path in paths:
         settings, gaps = _settings(path, codes, fail_on, is_trusted)
-        if (fix or unsafe_fixes or only_show) and path.suffix != _MISSION:
+        if (fix or unsafe_fixes or only_show) and path.suffix not in _MISSIONS:
             mended += _mend(checker, path, settings, only_show=only_show, unsafe=unsafe_fixes, is_text=style == "text")
             if only_show:
                 continue
         findings = _check(checker, path, settings)
-        if is_proved and path.suffix != _MISSION:
+        if is_proved and path.suffix not in _MISSIONS:
             directories_of = (*(Path(each) for each in directories), *settings.directories)
             findings += _proved(path, settings, directories_of, chosen_dialect(ctx, dialect), findings)
         checked.append((settings, (*settings.choose(gaps), *findings)))
@@ -109,7 +109,7 @@ def command(
 
 def _check(checker: Checker, path: Path, settings: Settings) -> tuple[Diagnostic, ...]:
     """All that is wrong with a model, a configuration, or a mission file and the models that it names."""
-    if path.suffix != _MISSION:
+    if path.suffix not in _MISSIONS:
         return checker.check(path, settings)
     if path.name in (NAME, PROJECT):
         return tuple(read_configuration(path)[1])

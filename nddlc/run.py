@@ -3,22 +3,25 @@
 import sys
 from collections import Counter
 from collections.abc import Sequence
+from itertools import groupby
 from pathlib import Path
+from typing import Any
 
 import click
 
-from checker.causes import failed_by, lines_that_rule_out
+from checker.causes import failed_by, lines_that_rule_out, missed_after
 from checker.happened import gantt
 from checker.mission import LARGEST_SEED
 from checker.one_flight import Flight, FlightSettings, fly, trace_text
 from checker.oracle import Verdict
+from checker.rendering import failure_text
 from nddl_lang.text.write import write_whole
 from nddlc.inputs import Unusable, mission_here
 from nddlc.one_mission import prepare, values_of
 from nddlc.trust import trust_option
 from runtime.executive.events import single_events
 from runtime.executive.outcome import Event, EventKind, OpenGoal
-from runtime.executive.rendering import event_text, goal_text, reason_text
+from runtime.executive.rendering import event_text, goal_text
 
 _PASS, _FAIL = 0, 1
 _TOLD = (EventKind.REFUSE, EventKind.REJECT, EventKind.RECALL, EventKind.RELAX, EventKind.KILL, EventKind.ABORT)
@@ -65,10 +68,8 @@ def _report(name: str, flight: Flight) -> str:
     outcome, judgement = flight.outcome, flight.judgement
     lines = [gantt(outcome)]
     events = single_events(outcome.events)
-    for event in events:
-        if event.kind in _TOLD:
-            who = " ".join(filter(None, (event.reactor, event.kind.value, event.timeline)))
-            lines.append(f"{event.tick:>7}  {who}: {event_text(event)}\n")
+    for _, alike in groupby((event for event in events if event.kind in _TOLD), key=_sort_of_event):
+        lines.append(_told(list(alike)))
     counts = Counter(event.kind for event in events)
     done = sum(event.kind is EventKind.ACHIEVED and (event.request or 0) < 0 for event in events)
     lines.append(
@@ -76,7 +77,7 @@ def _report(name: str, flight: Flight) -> str:
         f"{f' {judgement.code}' if judgement.code else ''} at tick {outcome.last_tick}\n"
     )
     if judgement.reason is not None:
-        lines.append(f"  {reason_text(judgement.reason)}\n")
+        lines.append(f"  {failure_text(judgement, refusal=missed_after(outcome))}\n")
     lines.append(
         f"  goals achieved {done}, open {len(outcome.open_goals)}; requests {counts[EventKind.REQUEST]}, "
         f"rejected {counts[EventKind.REJECT]}, refused {counts[EventKind.REFUSE]}, "
@@ -84,9 +85,30 @@ def _report(name: str, flight: Flight) -> str:
     )
     lines += [f"  open: {goal_text(goal)}{_so_far(goal, events)}\n" for goal in outcome.open_goals]
     if judgement.verdict is not Verdict.PASS:
-        places = [element.place for element in lines_that_rule_out(failed_by(outcome))[:_MOST_LINES]]
-        lines += [f"  ruled out by {one.file}:{one.line}:{one.column}: {one.text}\n" for one in places if one]
+        places = [one.place for one in lines_that_rule_out(failed_by(outcome)) if one.place is not None]
+        if places:
+            lines.append("  these lines together rule out what was wanted; it breaks at the first:\n")
+        lines += [f"    {one.file}:{one.line}:{one.column}: {one.text}\n" for one in places[:_MOST_LINES]]
+        lines += [f"    and {len(places) - _MOST_LINES} more\n"] if len(places) > _MOST_LINES else []
+        lines.append("  what to change: `nddlc check` tries it out, `nddlc explain` then tells how it came\n")
     return "".join(lines)
+
+
+def _sort_of_event(event: Event) -> tuple[Any, ...]:
+    """What events that follow each other are told together by; the stage of a repair is no part of it."""
+    reason = event.reason
+    about = None if reason is None else (reason.kind, reason.token.predicate if reason.token else "", reason.predicate)
+    return (event.kind, event.reactor, event.timeline, event.predicate, about)
+
+
+def _told(alike: Sequence[Event]) -> str:
+    """One line for events of one sort: the first of them, with how many there were and until when."""
+    first, last = alike[0], alike[-1]
+    who = " ".join(filter(None, (first.reactor, first.kind.value, first.timeline)))
+    if len(alike) == 1:
+        return f"{first.tick:>7}  {who}: {event_text(first)}\n"
+    until = f", until tick {last.tick}" if last.tick > first.tick else ""
+    return f"{first.tick:>7}  {who}: {event_text(first)} (and {len(alike) - 1} more of this sort{until})\n"
 
 
 def _so_far(goal: OpenGoal, events: Sequence[Event]) -> str:

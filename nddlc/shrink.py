@@ -81,7 +81,7 @@ def _was(shrunk: Shrunk) -> str:
     (bucket,) = group_failures((shrunk.result,))
     place = bucket.culprit.place
     if place is None:
-        return f"{bucket.code}: {failure_text(bucket.judgement, bucket.open_goals)}"
+        return f"{bucket.code}: {failure_text(bucket.judgement, bucket.open_goals, bucket.refusal)}"
     return f"{bucket.code} at {place.file}:{place.line}: {place.text.strip()}"
 
 

@@ -18,6 +18,7 @@ from types import FrameType
 from typing import Protocol
 
 import runtime.build_form
+from checker.batch.garbage import seldom_collected
 from checker.batch.process import ENDING, SPARE, Worker, WorkerError, unloaded
 from checker.batch.result import MissionResult
 from checker.batch.worker import READY, LastWords, Load, LoadFailure, Task, error_result
@@ -64,7 +65,7 @@ def fly_all(batch: Batch, supervisor: Supervisor) -> signal.Signals | None:
     tasks = batch.tasks or batch.more()
     if not tasks:
         return None
-    with _signal_pipe() as signalled:
+    with _signal_pipe() as signalled, seldom_collected():
         count = batch.workers if batch.more is not nothing_more else min(batch.workers, len(tasks))
         pool = _Pool(replace(batch, tasks=tasks, workers=count), supervisor)
         try:

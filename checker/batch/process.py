@@ -7,7 +7,7 @@ import os
 import signal
 import time
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from multiprocessing.process import BaseProcess
 
 import runtime.build_form
@@ -38,10 +38,20 @@ def keeping_a_worker() -> Iterator[None]:
 
 
 class Flyer:
-    """Flies single missions, each with an agent of its own, in one process that may die or hang without harm."""
+    """Flies single missions, each with an agent of its own, in one process that may die or hang without harm.
 
-    def __init__(self, load: Load, agent: AgentConfiguration, time_limit: float) -> None:
+    `progress` is called before each flight with the number of those that were made.
+    """
+
+    def __init__(
+        self,
+        load: Load,
+        agent: AgentConfiguration,
+        time_limit: float,
+        progress: Callable[[int], None] | None = None,
+    ) -> None:
         self._load, self._agent, self._time_limit = load, agent, time_limit
+        self._progress, self._flights = progress, 0
         self._worker: Worker | None = None
 
     def __enter__(self) -> "Flyer":
@@ -77,6 +87,9 @@ class Flyer:
 
     def fly_task(self, task: Task, most_seconds: float = math.inf) -> MissionResult:
         """The result of one mission; an ERROR where the process died or took too long."""
+        if self._progress is not None:
+            self._progress(self._flights)
+        self._flights += 1
         limit = min(self._time_limit, most_seconds)
         if self._worker is None:
             self._worker = SPARE.take(self._load, self._agent)

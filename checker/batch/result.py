@@ -1,6 +1,8 @@
-"""What is kept of one mission of a batch, and how it is written as JSON and read again."""
+"""What is kept of one mission of a batch, how it is packed for another process, written as JSON, and read again."""
 
+import io
 import json
+import pickle
 from collections.abc import Callable, Sequence
 from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
 from enum import Enum
@@ -65,9 +67,25 @@ def condense(outcome: Outcome) -> Outcome:
     return replace(outcome, events=(), draws=tuple(kept))
 
 
+def packed(value: object) -> bytes:
+    """A value for `Connection.send_bytes`; at the other end `Connection.recv` has it."""
+    buffer = io.BytesIO()
+    _Packer(buffer, pickle.HIGHEST_PROTOCOL).dump(value)
+    return buffer.getvalue()
+
+
+class _Packer(pickle.Pickler):
+    """Says a record by its class and values: what `dataclasses` does with frozen ones takes four times as long."""
+
+    def reducer_override(self, value: Any) -> Any:
+        """What makes `value`, and of what; NotImplemented leaves it to pickle."""
+        kind: Any = type(value)
+        return (kind, _fields(kind)[2](value)) if _is_made_of_fields(kind) else NotImplemented
+
+
 def write_result(result: MissionResult) -> str:
     """One line of JSON, the same for equal results."""
-    return _JSON.encode(_plain(result))
+    return _JSON.encode(_plain(result, {}))
 
 
 def read_result(text: str) -> MissionResult:
@@ -79,7 +97,7 @@ def read_result(text: str) -> MissionResult:
 
 def write_point(point: SamplePoint) -> str:
     """A point as a line of JSON."""
-    return _JSON.encode(_plain(point))
+    return _JSON.encode(_plain(point, {}))
 
 
 def read_point(text: str) -> SamplePoint:
@@ -89,30 +107,40 @@ def read_point(text: str) -> SamplePoint:
     return found
 
 
-def _plain(value: Any) -> Any:
-    """A value as JSON can say it: a dataclass as the fields that differ from their defaults, an enum by its value."""
+def _plain(value: Any, known: dict[int, Any]) -> Any:
+    """A value as JSON can say it: a dataclass as the fields that differ from their defaults, an enum by its value.
+
+    `known` has what records came to, by identity: conflicts name the same tokens and variables over and over.
+    """
     kind: Any = type(value)
     if kind in _ATOMS:
         return value
     if kind is tuple:
-        return [item if type(item) in _ATOMS else _plain(item) for item in value]
+        return [item if type(item) in _ATOMS else _plain(item, known) for item in value]
     if _is_record(kind):
-        found = {}
-        names, defaults, read = _fields(kind)
-        for name, default, item in zip(names, defaults, read(value), strict=True):
-            if item is default:
-                continue
-            if type(item) in _ATOMS:
-                if default != item:
-                    found[name] = item
-            elif default is MISSING or default is None or default != item:
-                found[name] = _plain(item)
+        found = known.get(id(value))
+        if found is None:
+            known[id(value)] = found = _plain_fields(kind, value, known)
         return found
     if kind is EventLog:
-        return write_trace(value, _plain)
+        return write_trace(value, lambda event: _plain(event, known))
     if isinstance(value, tuple):
-        return [_plain(item) for item in value]
+        return [_plain(item, known) for item in value]
     return value.value if isinstance(value, Enum) else value
+
+
+def _plain_fields(kind: Any, value: Any, known: dict[int, Any]) -> dict[str, Any]:
+    found = {}
+    names, defaults, read = _fields(kind)
+    for name, default, item in zip(names, defaults, read(value), strict=True):
+        if item is default:
+            continue
+        if type(item) in _ATOMS:
+            if default != item:
+                found[name] = item
+        elif default is MISSING or default is None or default != item:
+            found[name] = _plain(item, known)
+    return found
 
 
 def _read(kind: Any, value: Any) -> Any:
@@ -164,6 +192,14 @@ def _needed(kind: Any) -> set[str]:
 @cache
 def _is_record(kind: Any) -> bool:
     return is_dataclass(kind)
+
+
+@cache
+def _is_made_of_fields(kind: Any) -> bool:
+    """Whether a call with the values of its fields, in order, makes an equal value."""
+    if not is_dataclass(kind) or hasattr(kind, "__post_init__"):
+        return False
+    return all(one.init and not one.kw_only for one in fields(kind))
 
 
 def _is_enum(kind: Any) -> bool:

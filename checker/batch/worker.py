@@ -8,7 +8,8 @@ from functools import partial
 from multiprocessing.connection import Connection
 
 import runtime.build_form
-from checker.batch.result import MissionResult, condense
+from checker.batch.garbage import seldom_collected
+from checker.batch.result import MissionResult, condense, packed
 from checker.losses import losses_of
 from checker.oracle import USER_CODE, Judgement, Verdict, judge
 from checker.sampling.sampler import RANDOM_POINT, SamplePoint
@@ -70,10 +71,11 @@ def work(connection: Connection, load: Load, agent: AgentConfiguration) -> None:
             connection.send(LoadFailure(traceback.format_exc()))
             return
         connection.send(READY)
-        while (tasks := connection.recv()) is not None:
-            for task in tasks:
-                other = None if task.agent is None else (task.load or load)(task.agent)
-                connection.send(fly_one(other or fly, task))
+        with seldom_collected():
+            while (tasks := connection.recv()) is not None:
+                for task in tasks:
+                    other = None if task.agent is None else (task.load or load)(task.agent)
+                    connection.send_bytes(packed(fly_one(other or fly, task)))
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return  # the parent is gone
 

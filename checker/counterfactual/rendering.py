@@ -25,16 +25,16 @@ def claim_text(cause: RankedLine) -> str:
                 return f"{change}: {_passes(cause)}, but missions that passed fail"
             return f"{change}: {tried} pass then, the others do not"
         case Claim.EVADES:
-            less = "but it does less then" if cause.missions == 1 else "but they do less then"
+            less = "but it does less" if cause.missions == 1 else "but they do less"
             return f"{change}: {_passes(cause)}, {less}"
         case Claim.LOOSE_END:
-            return f"hardly a line of this rule speaks of `{cause.variable}`: one may be missing (nothing was flown)"
+            return f"hardly a line of this rule speaks of `{cause.variable}`: one may be missing (no flight can tell)"
         case Claim.UNEVEN:
-            return f"one branch sets `{cause.variable}`, the other does not: a line may be missing (nothing was flown)"
+            return f"one branch sets `{cause.variable}`, the other does not: a line may be missing (no flight can tell)"
         case Claim.UNREAD:
-            return f"nothing reads `{cause.variable}`: a line that does may be missing here (nothing was flown)"
+            return f"nothing reads `{cause.variable}`: a line that does may be missing here (no flight can tell)"
         case Claim.UNSET:
-            return f"nothing says what `{cause.variable}` is: a line that does may be missing (nothing was flown)"
+            return f"nothing says what `{cause.variable}` is: a line that does may be missing (no flight can tell)"
         case _:
             assert_never(cause.claim)
 
@@ -49,8 +49,8 @@ def cause_text(causes: Causes) -> str:
 def _change_text(change: SmallEdit) -> str:
     """A change as what to do."""
     if not change.new.strip():
-        return "without it"
-    return f"with `{_short(change.new)}` for `{_short(change.old)}`"
+        return "leave it out"
+    return f"change `{_short(change.old)}` to `{_short(change.new)}`"
 
 
 def effort_text(causes: Causes) -> str:
@@ -104,8 +104,8 @@ def causes_data(causes: Causes) -> dict[str, Any]:
 
 def _passes(cause: RankedLine) -> str:
     if cause.missions == 1:
-        return "the mission passes"
-    return f"{'both' if cause.missions == 2 else f'all {cause.missions}'} failed missions tried pass"
+        return "the mission passes then"
+    return f"{'both' if cause.missions == 2 else f'all {cause.missions}'} failed missions tried pass then"
 
 
 def _short(text: str) -> str:

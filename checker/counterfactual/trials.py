@@ -13,7 +13,7 @@ from enum import StrEnum
 from itertools import count
 
 from checker.batch.result import MissionResult
-from checker.counterfactual.candidates import Candidate
+from checker.counterfactual.candidates import Candidate, Suspicion
 from checker.counterfactual.smallness import Usage, alternatives, cost_of, delay_of, follow_ups, is_loosening
 from checker.coverage import left_out
 from checker.losses import GoalFate
@@ -141,7 +141,7 @@ def try_out(
 ) -> Trials:
     """Try changes of the candidates on the first of the failed missions, and the best ones on the other missions.
 
-    What is to be tried `last` is where no small change of others has helped.
+    What is to be tried `last` is where no small change of others has helped, or where the conflict speaks of it.
     """
     failed = missions.failed
     trials = _Trials(missions, fly, bounds)
@@ -161,7 +161,8 @@ def try_out(
     tried: set[tuple[EditSite, SmallEdit]] = set()
     outside = [(candidate, edit) for candidate in last for edit in candidate.site.edits]
     outside = [one for one in outside if delay_of(one[1], one[0].site, usage) is None][:_MOST_OUTSIDE]
-    while queue and trials.may_go_on(reserve + (0 if _has_small(best) else len(outside))):
+    spoken = sum(candidate.source is Suspicion.CONFLICT for candidate, _ in outside)
+    while queue and trials.may_go_on(reserve + (spoken if _has_small(best) else len(outside))):
         at, _, candidate, edit = heapq.heappop(queue)
         site = candidate.site
         cost = cost_of(edit, site, usage)
@@ -179,8 +180,9 @@ def try_out(
         for other in follow_ups(edit, site, usage) if trial.damage < HEAVY else ():
             heapq.heappush(queue, (at * _FOLLOWED, next(order), candidate, other))
     trials.resume()
-    for candidate, edit in () if _has_small(best) else outside:
-        if trials.may_go_on(reserve):
+    has_small = _has_small(best)
+    for candidate, edit in outside:
+        if (candidate.source is Suspicion.CONFLICT or not has_small) and trials.may_go_on(reserve):
             tried.add((candidate.site, edit))
             result = trials.fly(edit, failed[0])
             if result.verdict is Verdict.PASS:

@@ -110,6 +110,9 @@ class SymbolNumbers:
         if not given.has_open:
             return Column(kind, numbers)
         is_open = np.isnan(numbers)
+        if not is_open.any():  # of the rows of this part all are known
+            numbers = numbers if kind == FLOAT else numbers.astype(np.int64)
+            return Column(kind, self._numbers[numbers] if kind == TEXT else numbers)
         if kind == TEXT:
             known = np.where(is_open, 0, numbers).astype(np.int64)
             return Column(kind, self._numbers[known], None, is_open)

@@ -309,7 +309,9 @@ def _judge_branches(frame: RowFrame, reached: GuardRows, condition: Column) -> N
     for part in reached:
         rows = slice(None) if part.rows is None else part.rows
         if part.branch != "waiting":
-            right[rows] = np.broadcast_to(yes if part.branch == "then" else no, tally.count)[rows]
+            reached_here = np.zeros(tally.count, bool)
+            reached_here[rows] = True
+            right |= reached_here & (yes if part.branch == "then" else no)
         elif part.is_decided:
             tally.holds[rows] = False
         else:

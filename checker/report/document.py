@@ -95,7 +95,7 @@ def _fault(fault: Fault, excerpts: Excerpts) -> dict[str, Any]:
     return {
         "code": bucket.code,
         "meaning": CODE_NAMES.get(bucket.code),
-        "reason": failure_text(bucket.judgement, bucket.open_goals),
+        "reason": failure_text(bucket.judgement, bucket.open_goals, bucket.refusal),
         "reactor": bucket.reactor,
         "place": place_data(culprit.place, excerpts),
         "because": element_text(culprit.element) if culprit.element is not None else "",

@@ -1,6 +1,7 @@
 """Findings in, workflow commands of GitHub Actions out: each fault and each lost goal becomes a mark at its line."""
 
 from checker.conditions.rendering import condition_claim
+from checker.counterfactual.rendering import cause_text
 from checker.excerpts import Excerpts
 from checker.findings import Findings
 from checker.rendering import failure_text
@@ -18,7 +19,8 @@ def github_report(findings: Findings, excerpts: Excerpts) -> str:
     lines = []
     for index, fault in enumerate(findings.faults[:_MOST_MARKS]):
         bucket = fault.bucket
-        text = [failure_text(bucket.judgement, bucket.open_goals)]
+        text = [failure_text(bucket.judgement, bucket.open_goals, bucket.refusal)]
+        text += [f"cause: {cause_text(fault.causes)}"] if fault.causes.is_sought else []
         text += [f"fails {condition_claim(fault.condition)}"] if fault.condition is not None else []
         text.append(explained_by(findings, bucket.example))
         where = next(iter(fault.places), SourcePlace(findings.mission.source.name, 1, 1, ""))

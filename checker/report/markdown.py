@@ -1,6 +1,7 @@
 """Findings in, a page of Markdown out, for the summary of a CI job."""
 
 from checker.conditions.rendering import condition_claim
+from checker.counterfactual.rendering import cause_text
 from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.rendering import failure_text
@@ -52,7 +53,9 @@ def markdown_report(findings: Findings, excerpts: Excerpts) -> str:
 
 def _fault(fault: Fault, findings: Findings, excerpts: Excerpts) -> list[str]:
     bucket = fault.bucket
-    lines = [_plain(failure_text(bucket.judgement, bucket.open_goals)) + "."]
+    lines = [_plain(failure_text(bucket.judgement, bucket.open_goals, bucket.refusal)) + "."]
+    if fault.causes.is_sought:
+        lines += ["", f"Cause: {_plain(cause_text(fault.causes))}."]
     places = fault.places
     if places:
         lines += ["", "```", *(f"{excerpts.path(place)}: {excerpts.line(place).strip()}" for place in places), "```"]

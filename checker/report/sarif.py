@@ -3,6 +3,7 @@
 from typing import Any
 
 from checker.conditions.rendering import condition_claim
+from checker.counterfactual.rendering import cause_text
 from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.oracle import CODE_NAMES
@@ -21,8 +22,9 @@ def sarif_report(findings: Findings, excerpts: Excerpts) -> str:
 
 def _result(fault: Fault, findings: Findings, excerpts: Excerpts) -> dict[str, Any]:
     bucket = fault.bucket
-    why = failure_text(bucket.judgement, bucket.open_goals)
+    why = failure_text(bucket.judgement, bucket.open_goals, bucket.refusal)
     parts = [f"{missions(len(bucket.missions))} ({percent(bucket.share)}) fail here: {why}."]
+    parts += [f"Cause: {cause_text(fault.causes)}."] if fault.causes.is_sought else []
     parts += [f"Fails {condition_claim(fault.condition)}."] if fault.condition is not None else []
     parts.append(f"Explained by {explained_by(findings, bucket.example, '`')}.")
     where = next(iter(fault.places), SourcePlace(findings.mission.source.name, 1, 1, ""))

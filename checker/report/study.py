@@ -14,6 +14,13 @@ from checker.study.reading import StudyFile
 _PANELS = (("(a) drawn once per mission", "inter"), ("(b) redrawn every few ticks", "intra"))
 _COLOURS = {"uniform": "f3", "normal": "f1"}
 _LEFT, _TOP, _HEIGHT, _BAR, _GAP = 58.0, 34.0, 200.0, 18.0, 20.0
+_FOOT = 60.0  # below a panel: names and counts
+_STYLE = """<style>
+svg { background: #fff; } text { font: 11.5px system-ui, "DejaVu Sans", sans-serif; fill: #555; }
+text.name { fill: #111; font-size: 12.5px; } .f3 { fill: #0f8b8d; } .f1 { fill: #d9822b; } .f2 { fill: #7a4fd0; }
+.grid { stroke: #bbb; stroke-dasharray: 2 4; } .whisker { stroke: #111; stroke-width: 1.2; }
+.wanted { fill: #fff; stroke: #111; } .sample { fill: #c02f37; stroke: #fff; }
+</style>"""
 
 
 def study_text(study: StudyFile, cells: Sequence[StudyCell]) -> str:
@@ -30,8 +37,8 @@ def study_text(study: StudyFile, cells: Sequence[StudyCell]) -> str:
     contained = [one for one in cells if one.beyond is not None and one.failures]
     for one in contained:
         lines.append(
-            f"  {one.variant.name}, {one.sampling}: {one.beyond} of {one.failures} failures are none of "
-            f"{one.variant.beyond} with the same seed"
+            f"  {one.variant.name}, {one.sampling}: of {one.apart} missions that pass with {one.variant.beyond}, "
+            f"{one.beyond} fail: {percent(one.own_rate)}"
         )
     errors = sum(one.errors for one in cells)
     missing = sum(max(0, one.planned - one.missions - one.errors) for one in cells)
@@ -85,6 +92,7 @@ def study_data(study: StudyFile, cells: Sequence[StudyCell]) -> str:
                 "is_expected": one.is_expected(study.corridor),
                 "codes": dict(one.codes),
                 "beyond": one.beyond,
+                "apart": one.apart,
                 "failed_seeds": [seed for seed, fails in one.failed if fails],
             }
             for one in cells
@@ -95,15 +103,23 @@ def study_data(study: StudyFile, cells: Sequence[StudyCell]) -> str:
 
 
 def study_svg(study: StudyFile, cells: Sequence[StudyCell]) -> str:
-    """Figure 12: bars with intervals, a panel per mode, a pair of bars per variant."""
+    """Figure 12 as a file of its own, which any viewer of pictures shows."""
+    return _figure(study, cells, 'xmlns="http://www.w3.org/2000/svg" ', _STYLE)
+
+
+def _figure(study: StudyFile, cells: Sequence[StudyCell], names: str = "", style: str = "") -> str:
+    """Figure 12: bars with intervals and expected rates, a panel per mode, a pair of bars per variant."""
     panels = [one for one in _PANELS if any(sampling.endswith(one[1]) for sampling in study.samplings)]
     shapes = list(dict.fromkeys(sampling.split()[0] for sampling in study.samplings))
     group = _BAR * len(shapes) + _GAP
     width = _LEFT + group * len(study.variants) + 20.0
-    height = len(panels) * (_HEIGHT + _TOP + 46.0) + 24.0
-    parts = [f'<svg viewBox="0 0 {width:.0f} {height:.0f}" role="img" aria-label="failed missions by sampling">']
+    height = len(panels) * (_HEIGHT + _TOP + _FOOT) + 24.0
+    parts = [
+        f'<svg {names}viewBox="0 0 {width:.0f} {height:.0f}" role="img" '
+        f'aria-label="failed missions by sampling">{style}'
+    ]
     for index, (caption, mode) in enumerate(panels):
-        top = index * (_HEIGHT + _TOP + 46.0) + _TOP
+        top = index * (_HEIGHT + _TOP + _FOOT) + _TOP
         parts.append(f'<text class="name" x="{_LEFT:.0f}" y="{top - 14:.0f}">{escape(caption)}</text>')
         for tick in range(0, 101, 20):
             y = top + _HEIGHT * (1 - tick / 100)
@@ -116,6 +132,11 @@ def study_svg(study: StudyFile, cells: Sequence[StudyCell]) -> str:
                 f'<text class="tick" x="{middle:.1f}" y="{top + _HEIGHT + 17:.1f}" text-anchor="middle">'
                 f"{escape(variant.name)}</text>"
             )
+            counts = [one.missions for one in cells if one.variant.name == variant.name and one.sampling.endswith(mode)]
+            parts.append(
+                f'<text class="tick" x="{middle:.1f}" y="{top + _HEIGHT + 32:.1f}" text-anchor="middle">'
+                f"{_count_text(counts)}</text>"
+            )
             for place, shape in enumerate(shapes):
                 wanted = (variant.name, f"{shape} {mode}")
                 cell = next((one for one in cells if (one.variant.name, one.sampling) == wanted), None)
@@ -126,7 +147,18 @@ def study_svg(study: StudyFile, cells: Sequence[StudyCell]) -> str:
         x = _LEFT + place * 110.0
         parts.append(f'<rect class="{_COLOURS.get(shape, "f2")}" x="{x:.0f}" y="{y - 10:.0f}" width="12" height="12"/>')
         parts.append(f'<text class="name" x="{x + 18:.0f}" y="{y:.0f}">{shape}</text>')
+    if any(one.variant.expected.get(one.sampling) is not None for one in cells):
+        x = _LEFT + len(shapes) * 110.0
+        points = f"{x + 6:.0f},{y - 9:.0f} {x + 10:.0f},{y - 4:.0f} {x + 6:.0f},{y + 1:.0f} {x + 2:.0f},{y - 4:.0f}"
+        parts.append(f'<polygon class="wanted" points="{points}"/>')
+        parts.append(f'<text class="name" x="{x + 18:.0f}" y="{y:.0f}">expected</text>')
     return "\n".join([*parts, "</svg>"]) + "\n"
+
+
+def _count_text(counts: Sequence[int]) -> str:
+    """How many missions the bars of a pair rest on."""
+    least, most = min(counts, default=0), max(counts, default=0)
+    return f"n={least}" if least == most else f"n={least}-{most}"
 
 
 def _bar(cell: StudyCell, study: StudyFile, x: float, top: float, colour: str) -> list[str]:
@@ -143,7 +175,19 @@ def _bar(cell: StudyCell, study: StudyFile, x: float, top: float, colour: str) -
             f'<line class="whisker" x1="{middle - 4:.1f}" x2="{middle + 4:.1f}" y1="{end:.1f}" y2="{end:.1f}"/>'
             for end in ends
         ),
+        *_expected_mark(cell, study, middle, top),
     ]
+
+
+def _expected_mark(cell: StudyCell, study: StudyFile, middle: float, top: float) -> list[str]:
+    """A diamond at the expected rate, red where the seen one is too far from it."""
+    wanted = cell.variant.expected.get(cell.sampling)
+    if wanted is None:
+        return []
+    y = top + _HEIGHT * (1 - wanted)
+    kind = "sample" if cell.is_expected(study.corridor) is False else "wanted"
+    points = f"{middle:.1f},{y - 5:.1f} {middle + 4:.1f},{y:.1f} {middle:.1f},{y + 5:.1f} {middle - 4:.1f},{y:.1f}"
+    return [f'<polygon class="{kind}" points="{points}"><title>expected: {percent(wanted)}</title></polygon>']
 
 
 def study_page(study: StudyFile, cells: Sequence[StudyCell]) -> str:
@@ -167,7 +211,7 @@ def study_page(study: StudyFile, cells: Sequence[StudyCell]) -> str:
                 f'<p class="soft">% of missions that failed, with exact {number(study.confidence * 100)} % intervals; '
                 "* lies outside of what is expected.</p>",
                 '<div class="scroll figure">',
-                study_svg(study, cells),
+                _figure(study, cells),
                 "</div>",
                 f'<h2>What finds which mistake</h2><ul class="evidence">{found}</ul>',
                 f'<div class="scroll"><table><thead><tr><th>variant</th>{head}</tr></thead><tbody>',

@@ -4,7 +4,7 @@ from checker.conditions.rendering import condition_lines
 from checker.counterfactual.rendering import cause_text
 from checker.excerpts import Excerpts
 from checker.explain import excerpt_lines
-from checker.findings import Findings
+from checker.findings import Fault, Findings
 from checker.rendering import confirmation_text, failure_text
 from checker.report.losses import damage_words, loss_lines
 from checker.report.sentences import (
@@ -19,6 +19,7 @@ from checker.report.sentences import (
     stop_line,
 )
 from checker.sampling.rendering import describe
+from runtime.executive.outcome import SourcePlace
 
 _MOST_FAULTS = 5
 _MOST_ERRORS = 3
@@ -39,11 +40,12 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
         lines += [
             "",
             f"{index + 1}. {fault_title(findings, index)}",
-            f"   {failure_text(bucket.judgement, bucket.open_goals)}",
+            f"   {failure_text(bucket.judgement, bucket.open_goals, bucket.refusal)}",
         ]
         lines += [f"   cause: {cause_text(fault.causes)}"] if fault.causes.is_sought else []
         for number, place in enumerate(fault.places):
-            lines += excerpt_lines(place, excerpts, marked=number == 0, indent="   ")
+            about = _role(place, fault)
+            lines += excerpt_lines(place, excerpts, marked=number == 0, indent="   ", about=about)
         lines += condition_lines(fault.condition, "   ") if fault.condition is not None else []
         if fault.confirmation is not None:
             lines.append(f"   z3 {confirmation_text(fault.confirmation, fault.condition)}")
@@ -55,3 +57,10 @@ def text_report(findings: Findings, excerpts: Excerpts) -> str:
         for error in findings.errors[:_MOST_ERRORS]:
             lines.append(f"   mission {error.number} (seed {error.seed}): {failure_text(error.judgement)}")
     return "\n".join(lines) + "\n"
+
+
+def _role(place: SourcePlace, fault: Fault) -> str:
+    """What a place is where it is not the likeliest cause itself."""
+    if fault.causes.first is not None and place == fault.places[0]:
+        return ""
+    return "where it breaks" if place == fault.bucket.culprit.place else "where its limit is set"

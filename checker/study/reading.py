@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from checker.codes import NO_FILE, NOT_TOML, OUT_OF_RANGE, TWICE
-from checker.mission import LARGEST_SEED
+from checker.mission import LARGEST_SEED, MOST_MISSIONS
 from checker.mission_table import MissionText, Table
 from nddl_lang.text.diagnostic import Diagnostic
 from nddl_lang.text.read import read_source
@@ -68,19 +68,17 @@ def read_study(path: Path) -> tuple[StudyFile | None, tuple[Diagnostic, ...]]:
     text = MissionText(source, find_places(source.text))
     top = Table(text, (), values, "a study file")
     head = top.table("study", "[study]", needed=True)
-    missions = head.whole("missions", 200, 1)
+    missions = head.whole("missions", 200, 1, MOST_MISSIONS)
     distributions = _chosen(head, "distributions", _DISTRIBUTIONS)
     modes = _chosen(head, "modes", _MODES)
     samplings = tuple(f"{shape} {mode}" for mode in modes for shape in distributions)
     mission = head.string("mission")
     variants = _read_variants(top.tables("variant", needed=True), path.parent, samplings, missions)
     study = StudyFile(
-        head.string("name"), path.parent, mission, head.whole("seed", 0, 0), missions,
+        head.string("name"), path.parent, mission, head.whole("seed", 0, 0, LARGEST_SEED), missions,
         head.number("confidence", 0.95, 0.5, 0.999999), head.number("corridor", 0.08, 0.0, 1.0),
         head.number("time_limit", 600.0, 0.001), samplings, variants,
     )  # fmt: skip
-    if study.seed > LARGEST_SEED:
-        head.complain_of_value("seed", study.seed, f"at most {LARGEST_SEED}")
     if mission and not (path.parent / mission).is_file():
         text.diagnostics.append(NO_FILE.at(text.value_span(("study", "mission")), path=mission))
     head.close()
@@ -125,7 +123,9 @@ def _read_variants(tables: list[Table], root: Path, samplings: tuple[str, ...], 
             table.text.diagnostics.append(NO_FILE.at(span, path=file))
         elif file:
             title, edits = _read_bug(table, root, file, title)
-        variants.append(Variant(name, title, edits, expected, table.whole("missions", missions, 1), beyond))
+        variants.append(
+            Variant(name, title, edits, expected, table.whole("missions", missions, 1, MOST_MISSIONS), beyond)
+        )
         table.close()
     return tuple(variants)
 

@@ -2,6 +2,7 @@
 
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
@@ -146,7 +147,15 @@ class _Reader:
             if path.is_file():
                 yield ProjectModule(path, self._span((*key, index)))
             else:
-                self._wrong((*key, index), item, "a Python file, seen from this file")
+                self._wrong((*key, index), item, "a Python file, seen from this file", self._file_meant(item))
+
+    def _file_meant(self, name: str) -> str | None:
+        """The Python file of that folder that a name was meant to be."""
+        folder = (self._directory / name).parent
+        with suppress(OSError, ValueError):
+            close = nearest(Path(name).name, sorted(each.name for each in folder.glob("*.py")))
+            return None if close is None else Path(name).with_name(close).as_posix()
+        return None
 
     def _weights(self, key: Key, value: Any) -> Iterator[tuple[str, Severity | None]]:
         if not isinstance(value, dict):
@@ -173,8 +182,9 @@ class _Reader:
         self._wrong(key, key[-1], "a list of texts")
         return []
 
-    def _wrong(self, key: Key, name: str | int, wanted: str) -> None:
-        self.complaints.append(WRONG_VALUE.at(self._span(key), key=name, wanted=wanted))
+    def _wrong(self, key: Key, name: str | int, wanted: str, meant: str | None = None) -> None:
+        help_ = None if meant is None else f"did you mean `{meant}`?"
+        self.complaints.append(WRONG_VALUE.at(self._span(key), help=help_, key=name, wanted=wanted))
 
     def _unknown(self, key: Key, name: str, known: dict[str, Any]) -> None:
         span = self._span(key, of_key=True)

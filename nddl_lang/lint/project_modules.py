@@ -12,6 +12,7 @@ from nddl_lang.text.read import read_text
 from nddl_lang.text.source import Anchor, Source, Span
 
 _HELP = "`--trust` runs it; in an editor, trust the workspace"
+_REFUSED = "every command that runs it ends with that: mend the module"
 
 
 def read_callables(
@@ -35,18 +36,18 @@ def read_callables(
             try:
                 described(native, [*found, (module.path.as_posix(), description)])
             except DescriptionError as problem:
-                gaps.append(_gap(module, source, Gap(1, str(problem))))
+                gaps.append(_gap(module, source, Gap(1, str(problem)), _REFUSED))
             else:
                 found.append((module.path.as_posix(), description))
     callables = described(native, found)
     return (replace(callables, has_gaps=True) if gaps else callables), tuple(gaps)
 
 
-def _gap(module: ProjectModule, source: Source, gap: Gap) -> Diagnostic:
+def _gap(module: ProjectModule, source: Source, gap: Gap, help_: str = _HELP) -> Diagnostic:
     lines = source.text.splitlines(keepends=True)
     begin = sum(len(line) for line in lines[: gap.line - 1])
     finish = begin + len(lines[gap.line - 1].rstrip()) if gap.line <= len(lines) else begin
     note = Note("here", Span(Anchor(source), begin, finish)) if lines else None
     return UNREAD_MODULE.at(
-        module.span, help=_HELP, notes=() if note is None else (note,), path=module.path.name, reason=gap.reason
+        module.span, help=help_, notes=() if note is None else (note,), path=module.path.name, reason=gap.reason
     )

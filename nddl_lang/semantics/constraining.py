@@ -42,6 +42,16 @@ def check_call_constraint(context: Context, scope: Scope, node: CallConstraint) 
         check_types(context, name, row.signature, node.arguments, types)
 
 
+# What comparisons are called elsewhere, without `_`.
+_COMPARISONS = {
+    **dict.fromkeys(("geq", "ge", "gte", "greaterthanequal", "greaterorequal", "greaterthaneq"), ">="),
+    **dict.fromkeys(("gt", "greaterthan", "greater"), ">"),
+    **dict.fromkeys(("le", "lte", "lessthanequal", "lessorequal", "lessthaneq"), "<="),
+    **dict.fromkeys(("ne", "noteq", "notequal", "notequals"), "!="),
+    **dict.fromkeys(("equals", "equalto"), "=="),
+}
+
+
 def _is_parameter(row: ConstraintRow, index: int) -> bool:
     argument = row.signature.argument(index)
     return argument is not None and argument.kind is ArgumentKind.PARAMETER
@@ -55,6 +65,13 @@ def _complain_unknown(context: Context, node: CallConstraint) -> None:
         context.complain(FORMER_CONSTRAINT.at(node.name.span, fixes=(fix,), name=name, today=today))
         return
     complaint = UNKNOWN_CONSTRAINT.at(node.name.span, name=name)
+    sign = _COMPARISONS.get(name.casefold().replace("_", ""))
+    if sign is not None and len(node.arguments) == 2:
+        left, right = (each.span.text for each in node.arguments)
+        meant = f"{left} {sign} {right};"
+        fix = Fix(f"write `{meant}`", (Edit(node.span, meant),), safe=False)
+        context.complain(UNKNOWN_CONSTRAINT.at(node.name.span, fixes=(fix,), name=name))
+        return
     if name in FORMER_CONSTRAINTS:
         complaint = UNKNOWN_CONSTRAINT.at(
             node.name.span, help="write it as an expression, such as `a + b <= c`", name=name

@@ -25,6 +25,7 @@ from nddl_lang.semantics.schema import (
     EnumValue,
     GlobalReference,
     Kind,
+    TokenReference,
     TokenVariableReference,
     Type,
 )
@@ -154,9 +155,11 @@ def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, rig
         return
     if not comparable(left, right, context.symbols.is_subclass):
         differing = binary.op == "!=" and always_differ(left, right)
+        fixes = (*_parameter_meant(context, binary.left, right), *_parameter_meant(context, binary.right, left))
         context.complain(
             (ALWAYS_DIFFERENT if differing else INCOMPARABLE).at(
                 binary.span,
+                fixes=fixes,
                 left=binary.left.span.text,
                 one=phrase(left),
                 right=binary.right.span.text,
@@ -166,6 +169,20 @@ def _check_equality(context: Context, binary: BinaryExpr, left: Type | None, rig
     for total, time in ((binary.left, binary.right), (binary.right, binary.left)):
         if _is_time(context, time) and _is_sum_of_times(context, total):
             context.complain(SUM_OF_TIMES.at(total.span, help="add a duration or a distance to a time instead"))
+
+
+def _parameter_meant(context: Context, token: Expr, other: Type) -> tuple[Fix, ...]:
+    """Where a token stands for its state: the one parameter of its predicate that may be equal to the other side."""
+    reference = context.tables.references.get(token)
+    if not isinstance(reference, TokenReference):
+        return ()
+    is_subclass = context.symbols.is_subclass
+    parameters = reference.label.predicate.parameters
+    names = [one.name for one in parameters if one.type is not None and comparable(one.type, other, is_subclass)]
+    if len(names) != 1:
+        return ()
+    text = f"{token.span.text}.{names[0]}"
+    return (Fix(f"write `{text}`", (Edit(token.span, text),), safe=False),)
 
 
 def _is_time(context: Context, expression: Expr) -> bool:

@@ -1,6 +1,7 @@
 """Check what creates tokens and relates them: instances such as `object.p q`, and relations."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from nddl_lang.semantics.codes import (
     DUPLICATE_TOKEN,
@@ -127,8 +128,8 @@ def _check_instance(context: Context, scope: Scope, instance: Instance) -> Label
     """Check what `object.p q` creates and let its name be known; its label, None where it has none."""
     target = _find_target(context, scope, instance.path)
     if target is None:
-        if instance.name is not None:
-            _doubt(context, scope, instance.name)
+        if instance.name is not None or len(instance.path.parts) == 1:
+            _doubt(context, scope, instance.name or instance.path.parts[0])
         return None
     predicate, source = target
     label = None
@@ -174,8 +175,15 @@ def _find_token(context: Context, scope: Scope, name: Identifier) -> Label | Non
         elif scope.kind is BlockKind.SCRIPT:
             context.complain(suggest_name(complaint, name, [*scope.visible_labels(), *context.symbols.names("goal")]))
         else:
-            context.complain(suggest_name(complaint, name, scope.visible_labels()))
+            labels = scope.visible_labels()
+            alike = [label for label in labels if _is_of(scope.find_label(label), name.name)]
+            context.complain(suggest_name(complaint, name, labels, alike[0] if len(alike) == 1 else None))
     return None
+
+
+def _is_of(label: Label | None, predicate: str) -> bool:
+    """Whether a token is one of a predicate, whose name people write for it."""
+    return label is not None and label.predicate.name.casefold() == predicate.casefold()
 
 
 def find_predicate(context: Context, owner: Class, name: Identifier, *, is_bare: bool = False) -> Predicate | None:
@@ -197,7 +205,11 @@ def find_predicate(context: Context, owner: Class, name: Identifier, *, is_bare:
             complaint = UNKNOWN_PREDICATE.at(
                 name.span, notes=notes, help=help_, fixes=fixes, owner=owner.name, name=name.name
             )
-        context.complain(suggest_name(complaint, name, [*owner.predicates, *owner.inherited]))
+        complaint = suggest_name(complaint, name, [*owner.predicates, *owner.inherited])
+        if is_bare and complaint.help is None:
+            help_ = "the name of a token follows its predicate without a comma: `object.predicate name`"
+            complaint = replace(complaint, help=help_)
+        context.complain(complaint)
     return found
 
 

@@ -89,6 +89,7 @@ def _complain_missing(
     complaint: Diagnostic = code.at(name.span, name=word)
     if (below := context.symbols.declared_below(word)) is not None:
         note = Note(f"`{word}` is declared here; statements run in order", below)
-        context.complain(code.at(name.span, notes=(note,), name=word))
+        same = [each for each in candidates if each.casefold() == word.casefold() and each != word]
+        context.complain(suggest_name(code.at(name.span, notes=(note,), name=word), name, same, meant))
         return
     context.complain(suggest_name(complaint, name, candidates, meant))

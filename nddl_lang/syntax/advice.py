@@ -14,7 +14,7 @@ _OPERATORS = {
     "and": "write `&&`, or one constraint per statement",
     "or": "write `||`",
     "not": "turn the comparison round, as in `x <= 5`, or write `x == false`",
-    "then": "what follows a condition stands in braces: `if (x > 5) { }`",
+    "then": "there is no `then`: what follows a condition stands in braces, `if (x > 5) { }`",
     "elif": "write `else { if (...) { } }`",
     "is": "write `==`",
 }

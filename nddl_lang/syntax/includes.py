@@ -9,8 +9,8 @@ from nddl_lang.syntax.codes import INCLUDE_AGAIN, INCLUDE_CYCLE, MISSING_FILE, N
 from nddl_lang.syntax.dialect import Dialect, declared_dialect
 from nddl_lang.syntax.nodes import ClassDecl, Include, Module, Statement
 from nddl_lang.syntax.parser import Parse, parse, parse_members
+from nddl_lang.syntax.roots import model_meant
 from nddl_lang.text.diagnostic import Diagnostic, Edit, Fix, Note
-from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import decode, is_text, read_named, read_text, real_path
 from nddl_lang.text.source import Anchor, Source, Span
 
@@ -193,11 +193,7 @@ class _Loader:
 
     def _meant(self, name: str) -> str | None:
         """The model beside the including text, or of the library, that a name was meant to be."""
-        folder = self.paths[self._read[self._chain[-1][0]]].parent / Path(name).parent
-        found = [*_models_in(folder), *(_models_in(LIBRARY) if Path(name).name == name else ())]
-        stems = [path.stem for path in found]
-        meant = Path(name).stem if Path(name).stem in stems else nearest(Path(name).stem, stems)
-        return None if meant is None else str(Path(name).with_name(f"{meant}.nddl"))
+        return model_meant(name, self.paths[self._read[self._chain[-1][0]]].parent, LIBRARY)
 
     def _report(self, diagnostic: Diagnostic) -> None:
         self.diagnostics += self._with_chain((diagnostic,))
@@ -208,11 +204,3 @@ class _Loader:
         if not notes:
             return list(diagnostics)
         return [replace(diagnostic, notes=diagnostic.notes + notes) for diagnostic in diagnostics]
-
-
-def _models_in(folder: Path) -> list[Path]:
-    """The models in a folder, in the order of their names; none where it cannot be read."""
-    try:
-        return sorted(path for path in folder.iterdir() if path.suffix == ".nddl")
-    except (OSError, ValueError):
-        return []

@@ -41,6 +41,8 @@ def _meant(name: str, words: list[str]) -> str | None:
     if len(begun) == 1:  # `contained(...)`: the other half was forgotten
         return begun[0]
     word = nearest(name, words)
+    if word is None and (other := nearest(name, [each for each in ELSEWHERE if len(each) > _SHORT])) is not None:
+        return ELSEWHERE[other] if ELSEWHERE[other] in words else None
     if word is None or (len(name) <= _SHORT and sorted(name.casefold()) != sorted(word)):
         return None
     return word

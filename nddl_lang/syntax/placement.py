@@ -26,6 +26,7 @@ from nddl_lang.syntax.nodes import (
     TypedefDecl,
     VariableDecl,
 )
+from nddl_lang.syntax.words import RELATIONS
 from nddl_lang.text.diagnostic import Edit, Fix
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.source import Span
@@ -164,6 +165,11 @@ def _misplaced(b: Builder, statement: Any, block: BlockGrammar) -> BrokenStateme
         help_text = "a constructor gives members their values: write `member = value;`"
     elif isinstance(statement, Assignment) and block is CLASS:
         help_text = "put it into a constructor"
+    elif isinstance(statement, MethodCall) and block is RULE and statement.method.name in RELATIONS:
+        arguments = ", ".join(each.span.text for each in statement.arguments)
+        meant = f"{statement.target.span.text} {statement.method.name} {arguments};"
+        help_text = f"a relation stands between its tokens: `{meant}`"
+        fixes = (Fix(f"write `{meant}`", (Edit(span, meant),), safe=False),)
     elif isinstance(statement, Relation):
         help_text = "put it into a rule: `Class::predicate { ... }`"
     elif isinstance(statement, VariableDecl) and block is CONSTRUCTOR:

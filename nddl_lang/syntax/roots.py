@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import read_text, real_path
 
 _INCLUDE = re.compile(r'^[ \t]*#include[ \t]*"([^"\n]+)"', re.MULTILINE)
@@ -65,6 +66,8 @@ def _included(file: Path, directories: Sequence[Path]) -> list[Path]:
     for name in _INCLUDE.findall(_text(file)):
         places = (place / name for place in (file.parent, *directories) if "\0" not in name)
         target = next((real_path(path) for path in places if path.is_file()), None)
+        if target is None and "\0" not in name and (meant := model_meant(name, file.parent)):
+            target = real_path(file.parent / meant)  # a misspelt include makes no model of its own of what was meant
         if target is not None and target != real_path(file):
             found.append(target)
     return found
@@ -75,3 +78,24 @@ def _text(file: Path) -> str:
         return read_text(file) or ""
     except OSError:
         return ""
+
+
+def model_meant(name: str, folder: Path, library: Path | None = None) -> str | None:
+    """The model in the folder of an including text, or of the library, that the name of a missing file stands for."""
+    try:
+        found = _models_in(folder / Path(name).parent)
+    except ValueError:  # a name that no file can have
+        return None
+    if library is not None and Path(name).name == name:
+        found += _models_in(library)
+    stems = [path.stem for path in found]
+    meant = Path(name).stem if Path(name).stem in stems else nearest(Path(name).stem, stems)
+    return None if meant is None else str(Path(name).with_name(f"{meant}.nddl"))
+
+
+def _models_in(folder: Path) -> list[Path]:
+    """The models in a folder, in the order of their names; none where it cannot be read."""
+    try:
+        return sorted(path for path in folder.iterdir() if path.suffix == ".nddl")
+    except (OSError, ValueError):
+        return []

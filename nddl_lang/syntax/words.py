@@ -60,6 +60,8 @@ ELSEWHERE = {
     "during": "contained_by",
     "finishes": "ends",
     "precedes": "before",
+    "includes": "contains",
+    "encloses": "contains",
     "follows": "after",
     "coincides": "equals",
     "then": "meets",

@@ -289,7 +289,8 @@ class Engine(Store):
 
     def constraints_of(self, v: int) -> list[int]:
         """List the constraints on a variable that is no constant."""
-        return list(dict.fromkeys(watchers_of(self, v)))
+        found = watchers_of(self, v)
+        return found if len(found) < 2 else list(dict.fromkeys(found))
 
     def edges_of(self, v: int) -> list[int]:
         """List the edges of a variable."""

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from runtime.executive.messages import Observation, Request
 from runtime.executive.outcome import Phase
 from runtime.executive.plan_reactor import PlanReactor
+from runtime.executive.reactor import Failure
 from runtime.executive.trace import Trace
 
 
@@ -34,32 +35,69 @@ class _CatchUpError(RuntimeError):
     """The general engine does not get through what the register machine carried out: a mistake of ours."""
 
 
-def catch_up(reactor: PlanReactor, shadow: Trace, inputs: Inputs, until: int, is_synchronised: bool) -> None:
-    """Have a fresh reactor live through what came in before tick `until`, or until that tick is synchronised."""
-    waiting = list(inputs.received)
-    tick = 0
-    while True:
-        shadow.tick, shadow.phase = tick, Phase.SYNCHRONISE
-        _give(reactor, waiting, tick, True)
-        reactor.start_tick(tick)
-        if tick == until and not is_synchronised:
-            return
-        failure = reactor.synchronise(tick)
-        reactor.observations(tick)
-        shadow.phase = Phase.DELIBERATE
-        _give(reactor, waiting, tick, False)
-        if tick == until and failure is None:
-            return
-        while failure is None and reactor.step(tick):
+class ShadowReactor:
+    """A general reactor that lives through what came in, on from where it stands."""
+
+    def __init__(self, reactor: PlanReactor, shadow: Trace, inputs: Inputs) -> None:
+        self.reactor = reactor
+        self.shadow = shadow
+        self.inputs = inputs
+        self.given = 0  # how much of what came in it has been given
+        self.tick = 0
+        self.is_synchronised = False  # whether it stands behind the present of `tick`
+
+    def catch_up(self, until: int, is_synchronised: bool) -> None:
+        """Go on to tick `until`, before which it stands, or until that tick is synchronised."""
+        while self.tick < until or not self.is_synchronised:
+            if self.is_synchronised:
+                self._deliberate(until)
+                continue
+            self.shadow.tick, self.shadow.phase = self.tick, Phase.SYNCHRONISE
+            self._give(True)
+            self.reactor.start_tick(self.tick)
+            if self.tick == until and not is_synchronised:
+                return
+            failure = self.reactor.synchronise(self.tick)
+            self.reactor.observations(self.tick)
+            self.shadow.phase = Phase.DELIBERATE
+            self._check(failure)
+            self.is_synchronised = True
+        self._give(False)
+
+    def _deliberate(self, until: int) -> None:
+        """Let the reactor plan, and go on to the next tick at which it has something to do."""
+        reactor, tick = self.reactor, self.tick
+        self._give(False)
+        while reactor.step(tick):
             pass
-        failure = failure or reactor.failure()
-        if failure is not None:
-            raise _CatchUpError(f"`{reactor.name}` fails at tick {tick}: {failure.code} {failure.reason.kind.name}")
+        self._check(reactor.failure())
         reactor.recalls()
         reactor.requests(tick)
         reactor.refusals()
         reactor.due = reactor.next_tick(tick)
-        tick = max(tick + 1, min([reactor.due, until, *(each.tick for each in waiting[:1])]))
+        following = [each.tick for each in self.inputs.received[self.given : self.given + 1]]
+        self.tick = max(tick + 1, min([reactor.due, until, *following]))
+        self.is_synchronised = False
+
+    def _check(self, failure: Failure | None) -> None:
+        if failure is not None:
+            name, why = self.reactor.name, failure.reason.kind.name
+            raise _CatchUpError(f"`{name}` fails at tick {self.tick}: {failure.code} {why}")
+
+    def _give(self, is_early: bool) -> None:
+        """Give what came in at this tick, before or after it was synchronised."""
+        received = self.inputs.received
+        while self.given < len(received):
+            one = received[self.given]
+            if one.tick != self.tick or one.is_early != is_early:
+                break
+            self.given += 1
+            if isinstance(one.what, Observation):
+                self.reactor.notify(one.what)
+            elif isinstance(one.what, Request):
+                self.reactor.accept(one.what)
+            else:
+                self.reactor.recall(one.what)
 
 
 def take_over(reactor: PlanReactor, trace: Trace) -> None:
@@ -67,14 +105,3 @@ def take_over(reactor: PlanReactor, trace: Trace) -> None:
     for draw in reactor.trace.draws:
         trace.record_draw(reactor.name, draw)
     reactor.trace = reactor.dispatch.trace = reactor.goals.trace = reactor.draws.world.trace = trace
-
-
-def _give(reactor: PlanReactor, waiting: list[Input], tick: int, is_early: bool) -> None:
-    while waiting and waiting[0].tick == tick and waiting[0].is_early == is_early:
-        what = waiting.pop(0).what
-        if isinstance(what, Observation):
-            reactor.notify(what)
-        elif isinstance(what, Request):
-            reactor.accept(what)
-        else:
-            reactor.recall(what)

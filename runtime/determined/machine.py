@@ -135,6 +135,10 @@ class Machine:
             i = self.order[k]
             if i < 0:
                 break
+            if present.changed >> i & 1 or (
+                present.state[PREDICATE * n + i] >= 0 and not present.state[ENDING * n + i]
+            ):
+                continue  # it has started already, or what holds goes on
             if not self.start_block(i, tick):
                 return False
         return present.end_tick(tick)
@@ -159,8 +163,6 @@ class Machine:
         """Start what takes the place of what has ended on a timeline."""
         n = self.lines
         present = self.present
-        if present.changed >> i & 1 or (present.state[PREDICATE * n + i] >= 0 and not present.state[ENDING * n + i]):
-            return True
         block = present.state[DUE * n + i]
         is_wish = False
         self.is_planned = True

@@ -187,7 +187,7 @@ class Present:
                 return False
             if self.state[ENDING * n + i] and not self.changed >> i & 1:
                 return False
-            if not self.has_room(i, tick):
+            if self.state[WISH * n + i] >= 0 and not self.has_room(i, tick):
                 return False
         # An order whose first end is past has said what it has to say.
         left = 0

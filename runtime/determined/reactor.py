@@ -9,7 +9,7 @@ from collections.abc import Callable
 from runtime.determined.arguments import given_block
 from runtime.determined.asking import Ask, ask, ask_instead
 from runtime.determined.expand import expand, record_of
-from runtime.determined.inputs import Inputs, catch_up, take_over
+from runtime.determined.inputs import Inputs, ShadowReactor, take_over
 from runtime.determined.loading import RegisterProgram
 from runtime.determined.publish import Publisher, Samples, Wish
 from runtime.determined.tags import FAR, LINE, NONE, ROW, STOPS
@@ -61,7 +61,7 @@ class DeterminedReactor(TeleoReactor):
         self.steps_made = 0
         self.is_beyond = False  # something came in that only the general engine understands
         self.general: PlanReactor | None = None
-        self.witness: PlanReactor | None = None  # a general reactor that was asked about `witnessed`
+        self.witness: ShadowReactor | None = None  # of what came in up to `witnessed`
         self.witnessed = NONE
         self.refused_goals: list[OpenGoal] = []
         self.refusals_made: list[Refusal] = []
@@ -217,6 +217,8 @@ class DeterminedReactor(TeleoReactor):
 
     def _is_open(self, tick: int) -> bool:
         """Whether a request waits for another one that has started, or will soon be looked at."""
+        if not self.wishes:
+            return False
         reach = tick + self.machine.present.reach
         return any(
             self._comes_last(wish, tick)
@@ -343,25 +345,29 @@ class DeterminedReactor(TeleoReactor):
     def _hand_over(self, tick: int, is_synchronised: bool) -> PlanReactor:
         """Become a general reactor that knows what came from outside; `is_synchronised`: the present of `tick` too."""
         self.publisher.tell(tick if is_synchronised else tick - 1, 0)
-        self.general = general = self._witness(tick, is_synchronised)
+        witness = self._new_shadow()
+        witness.catch_up(tick, is_synchronised)
+        self.general = general = witness.reactor
         take_over(general, self.trace)
         for name in self.internal:
             general.by_name[name].event = self.machine.log.latest[self.numbers[name]]
         return general
 
-    def _witness(self, tick: int, is_synchronised: bool) -> PlanReactor:
-        """A general reactor that has lived through the same."""
+    def _new_shadow(self) -> ShadowReactor:
+        """A general reactor that will live through the same."""
         shadow = Trace()
         general = self.make_general(shadow)
         general.set_owners(self.windows, self.execution_latency)
-        catch_up(general, shadow, self.inputs, tick, is_synchronised)
-        return general
+        return ShadowReactor(general, shadow, self.inputs)
 
     def _asked(self) -> PlanReactor:
-        """The general reactor that is asked for causes: one for all that breaks at a tick."""
-        if self.witness is None or self.witnessed != self.tick:
-            self.witness, self.witnessed = self._witness(self.tick, True), self.tick
-        return self.witness
+        """The general reactor that is asked for causes, brought up to the present; one lives through all."""
+        if self.witness is None:
+            self.witness = self._new_shadow()
+        if self.witnessed != self.tick:
+            self.witness.catch_up(self.tick, True)
+            self.witnessed = self.tick
+        return self.witness.reactor
 
     def why_it_lasts(self, token: int, key: int) -> tuple[VariableName, Conflict] | None:
         """What sets the end of a token that was published: asked of a general reactor, as this one has no causes."""

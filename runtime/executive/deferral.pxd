@@ -12,7 +12,7 @@ cdef double inf
 
 cdef class Deferral:
     cdef public Workbench bench
-    cdef public dict lines, waiting, _is_loose, _is_plain
+    cdef public dict lines, waiting, _is_loose, _is_plain, _kinds
     cdef public list passed
     cdef public Past past
 
@@ -24,3 +24,6 @@ cdef class Deferral:
 
     @cython.locals(predicate="long long", rows=Rows)
     cpdef object _pass(self, TimelineState line, observation, long long end)
+
+    @cython.locals(k="long long", kinds=list)
+    cpdef bint _fits(self, long long predicate, observation) except -1

@@ -7,9 +7,9 @@ the last two enter the plan, as if the reactor had been woken by each; the other
 
 from math import inf
 
-from compiler.program import DomainConstant, PredicateCode
+from compiler.program import DomainConstant
 from runtime.constraints.domains.tags import HALF_INF
-from runtime.executive.messages import Observation
+from runtime.executive.messages import Observation, make_tuple
 from runtime.executive.past import OverToken, Past
 from runtime.executive.record import NOBODY, TokenRecord, Value
 from runtime.executive.timelines import NOTHING, TimelineState
@@ -17,7 +17,6 @@ from runtime.executive.view import SPAN_EXECUTIVE, SPAN_OBSERVATION
 from runtime.executive.workbench import Workbench
 from runtime.plan.tokens.tokens import take_key
 
-_NEW = tuple.__new__  # a named tuple in a tenth of the time that its class takes
 _KEPT = 2  # the current token, and the one before it for rules that say "met by"
 
 
@@ -32,6 +31,7 @@ class Deferral:
         self.passed: list[TokenRecord] = []
         self._is_loose: dict[str, bool] = {}  # whether nothing hangs on what holds on a timeline, and nothing follows
         self._is_plain: dict[int, bool] = {}  # whether a predicate says nothing of its tokens
+        self._kinds: dict[int, list[tuple[str, str]]] = {}  # names and kinds of the parameters of a predicate
 
     def takes(self, observation: Observation) -> bool:
         """Let an observation wait, if it cannot matter."""
@@ -45,7 +45,7 @@ class Deferral:
         predicate = line.predicates.get(observation.predicate, NOTHING)
         if not known or predicate == NOTHING or not self._says_nothing(predicate):
             return False
-        if not _fits(self.bench.database.program.predicates[predicate], observation):
+        if not self._fits(predicate, observation):
             return False
         self.waiting.setdefault(line.name, []).append(observation)
         return True
@@ -108,14 +108,13 @@ class Deferral:
     def _pass(self, line: TimelineState, observation: Observation, end: int) -> OverToken:
         """Put an observation on record that begins, and at `end` is over, without entering the plan."""
         predicate = line.predicates[observation.predicate]
-        code = self.bench.database.program.predicates[predicate]
-        given = dict(observation.arguments)
+        name = self.bench.predicate_name(predicate)
         key = take_key(self.bench.plan)
         begun = observation.tick
-        values = tuple([_value(given[each.name]) for each in code.parameters])
+        values = tuple([_value(domain) for _, domain in observation.arguments])
         times = (end - begun, begun, end)
-        fields = (key, code.name, line.name, "active", *times, values, NOBODY, "observation", "over", end, ())
-        self.passed.append(_NEW(TokenRecord, fields))
+        fields = (key, name, line.name, "active", *times, values, NOBODY, "observation", "over", end, ())
+        self.passed.append(make_tuple(TokenRecord, fields))
         return OverToken(NOTHING, key, predicate, line.object_id, begun, end, observation.arguments)
 
     # ---- what cannot matter ----
@@ -152,22 +151,26 @@ class Deferral:
             )
         return known
 
+    def _fits(self, predicate: int, observation: Observation) -> bool:
+        """Whether all parameters are given one value of their kind, in their order."""
+        kinds = self._kinds.get(predicate)
+        if kinds is None:
+            parameters = self.bench.database.program.predicates[predicate].parameters
+            kinds = self._kinds[predicate] = [(each.name, each.type.kind) for each in parameters]
+        arguments = observation.arguments
+        if len(arguments) != len(kinds):
+            return False
+        for k, (name, domain) in enumerate(arguments):
+            interval = domain.interval
+            if kinds[k] != (name, domain.kind) or interval is None or interval[0] != interval[1]:
+                return False
+        return True
+
 
 def _is_unlimited(domain: DomainConstant | None) -> bool:
     return domain is None or (
         domain.interval is not None and domain.interval[0] <= -HALF_INF and domain.interval[1] >= HALF_INF
     )
-
-
-def _fits(code: PredicateCode, observation: Observation) -> bool:
-    """Whether all parameters are given one value of their kind."""
-    if len(observation.arguments) != len(code.parameters):
-        return False
-    kinds = {each.name: each.type.kind for each in code.parameters}
-    for name, domain in observation.arguments:
-        if kinds.get(name) != domain.kind or domain.interval is None or domain.interval[0] != domain.interval[1]:
-            return False
-    return True
 
 
 def _value(domain: DomainConstant) -> Value:

@@ -38,7 +38,7 @@ class Dispatch:
     def is_answered(self, token: int, event: int) -> bool:
         """Whether what was published in `event` is what a token was asked for."""
         request = self.sent.get(self.bench.key(token))
-        return request is not None and request.event in self.trace.events[event].causes
+        return request is not None and request.event in self.trace.events.causes_at(event)
 
     def answered(self) -> list[int]:
         """The tokens whose owners have just begun what they were asked for."""
@@ -53,7 +53,7 @@ class Dispatch:
         asked = {request.timeline for request in self.sent.values()}
         for line in self.timelines:
             if line.news is not None and line.name in asked:
-                for cause in self.trace.events[line.news.event].causes:
+                for cause in self.trace.events.causes_at(line.news.event):
                     for request in self.sent.values():
                         if request.event == cause:
                             self.begun[request.number] = None

@@ -109,6 +109,14 @@ class EventLog(Sequence[Event]):
             else:
                 yield part.causes
 
+    def causes_at(self, index: int) -> tuple[int, ...]:
+        """The causes of the event at an index, not below 0."""
+        number = bisect_right(self._starts, index) - 1
+        part = self._parts[number]
+        if isinstance(part, Event):
+            return part.causes
+        return part.columns.causes(part.first + index - self._starts[number])
+
     def on(self, timelines: Container[str]) -> Iterator[Event]:
         """The events on some timelines, in order."""
         for part in self._parts:

@@ -6,12 +6,13 @@ from runtime.executive.timelines cimport TimelineState
 from runtime.executive.view cimport PlanView
 from runtime.plan.lifecycle cimport activate, fire, merge
 from runtime.plan.store.marks cimport commit, mark, release, rewind
+from runtime.plan.store.rows cimport Rows
 from runtime.plan.tokens.archive cimport archive, detach
 from runtime.plan.tokens.retraction cimport cancel, remove_tokens, wake_guards
 from runtime.plan.tokens.timelines cimport order
 from runtime.plan.tokens.tokens cimport make_token
 
-cdef long long FIRST_PARAMETER, FLAG_DECISION, FLAG_FACT, FLAG_GOAL, FLAG_REJECTABLE, INACTIVE, KIND_FLOAT, LISTS
+cdef long long ACTIVE, END, FIRST_PARAMETER, FLAG_DECISION, FLAG_FACT, FLAG_GOAL, FLAG_REJECTABLE, INACTIVE, KIND_FLOAT, LISTS
 cdef long long LIST_ORDER, MERGED, NONE, OBJECT
 cdef double inf
 
@@ -87,10 +88,10 @@ cdef class Workbench(PlanView):
 
     cpdef int note_kept(self, long long t) except -1
 
-    @cython.locals(kept=set, line=TimelineState, over=list, t="long long")
+    @cython.locals(kept=set, line=TimelineState, over=list, rows=Rows, status="long long", t="long long")
     cpdef long long archive(self, list timelines, long long tick) except? -1
 
-    @cython.locals(engine=Engine, lowest=dict, needless=list, r="long long", span="long long", v="long long")
+    @cython.locals(engine=Engine, lowest=list, needless=list, r="long long", span="long long", v="long long")
     cpdef int tidy(self) except -1
 
     cpdef int detach(self, long long t) except -1

@@ -2,7 +2,7 @@
 
 from math import inf
 
-from compiler.program import FIRST_PARAMETER, OBJECT, DomainConstant
+from compiler.program import END, FIRST_PARAMETER, OBJECT, DomainConstant
 from runtime.constraints.domains.arrays import grow_rows
 from runtime.constraints.domains.tags import FLAG_DECISION, KIND_FLOAT
 from runtime.executive.configuration import GoalConfiguration
@@ -14,6 +14,7 @@ from runtime.plan.lifecycle import activate, fire, merge
 from runtime.plan.store.marks import commit, mark, release, rewind
 from runtime.plan.store.prototypes import restrict_constant
 from runtime.plan.tags import (
+    ACTIVE,
     FLAG_FACT,
     FLAG_GOAL,
     FLAG_REJECTABLE,
@@ -235,9 +236,12 @@ class Workbench(PlanView):
                 kept.add(line.current)
                 kept.add(int(self.rows.link_before[LISTS * line.current + LIST_ORDER]))
         over = []
-        for t in range(self.rows.token_count):
-            if not self.is_freed(t) and not self.is_kept(t) and self.is_over(t, tick) and t not in kept:
-                over.append(t)
+        rows = self.rows
+        for t in range(rows.token_count):
+            status = rows.status[t]
+            if (status == ACTIVE or status == MERGED) and self.engine.upper(rows.var0[t] + END) <= tick:
+                if not self.is_kept(t) and t not in kept:
+                    over.append(t)
         return archive(self.plan, over, tick, self.recorder.leave) if over and fire(self.plan) else 0
 
     def tidy(self) -> None:
@@ -245,12 +249,16 @@ class Workbench(PlanView):
         engine = self.engine
         needless: list[int] = []
         for v in self.moved:
-            lowest: dict[int, int] = {}
-            for r in engine.restrictions_of(v):  # the newest first, and those of the clock only ever grow
+            lowest: list[int] = []  # kinds that have a limit
+            r = engine.restriction_head[v]  # the newest first, and those of the clock only ever grow
+            while r >= 0:
                 span = engine.restriction_span[r]
                 if span < -1 and engine.restriction_hi[r] == inf and engine.restriction_flags[r] == 0:
-                    if lowest.setdefault(span, r) != r:
+                    if span in lowest:
                         needless.append(r)
+                    else:
+                        lowest.append(span)
+                r = engine.restriction_next[r]
         self.moved.clear()
         if needless:
             engine.retract((), (), needless, ())

@@ -1,5 +1,6 @@
 """The one exception for what goes wrong in a modeler's Python code: it names the file and the line."""
 
+import linecache
 import traceback
 from collections.abc import Sequence
 from pathlib import Path
@@ -32,14 +33,14 @@ def failed(
 ) -> UserCodeError:
     """Name the deepest line in one of `files`, or `line` in the first of them, for an exception."""
     frames = [(frame.f_code.co_filename, line) for frame, line in traceback.walk_tb(problem.__traceback__)]
-    place = place_in(frames, files, line)
+    place, source = place_in(frames, files, line), _source_of(frames, files)
     if isinstance(problem, StoppedError):
         return stopped(place, what, problem.seconds)
     if isinstance(problem, SyntaxError) and problem.filename in files:
         place = f"{problem.filename}:{problem.lineno}"
     kind = type(problem).__name__
     said = problem.msg if isinstance(problem, SyntaxError) else str(problem)
-    text = f"{kind}: {said}" if said else kind
+    text = f"{kind}: {said}" if said else f"{kind} at `{source}`" if source else kind
     detail = "".join(traceback.format_exception(problem))
     return UserCodeError(f"{place}: {what} {verb}: {text.splitlines()[0]}", detail)
 
@@ -48,6 +49,12 @@ def stopped(place: str, what: str, seconds: float) -> UserCodeError:
     """Say that `what` was at `place` when it was stopped."""
     advice = f"`time_limit = {2 * seconds:g}` under [constraints] lets it run longer, see docs/constraints.md"
     return UserCodeError(f"{place}: {what} did not come back within {seconds:g} s and was stopped", advice=advice)
+
+
+def _source_of(calls: Sequence[tuple[str, int]], files: tuple[str, ...]) -> str:
+    """The text of the deepest line of `calls` in one of `files`; empty where there is none."""
+    own = [each for each in calls if each[0] in files]
+    return linecache.getline(*own[-1]).strip() if own else ""
 
 
 def place_in(calls: Sequence[tuple[str, int]], files: tuple[str, ...], line: int = 1) -> str:

@@ -28,6 +28,9 @@ internal = ["gps"]
 """
 
 
+GOAL = '[[goal]]\ntimeline = "nav"\npredicate = "Hold"\n[goal.parameters]\n'
+
+
 def read(text: str) -> Mission:
     mission, diagnostics = parse_mission(Source("m.toml", text), GPS)
     assert [diagnostic.message for diagnostic in diagnostics] == []
@@ -196,6 +199,37 @@ def test_a_mistake_in_what_depends_is_named_where_it_stands(text: str, line: int
 )
 def test_a_mistake_is_named_where_it_stands(text: str, expected: tuple[int, str, str, str, str | None]) -> None:
     assert complaints(HEAD + text) == [expected]
+
+
+_HUGE = "9" * 400
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("final_tick = 600", f"final_tick = {_HUGE}", "`final_tick` must be at most 1000000000000"),
+        ("final_tick = 600", "final_tick = 600\ntick = inf", "`tick` must be finite, not inf"),
+        ('name = "gps"', 'name = " "', "`name` must be a text that is not empty"),
+        ('model = "psim.nddl"', 'model = ""', "`model` must be a text that is not empty"),
+        ("[end]", "[check]\nmissions = 100_000_000", "`missions` must be at most 1000000, not 100000000"),
+        ("[end]", "[check]\nseed = 9007199254740992", "`seed` must be at most 9007199254740991"),
+        ("[end]", "[parameters.A]\nvalue = inf", "`value` must be finite, not inf"),
+        ("[end]", "[parameters.A]\nmean = 1\nsigma = inf", "`sigma` must be finite, not inf"),
+        ("[end]", f"[parameters.A]\nvalues = [1, {_HUGE}]", "`values` must be a list of finite numbers"),
+        ("[end]", f"[parameters.A]\nrange = [0, {_HUGE}]", "`range` must be numbers that can be held"),
+        ("[end]", "[parameters.A]\nrange = [-1e308, 1e308]", "`range` must be narrower"),
+        ("[end]", "[parameters.A]\nrange = [0, 1]\nclip = [2, 3]", "`clip` must be such that it meets [0, 1]"),
+        ("[end]", "[parameters.A]\nrange = [0, 1]\nupdate = 5", '`update` has no effect without `mode = "intra"`'),
+        ("[end]", f"{GOAL}distance = {_HUGE}", "`distance` must be a number that can be held"),
+        ("[end]", f"{GOAL}distance = {{ a = 1 }}", "`distance` must be a number, a text in quotes, true or false, or"),
+        ("[end]", f"{GOAL}distance = 2026-01-01", "a pair [lower, upper] of numbers, not a date or time"),
+    ],
+)
+def test_a_value_that_no_mission_can_have_is_named(old: str, new: str, message: str) -> None:
+    text = f"{HEAD}[end]".replace(old, new).replace("[end]", "")
+    (found,) = complaints(text)
+    assert message in found[3]
+    assert len(found[3]) < 240
 
 
 def test_all_mistakes_are_reported_in_one_go() -> None:

@@ -114,6 +114,8 @@ def test_the_schema_has_the_distributions() -> None:
         ('resource = "battery"', 'timeline = "nav"'),
         ('timeline = "nav"\nticks', 'resource = "nav"\nticks'),
         ("final_tick = 600", 'final_tick = "late"'),
+        ("final_tick = 600", "final_tick = 99999999999999999999"),
+        ('name = "gps"', 'name = ""'),
         ("final_tick = 600", "final_tick = 600\nfinal = 3"),
         ('model = "navigator.nddl"\n', ""),
         ("range = [0, 1]", "range = [0, 1, 2]"),

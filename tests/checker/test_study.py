@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 from statistics import NormalDist
 from xml.etree import ElementTree
@@ -15,6 +16,7 @@ from nddlc.main import run
 from runtime.executive.chance import draw
 
 GPS = Path("models/gps").resolve()
+SVG = "{http://www.w3.org/2000/svg}"
 STUDY = """\
 [study]
 name = "fixes"
@@ -74,7 +76,11 @@ def test_a_study_counts_what_the_draws_decide(folder: Path, capsys: pytest.Captu
         assert short["beyond"] == short["failures"] - rates_above(3.8, 12, is_normal=shape == "normal")
     assert code == (0 if cells["short", "uniform inter"]["rate"] >= 0.92 else 1)
     figure = ElementTree.fromstring(Path("nddlc-study/figure12.svg").read_text())
-    assert len(figure.findall("rect")) == 4 + 2
+    assert figure.tag == SVG + "svg"  # without its name space no viewer shows it
+    assert len(figure.findall(SVG + "rect")) == 4 + 2
+    assert len([one for one in figure.findall(SVG + "line") if one.get("class") == "whisker"]) == 4 * 3
+    assert {"n=30", "n=12", "expected"} <= {one.text for one in figure.findall(SVG + "text")}
+    assert len(figure.findall(SVG + "polygon")) == 1 + 1  # one rate is expected, and the legend has one
     page = Path("nddlc-study/study.html").read_text()
     assert "http" not in page
     assert "found by" in page
@@ -142,7 +148,18 @@ def test_failures_of_a_contained_mistake_are_counted_apart() -> None:
     cells = with_beyond(
         [cell("R3", "a", range(10)), cell("R1", "a", range(4, 18), "R3"), cell("R1", "b", range(3), "R3")]
     )
-    assert [one.beyond for one in cells] == [None, 8, None]
+    assert [(one.beyond, one.apart) for one in cells] == [(None, None), (8, 30), (None, None)]
+
+
+def test_of_a_mistake_that_contains_another_its_own_rate_is_held_against_the_expected_one() -> None:
+    """A third of the missions that pass with the contained mistake fail with both (trex 5.6, R1)."""
+    expected = {"a": 1 / 3}
+    outer = replace(cell("R1", "a", range(5, 20), "R3"), variant=Variant("R1", "", (), expected, 40, "R3"))
+    _, whole = with_beyond([cell("R3", "a", range(10)), outer])
+    assert whole.own_rate == pytest.approx(1 / 3)
+    assert whole.rate == pytest.approx(0.375)
+    assert whole.is_expected(0.02)
+    assert not outer.is_expected(0.02)
 
 
 def test_the_study_of_the_auv_fits_its_models() -> None:

@@ -294,3 +294,27 @@ def test_numbers_are_shown_as_they_are_read(tmp_path: Path, capsys: pytest.Captu
     assert "power=5.93" in said and "00000000" not in said and "99999" not in said
     assert planned(tmp_path, MOVABLE, "--json") == 0
     assert "0.30000000000000004" in capsys.readouterr().out
+
+
+BOATS = """\
+class Dock { int n; Dock(int k) { n = k; } }
+class Boat extends Timeline { predicate Go { } predicate At { Dock d; } }
+Dock a = new Dock(1);
+Dock b = new Dock(2);
+Boat boat = new Boat();
+Boat::Go {
+  Dock choice;
+  foreach (x in choice) { met_by(At t); t.d == x; }
+}
+close();
+goal(boat.Go g);
+g.start >= 0;
+g.end <= 20;
+"""
+
+
+def test_a_value_that_a_foreach_went_through_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "boats.nddl").write_text(BOATS)
+    assert run(["plan", "--explain", str(tmp_path / "boats.nddl")]) == 1
+    told = capsys.readouterr().out
+    assert "g::choice may not lose a value any more: `foreach` has gone through {a, b}" in told

@@ -38,6 +38,10 @@ from runtime.plan.readout.statements import Term
         (Term("addEq", ("x", 1, "y")), "x + 1 == y"),
         (Term("temporalDistance", ("a.start", "a.duration", "a.end")), "a.start + a.duration == a.end"),
         (Term("mulEq", ("x", 2.5, "y")), "x * 2.5 == y"),
+        (
+            Term("foreach", ("g::d", "{a, b}")),
+            "g::d may not lose a value any more: `foreach` has gone through {a, b}",
+        ),
         (Term("sampledParameter", ("x", "RATE", 0.25)), "x = RATE = 0.25"),
         (Term("memberOf", ("t::r.to", "t::r", "a.to", "b.to"), ("a", "b")), "t::r.to is that of a or b"),
         (Term("memberOf", ("t::r.to", "t::r", "a.to"), ("a",)), "t::r.to is that of a"),

@@ -9,7 +9,6 @@ from runtime.constraints.domains.narrow cimport raise_to, reduce_to
 from runtime.constraints.stn.network cimport attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
 from runtime.constraints.propagators.posting cimport release_constraint
 from runtime.constraints.domains.store cimport Store
-from runtime.constraints.stn.watch_lists cimport watchers_of
 from runtime.constraints.relaxation.trail cimport clear_queues, commit_trail
 from runtime.constraints.domains.variables cimport drop_restriction, drop_variable, keep_values
 
@@ -18,10 +17,10 @@ cdef long long SIDE_UPPER, SUPPORT_EDGE, SUPPORT_RESTRICTION
 cdef double FLOAT_TOLERANCE, inf
 
 
-@cython.locals(r="long long", v="long long")
+@cython.locals(c="long long", e="long long", gone=set, is_decision="long long", r="long long", v="long long")
 cpdef list retract(Store s, list constraints, list edges, list restrictions, list variables)
 
-@cython.locals(c="long long", doomed=dict, e="long long", v="long long")
+@cython.locals(doomed=dict, e="long long", k="long long", slot="long long", v="long long")
 cpdef list _gather(Store s, list constraints, list variables)
 
 @cython.locals(e="long long")

@@ -31,7 +31,6 @@ from runtime.constraints.propagators.posting import release_constraint
 from runtime.constraints.relaxation.cone import close_cone, relax_by, relax_by_constraint, relax_by_edge
 from runtime.constraints.relaxation.trail import clear_queues, commit_trail
 from runtime.constraints.stn.network import attach_edge, detach_edge, follow_edge, free_edge, propagate_edges
-from runtime.constraints.stn.watch_lists import watchers_of
 
 
 def retract(
@@ -67,7 +66,14 @@ def retract(
             if e >= 0:
                 gone.add(e)
     for v in variables:
-        gone.update(edges_of(s, v))
+        e = s.out_head[v]
+        while e >= 0:
+            gone.add(e)
+            e = s.out_next[e]
+        e = s.in_head[v]
+        while e >= 0:
+            gone.add(e)
+            e = s.in_next[e]
     for e in suspects:
         detach_edge(s, e)
     for e in sorted(gone):
@@ -98,12 +104,18 @@ def _gather(s: Store, constraints: list[int], variables: list[int]) -> list[int]
     """List the constraints that go: the given ones and those on removed variables, each once."""
     doomed = dict.fromkeys(constraints)
     for v in variables:
-        for c in watchers_of(s, v):
-            doomed[c] = None
-        for e in edges_of(s, v):
-            if s.edge_link[e] >= 0:
-                doomed[s.edge_link[e]] = None
-            relax_by_edge(s, e)
+        for k in range(2):
+            slot = s.mute_head[v] if k else s.watch_head[v]
+            while slot >= 0:
+                doomed[s.slot_constraint[slot]] = None
+                slot = s.slot_next[slot]
+        for k in range(2):
+            e = s.in_head[v] if k else s.out_head[v]
+            while e >= 0:
+                if s.edge_link[e] >= 0:
+                    doomed[s.edge_link[e]] = None
+                relax_by_edge(s, e)
+                e = s.in_next[e] if k else s.out_next[e]
     return list(doomed)
 
 

@@ -57,6 +57,8 @@ def _constraint(name: str, texts: list[str]) -> str:
         return f"{texts[0]} {_INFIX[name]} {texts[1]}"
     if name in _SIGNS and len(texts) == 3:
         return f"{texts[0]} {_SIGNS[name]} {texts[1]} == {texts[2]}"
+    if name == "foreach" and len(texts) == 2:
+        return f"{texts[0]} may not lose a value any more: `foreach` has gone through {texts[1]}"
     return f"{name}({', '.join(texts)})"
 
 

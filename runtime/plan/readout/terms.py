@@ -65,7 +65,9 @@ class TermReader:
 
     def is_member_of_open_object(self, v: int) -> bool:
         """Whether a variable stands for `a.b` where the object `a` was not known yet."""
-        return bool(self.plan.variable_role[v] == ROLE_INTERNAL and self.plan.proxy_index[v] >= 0)
+        plan = self.plan  # which knows nothing of constants
+        is_noted = not self.engine.constant[v] and plan.variable_role[v] == ROLE_INTERNAL
+        return bool(is_noted and plan.proxy_index[v] >= 0)
 
     def open_member(self, v: int) -> str:
         """Of such a variable the name `b`."""

@@ -1,8 +1,9 @@
 # The C types of `archive.py`.
 
 cimport cython
+from runtime.constraints.domains.sparse_set cimport SparseSet
 from runtime.plan.store.plan cimport Plan
-from runtime.plan.tokens.retraction cimport remove_tokens, scopes_of
+from runtime.plan.tokens.retraction cimport remove_tokens
 
 cdef long long ACTIVE, BRANCH_WAITING, FLAG_FROZEN, HOLDS_CONSTRAINT, HOLDS_EDGE, HOLDS_RESTRICTION, HOLDS_VARIABLES
 cdef long long KIND_FLOAT, MERGED, NONE, ROLE_LOCAL, ROLE_TOKEN, SCOPE_GUARD, START, SUPPORT_CONSTRAINT, SUPPORT_EDGE
@@ -36,8 +37,7 @@ cpdef void detach(Plan plan, long long t) except *
 
 
 @cython.locals(
-    c="long long", constraints=dict, e="long long", edges=dict, gone=dict, k="long long", limited=list,
-    near=dict, r="long long", restrictions=dict, supports=set, v="long long",
+    c="long long", going=SparseSet, gone=SparseSet, i="long long", k="long long", near=SparseSet, v="long long"
 )
 cpdef list _freeze(Plan plan, dict doomed)
 
@@ -47,14 +47,14 @@ cpdef list _outdone(Plan plan, long long v)
 
 
 @cython.locals(
-    c="long long", constraints=dict, e="long long", edges=dict, gone=dict, h="long long",
-    kind="long long", restrictions=dict, s="long long", t="long long", v="long long",
+    c="long long", e="long long", going=SparseSet, h="long long", i="long long", k="long long", kind="long long",
+    s="long long", slot="long long", t="long long", v="long long",
 )
-cpdef tuple _belongings(Plan plan, dict doomed)
+cpdef SparseSet _belongings(Plan plan, dict doomed, SparseSet gone)
 
 
-@cython.locals(is_real=bint, lower="long long", upper="long long")
-cpdef bint _keep_domain(Plan plan, long long v, set supports) except -1
+@cython.locals(is_lower_going=bint, is_real=bint, is_upper_going=bint, lower="long long", upper="long long")
+cpdef bint _keep_domain(Plan plan, long long v, SparseSet going) except -1
 
 
 cpdef long long _span_of(Plan plan, long long support) except? -1

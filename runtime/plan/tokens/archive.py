@@ -8,6 +8,7 @@ span of the edge or constraint which said so, so explanations name the same line
 
 from collections.abc import Callable
 
+from runtime.constraints.domains.sparse_set import SparseSet
 from runtime.constraints.domains.tags import (
     FLAG_FROZEN,
     KIND_FLOAT,
@@ -30,7 +31,7 @@ from runtime.plan.tags import (
     SCOPE_GUARD,
     START,
 )
-from runtime.plan.tokens.retraction import remove_tokens, scopes_of
+from runtime.plan.tokens.retraction import remove_tokens
 
 
 def archive(plan: Plan, tokens: list[int], tick: int, record: Callable[[list[int], int], None] | None = None) -> int:
@@ -135,22 +136,25 @@ def _freeze(plan: Plan, doomed: dict[int, None]) -> list[int]:
     Gives the variables that have got new limits.
     """
     engine = plan.engine
-    edges, constraints, restrictions, gone = _belongings(plan, doomed)
-    near: dict[int, None] = {}
-    for e in edges:
-        near[engine.edge_source[e]] = None
-        near[engine.edge_target[e]] = None
-    for c in constraints:
-        for k in range(engine.first[c], engine.first[c] + engine.arity[c]):
-            near[engine.slot_variable[k]] = None
-    for r in restrictions:
-        near[engine.restriction_variable[r]] = None
-    supports = {e * 4 + SUPPORT_EDGE for e in edges}
-    supports.update([c * 4 + SUPPORT_CONSTRAINT for c in constraints])
-    supports.update([r * 4 + SUPPORT_RESTRICTION for r in restrictions])
+    gone = SparseSet(engine.variables)
+    going = _belongings(plan, doomed, gone)
+    near = SparseSet(engine.variables)
+    for i in range(going.count):
+        if going.items[i] & 3 == SUPPORT_EDGE:
+            near.add(engine.edge_source[going.items[i] >> 2])
+            near.add(engine.edge_target[going.items[i] >> 2])
+    for i in range(going.count):
+        if going.items[i] & 3 == SUPPORT_CONSTRAINT:
+            c = going.items[i] >> 2
+            for k in range(engine.first[c], engine.first[c] + engine.arity[c]):
+                near.add(engine.slot_variable[k])
+    for i in range(going.count):
+        if going.items[i] & 3 == SUPPORT_RESTRICTION:
+            near.add(engine.restriction_variable[going.items[i] >> 2])
     limited: list[int] = []
-    for v in near:
-        if v not in gone and not engine.constant[v] and _keep_domain(plan, v, supports):
+    for i in range(near.count):
+        v = near.items[i]
+        if not gone.has(v) and not engine.constant[v] and _keep_domain(plan, v, going):
             limited.append(v)
     return limited
 
@@ -169,67 +173,78 @@ def _outdone(plan: Plan, v: int) -> list[int]:
     return found
 
 
-def _belongings(
-    plan: Plan, doomed: dict[int, None]
-) -> tuple[dict[int, None], dict[int, None], dict[int, None], dict[int, None]]:
-    """The edges, constraints, restrictions and variables that go with tokens."""
+def _belongings(plan: Plan, doomed: dict[int, None], gone: SparseSet) -> SparseSet:
+    """What edges, constraints and restrictions that go with tokens support by; `gone` gets the variables that go."""
     engine, rows = plan.engine, plan.rows
-    edges: dict[int, None] = {}
-    constraints: dict[int, None] = {}
-    restrictions: dict[int, None] = {}
-    gone: dict[int, None] = {}
+    going = SparseSet(4 * max(engine.edges_used, engine.constraints_used, engine.restrictions_used) + 4)
     for t in doomed:
         for v in range(rows.var0[t], rows.var0[t] + rows.width[t]):
-            gone[v] = None
-        for s in scopes_of(plan, t):
+            gone.add(v)
+        s = rows.scopes[t]
+        while s >= 0:
             h = rows.scope_holds[s]
             while h >= 0:
                 kind = rows.hold_kind[h]
                 if kind == HOLDS_EDGE:
-                    edges[rows.hold_id[h]] = None
+                    going.add(rows.hold_id[h] * 4 + SUPPORT_EDGE)
                 elif kind == HOLDS_CONSTRAINT:
-                    constraints[rows.hold_id[h]] = None
+                    going.add(rows.hold_id[h] * 4 + SUPPORT_CONSTRAINT)
                 elif kind == HOLDS_RESTRICTION:
-                    restrictions[rows.hold_id[h]] = None
+                    going.add(rows.hold_id[h] * 4 + SUPPORT_RESTRICTION)
                 elif kind == HOLDS_VARIABLES:
-                    gone[rows.hold_id[h]] = None
+                    gone.add(rows.hold_id[h])
                 h = rows.hold_next[h]
-    for v in gone:
-        for c in engine.constraints_of(v):
-            constraints[c] = None
-        for e in engine.edges_of(v):
-            edges[e] = None
-    for c in constraints:
-        if engine.link_a[c] >= 0:
-            edges[engine.link_a[c]] = None
-        if engine.link_b[c] >= 0:
-            edges[engine.link_b[c]] = None
-    return edges, constraints, restrictions, gone
+            s = rows.scope_next[s]
+    for i in range(gone.count):
+        v = gone.items[i]
+        for k in range(2):
+            slot = engine.mute_head[v] if k else engine.watch_head[v]
+            while slot >= 0:
+                going.add(engine.slot_constraint[slot] * 4 + SUPPORT_CONSTRAINT)
+                slot = engine.slot_next[slot]
+        e = engine.out_head[v]
+        while e >= 0:
+            going.add(e * 4 + SUPPORT_EDGE)
+            e = engine.out_next[e]
+        e = engine.in_head[v]
+        while e >= 0:
+            going.add(e * 4 + SUPPORT_EDGE)
+            e = engine.in_next[e]
+    for i in range(going.count):
+        if going.items[i] & 3 == SUPPORT_CONSTRAINT:
+            c = going.items[i] >> 2
+            if engine.link_a[c] >= 0:
+                going.add(engine.link_a[c] * 4 + SUPPORT_EDGE)
+            if engine.link_b[c] >= 0:
+                going.add(engine.link_b[c] * 4 + SUPPORT_EDGE)
+    return going
 
 
-def _keep_domain(plan: Plan, v: int, supports: set[int]) -> bool:
-    """Restrict `v` to its present domain where that rests on one of `supports`; the token of `v` answers for it.
+def _keep_domain(plan: Plan, v: int, going: SparseSet) -> bool:
+    """Restrict `v` to its present domain where that rests on what is `going`; the token of `v` answers for it.
 
     Tells whether it has got a limit.
     """
     engine = plan.engine
     owner = plan.variable_owner[v] if plan.variable_role[v] in (ROLE_TOKEN, ROLE_LOCAL) else NONE
     lower, upper = engine.lower_support[v], engine.upper_support[v]
+    is_lower_going = lower >= 0 and going.has(lower)
+    is_upper_going = upper >= 0 and going.has(upper)
     if engine.word[v] >= 0:
         base = engine.base_values(v)
         values = [float(x) for x in engine.values_of(v)]
         if base is None or len(values) < len(base):
-            span = _span_of(plan, lower if lower in supports else upper)
+            span = _span_of(plan, lower if is_lower_going else upper)
             engine.restrict_base_values(v, values, span, owner)
         return False
     is_real = engine.kind[v] == KIND_FLOAT
-    if lower in supports:
+    if is_lower_going:
         bound = engine.flo[v] if is_real else engine.lower(v)
         engine.freeze_base(v, bound, float("inf"), _span_of(plan, lower), owner)
-    if upper in supports:
+    if is_upper_going:
         bound = engine.fhi[v] if is_real else engine.upper(v)
         engine.freeze_base(v, -float("inf"), bound, _span_of(plan, upper), owner)
-    return lower in supports or upper in supports
+    return is_lower_going or is_upper_going
 
 
 def _span_of(plan: Plan, support: int) -> int:

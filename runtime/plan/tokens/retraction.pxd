@@ -31,7 +31,7 @@ cpdef bint reset(Plan plan, long long v) except -1
 cpdef bint free(Plan plan, long long first, long long second, long long span) except -1
 
 
-cpdef list scopes_of(Plan plan, long long t)
+cpdef list _scopes_of(Plan plan, long long t)
 
 
 cpdef void _deactivate(Plan plan, long long t, _Sweep sweep) except *
@@ -52,7 +52,8 @@ cpdef bint _finish(Plan plan, _Sweep sweep) except -1
 
 
 @cython.locals(
-    c="long long", e="long long", owner="long long", r="long long", s="long long", t="long long", v="long long"
+    c="long long", e="long long", k="long long", owner="long long", r="long long", s="long long", slot="long long",
+    t="long long", v="long long",
 )
 cpdef int _forget_foreign(Plan plan, list gone) except -1
 

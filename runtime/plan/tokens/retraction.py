@@ -65,7 +65,7 @@ def retract_branch(plan: Plan, s: int) -> bool:
     rows = plan.rows
     t = rows.scope_token[s]
     doomed = {s}
-    for each in reversed(scopes_of(plan, t)):
+    for each in reversed(_scopes_of(plan, t)):
         if rows.scope_parent[each] in doomed:
             doomed.add(each)
     doomed.discard(s)
@@ -94,7 +94,7 @@ def free(plan: Plan, first: int, second: int, span: int) -> bool:
         p = after
     for t in (first, second):
         if not has_any_pair(rows, t):
-            _drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_INSERTION}, sweep)
+            _drop_scopes(plan, t, {s for s in _scopes_of(plan, t) if rows.scope_kind[s] == SCOPE_INSERTION}, sweep)
             if rows.link_head[LISTS * t + LIST_ORDER] >= 0:
                 leave_sequence(plan, t, sweep.edges, span)
                 await_order(plan, t)
@@ -108,7 +108,7 @@ def withdraw_refusals(plan: Plan) -> None:
         plan.engine.retract(refusals, [], [], [])
 
 
-def scopes_of(plan: Plan, t: int) -> list[int]:
+def _scopes_of(plan: Plan, t: int) -> list[int]:
     """The scopes of a token, the latest first."""
     rows = plan.rows
     found = []
@@ -140,7 +140,7 @@ def _deactivate(plan: Plan, t: int, sweep: _Sweep) -> None:
     rows.set_status(t, INACTIVE)
     sweep.undecided.append(rows.var0[t] + STATE)
     sweep.reopened.append(t)
-    _drop_scopes(plan, t, {s for s in scopes_of(plan, t) if rows.scope_kind[s] != SCOPE_BODY}, sweep)
+    _drop_scopes(plan, t, {s for s in _scopes_of(plan, t) if rows.scope_kind[s] != SCOPE_BODY}, sweep)
 
 
 def wake_guards(plan: Plan, v: int) -> None:
@@ -207,7 +207,7 @@ def _finish(plan: Plan, sweep: _Sweep) -> bool:
             continue  # named both by itself and as a child of another
         freed.append(t)
         _deactivate(plan, t, sweep)
-        _drop_scopes(plan, t, set(scopes_of(plan, t)), sweep)
+        _drop_scopes(plan, t, set(_scopes_of(plan, t)), sweep)
         unlink(rows, t, LIST_OPEN)
         rows.set_status(t, FREED)
         sweep.variables += range(rows.var0[t], rows.var0[t] + rows.width[t])
@@ -242,23 +242,32 @@ def _forget_foreign(plan: Plan, gone: list[int]) -> None:
     restrictions: set[int] = set()
     owners: dict[int, None] = {}
     for v in gone:
-        for e in engine.edges_of(v):
-            owner = engine.edge_owner[e]
-            if owner >= 0 and rows.status[owner] != FREED:
-                edges.add(e)
-                owners[owner] = None
-        for c in engine.constraints_of(v):
-            owner = engine.owner[c]
-            if owner >= 0 and rows.status[owner] != FREED:
-                constraints.add(c)
-                owners[owner] = None
-        for r in engine.restrictions_of(v):
+        for k in range(2):
+            e = engine.in_head[v] if k else engine.out_head[v]
+            while e >= 0:
+                owner = engine.edge_owner[e]
+                if owner >= 0 and rows.status[owner] != FREED:
+                    edges.add(e)
+                    owners[owner] = None
+                e = engine.in_next[e] if k else engine.out_next[e]
+        for k in range(2):
+            slot = engine.mute_head[v] if k else engine.watch_head[v]
+            while slot >= 0:
+                c = engine.slot_constraint[slot]
+                owner = engine.owner[c]
+                if owner >= 0 and rows.status[owner] != FREED:
+                    constraints.add(c)
+                    owners[owner] = None
+                slot = engine.slot_next[slot]
+        r = engine.restriction_head[v]
+        while r >= 0:
             owner = engine.restriction_owner[r]
             if owner >= 0 and rows.status[owner] != FREED:
                 restrictions.add(r)
                 owners[owner] = None
+            r = engine.restriction_next[r]
     for t in owners:
-        for s in scopes_of(plan, t):
+        for s in _scopes_of(plan, t):
             _drop_held(plan, s, edges, constraints, restrictions)
 
 

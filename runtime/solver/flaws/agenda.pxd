@@ -6,6 +6,7 @@ from runtime.plan.store.plan cimport Plan
 from runtime.plan.store.rows cimport Rows
 from runtime.constraints.domains.base_domain cimport is_base_single
 from runtime.constraints.domains.narrow cimport is_single
+from runtime.constraints.domains.sparse_set cimport SparseSet
 from runtime.constraints.stn.distances cimport Distances
 from runtime.solver.flaws.filters cimport Filters
 from runtime.constraints.stn.heap cimport Heap
@@ -42,10 +43,13 @@ cdef class Agenda:
     cdef public long long[::1] restriction_level, dynamic_slot, dynamic_is_variable, dropped_slot, dropped_kind
     cdef public long long[::1] fired_scope, fired_end, waiting_guards
     cdef public signed char[::1] watched
+    cdef public SparseSet touched
     cdef public double found_priority
 
-    @cython.locals(slots="long long", used="long long", v="long long")
+    @cython.locals(i="long long", slot="long long", slots="long long", used="long long", v="long long")
     cpdef int _empty_tables(self) except -1
+
+    cpdef int _forget_levels(self) except -1
 
     cpdef int reserve(self) except -1
 

@@ -9,6 +9,7 @@ from array import array
 from runtime.constraints.domains.arrays import blank, grow_rows, lengthen
 from runtime.constraints.domains.base_domain import is_base_single
 from runtime.constraints.domains.narrow import is_single
+from runtime.constraints.domains.sparse_set import SparseSet
 from runtime.constraints.stn.distances import Distances
 from runtime.constraints.stn.heap import Heap
 from runtime.plan.store.plan import Plan
@@ -73,6 +74,7 @@ class Agenda:
         self.variable_key = array("q", [NO_KEY]) * (256 * self.managers)
         self.variable_deferred, self.variable_level = blank(256), blank(256)
         self.watched = blank(256, "b")  # by variable: whether a change of its domain is looked at
+        self.touched = SparseSet(256)  # variables of which the tables say anything but decision levels
         self.waits_for, self.waiting_next, self.waiting_before = [array("q", [NONE]) * 256 for _ in range(3)]
         self.edge_level, self.constraint_level, self.restriction_level = blank(256), blank(256), blank(256)
         self.dynamic_slot, self.dynamic_is_variable = blank(64), blank(64)
@@ -90,27 +92,37 @@ class Agenda:
         _fill(self.token_key, NO_KEY, slots)
         _fill(self.token_waiting, NONE, used)
         _fill(self.token_deferred, 0, used)
-        _fill(self.token_level, 0, used)
-        _fill(self.active_level, 0, used)
-        _fill(self.order_level, 0, used)
-        slots, used = self.variables_used * self.managers, self.variables_used
-        _fill(self.variable_row, NONE, slots)
-        _fill(self.variable_key, NO_KEY, slots)
-        _fill(self.waits_for, NONE, used)
-        _fill(self.waiting_next, NONE, used)
-        _fill(self.waiting_before, NONE, used)
-        _fill(self.variable_deferred, 0, used)
-        _fill(self.variable_level, 0, used)
-        for v in range(used):
+        for i in range(self.touched.count):
+            v = self.touched.items[i]
+            self.touched.marks[v] = 0
+            for slot in range(v * self.managers, v * self.managers + self.managers):
+                self.variable_row[slot] = NONE
+                self.variable_key[slot] = NO_KEY
+            self.waits_for[v] = NONE
+            self.waiting_next[v] = NONE
+            self.waiting_before[v] = NONE
+            self.variable_deferred[v] = 0
             self.watched[v] = 0
+        self.touched.count = 0
+        if self.level > 0:
+            self._forget_levels()
+        self.waiting_guards[0] = 0
+        self.dynamic_count = self.dropped_count = self.rows_seen = self.engine_seen = 0
+        self.tokens_used = self.variables_used = self.edges_used = self.constraints_used = self.restrictions_used = 0
+
+    def _forget_levels(self) -> None:
+        """Forget the decision levels of everything; nothing has one before the first decision."""
+        _fill(self.token_level, 0, self.tokens_used)
+        _fill(self.active_level, 0, self.tokens_used)
+        _fill(self.order_level, 0, self.tokens_used)
+        _fill(self.variable_level, 0, self.variables_used)
         _fill(self.edge_level, 0, self.edges_used)
         _fill(self.constraint_level, 0, self.constraints_used)
         _fill(self.restriction_level, 0, self.restrictions_used)
         _fill(self.fired_scope, NONE, len(self.fired_scope))
         _fill(self.fired_end, 0, len(self.fired_end))
         _fill(self.waiting_guards, 0, len(self.waiting_guards))
-        self.dynamic_count = self.dropped_count = self.rows_seen = self.engine_seen = 0
-        self.tokens_used = self.variables_used = self.edges_used = self.constraints_used = self.restrictions_used = 0
+        self.level = 0
 
     def reserve(self) -> None:
         """Make the tables as long as those of the plan and the engine, and note how far they come to be in use."""
@@ -131,6 +143,7 @@ class Agenda:
             grow_rows(self, "variable_key", room * self.managers, NO_KEY)
             grow_rows(self, "waits_for waiting_next waiting_before", room, NONE)
             grow_rows(self, "variable_deferred watched variable_level", room)
+            grow_rows(self.touched, "marks", room)
         if len(self.edge_level) < len(self.engine.edge_weight):
             grow_rows(self, "edge_level", len(self.engine.edge_weight))
         if len(self.constraint_level) < len(self.engine.op):
@@ -239,6 +252,7 @@ class Agenda:
         """Add the slot of a variable to the heap that its row names, unless it is there with its present key."""
         heap = self.table.heap_of[self.variable_row[slot]]
         v = slot // self.managers
+        self.touched.add(v)
         self.watched[v] = 1
         if heap < 0:
             if self.variable_key[slot] == NO_KEY:
@@ -296,6 +310,7 @@ class Agenda:
         """Defer a variable until its domain changes, or the times of token `t` (NONE: no token)."""
         self.drop(slot, DROPPED_VARIABLE)
         v = slot // self.managers
+        self.touched.add(v)
         self.variable_deferred[v] = 1
         if t >= 0 and self.waits_for[v] != t:
             self.forget_waiting(v)
@@ -310,6 +325,8 @@ class Agenda:
 
     def _watch_times(self, t: int) -> None:
         """Watch the times of a token."""
+        self.touched.add(self.rows.var0[t] + START)
+        self.touched.add(self.rows.var0[t] + END)
         self.watched[self.rows.var0[t] + START] = 1
         self.watched[self.rows.var0[t] + END] = 1
 

@@ -1,6 +1,8 @@
 # The C types of `agenda_updates.py`.
 
 cimport cython
+from runtime.constraints.domains.base_domain cimport is_base_single
+from runtime.constraints.domains.narrow cimport is_single
 from runtime.solver.flaws.agenda cimport Agenda
 
 cdef long long ACTIVE, BRANCH_WAITING, END, FLAG_EFFECT, INACTIVE, LISTS, LIST_ORDER, NONE, NO_KEY, OPEN_CONDITION, ROLE_GLOBAL
@@ -9,6 +11,7 @@ cdef long long TRAIL_NARROWING, TRAIL_RESTRICTION, TRAIL_VARIABLE, UNBOUND_VARIA
 cdef long long UNDO_NEW_TOKEN, UNDO_STATUS
 
 
+@cython.locals(role="long long", s="long long", t="long long", v="long long")
 cpdef int rebuild(Agenda agenda) except -1
 
 

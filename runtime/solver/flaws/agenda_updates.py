@@ -1,5 +1,7 @@
 """Agenda updates: candidates that the new part of the trails of plan and engine adds or moves."""
 
+from runtime.constraints.domains.base_domain import is_base_single
+from runtime.constraints.domains.narrow import is_single
 from runtime.constraints.domains.tags import (
     TRAIL_CONSTRAINT,
     TRAIL_EDGE,
@@ -33,7 +35,6 @@ def rebuild(agenda: Agenda) -> None:
     """Rebuild the agenda from every token and variable; levels count from here."""
     agenda.clear()
     agenda.plan.reserve_variables(agenda.engine.variables)
-    agenda.level = 0
     for t in range(agenda.rows.token_count):
         if agenda.rows.status[t] == INACTIVE:
             _add_token(agenda, t, OPEN_CONDITION)
@@ -42,7 +43,15 @@ def rebuild(agenda: Agenda) -> None:
     engine = agenda.engine
     for v in range(engine.variables):
         # What is decided, which most are, is never a flaw.
-        if engine.kind[v] >= 0 and not engine.constant[v] and not engine.decided[v]:
+        if engine.kind[v] < 0 or engine.constant[v] or engine.decided[v]:
+            continue
+        if not agenda.exact and is_single(engine, v) and is_base_single(engine, v):
+            continue
+        role = agenda.plan.variable_role[v]
+        if role == ROLE_TOKEN or role == ROLE_LOCAL:
+            if agenda.rows.status[agenda.plan.variable_owner[v]] == ACTIVE:
+                _add_variable(agenda, v)
+        elif role == ROLE_GLOBAL or role == ROLE_MEMBER:
             _add_variable(agenda, v)
     for s in range(agenda.rows.scope_count):
         if agenda.rows.scope_watch[s] >= 0 and agenda.rows.scope_branch[s] == BRANCH_WAITING:
@@ -114,6 +123,7 @@ def update(agenda: Agenda, level: int) -> None:
 
 def note_levels(agenda: Agenda, level: int) -> None:
     """Read of a failed resolver only the guards that fired, and the edges, constraints and restrictions it posted."""
+    agenda.level = level
     agenda.reserve()
     agenda.note_fired(level)
     engine = agenda.engine
@@ -230,6 +240,7 @@ def _add_variable(agenda: Agenda, v: int) -> int:
         else:
             row = agenda.table.other_row(role, manager, kind, name)
         slot = v * agenda.managers + manager
+        agenda.touched.add(v)
         agenda.variable_row[slot] = row
         agenda.variable_key[slot] = NO_KEY
         if row >= 0:

@@ -1,0 +1,31 @@
+"""Sparse set: small whole numbers, each once, in the order in which they came; no hashing (Briggs and Torczon 1993)."""
+
+from array import array
+
+from runtime.constraints.domains.arrays import lengthen
+
+_FIRST_ROOM = 8 * 256  # bytes
+
+
+class SparseSet:
+    """Numbers from 0 to before `room`: `items` are the first `count` of an array."""
+
+    def __init__(self, room: int) -> None:
+        self.marks = array("b", bytes(room))
+        self.items = array("q", bytes(_FIRST_ROOM))
+        self.count = 0
+
+    def add(self, number: int) -> int:
+        """Add a number, unless it is there."""
+        if self.marks[number]:
+            return 0
+        self.marks[number] = 1
+        if self.count == len(self.items):
+            lengthen(self, "items")
+        self.items[self.count] = number
+        self.count += 1
+        return 1
+
+    def has(self, number: int) -> bool:
+        """Whether a number is there."""
+        return bool(self.marks[number])
