@@ -52,7 +52,8 @@ class Mentions:
 
     def unsets(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether nothing sets a variable of a rule any more that a line has set."""
-        return self.is_set_by(edit, site) and self._lacks(edit.old, site, True, 1)
+        is_local = edit.old in self._locals[_scope(site)]
+        return is_local and self.is_set_by(edit, site) and self._lacks(edit.old, site, True, 1)
 
     def is_set_by(self, edit: SmallEdit, site: EditSite) -> bool:
         """Whether an edit changes what a line sets: the left side of `==`."""

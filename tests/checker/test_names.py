@@ -34,6 +34,7 @@ Ship::Fill {
     }
     lift before lower;
     lower.end <= lift.start;
+    lift.start == end;
     any(Reservoir.consume use);
     use.time == end;
     use.quantity == tons;
@@ -105,6 +106,15 @@ def test_what_a_name_takes_its_only_mention_from_is_less_likely_to_give_way(site
     )
     only = edit(sites, "duration >= SPARE - span;", "span", "hours")
     assert cost_of(*doubled, usage) < cost_of(*stranded, usage) < cost_of(*only, usage)
+
+
+def test_both_ends_and_both_starts_are_likelier_equal(sites: list[EditSite]) -> None:
+    usage = usage_of(sites)
+    text = "lift.start == end;"
+    meant, other = edit(sites, text, "lift.start", "lift.end"), edit(sites, text, "==", "!=")
+    soon, late = delay_of(*meant, usage), delay_of(*other, usage)
+    assert soon is not None and late is not None and soon < late
+    assert cost_of(*meant, usage) < cost_of(*other, usage)
 
 
 @pytest.mark.parametrize(
