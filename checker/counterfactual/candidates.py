@@ -25,7 +25,6 @@ from runtime.executive.outcome import Conflict, Deadlock, ElementKind, Event, Ev
 _CULPRIT, _CONFLICT, _LOG, _OBSERVED, _COVERED, _EVENT, _AWAITED, _NAMED = 0.0, 0.25, 0.5, 0.5, 0.75, 1.0, 1.0, 1.5
 _OUTSIDE = 3.0  # added where other lines contradict each other, whatever happens
 _TROUBLES = (EventKind.RELAX, EventKind.REJECT, EventKind.REFUSE, EventKind.KILL)
-_ASKED = 1.0  # added to what the mission file asks: to ask for less mends most that comes too late
 _UNSEEN = 4.0  # added for lines of a rule that nothing fired
 
 
@@ -55,25 +54,18 @@ def candidates_of(
     properties: Sequence[PropertyConfiguration] = (),
     exercised: Sequence[Span] = (),
     text: ModelText | None = None,
-    asked: Sequence[EditSite] = (),
 ) -> list[Candidate]:
     """All lines that can have a part in it, the nearest first; `exercised` rules and branches passing missions lack.
 
-    With the `text` of the models z3 is asked which lines of a search that failed must have a part in it. Of what the
-    mission file asks of goals (`asked`), what a conflict speaks of.
+    With the `text` of the models z3 is asked which lines of a search that failed must have a part in it.
     """
     roots: dict[int, tuple[float, Suspicion]] = {}
-    spoken: dict[EditSite, Candidate] = {}
 
     def note(place: SourcePlace | None, far: float, source: Suspicion) -> None:
         if place is not None:
-            file = str(real_path(root / place.file))
-            for number in graph.at(file, place.line):
+            for number in graph.at(str(real_path(root / place.file)), place.line):
                 if number not in roots or far < roots[number][0]:
                     roots[number] = (far, source)
-            for site in asked:
-                if site.holds(file, place.line) and (site not in spoken or far < spoken[site].far - _ASKED):
-                    spoken[site] = Candidate(site, far + _ASKED, source)
 
     failed = failed_by(outcome)
     culprit = culprit_of(failed.conflict)
@@ -112,7 +104,7 @@ def candidates_of(
         near = [number for number, (far, _) in roots.items() if far <= _LOG]
         seen |= {name.rpartition(".")[2] for name in graph.tokens_at(near)}
     inside = {number for place in at_odds for number in graph.at(str(real_path(root / place.file)), place.line)}
-    found = list(spoken.values())
+    found = []
     for number, site in enumerate(graph.sites):
         if number not in distances:
             continue

@@ -71,6 +71,7 @@ class EditKind(StrEnum):
     POINT = "time point"  # the start of a token, for its end
     TOKEN = "token"  # one token of a rule, for another
     PREDICATE = "predicate"  # of a child
+    MISSION = "mission file"
     DROPPED_CONSTRAINT = "dropped constraint"
     DROPPED_BRANCH = "dropped branch"
 
@@ -270,9 +271,21 @@ class _Reader:
 
     def _changes(self, node: Any) -> Iterator[tuple[EditKind, Span, str]]:
         match node:
-            case IntLiteral(value=value) | FloatLiteral(value=value) if abs(value) < _INFINITE:
-                for kind, new in changed_number(repr(value)):
-                    yield kind, node.span, new
+            case IntLiteral(value=value, span=span) if abs(value) < _INFINITE:
+                for factor in _FACTORS:
+                    if round(value * factor):
+                        yield EditKind.CONSTANT, span, str(round(value * factor))
+                for step in (5, -5):
+                    yield EditKind.CONSTANT, span, str(value + step)
+                for step in (1, -1):
+                    yield EditKind.OFF_BY_ONE, span, str(value + step)
+                if value < 0:
+                    yield EditKind.SIGN, span, str(-value)
+            case FloatLiteral(value=value, span=span) if abs(value) < _INFINITE:
+                for factor in _FACTORS:
+                    yield EditKind.CONSTANT, span, repr(round(value * factor, 12))
+                if value < 0.0:
+                    yield EditKind.SIGN, span, repr(-value)
             case PathExpr(parts=(name,), span=span) if name.name in self._limits:
                 for limit in self._limits:
                     yield EditKind.LIMIT, span, limit
@@ -295,27 +308,6 @@ class _Reader:
                 yield from _swapped(arguments)
             case _:
                 pass
-
-
-def changed_number(text: str) -> Iterator[tuple[EditKind, str]]:
-    """What a number may have been meant to be; a whole one stays whole."""
-    if "." in text or "e" in text:
-        real = float(text)
-        for factor in _FACTORS:
-            yield EditKind.CONSTANT, repr(round(real * factor, 12))
-        if real < 0.0:
-            yield EditKind.SIGN, repr(-real)
-        return
-    value = int(text)
-    for factor in _FACTORS:
-        if round(value * factor):
-            yield EditKind.CONSTANT, str(round(value * factor))
-    for step in (5, -5):
-        yield EditKind.CONSTANT, str(value + step)
-    for step in (1, -1):
-        yield EditKind.OFF_BY_ONE, str(value + step)
-    if value < 0:
-        yield EditKind.SIGN, str(-value)
 
 
 def _swapped(arguments: tuple[Expr, ...]) -> Iterator[tuple[EditKind, Span, str]]:

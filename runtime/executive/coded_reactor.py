@@ -96,7 +96,7 @@ class CodedReactor(TeleoReactor):
             self._wake_after(tick, ())
         is_first = self.code is None
         try:
-            self._call(now)
+            answer = self._call(now)
         except BaseException as problem:
             if isinstance(problem, KeyboardInterrupt) and WATCH.was_pressed:
                 raise
@@ -105,13 +105,15 @@ class CodedReactor(TeleoReactor):
         try:
             if is_first:
                 self._check_wakes()
+            if answer is not None:
+                raise ValueError(f"its `tick` gave back a {type(answer).__name__}, and must give back nothing")
             self._take(now)
         except Exception as problem:
             what = Reason(ReasonKind.RAISED, tick=tick, message=str(problem))
             return Failure("F9", what, self.internal, None, 0)
         return None
 
-    def _call(self, now: Now) -> None:
+    def _call(self, now: Now) -> object:
         """Call the code under watch; what it prints goes to standard error, since programs read standard output."""
         call = (self.caller, None, 0)
         if self.code is None:
@@ -122,12 +124,13 @@ class CodedReactor(TeleoReactor):
             sys.stdout = sys.stderr
             if self.code is None:
                 self.code = self.make()
-            self.code.tick(now)
+            answer: object = self.code.tick(now)  # type: ignore[func-returns-value]  # so it says, and may not do
         finally:
             sys.stdout = output
             if WATCH.call is not call:
                 WATCH.astray(call)
             WATCH.call = before
+        return answer
 
     def _check_wakes(self) -> None:
         for name in self.wakes_on:
@@ -152,7 +155,7 @@ class CodedReactor(TeleoReactor):
             if not isinstance(tick, int) or tick <= now.tick:
                 raise ValueError(f"it wants to be woken at {tick!r}, which is not later than {now.tick}")
         if now.wakes:
-            self._wake_after(now.tick, now.wakes)
+            self._wake_after(now.tick, [min(tick, _NEVER) for tick in now.wakes])
         self.published, self.recalled = now.published, now.recalled
         self.asked = now.asked
         if now.recalled:

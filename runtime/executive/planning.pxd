@@ -15,6 +15,7 @@ cdef class _Window(PlanningScope):
     cdef public Workbench bench
     cdef public long long tick, end, final
     cdef public bint is_present, is_reactive
+    cdef public set ignored
 
     @cython.locals(bench=Workbench, earliest=double, start="long long")
     cpdef bint admits_token(self, long long t) except -1

@@ -28,6 +28,7 @@ class LimitError(RuntimeError):
 class _Window(PlanningScope):
     """Tokens that can start by `end` and end at `tick` or later (T-REX 1.7); for the present, those that hold now.
 
+    What is on a timeline that the model ignores is in no scope.
     What is over and still undecided is in scope of both: it must be found among what has happened.
     Who looks one tick ahead plans what was asked for and what others are to do, no more: what else its own timelines
     begin to hold is decided when the time comes, by what holds then.
@@ -40,11 +41,14 @@ class _Window(PlanningScope):
         self.final = 0
         self.is_present = False
         self.is_reactive = False
+        self.ignored = {o for o in range(len(bench.database.objects.names)) if bench.mode(o) == "Ignore"}
 
     def admits_token(self, t: int) -> bool:
         """Whether flaws of `t` are to be mended now."""
         bench = self.bench
         start = bench.start(t)
+        if self.ignored and bench.object_of(t) in self.ignored:
+            return False
         if bench.upper(bench.end(t)) <= self.tick:
             return self._is_left_over(t)
         if self.is_present:

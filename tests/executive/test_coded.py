@@ -69,6 +69,14 @@ class Odd(Reactor):
     def tick(self, now):
         now.publish("eye", "Bright", p=object())
 
+class Generator(Reactor):
+    def tick(self, now):
+        yield now.publish("eye", "Dark")
+
+class Large(Reactor):
+    def tick(self, now):
+        now.publish("eye", "Bright", p=10**400)
+
 class Sleeps(Reactor):
     wakes_on = ()
 
@@ -77,6 +85,7 @@ class Sleeps(Reactor):
             now.publish("eye", "Dark")
             now.ask("lamp", "On", start=(3, 8), n=4)
             now.wake(10)
+            now.wake(10**30)
         else:
             now.publish("eye", "Bright", p=float(now.tick + 100 * len(now.news) + now.seen["lamp"].since))
 
@@ -129,7 +138,8 @@ def test_it_sleeps_through_what_it_does_not_want_to_be_woken_by(folder: Path) ->
 
 
 @pytest.mark.parametrize(
-    ("name", "code", "tick"), [("Raises", "F7", 4), ("Foreign", "F9", 0), ("Odd", "F9", 0), ("Deaf", "F9", 0)]
+    ("name", "code", "tick"),
+    [(name, "F9", 0) for name in ("Foreign", "Odd", "Deaf", "Generator", "Large")] + [("Raises", "F7", 4)],
 )
 def test_what_it_does_wrong_ends_it(folder: Path, name: str, code: str, tick: int) -> None:
     outcome = flown(folder, f"code.py:{name}")
