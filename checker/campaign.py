@@ -199,7 +199,9 @@ class Campaign:
     def _seeker(self, flyer: Flyer, bounds: Bounds, seconds: float) -> CauseSearch:
         agent = self.models.agent
         programs = [self.models.programs[each.model] for each in agent.reactors]
-        return CauseSearch(Suspended(agent, programs, self.mission.check.limits, flyer), bounds, seconds)
+        return CauseSearch(
+            Suspended(agent, programs, self.mission.check.limits, flyer, mission=self.mission), bounds, seconds
+        )
 
     def _text(self) -> ModelText:
         return text_of(self.models.agent, self.models.programs)

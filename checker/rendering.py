@@ -106,6 +106,11 @@ def kind_text(kind: ReasonKind | None) -> str:
     return _KINDS.get(kind, kind.value) if kind is not None else "for no known reason"
 
 
+def lines_text(rule: str, count: int) -> str:
+    """What so many steps in a row tell, each a line of one rule."""
+    return f"it acts through {count} lines of the rule of {rule}"
+
+
 def step_text(step: Step, story: Story) -> str:
     """What a step tells, without its tick and its place."""
     match step.subject:

@@ -136,7 +136,7 @@ def _measured(
     if not failed:
         return MutantReport(mutant.edit, mutant.site.rule, Fate.SILENT, 0, len(results))
     programs = [models.programs[each.model] for each in models.agent.reactors]
-    world = Suspended(models.agent, programs, ground.mission.check.limits, flyer, overlay)
+    world = Suspended(models.agent, programs, ground.mission.check.limits, flyer, overlay, ground.mission)
     root = Path(models.agent.root)
     faults = faults_of(group_failures(tuple(results)), results, CauseSearch(world, bounds))
     fullest, causes = faults[0]

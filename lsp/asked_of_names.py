@@ -12,16 +12,20 @@ from lsp.documents import Documents
 from lsp.hierarchies import incoming_calls, outgoing_calls, prepare_calls, prepare_types, subtypes, supertypes
 from lsp.hover import hover_at, link
 from lsp.mission_answers import mission_completions, mission_definition, mission_hover
-from lsp.mission_texts import OpenMission
+from lsp.mission_texts import OpenMission, place_at
+from lsp.mission_uses import MissionUse, mission_uses, symbol_named
 from lsp.navigation import declaration, definition, implementations, type_definition
+from lsp.occurrences import Role, Symbol
 from lsp.open_text import DocumentContext
-from lsp.references import highlights, references
-from lsp.rename import RenameError, TextChange, prepare_rename, rename
+from lsp.project import Snapshot
+from lsp.references import everywhere, highlights, occurrence_at
+from lsp.rename import RenameError, TextChange, assert_renamable, prepare_rename, rename
 from lsp.session import RequestFailed, Session
 from lsp.signatures import signature_help
 from lsp.symbols import outline, workspace_symbols
 from nddl_lang.text.source import Span
 
+_NAMELESS = "there is no name that a model declares"
 _Asked = types.TextDocumentPositionParams | types.ReferenceParams | types.CompletionParams
 
 
@@ -64,10 +68,25 @@ def _answer_navigation(session: Session) -> None:
 
         return answered
 
-    def find_references(view: DocumentContext, params: types.ReferenceParams) -> list[types.Location]:
+    def all_references(snapshot: Snapshot, symbol: Symbol, params: types.ReferenceParams) -> list[types.Location]:
         conversion = session.documents.conversion()
-        with_declaration = params.context.include_declaration
-        return references(session.documents, view, _offset(view, params), conversion, with_declaration=with_declaration)
+        found = everywhere(session.documents, snapshot, symbol)
+        return [
+            *(
+                conversion.location(each.span)
+                for each in found.found.values()
+                if params.context.include_declaration or each.role is not Role.DECLARES
+            ),
+            *(use.location for use in mission_uses(session.documents, session.missions, found, symbol.name)),
+        ]
+
+    def references(view: DocumentContext, params: types.ReferenceParams) -> list[types.Location]:
+        here = occurrence_at(view, _offset(view, params))
+        return all_references(view.snapshot, here.symbol, params) if here is not None else []
+
+    def references_of_mission(mission: OpenMission, params: types.ReferenceParams) -> list[types.Location]:
+        here = symbol_named(session.documents, mission, mission.lines.offset(params.position))
+        return all_references(*here, params) if here is not None else []
 
     session.answer(
         types.TEXT_DOCUMENT_HOVER,
@@ -91,7 +110,7 @@ def _answer_navigation(session: Session) -> None:
         lambda view, params: locations(implementations(view, _offset(view, params))),
         nothing=list,
     )
-    session.answer(types.TEXT_DOCUMENT_REFERENCES, find_references, nothing=list)
+    session.answer(types.TEXT_DOCUMENT_REFERENCES, references, nothing=list, of_mission=references_of_mission)
     session.answer(
         types.TEXT_DOCUMENT_DOCUMENT_HIGHLIGHT,
         lambda view, params: highlights(view, _offset(view, params)),
@@ -116,23 +135,53 @@ def _answer_rename(session: Session) -> None:
         except RenameError as refusal:
             raise RequestFailed(str(refusal)) from None
 
-    def carry_out(view: DocumentContext, params: types.RenameParams) -> types.WorkspaceEdit:
+    def prepare_in_mission(mission: OpenMission, params: _Asked) -> types.PrepareRenamePlaceholder | None:
+        offset = mission.lines.offset(params.position)
+        here = symbol_named(session.documents, mission, offset)
+        if here is None:
+            return None
+        place = place_at(mission.text, offset)
         try:
-            changes = rename(session.documents, view, view.document.lines.offset(params.position), params.new_name)
+            assert_renamable(session.documents, *here)
         except RenameError as refusal:
             raise RequestFailed(str(refusal)) from None
-        return _workspace_edit(session, changes)
+        return types.PrepareRenamePlaceholder(mission.lines.range(place.begin, place.finish), place.word)
 
-    session.answer(types.TEXT_DOCUMENT_PREPARE_RENAME, prepare)
-    session.answer(types.TEXT_DOCUMENT_RENAME, carry_out, types.RenameOptions(prepare_provider=True))
+    def carry_out(snapshot: Snapshot, symbol: Symbol, name: str) -> types.WorkspaceEdit:
+        try:
+            changes, found = rename(session.documents, snapshot, symbol, name)
+        except RenameError as refusal:
+            raise RequestFailed(str(refusal)) from None
+        uses = mission_uses(session.documents, session.missions, found, symbol.name) if changes else []
+        return _workspace_edit(session, changes, uses, name)
+
+    def of_model(view: DocumentContext, params: types.RenameParams) -> types.WorkspaceEdit:
+        here = occurrence_at(view, view.document.lines.offset(params.position))
+        if here is None:
+            raise RequestFailed(_NAMELESS)
+        return carry_out(view.snapshot, here.symbol, params.new_name)
+
+    def of_mission(mission: OpenMission, params: types.RenameParams) -> types.WorkspaceEdit:
+        here = symbol_named(session.documents, mission, mission.lines.offset(params.position))
+        if here is None:
+            raise RequestFailed(_NAMELESS)
+        return carry_out(*here, params.new_name)
+
+    session.answer(types.TEXT_DOCUMENT_PREPARE_RENAME, prepare, of_mission=prepare_in_mission)
+    options = types.RenameOptions(prepare_provider=True)
+    session.answer(types.TEXT_DOCUMENT_RENAME, of_model, options, of_mission=of_mission)
 
 
-def _workspace_edit(session: Session, changes: list[TextChange]) -> types.WorkspaceEdit:
+def _workspace_edit(
+    session: Session, changes: list[TextChange], uses: list[MissionUse], name: str
+) -> types.WorkspaceEdit:
     edits: dict[str, list[types.TextEdit]] = {}
     for change in changes:
         key, begin, finish = change.place
         uri, lines = session.documents.lines_of(key)
         edits.setdefault(uri, []).append(types.TextEdit(lines.range(begin, finish), change.text))
+    for use in uses:
+        edits.setdefault(use.uri, []).append(types.TextEdit(use.location.range, name))
     return types.WorkspaceEdit(edits)
 
 

@@ -150,5 +150,5 @@ def _answer_shape(session: Session) -> None:
         types.TEXT_DOCUMENT_CODE_LENS,
         lambda view, params: code_lenses(view),
         nothing=list,
-        of_mission=lambda mission, params: mission_lenses(mission),
+        of_mission=lambda mission, params: [] if session.is_distrusted else mission_lenses(mission),
     )

@@ -39,7 +39,7 @@ def answer_commands(session: Session) -> None:
     """Let a session carry out commands, and answer what the views of an editor ask."""
 
     @session.command(CHECK)
-    async def check(uri: str, *missions: Any) -> dict[str, Any]:
+    async def check(uri: Any, *missions: Any) -> dict[str, Any]:
         path = _path(uri)
         folder = _folder(session, path)
         wanted = missions[0] if missions and isinstance(missions[0], int) else 0
@@ -64,7 +64,7 @@ def answer_commands(session: Session) -> None:
         }
 
     @session.command(EXPLAIN)
-    async def explain(uri: str) -> str:
+    async def explain(uri: Any) -> str:
         path = _path(uri)
         folder = _folder(session, path)
         title = f"nddlc: explaining the last failure of {path.name}"
@@ -75,7 +75,7 @@ def answer_commands(session: Session) -> None:
         return ended.output
 
     @session.command(CERTIFY)
-    async def certify(uri: str) -> str:
+    async def certify(uri: Any) -> str:
         path = _path(uri)
         ended = await _run(
             session, f"nddlc: certifying {path.name}", path.parent, "certify", _seen_from(path.parent, path)
@@ -126,8 +126,8 @@ def _field(params: Any, name: str) -> str:
     return value
 
 
-def _path(uri: str) -> Path:
-    path = path_of(uri)
+def _path(uri: Any) -> Path:
+    path = path_of(uri) if isinstance(uri, str) else None
     if path is None or not path.is_file():
         raise RequestFailed(f"`{uri}` is no saved file")
     return path

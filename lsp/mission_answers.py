@@ -33,6 +33,8 @@ from nddl_lang.semantics.schema import EnumValue, GlobalReference, Kind, Predica
 from nddl_lang.text.source import Span
 
 _TIMELINES = ("internal", "external", "early", "late", "timeline")
+_FIGURES = ("path", "during", "phases", "targets")  # timelines
+_GIVEN = (("goal", "parameters"), ("property", "parameters"))  # tables of arguments
 _OBJECTS = {**dict.fromkeys(_TIMELINES, (TIMELINE,)), "resource": tuple(sorted(SELF_ACTIVATING))}  # by key: of a class
 _CODED = re.compile(r"^[ \t]*code[ \t]*=", re.MULTILINE)  # a reactor in Python, of which nothing is proved
 _HEAD = re.compile(r"^[ \t]*\[mission\]", re.MULTILINE)
@@ -63,7 +65,7 @@ def mission_hover(documents: Documents, mission: OpenMission, offset: int, conve
     """What a key means, or what a value names in the model."""
     place = place_at(mission.text, offset)
     shown = mission.lines.range(place.begin, place.finish)
-    for snapshot, thing in _named(documents, mission, place):
+    for snapshot, thing in named(documents, mission, place):
         describer = Describer(snapshot.analysis, lambda span: link(conversion, span))
         match thing:
             case Variable():
@@ -86,8 +88,8 @@ def mission_definition(
         path = mission.path.parent / place.word.partition(":")[0]
         start = mission.lines.range(0, 0).start
         return Location(uri_of(path), Range(start, start)) if path.is_file() else None
-    for snapshot, thing in _named(documents, mission, place):
-        span = _span(snapshot, thing)
+    for snapshot, thing in named(documents, mission, place):
+        span = declared_at(snapshot, thing)
         if span is not None:
             return conversion.location(span)
     return None
@@ -110,7 +112,8 @@ def mission_lenses(mission: OpenMission) -> list[CodeLens]:
     return [CodeLens(place, Command(title, command, arguments=arguments)) for title, command, arguments in offered]
 
 
-def _span(snapshot: Snapshot, thing: _Thing) -> Span | None:
+def declared_at(snapshot: Snapshot, thing: _Thing) -> Span | None:
+    """Where a model declares what a mission file names."""
     if isinstance(thing, EnumValue):
         enum = snapshot.analysis.schema.enums.get(thing.enum)
         node = enum.node if enum is not None else None
@@ -127,25 +130,38 @@ def _snapshots(documents: Documents, mission: OpenMission) -> Iterator[Snapshot]
             yield snapshot
 
 
-def _named(documents: Documents, mission: OpenMission, place: MissionPlace) -> Iterator[tuple[Snapshot, _Thing]]:
+def named(documents: Documents, mission: OpenMission, place: MissionPlace) -> Iterator[tuple[Snapshot, _Thing]]:
     """What the word at a place names in the models."""
     for snapshot in _snapshots(documents, mission):
         schema = snapshot.analysis.schema
         thing: _Thing | None = None
-        if place.is_value and place.key in _OBJECTS:
+        if place.is_value and (place.key in _OBJECTS or (place.table == ("figures",) and place.key in _FIGURES)):
             thing = schema.globals.get(place.word)
+        elif place.table == ("figures",) and place.is_value and place.key in ("samples", "feature"):
+            thing = _figured(mission, snapshot, place)
         elif place.is_value and place.key == "predicate":
             thing = _predicate(snapshot, _sibling(mission, place, "timeline"), place.word)
-        elif place.table[:2] == ("goal", "parameters"):
+        elif place.table[:2] in _GIVEN:
             name = place.key if place.is_value else place.word
             predicate = _predicate(
                 snapshot, _sibling(mission, place, "timeline"), _sibling(mission, place, "predicate")
             )
             thing = next((each for each in predicate.parameters if each.name == name), None) if predicate else None
-        elif place.table[:1] == ("parameters",) and not place.is_value and len(place.table) == 1:
+        elif (place.table[:1] == ("parameters",) and not place.is_value and len(place.table) == 1) or (
+            place.table[:1] == ("joint",) and place.is_value and place.key == "parameters"
+        ):
             thing = schema.globals.get(place.word) or schema.enum_values.get(place.word)
         if thing is not None:
             yield snapshot, thing
+
+
+def _figured(mission: OpenMission, snapshot: Snapshot, place: MissionPlace) -> _Thing | None:
+    """What one half of `gulper.Firing` names."""
+    before = mission.text[: place.begin]
+    if not before.endswith("."):
+        return snapshot.analysis.schema.globals.get(place.word)
+    timeline = re.split(r"[\"']", before[:-1])[-1]
+    return _predicate(snapshot, timeline, place.word) if place.key == "samples" else None
 
 
 def _sibling(mission: OpenMission, place: MissionPlace, key: str) -> str:

@@ -23,6 +23,7 @@ _BEGUN = re.compile(r"[ \t]*\[\[?(?=[^\]\n]*\Z)")  # a header that is not closed
 _KEY = re.compile(r"""^[ \t]*([A-Za-z0-9_-]+|"[^"\n]*"|'[^'\n]*')[ \t]*=""", re.MULTILINE)
 _MODEL = re.compile(r"""^[ \t]*model[ \t]*=[ \t]*["']([^"'\n]+)["']""", re.MULTILINE)
 _MISSION = re.compile(r"^[ \t]*\[(?:mission|\[reactor\])\]", re.MULTILINE)
+_FIGURES = ("figures",)  # there `samples = "gulper.Firing"` names two things
 _WORDS = ("mission", "solver")
 _CONFIGURATIONS = (NAME, PROJECT)
 _STRING = re.compile(r"""(["'])((?:(?!\1)[^\n\\]|\\.)*)\1?""")
@@ -96,8 +97,17 @@ def place_at(text: str, offset: int) -> MissionPlace:
         return MissionPlace(table, None, False, key[1].strip("\"'"), key.start(1), key.end(1))
     for string in _STRING.finditer(text, key.end(), _line_end(text, offset)):
         if string.start() < offset <= string.end() - (string[0][-1:] == string[1] and len(string[0]) > 1):
-            return MissionPlace(table, key[1].strip("\"'"), True, string[2], string.start(2), string.end(2))
+            begin, end = _part(text, string, offset) if table == _FIGURES else string.span(2)
+            return MissionPlace(table, key[1].strip("\"'"), True, text[begin:end], begin, end)
     return MissionPlace(table, key[1].strip("\"'"), True, *_word(text, offset))
+
+
+def _part(text: str, string: re.Match[str], offset: int) -> tuple[int, int]:
+    """The half of `timeline.predicate` that a cursor stands in."""
+    dot = text.find(".", *string.span(2))
+    if dot < 0:
+        return string.span(2)
+    return (dot + 1, string.end(2)) if offset > dot else (string.start(2), dot)
 
 
 def _is_open(text: str, key: re.Match[str], offset: int) -> bool:

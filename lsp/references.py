@@ -3,9 +3,8 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from lsprotocol.types import DocumentHighlight, DocumentHighlightKind, Location
+from lsprotocol.types import DocumentHighlight, DocumentHighlightKind
 
-from lsp.diagnostics import Conversion
 from lsp.documents import Documents
 from lsp.meaning import piece_at
 from lsp.occurrences import Occurrence, Role, Symbol
@@ -65,20 +64,6 @@ def symbol_declared_at(snapshot: Snapshot, place: Place) -> Symbol | None:
 def _located(snapshot: Snapshot, occurrences: Iterable[Occurrence]) -> dict[Place, Occurrence]:
     keys = snapshot.keys
     return {(keys[each.span.source], each.span.begin, each.span.finish): each for each in occurrences}
-
-
-def references(
-    documents: Documents, view: DocumentContext, offset: int, conversion: Conversion, *, with_declaration: bool
-) -> list[Location]:
-    """Where what is named at `offset` is named."""
-    here = occurrence_at(view, offset)
-    if here is None:
-        return []
-    return [
-        conversion.location(each.span)
-        for each in everywhere(documents, view.snapshot, here.symbol).found.values()
-        if with_declaration or each.role is not Role.DECLARES
-    ]
 
 
 def highlights(view: DocumentContext, offset: int) -> list[DocumentHighlight]:

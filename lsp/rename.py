@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from lsprotocol.types import PrepareRenamePlaceholder
 
 from lsp.documents import Documents
-from lsp.occurrences import Occurrence, Role, SymbolType
+from lsp.occurrences import Occurrence, Role, Symbol, SymbolType
 from lsp.open_text import DocumentContext
 from lsp.project import Project, Snapshot
-from lsp.references import Place, everywhere, occurrence_at, symbol_declared_at
+from lsp.references import Everywhere, Place, everywhere, occurrence_at, symbol_declared_at
 from lsp.uris import key_of
 from nddl_lang.syntax.includes import LIBRARY
 from nddl_lang.syntax.words import RESERVED
@@ -43,27 +43,29 @@ def prepare_rename(documents: Documents, view: DocumentContext, offset: int) -> 
     here = occurrence_at(view, offset)
     if here is None:
         return None
-    _assert_renamable(view.snapshot, here.symbol.type, everywhere(documents, view.snapshot, here.symbol).found)
+    assert_renamable(documents, view.snapshot, here.symbol)
     place = view.document.lines.range(here.span.begin, here.span.finish)
     return PrepareRenamePlaceholder(place, here.span.text)
 
 
-def rename(documents: Documents, view: DocumentContext, offset: int, name: str) -> list[TextChange]:
-    """The changes that call what is named at `offset` `name`; raises RenameError where that cannot be."""
-    here = occurrence_at(view, offset)
-    if here is None:
-        raise RenameError("there is no name that a model declares")
+def assert_renamable(documents: Documents, snapshot: Snapshot, symbol: Symbol) -> None:
+    """Raise RenameError if a symbol cannot have another name."""
+    _assert_renamable(snapshot, symbol.type, everywhere(documents, snapshot, symbol).found)
+
+
+def rename(documents: Documents, snapshot: Snapshot, symbol: Symbol, name: str) -> tuple[list[TextChange], Everywhere]:
+    """The changes that call a symbol `name`, and all its occurrences; raises RenameError where that cannot be."""
     if not _NAME.fullmatch(name):
         raise RenameError(f"`{name}` is no name: letters, digits, `_` and `$`, the first one no digit")
     if name in RESERVED:
         raise RenameError(f"`{name}` is a word of the language")
-    found = everywhere(documents, view.snapshot, here.symbol)
-    _assert_renamable(view.snapshot, here.symbol.type, found.found)
-    if name == here.symbol.name:
-        return []
+    found = everywhere(documents, snapshot, symbol)
+    _assert_renamable(snapshot, symbol.type, found.found)
+    if name == symbol.name:
+        return [], found
     for project in found.projects:
         _try(documents, project, [place for place in found.found if place[0] in project.snapshot.parses], name)
-    return [TextChange(place, name) for place in found.found]
+    return [TextChange(place, name) for place in found.found], found
 
 
 def _assert_renamable(snapshot: Snapshot, type_: SymbolType, found: dict[Place, Occurrence]) -> None:

@@ -35,6 +35,11 @@ def all_roots(key: str, folders: Iterable[Path]) -> list[Path]:
 
 def models_below(folder: Path) -> Iterator[Path]:
     """The models in `folder` and the folders below it, hidden ones left out; not more than an editor can bear."""
+    return files_below(folder, _SUFFIX)
+
+
+def files_below(folder: Path, suffix: str) -> Iterator[Path]:
+    """The files with that suffix in `folder` and the folders below it, as of `models_below`."""
     pending, count = [folder], 0
     while pending and count < _MOST_ENTRIES:
         try:
@@ -46,7 +51,7 @@ def models_below(folder: Path) -> Iterator[Path]:
                 continue
             if entry.is_dir():
                 pending.append(entry)
-            elif entry.suffix == _SUFFIX and count < _MOST_ENTRIES:
+            elif entry.suffix == suffix and count < _MOST_ENTRIES:
                 count += 1
                 yield entry
 

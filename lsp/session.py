@@ -5,6 +5,7 @@ newest state; a question that is taken back before its turn is never computed.
 """
 
 import asyncio
+import inspect
 import logging
 from collections.abc import Callable, Sequence
 from dataclasses import fields
@@ -12,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from lsprotocol import types
-from pygls.exceptions import JsonRpcException
+from pygls.exceptions import JsonRpcException, JsonRpcInvalidParams
 from pygls.lsp.server import LanguageServer
-from pygls.protocol import LanguageServerProtocol, default_converter
+from pygls.protocol import LanguageServerProtocol, default_converter, lsp_method
 
 from lsp.check_results import CheckResults
 from lsp.diagnostics import Conversion
@@ -67,6 +68,18 @@ class _Protocol(LanguageServerProtocol):
             if "id" in data and "method" in data:
                 self._send_response(data["id"], error=problem.to_response_error())
             raise
+
+    @lsp_method(types.WORKSPACE_EXECUTE_COMMAND)
+    async def lsp_workspace__execute_command(self, params: types.ExecuteCommandParams) -> Any:  # type: ignore[override]
+        """Carry out a command, which ends where its request is taken back: pygls would let it run on."""
+        handler = self.fm.commands.get(params.command)
+        if handler is None:
+            raise JsonRpcInvalidParams.of(ValueError(f"there is no command `{params.command}`"))
+        try:
+            arguments = inspect.signature(handler).bind(*(params.arguments or ())).args
+        except TypeError as problem:
+            raise JsonRpcInvalidParams.of(problem) from None
+        return await handler(*arguments)
 
     def _send_response(self, msg_id: int | str, result: Any = None, error: Any = None) -> None:
         """Answer a request, unless it is answered already."""

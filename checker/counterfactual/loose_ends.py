@@ -1,9 +1,11 @@
 """Candidates in, loose ends out, the likeliest first: where a line of a rule may be missing, though nothing was flown.
 
 A variable that too few lines speak of is one, and so is a constant that somebody declared and nothing reads: it is
-missed in the rule that its name speaks of.
+missed in the rule that its name speaks of. A constant that lines read and nothing sets may be any number.
 """
 
+import re
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -18,7 +20,10 @@ _NOT_LOCAL = 2.0  # how much farther off a parameter counts than a local variabl
 _SET_ELSEWHERE = 3.0  # how much farther off a variable is that other rules set
 _UNEVEN = -2.5  # and what only one branch of a condition sets
 _UNREAD = -4.0  # and a constant that bears the name of a rule: it seldom is declared for nothing
+_UNSET = -3.0  # and a constant that nothing sets
 _UNPLACED = 3.0  # of one whose rule its name does not tell
+
+_BARE = re.compile(r"\w+\s+\w+\s*;")  # a declaration without a value
 
 
 def loose_ends(graph: Dependence, candidates: Sequence[Candidate], usage: Usage) -> tuple[Loose, ...]:
@@ -30,6 +35,7 @@ def loose_ends(graph: Dependence, candidates: Sequence[Candidate], usage: Usage)
         if (site := graph.sites[one.site]) in near
     ]
     found += _unread(graph.sites, near, usage)
+    found += _unset(graph.sites, near, usage)
     return tuple(replace(loose, doubt=doubt) for doubt, loose in sorted(found, key=lambda one: one[0]))
 
 
@@ -56,3 +62,12 @@ def _unread(sites: Sequence[EditSite], near: dict[EditSite, Candidate], usage: U
         else:
             own = Candidate(constant, 0.0, Suspicion.DEPENDENCE)
             yield _UNPLACED, Loose(own, constant.named, is_unread=True)
+
+
+def _unset(sites: Sequence[EditSite], near: dict[EditSite, Candidate], usage: Usage) -> Iterator[tuple[float, Loose]]:
+    """The numbers that lines read and nothing sets, each where it is declared."""
+    lines = Counter(one.named for one in sites if one.is_number)
+    for site in sites:
+        is_bare = _BARE.fullmatch(site.text) is not None
+        if site in near and site.is_number and is_bare and lines[site.named] == 1 and not usage.is_idle(site.named):
+            yield near[site].far + _UNSET, Loose(near[site], site.named, is_unset=True)

@@ -31,6 +31,7 @@ class Claim(StrEnum):
     LOOSE_END = "loose end"  # a line may be missing: nothing was flown
     UNEVEN = "uneven branches"  # the same, by what one branch of a condition sets and the other does not
     UNREAD = "unread"  # the same, by a constant that nothing reads
+    UNSET = "unset"  # the same, by one that is read and has no value
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,7 +111,8 @@ def _tried(trial: LineTrial, root: Path) -> RankedLine:
 
 def _loose(loose: Loose, root: Path) -> RankedLine:
     site = loose.candidate.site
-    claim = Claim.UNREAD if loose.is_unread else Claim.UNEVEN if loose.is_uneven else Claim.LOOSE_END
+    claims = {Claim.UNREAD: loose.is_unread, Claim.UNEVEN: loose.is_uneven, Claim.UNSET: loose.is_unset}
+    claim = next((claim for claim, holds in claims.items() if holds), Claim.LOOSE_END)
     return RankedLine(_place(loose.candidate, site.first, root), site.rule, claim, variable=loose.variable)
 
 

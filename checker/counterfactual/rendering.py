@@ -33,6 +33,8 @@ def claim_text(cause: RankedLine) -> str:
             return f"one branch sets `{cause.variable}`, the other does not: a line may be missing (no flight can tell)"
         case Claim.UNREAD:
             return f"nothing reads `{cause.variable}`: a line that does may be missing here (no flight can tell)"
+        case Claim.UNSET:
+            return f"nothing says what `{cause.variable}` is: a line that does may be missing (no flight can tell)"
         case _:
             assert_never(cause.claim)
 

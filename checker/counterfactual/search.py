@@ -12,12 +12,15 @@ from checker.batch.result import MissionResult
 from checker.counterfactual.candidates import candidates_of
 from checker.counterfactual.dependence import Dependence
 from checker.counterfactual.loose_ends import loose_ends
+from checker.counterfactual.mission_lines import mission_lines
 from checker.counterfactual.ranking import Causes, Claim, RankedLine, rank
 from checker.counterfactual.smallness import usage_of
 from checker.counterfactual.trials import HEAVY, Bounds, Missions, Trials, damage_of, try_out
 from checker.coverage import Universe
 from checker.losses import Limit
-from checker.mutation.edits import EditSite, SmallEdit, sites_of
+from checker.mission import Mission
+from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
+from checker.mutation.mission_edits import agent_with
 from checker.mutation.variant import Overlay, load_graph, load_over, with_edit
 from checker.oracle import Verdict, judge_losses
 from checker.proofs.places import text_of
@@ -35,6 +38,7 @@ class Suspended:
     limits: tuple[tuple[Limit, int], ...]
     flyer: Flyer
     overlay: Overlay = ()
+    mission: Mission | None = None  # whose file is tried too
 
 
 class CauseSearch:
@@ -82,12 +86,18 @@ def find_causes(missions: Missions, world: Suspended, bounds: Bounds) -> Trials:
     models = {each.model: program for each, program in zip(world.agent.reactors, world.programs, strict=True)}
     text = text_of(world.agent, models)
     candidates = candidates_of(outcome, graph, Path(world.agent.root), world.agent.properties, exercised, text)
-    trials = try_out(candidates, missions, usage, partial(_fly, world), bounds)
+    last = mission_lines(world.mission, outcome) if world.mission is not None else ()
+    trials = try_out(candidates, missions, usage, partial(_fly, world), bounds, last)
     return replace(trials, loose=loose_ends(graph, candidates, usage))
 
 
 def _fly(world: Suspended, edit: SmallEdit, mission: MissionResult, most_seconds: float) -> MissionResult:
-    load = partial(load_over, with_edit(world.overlay, edit), tells_on=False)
-    agent = with_point(world.agent, mission.point)
+    agent, overlay = world.agent, world.overlay
+    if edit.kind is not EditKind.MISSION:
+        overlay = with_edit(overlay, edit)
+    elif world.mission is not None:
+        agent = agent_with(world.mission, agent, edit)
+    load = partial(load_over, overlay, tells_on=False)
+    agent = with_point(agent, mission.point)
     result = world.flyer.fly(agent, mission.number, mission.seed, load, most_seconds=most_seconds)
     return replace(result, judgement=judge_losses(result.judgement, result.losses, world.limits))

@@ -65,6 +65,7 @@ _COMPARISONS = {
 # The sign of what is added: between two times most write how much later one is.
 _SIGNED = {"time sum": {"+": 4.0, "-": 1.0}, "sum": {"+": 2.0, "-": 1.0}, "number": {}}
 _MENTION, _ALIKE, _DOUBLED = 2.0, 1.5, 0.7  # odds that what lacks a mention is meant, or the same name on both sides
+_VALUE = 1.7  # of another value: few lines have one, so their number says little
 _UNMEANT = -9.0  # and the range of a draw where a variable is, or a line gone that alone sets one
 _SUM = 1.5  # how much the odds count of a sign that stands between the same words elsewhere
 _RARE = 0.3  # all other words
@@ -170,7 +171,8 @@ def cost_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
 
 def _structural(edit: SmallEdit, usage: Usage) -> float:
     """What a relation, a sign or a comparison costs where missions pass that it is a part of, too."""
-    return _EDGE * usage.passing if edit.kind not in (*_NUMERIC, EditKind.LIMIT) else 0.0
+    is_shared = edit.kind not in (*_NUMERIC, EditKind.LIMIT, EditKind.VALUE)  # a value matters for some arguments only
+    return _EDGE * usage.passing if is_shared else 0.0
 
 
 def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
@@ -182,8 +184,12 @@ def _form(edit: SmallEdit, site: EditSite, usage: Usage) -> float:
             return 1.5 - _IDLE * usage.is_swapped(edit) - belongs
         case EditKind.CONSTANT | EditKind.OFF_BY_ONE:
             return 1.0 + _OCTAVE * _octaves(edit) + _DIGIT * (_digits(edit.new) - _digits(edit.old))
-        case EditKind.PREDICATE:
+        case EditKind.MISSION if edit.old == "0":
+            return 0.0  # a reactor that is asked for nothing
+        case EditKind.PREDICATE | EditKind.MISSION:
             return 3.0
+        case EditKind.VALUE:
+            return _VALUE
         case EditKind.NAME | EditKind.POINT | EditKind.TOKEN:
             return 2.0 - usage.fitness(edit, site)
         case _:
@@ -203,6 +209,8 @@ def delay_of(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
 
 def _delay(edit: SmallEdit, site: EditSite, usage: Usage) -> float | None:
     match edit.kind:
+        case EditKind.MISSION:
+            return -1.0 if edit.old == "0" else None  # tried last
         case EditKind.LIMIT if usage.is_swapped(edit):
             return -1.0
         case EditKind.LIMIT:

@@ -7,14 +7,14 @@ to the least likely and end after so many flights or seconds: what could not be 
 import heapq
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from itertools import count
 
 from checker.batch.result import MissionResult
-from checker.counterfactual.candidates import Candidate
-from checker.counterfactual.smallness import Usage, alternatives, cost_of, delay_of, follow_ups
+from checker.counterfactual.candidates import Candidate, Suspicion
+from checker.counterfactual.smallness import Usage, alternatives, cost_of, delay_of, follow_ups, is_loosening
 from checker.coverage import left_out
 from checker.losses import GoalFate
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
@@ -24,6 +24,7 @@ MOST_FLIGHTS = 40
 MOST_SECONDS = 60.0
 _NEARNESS = 0.3  # of the distance, beside how late an edit is tried at its line
 _TURN, _PLACE = 0.3, 0.1  # how much later each further edit of one line is tried, at one place and at another
+_MOST_OUTSIDE = 5  # changes of the mission file
 _CONFIRMED = 3  # causes that are tried on other missions too
 _FAR = 0.1  # what the distance of a line counts beside the cost of its change
 HEAVY = 10.0  # damage of a mission that passes without a goal
@@ -86,7 +87,7 @@ class LineTrial:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Loose:
-    """A variable that too few lines speak of, or a constant that `is_unread`: a line may be missing there.
+    """A variable that too few lines speak of, or a constant that `is_unread` or `is_unset`: a line may be missing.
 
     `is_uneven`: the other branch of a condition sets the variable. `doubt`: how far off it is, and how usual.
     """
@@ -95,6 +96,7 @@ class Loose:
     variable: str
     is_unread: bool = False
     is_uneven: bool = False
+    is_unset: bool = False
     doubt: float = 0.0
 
 
@@ -129,13 +131,23 @@ class Missions:
         return result.outcome is not None and not self.usual.issubset(result.outcome.behaviour)
 
 
-def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, fly: Try, bounds: Bounds) -> Trials:
-    """Try changes of the candidates on the first of the failed missions, and the best ones on the other missions."""
+def try_out(
+    candidates: Sequence[Candidate],
+    missions: Missions,
+    usage: Usage,
+    fly: Try,
+    bounds: Bounds,
+    last: Sequence[Candidate] = (),
+) -> Trials:
+    """Try changes of the candidates on the first of the failed missions, and the best ones on the other missions.
+
+    What is to be tried `last` is where no small change of others has helped, or where the conflict speaks of it.
+    """
     failed = missions.failed
     trials = _Trials(missions, fly, bounds)
     queue: list[tuple[float, int, Candidate, SmallEdit]] = []
     order = count()
-    for candidate in candidates:
+    for candidate in (*last, *candidates):
         turns: Counter[int] = Counter()
         far = max(candidate.far - _CONSTANT * candidate.site.is_number, 0.0)
         for delay, edit in _first_edits(candidate.site, usage):
@@ -147,7 +159,10 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
     reserve = min(_CONFIRMED * (len(failed) - 1 + len(missions.passed)), bounds.flights // 4)
     best: dict[EditSite, LineTrial] = {}
     tried: set[tuple[EditSite, SmallEdit]] = set()
-    while queue and trials.may_go_on(reserve):
+    outside = [(candidate, edit) for candidate in last for edit in candidate.site.edits]
+    outside = [one for one in outside if delay_of(one[1], one[0].site, usage) is None][:_MOST_OUTSIDE]
+    spoken = sum(candidate.source is Suspicion.CONFLICT for candidate, _ in outside)
+    while queue and trials.may_go_on(reserve + (spoken if _has_small(best) else len(outside))):
         at, _, candidate, edit = heapq.heappop(queue)
         site = candidate.site
         cost = cost_of(edit, site, usage)
@@ -164,8 +179,16 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
             best[site] = trial
         for other in follow_ups(edit, site, usage) if trial.damage < HEAVY else ():
             heapq.heappush(queue, (at * _FOLLOWED, next(order), candidate, other))
-    if trials.ended is TrialsEnd.FLIGHTS:
-        trials.ended = None
+    trials.resume()
+    has_small = _has_small(best)
+    for candidate, edit in outside:
+        if (candidate.source is Suspicion.CONFLICT or not has_small) and trials.may_go_on(reserve):
+            tried.add((candidate.site, edit))
+            result = trials.fly(edit, failed[0])
+            if result.verdict is Verdict.PASS:
+                damage, cost = damage_of(result) + _strayed(result, failed[0]), cost_of(edit, candidate.site, usage)
+                best[candidate.site] = LineTrial(candidate, edit, damage, cost, is_evasive=missions.is_evasive(result))
+    trials.resume()
     ranked = sorted(best.values(), key=lambda one: one.weight)
     confirmed: list[LineTrial] = []
     while ranked and sum(not one.spoilt for one in confirmed) < _CONFIRMED:
@@ -175,6 +198,11 @@ def try_out(candidates: Sequence[Candidate], missions: Missions, usage: Usage, f
     ended = trials.ended or (TrialsEnd.COMPLETE if is_all else TrialsEnd.FLIGHTS)
     lines = len({site for site, _ in tried})
     return Trials(tuple(ranked), tuple(candidates), lines, trials.flights, ended)
+
+
+def _has_small(best: Mapping[EditSite, LineTrial]) -> bool:
+    """Whether a change that takes no demand away makes the mission pass with all its goals."""
+    return any(one.toll < HEAVY and not is_loosening(one.edit, site) for site, one in best.items())
 
 
 def _first_edits(site: EditSite, usage: Usage) -> list[tuple[float, SmallEdit]]:
@@ -218,6 +246,11 @@ class _Trials:
             elif time.monotonic() - self._begun >= self.bounds.seconds:
                 self.ended = TrialsEnd.SECONDS
         return self.ended is None
+
+    def resume(self) -> None:
+        """Let flights that were kept for others be made."""
+        if self.ended is TrialsEnd.FLIGHTS:
+            self.ended = None
 
     def fly(self, edit: SmallEdit, mission: MissionResult) -> MissionResult:
         """One trial."""

@@ -93,7 +93,7 @@ def _uses_of(bench: Bench, resource: str) -> Iterator[_ResourceUse]:
         kind = record.predicate.rpartition(".")[2]
         if kind not in ("produce", "consume", "uses", "use"):
             continue
-        quantity: Value = tok.values[FIRST_PARAMETER] if record.arguments else 1.0
+        quantity: Value = tok.values[FIRST_PARAMETER] if record.arguments and kind != "use" else 1.0  # of a Unary
         yield from _use(bench, kind, quantity, tok.values[START], tok.values[END], tok, None)
     for holder, quantity, start, end, user, span in bench.uses:
         if holder == resource:

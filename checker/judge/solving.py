@@ -7,6 +7,8 @@ from checker.judge.functions import COMPUTED, has_open, reach, sum_of
 from checker.judge.meanings import TESTS, negation
 from runtime.executive.record import Value, ValueRange
 
+_ROUNDING = ("floor", "floorf", "ceil", "ceilf")
+
 
 def _evaluate(function: Callable[..., float], inputs: tuple[Value, ...], monotone: bool) -> Value:
     """The value of a function; an interval where an input is open."""
@@ -20,6 +22,14 @@ def _evaluate(function: Callable[..., float], inputs: tuple[Value, ...], monoton
     return ValueRange(lowest, highest)
 
 
+def _rounded(function: Callable[..., float], x: Value) -> Value:
+    """A whole number; an interval where the real is so near to one that it may stand for values on both sides."""
+    lowest, highest = reach(function, (x,))
+    if lowest is None or highest is None or lowest == highest:
+        return _evaluate(function, (x,), True)
+    return ValueRange(lowest, highest)
+
+
 def solver(name: str, index: int, count: int) -> Callable[..., Value] | None:
     """The function that gives argument `index` of constraint `name` from the other arguments; None if there is none."""
     if name in TESTS and index == 0:
@@ -27,6 +37,8 @@ def solver(name: str, index: int, count: int) -> Callable[..., Value] | None:
         return lambda *rest: _truth(test(*rest))
     if name in COMPUTED and index == (COMPUTED[name][0] if COMPUTED[name][0] == 0 else count - 1):
         _, function, monotone = COMPUTED[name]
+        if name in _ROUNDING:
+            return lambda x: _rounded(function, x)
         return lambda *rest: _evaluate(function, rest, monotone)
     match name, index:
         case "addEq", _:  # of sum and the other term

@@ -82,6 +82,12 @@ def _is_of_class(bench: Bench, value: Value, class_name: str, names: VariableNam
     return None if known is None else names.is_kind_of(known[0], class_name)
 
 
+def _any_of(bench: Bench, class_name: str, names: VariableNames) -> Value:
+    """All objects of a class."""
+    found = tuple(name for name, (own, _) in bench.members.items() if names.is_kind_of(own, class_name))
+    return OpenValues(found) if len(found) > 1 else found[0] if found else UNKNOWN
+
+
 def _variable(new: NewVariable, names: VariableNames) -> Step:
     slot, name = new.slot, new.name or ""
     test = domain_test(new.type, new.domain, names)
@@ -92,7 +98,8 @@ def _variable(new: NewVariable, names: VariableNames) -> Step:
         bench = frame.bench
         if value is None and frame.choosing is not None:
             if slot not in frame.choosing.known:
-                frame.slots[slot] = UNKNOWN
+                is_object = new.type.kind == "object" and new.domain is None
+                frame.slots[slot] = _any_of(bench, new.type.type_name, names) if is_object else UNKNOWN
             value = frame.slots[slot]
             frame.choosing.log.locals.append(value)
         if value is None:

@@ -71,6 +71,7 @@ class EditKind(StrEnum):
     POINT = "time point"  # the start of a token, for its end
     TOKEN = "token"  # one token of a rule, for another
     PREDICATE = "predicate"  # of a child
+    MISSION = "mission file"
     DROPPED_CONSTRAINT = "dropped constraint"
     DROPPED_BRANCH = "dropped branch"
 

@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
+from itertools import pairwise
 
 import z3
 
@@ -77,12 +78,12 @@ def confirm(conflict: Conflict, text: ModelText | None = None, effort: int = EFF
         claim = reader.written(element)
         if claim is not None:
             written.add(number)
-        claims = reader.told(element, untranslated) if claim is None else [(claim, None)]
-        for each, limit in claims:
-            # That a token lasts as long as a line lets it says nothing without that line.
-            sources = [marks[k] for k, other in enumerate(conflict.elements) if limit in other.terms]
-            if limit is None or sources:
-                solver.add(z3.Implies(z3.And(marks[number], *sources), each))
+        claims = reader.told(element, untranslated) if claim is None else [(claim, frozenset())]
+        for each, limits in claims:
+            # That a token lasts as long as lines let it says nothing without these lines.
+            sources = [k for k, other in enumerate(conflict.elements) if k != number and _shares(other, limits)]
+            if len({term for k in sources for term in conflict.elements[k].terms}.intersection(limits)) == len(limits):
+                solver.add(z3.Implies(z3.And(marks[number], *[marks[k] for k in sources]), each))
         if claims:
             needed.append(number)
     solver.add(*reader.definitions(conflict))
@@ -179,16 +180,22 @@ class _Reader:
 
     # ---- what the flight says ----
 
-    def told(self, element: ConflictElement, untranslated: list[str]) -> list[tuple[Claim, Term | None]]:
-        """What an element says by itself, where no line does; each with the limit that it uses up, if it does."""
+    def told(self, element: ConflictElement, untranslated: list[str]) -> list[tuple[Claim, frozenset[Term]]]:
+        """What an element says by itself, where no line does; each with the limits that it uses up, if it does."""
         found = []
-        for number, term in enumerate(element.terms):
+        terms = element.terms
+        latest = [number for number, term in enumerate(terms) if term.name == "latest"]
+        for number, term in enumerate(terms[: latest[0]] if latest else terms):
             claim = self._term(term)
+            limit = _limit_of(terms, number) if element.kind is ElementKind.LONGEST else None
             if claim is None:
                 untranslated.append(term.name)
             else:
-                limit = _limit_of(element.terms, number) if element.kind is ElementKind.LONGEST else None
-                found.append((claim, limit))
+                found.append((claim, frozenset(() if limit is None else (limit,))))
+        for number, after in pairwise([*latest, len(terms)]):
+            variable, value = terms[number].arguments
+            limits = frozenset(one for one in terms[number + 1 : after] if not _is_length(one))
+            found.append((self.number(variable) >= self.number(value), limits))
         return found
 
     def _term(self, term: Term) -> Claim | None:
@@ -221,13 +228,19 @@ class _Reader:
 
 def _is_duration(element: ConflictElement) -> bool:
     """Whether an element says that start + duration = end of one token."""
-    match element.terms:
-        case (
-            Term(name="temporalDistance", arguments=(VariableName() as a, VariableName() as b, VariableName() as c)),
-        ):
+    return len(element.terms) == 1 and _is_length(element.terms[0])
+
+
+def _is_length(term: Term) -> bool:
+    match term:
+        case Term(name="temporalDistance", arguments=(VariableName() as a, VariableName() as b, VariableName() as c)):
             return (a.name, b.name, c.name) == ("start", "duration", "end") and a.token == b.token == c.token
         case _:
             return False
+
+
+def _shares(element: ConflictElement, terms: frozenset[Term]) -> bool:
+    return not terms.isdisjoint(element.terms)
 
 
 def _limit_of(terms: Sequence[Term], number: int) -> Term | None:

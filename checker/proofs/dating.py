@@ -16,7 +16,7 @@ import z3
 from checker.proofs.claims import Claim, Number
 from checker.proofs.demands import Demand
 from checker.proofs.operands import name_of, rational, variables_of
-from checker.proofs.solving import fraction, solved
+from checker.proofs.solving import fraction, simplified, solved
 from checker.proofs.structure import Structure
 
 _EQUALITIES = ("eq", "concurrent")
@@ -96,7 +96,7 @@ class _Dating:
     # ---- equations ----
 
     def _know(self, name: str, value: Number) -> None:
-        self.known[name] = z3.simplify(value)
+        self.known[name] = simplified(value)
         self.waiting.extend(self.touching.get(name, ()))
 
     def _propagate(self) -> None:

@@ -46,6 +46,7 @@ class Symbols:
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {}
         self._variables: dict[tuple[str, bool], Number] = {}
+        self._names: dict[int, str] = {}  # of these, by identity: z3 is slow to tell
         self._fresh = 0
 
     def constant(self, value: Scalar, kind: str) -> Number:
@@ -62,7 +63,13 @@ class Symbols:
         known = self._variables.get(key)
         if known is None:
             known = self._variables[key] = z3.Real(name) if kind == "float" else z3.Int(name)
+            self._names[id(known)] = name
         return known
+
+    def name_of(self, number: Number | None) -> str:
+        """The name of a variable; empty for everything else."""
+        known = self._names.get(id(number))
+        return name_of(number) if known is None else known
 
     def anonymous(self, kind: str) -> Number:
         """A variable that nobody else knows."""

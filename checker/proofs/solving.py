@@ -25,13 +25,18 @@ def solved(name: str, index: int, numbers: Sequence[Number], unknown: Number) ->
 
 def fraction(number: Number) -> Fraction | None:
     """The value of a number without variables."""
-    found = z3.simplify(number)
-    if z3.is_int_value(found):
+    found = simplified(number)
+    if isinstance(found, z3.IntNumRef):
         return Fraction(found.as_long())
-    if z3.is_rational_value(found):
+    if isinstance(found, z3.RatNumRef):
         exact: Fraction = found.as_fraction()
         return exact
     return None
+
+
+def simplified(number: Number) -> Number:
+    """The same number, simpler."""
+    return number if isinstance(number, z3.IntNumRef | z3.RatNumRef) else z3.simplify(number)
 
 
 def _as(value: Number, like: Number) -> Number | None:

@@ -10,7 +10,7 @@ import z3
 from checker.judge.values import ends_of
 from checker.proofs.claims import Number
 from checker.proofs.demands import Demand, RunReader, equal, gap
-from checker.proofs.operands import ProgramNames, Symbols, name_of, names_of, token_number
+from checker.proofs.operands import ProgramNames, Symbols, names_of, token_number
 from compiler.program import END, FIRST_PARAMETER, START, NewGlobal, Program
 from runtime.executive.configuration import AgentConfiguration, GoalConfiguration, ReactorConfiguration
 from runtime.executive.record import NOBODY, MissionRecord, ReactorRecord, TokenRecord, Value
@@ -114,7 +114,7 @@ class _ReactorReader:
         for demand in demands:
             self.found.demands.append(demand)
             for each in demand.numbers:
-                name = name_of(each)
+                name = self.symbols.name_of(each)
                 if name.startswith("sampled "):
                     parameter = name.removeprefix("sampled ").partition(" of ")[0]
                     known = self.found.draws.setdefault(parameter, [])
@@ -166,15 +166,14 @@ class _ReactorReader:
             and isinstance(token.end, int)
         ):
             self.found.asked.append((self.configuration.name, f"{self.configuration.name}:{token.key}", name))
-        if isinstance(token.end, int):
-            self.found.times.append((name_of(start), name_of(end), name_of(length)))
-        else:
-            self.found.times.append((name_of(start), "", ""))
+        times = (end, length) if isinstance(token.end, int) else (None, None)
+        name_of_end, name_of_length = (self.symbols.name_of(each) for each in times)
+        self.found.times.append((self.symbols.name_of(start), name_of_end, name_of_length))
 
     def _value(self, variable: Number, value: Value) -> None:
-        self.found.variables[name_of(variable)] = variable
+        self.found.variables[self.symbols.name_of(variable)] = variable
         if not isinstance(value, tuple):
-            self.found.values[name_of(variable)] = value
+            self.found.values[self.symbols.name_of(variable)] = value
 
     def _worlds(self) -> None:
         """Values of global variables that no line of the script sets by itself."""
@@ -214,10 +213,10 @@ class _ReactorReader:
             self._equal(length, self.symbols.variable(f"{self.configuration.name}:{to}.duration", "int"))
 
     def _equal(self, a: Number, b: Number) -> None:
-        self.found.variables[name_of(a)] = a
-        value = self.found.values.get(name_of(b))
+        self.found.variables[self.symbols.name_of(a)] = a
+        value = self.found.values.get(self.symbols.name_of(b))
         if value is not None:
-            self.found.values[name_of(a)] = value
+            self.found.values[self.symbols.name_of(a)] = value
         self.found.demands.append(equal(a, b))
 
     def _order(self) -> None:
@@ -266,8 +265,8 @@ class _ReactorReader:
                     start = self.number(token.key, START)
                     self.found.demands.append(gap(z3.IntVal(0), start, lower, min(upper, self.final_tick), None))
                     self._arguments(token, goal)
-                    known = self.found.earliest.get(name_of(start), -1)
-                    self.found.earliest[name_of(start)] = max(known, int(lower))
+                    known = self.found.earliest.get(self.symbols.name_of(start), -1)
+                    self.found.earliest[self.symbols.name_of(start)] = max(known, int(lower))
 
     def _arguments(self, token: TokenRecord, goal: GoalConfiguration) -> None:
         """What the mission file says of a goal's arguments."""

@@ -4,6 +4,7 @@ import re
 from collections.abc import Sequence
 from html import escape
 from importlib.resources import files
+from itertools import groupby
 
 from checker.batch.result import MissionResult
 from checker.conditions.rendering import condition_evidence, condition_text
@@ -13,7 +14,7 @@ from checker.excerpts import Excerpts
 from checker.findings import Fault, Findings
 from checker.losses import Limit, amount
 from checker.oracle import CODE_NAMES, Verdict
-from checker.rendering import confirmation_text, failure_text, step_text
+from checker.rendering import confirmation_text, failure_text, lines_text, step_text
 from checker.report.losses import damage_words, goal_line, goal_text, repair_text, request_line, unmet_text
 from checker.report.paths import plan_figure, section_figure, space_figure
 from checker.report.sentences import (
@@ -39,6 +40,7 @@ from runtime.executive.outcome import SourcePlace
 
 _MOST_ROWS = 1000
 _MOST_LOSSES = 40
+_MOST_LINES = 3  # of one rule in a row; more are folded
 _COLOURS = 6
 
 
@@ -158,7 +160,14 @@ def _fault(
     if story is not None:
         parts.append(f"<details open><summary>Mission {story.number}, from the draw to the abort</summary>")
         parts.append('<ol class="chain">')
-        parts += [_step(step, story, excerpts) for step in story.steps]
+        first = 1
+        for _, alike in groupby(story.steps, lambda step: (step.kind, step.kind is StepKind.LINE and step.subject)):
+            run = list(alike)
+            if len(run) > _MOST_LINES and run[0].kind is StepKind.LINE:
+                parts.append(_run(first, run, excerpts))
+            else:
+                parts += [_step(step, story, excerpts) for step in run]
+            first += len(run)
         parts.append("</ol></details>")
     parts.append(f"<p><code>{escape(explained_by(findings, bucket.example))}</code></p></section>")
     return parts
@@ -171,6 +180,14 @@ def _step(step: Step, story: Story, excerpts: Excerpts) -> str:
     lines = "\n".join(_excerpt(place, excerpts, marked=is_fault) for place in places)
     source = f"<pre>{lines}</pre>" if lines else ""
     return f'<li class="{step.kind}"><span class="why">{when}{_words(step_text(step, story))}</span>{source}</li>'
+
+
+def _run(first: int, steps: Sequence[Step], excerpts: Excerpts) -> str:
+    """Many lines of one rule, folded; the steps after it keep their numbers."""
+    lines = "\n".join(_excerpt(step.place, excerpts, marked=False) for step in steps if step.place is not None)
+    text = f"{first}–{first + len(steps) - 1}. {_words(lines_text(str(steps[0].subject), len(steps)))}"
+    folded = f"<details><summary>{text}</summary><pre>{lines}</pre></details>"
+    return f'<li class="line" style="counter-increment: step {len(steps)}">{folded}</li>'
 
 
 def _excerpt(place: SourcePlace, excerpts: Excerpts, *, marked: bool) -> str:

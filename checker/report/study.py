@@ -37,8 +37,8 @@ def study_text(study: StudyFile, cells: Sequence[StudyCell]) -> str:
     contained = [one for one in cells if one.beyond is not None and one.failures]
     for one in contained:
         lines.append(
-            f"  {one.variant.name}, {one.sampling}: {one.beyond} of {one.failures} failures are none of "
-            f"{one.variant.beyond} with the same seed"
+            f"  {one.variant.name}, {one.sampling}: of {one.apart} missions that pass with {one.variant.beyond}, "
+            f"{one.beyond} fail: {percent(one.own_rate)}"
         )
     errors = sum(one.errors for one in cells)
     missing = sum(max(0, one.planned - one.missions - one.errors) for one in cells)
@@ -92,6 +92,7 @@ def study_data(study: StudyFile, cells: Sequence[StudyCell]) -> str:
                 "is_expected": one.is_expected(study.corridor),
                 "codes": dict(one.codes),
                 "beyond": one.beyond,
+                "apart": one.apart,
                 "failed_seeds": [seed for seed, fails in one.failed if fails],
             }
             for one in cells

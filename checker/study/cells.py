@@ -22,8 +22,8 @@ _SURE = 0.05  # of McNemar's test, below which two samplings are told apart
 class StudyCell:
     """A variant under one sampling: the missions flown, whether each failed, by seed.
 
-    `beyond` counts the failures whose seed does not fail in the variant that this one contains; None where it
-    contains none, or that one was not flown so far.
+    `apart` counts the missions whose seed was flown and does not fail in the variant that this one contains, `beyond`
+    those of them that fail here; None where it contains none, or that one was not flown so far.
     """
 
     variant: Variant
@@ -33,6 +33,7 @@ class StudyCell:
     errors: int
     codes: tuple[tuple[str, int], ...]
     beyond: int | None = None
+    apart: int | None = None
 
     @property
     def missions(self) -> int:
@@ -49,14 +50,21 @@ class StudyCell:
         """The share of failures."""
         return self.failures / self.missions if self.missions else 0.0
 
+    @property
+    def own_rate(self) -> float:
+        """The share of failures by what this variant has beyond the one that it contains."""
+        if self.beyond is None or self.apart is None:
+            return self.rate
+        return self.beyond / self.apart if self.apart else 0.0
+
     def interval(self, confidence: float) -> Interval:
         """The exact interval of the rate."""
         return exact_interval(self.failures, self.missions, confidence)
 
     def is_expected(self, corridor: float) -> bool | None:
-        """Whether the rate lies within the corridor around the expected one; None where nothing is expected."""
+        """Whether the own rate lies within the corridor around the expected one; None where nothing is expected."""
         wanted = self.variant.expected.get(self.sampling)
-        return None if wanted is None or not self.missions else abs(self.rate - wanted) <= corridor + 1e-9
+        return None if wanted is None or not self.missions else abs(self.own_rate - wanted) <= corridor + 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,8 +143,9 @@ def with_beyond(cells: Sequence[StudyCell]) -> tuple[StudyCell, ...]:
         inner = found.get((cell.variant.beyond, cell.sampling))
         if inner is None:
             return cell
-        known = {seed for seed, fails in inner.failed if fails}
-        return replace(cell, beyond=sum(fails and seed not in known for seed, fails in cell.failed))
+        known = dict(inner.failed)
+        apart = [fails for seed, fails in cell.failed if known.get(seed) is False]
+        return replace(cell, beyond=sum(apart), apart=len(apart))
 
     return tuple(counted(cell) for cell in cells)
 

@@ -57,11 +57,13 @@ def conflict_of(bench: Workbench) -> Conflict | None:
 def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
     """What sets the latest value of `v`, and that nothing ends it earlier: each link of the chain is used up.
 
-    The root comes first; that a token lasts as long as it may comes right after the limit that it uses up.
+    The root comes first; that a token lasts as long as it may comes right after the limit that it uses up. `latest`
+    terms say what value was reached, each followed by the terms from which it follows.
     """
     reader = _ElementReader(bench)
     elements: dict[ConflictElement, None] = {}
     tight: list[Term] = []
+    reached: list[Term] = []
     for link in bench.engine.support_chain(v, SIDE_UPPER):
         element = reader.element(link.cause)
         if element in elements:
@@ -69,14 +71,32 @@ def latest(bench: Workbench, v: int) -> tuple[VariableName, Conflict]:
         elements[element] = None
         if link.side == SIDE_UPPER:
             tight += _used_up(element)
-    if not tight and bench.engine.upper(v) >= HALF_INF:  # nothing ends it: it outlasts every tick
+            reached += _reached(element)
+    most = bench.engine.upper(v)
+    if tight:
+        tight += reached
+    elif most >= HALF_INF:  # nothing ends it: it outlasts every tick
         tight.append(Term("bounds", (reader.name(v), HALF_INF, inf)))
+    else:  # something that is no difference ends it, such as `ceil`
+        tight += [Term("latest", (reader.name(v), int(most))), *(one for each in elements for one in each.terms)]
     token = bench.name_of(bench.database.plan.variable_owner[v])
     policy = ConflictElement(ElementKind.LONGEST, None, "", token, None, tuple(dict.fromkeys(tight)))
     chain = list(reversed(elements))
     limits = [k for k, element in enumerate(chain) if any(term.name == "leq" for term in element.terms)]
     chain.insert(limits[-1] + 1 if limits else len(chain), policy)
     return reader.name(v), Conflict(tuple(chain))
+
+
+def _reached(element: ConflictElement) -> list[Term]:
+    """Terms that say that the upper end of a range is reached."""
+    found = []
+    for term in element.terms:
+        match term.name, term.arguments:
+            case "bounds", (VariableName() as variable, lower, int(upper)) if lower != upper and upper < HALF_INF:
+                found += [Term("latest", (variable, upper)), term]
+            case _:
+                pass
+    return found
 
 
 def _used_up(element: ConflictElement) -> list[Term]:

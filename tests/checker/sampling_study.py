@@ -1,6 +1,7 @@
 """Simulated batches of every sampler, without flying: how often each printed interval covers the true rate.
 
-    python -m tests.checker.sampling_study 10000
+    python -m tests.checker.sampling_study 10000            every sampler
+    python -m tests.checker.sampling_study 10000 adaptive   some of them
 
 The true rates are known: they are the volumes of the failing regions. A batch ends with its last mission, when a rule
 to stop by has its answer, with its third failure, or when time is over, where missions that fail take a tenth of the
@@ -8,7 +9,7 @@ time of others. Of samplers with plain random missions in fixed places only thes
 """
 
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
@@ -231,10 +232,10 @@ def _end_of(batch: Batch, sampler: Sampler, end: End) -> int:
             return int((np.where(failed, FAST, 1.0).cumsum(axis=1) <= len(batch.flown) / 4).sum())
 
 
-def main(count: int) -> int:
+def main(count: int, names: Sequence[str]) -> int:
     """Print the coverage of every interval; the number of those that fall short."""
     short = 0
-    for name in SAMPLERS:
+    for name in names or SAMPLERS:
         for caption, world in WORLDS.items():
             found = coverages(name, world, 200, count)
             for end, one in found.items():
@@ -252,4 +253,4 @@ def main(count: int) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(min(1, main(int(sys.argv[1]))))
+    sys.exit(min(1, main(int(sys.argv[1]), sys.argv[2:])))

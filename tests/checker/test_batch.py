@@ -15,8 +15,13 @@ from checker.batch.process import Flyer, WorkerError, keeping_a_worker
 from checker.batch.result import MissionResult, read_result, write_result
 from checker.batch.store import Run, StoreError, open_store
 from checker.batch.worker import Load, Task
+from checker.flight import load
 from checker.mission import read_mission
+from checker.models import load_models
+from checker.one_flight import FlightSettings
+from checker.one_flight import fly as fly_alone
 from checker.oracle import Judgement, Verdict
+from checker.sampling.seeds import mission_seed
 from compiler.program import DomainConstant
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.outcome import (
@@ -40,6 +45,7 @@ from runtime.executive.outcome import (
     SourcePlace,
     TimeBounds,
 )
+from runtime.executive.rendering import trace_json
 from runtime.plan.readout.names import TokenName, VariableName
 from runtime.plan.readout.statements import ResourceTerm, Term
 from runtime.solver.learning.attempts import Flaw, Resolver, ResolverKind
@@ -76,6 +82,23 @@ def test_one_and_two_workers_agree() -> None:
     one, two = fly(load_linked, range(100), 1), fly(load_linked, range(100), 2)
     assert [write_result(result) for result in one] == [write_result(result) for result in two]
     assert {result.verdict for result in one} == {Verdict.PASS, Verdict.FAIL}
+
+
+def test_a_mission_of_a_batch_flown_alone_has_the_same_trace() -> None:
+    """Whatever the worker flew before it, and however the trace came here (trex 4 row 20)."""
+    mission, _ = read_mission(Path("models/gps/mission.toml"))
+    assert mission is not None
+    models = load_models(mission)
+    taker = Taker()
+    tasks = [Task(number, mission_seed(7234, number), keeps_trace=True) for number in (15, 16, 17)]
+    fly_all(Batch(load, models.agent, tasks, 1, 60.0), taker)
+    assert [one.verdict for one in taker.results] == [Verdict.PASS, Verdict.FAIL, Verdict.PASS]
+    for result in taker.results:
+        alone = fly_alone(mission, models, FlightSettings(result.seed, {}))
+        assert result.outcome is not None
+        flown = [trace_json(event) for event in result.outcome.events]
+        assert flown == [trace_json(event) for event in alone.outcome.events]
+        assert len(flown) > 20
 
 
 def test_a_result_survives_json() -> None:

@@ -11,6 +11,7 @@ from checker.proofs.conflict import Finding, confirm
 from checker.proofs.places import ModelText, text_of
 from runtime.executive.outcome import Conflict, ElementKind
 from runtime.executive.rendering import element_text
+from tests.checker.checked import faults_of
 
 SHARED = """#include "TREX.nddl"
 enum Site { depot, clinic, island }
@@ -114,3 +115,13 @@ def test_what_a_goal_asks_stands_in_the_mission_file(conflict: tuple[Conflict, M
     assert [(place.file, place.text) for place in asked] == [("mission.toml", "start = [5, 100]")]
     (place,) = asked
     assert MISSION.splitlines()[place.line - 1] == "start = [5, 100]"
+
+
+def test_a_deadline_that_the_conflict_speaks_of_is_tried_beside_lines_that_mend(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    models = {"shared.nddl": SHARED, "courier.nddl": COURIER, "world.nddl": WORLD}
+    (fault,) = faults_of(tmp_path, capsys, models | {"mission.toml": f"{MISSION}[check]\nmissions = 1\n"})
+    ranked = fault["causes"]["ranked"]
+    assert any(one["claim"] == "mends" and one["file"] == "world.nddl" for one in ranked)
+    assert ("start = [5, 100]", "mends") in [(one["text"], one["claim"]) for one in ranked]

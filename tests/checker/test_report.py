@@ -23,6 +23,7 @@ from checker.report.markdown import markdown_report
 from checker.report.sarif import sarif_report
 from checker.report.svg import Axis
 from checker.report.text import text_report
+from checker.story import Step, StepKind
 from nddl_lang.text.write import write_whole
 from runtime.executive.outcome import SourcePlace
 from tests.checker.fake_agent import load_split
@@ -91,6 +92,19 @@ def test_a_failing_and_a_passing_mission_stand_beside_each_other(campaign: Campa
     marks = [line for line in figures[0].iter("line") if line.get("class") in ("edge", "edge fault")]
     assert marks, "the steps of the chain are marked in the failing mission"
     assert not [line for line in figures[1].iter("line") if "edge" in str(line.get("class"))]
+
+
+def test_many_lines_of_one_rule_are_folded_and_steps_keep_their_numbers(campaign: Campaign, findings: Findings) -> None:
+    story = next(one for one in campaign.stories(findings) if one is not None)
+    draw = story.steps[0]
+    lines = [Step(StepKind.LINE, None, rule, draw.place) for rule in ["Motion.Step"] * 30 + ["Gps.Fix"] * 2]
+    longer = replace(story, steps=(draw, *lines, *story.steps[1:]))
+    page = html_report(findings, Excerpts(ROOT), [longer])
+    assert page.count("acts through the rule of Gps.Fix") == 2
+    assert "acts through the rule of Motion.Step" not in page
+    assert "2–31." in page
+    assert "counter-increment: step 30" in page
+    assert "it acts through 30 lines of the rule of Motion.Step" in page
 
 
 def test_the_table_can_be_sorted_and_filtered(campaign: Campaign, findings: Findings) -> None:

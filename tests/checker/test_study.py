@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 from statistics import NormalDist
 from xml.etree import ElementTree
@@ -147,7 +148,18 @@ def test_failures_of_a_contained_mistake_are_counted_apart() -> None:
     cells = with_beyond(
         [cell("R3", "a", range(10)), cell("R1", "a", range(4, 18), "R3"), cell("R1", "b", range(3), "R3")]
     )
-    assert [one.beyond for one in cells] == [None, 8, None]
+    assert [(one.beyond, one.apart) for one in cells] == [(None, None), (8, 30), (None, None)]
+
+
+def test_of_a_mistake_that_contains_another_its_own_rate_is_held_against_the_expected_one() -> None:
+    """A third of the missions that pass with the contained mistake fail with both (trex 5.6, R1)."""
+    expected = {"a": 1 / 3}
+    outer = replace(cell("R1", "a", range(5, 20), "R3"), variant=Variant("R1", "", (), expected, 40, "R3"))
+    _, whole = with_beyond([cell("R3", "a", range(10)), outer])
+    assert whole.own_rate == pytest.approx(1 / 3)
+    assert whole.rate == pytest.approx(0.375)
+    assert whole.is_expected(0.02)
+    assert not outer.is_expected(0.02)
 
 
 def test_the_study_of_the_auv_fits_its_models() -> None:

@@ -146,6 +146,33 @@ def test_a_check_shows_progress_and_can_be_cancelled(client: Any, tmp_path: Path
     assert client.leave() == 0
 
 
+def test_a_check_ends_with_its_request(client: Any, tmp_path: Path) -> None:
+    shutil.copytree(ROOT / "models" / "gps", tmp_path / "gps")
+    client.start(folder=tmp_path, capabilities={"window": {"workDoneProgress": True}})
+    uri = (tmp_path / "gps" / "mission.toml").as_uri()
+    params = {"command": "nddl.check", "arguments": [uri, 100000]}
+    client.send(id="check", method="workspace/executeCommand", params=params)
+    created = client.wait(lambda message: message.get("method") == "window/workDoneProgress/create")
+    client.send(id=created["id"], result=None)
+    client.wait(lambda message: message.get("method") == "$/progress")
+    client.notify("$/cancelRequest", id="check")
+    ended = [client.wait(lambda message: message.get("id") == "check" or message.get("method") == "$/progress")]
+    ended.append(client.wait(lambda message: message.get("id") == "check" or message.get("method") == "$/progress"))
+    (answer,) = [each for each in ended if each.get("id") == "check"]
+    (progress,) = [each["params"]["value"] for each in ended if "params" in each]
+    assert answer["error"]["code"] == -32800
+    assert progress["kind"] == "end"
+    assert client.leave() == 0
+
+
+def test_a_mission_that_is_not_trusted_has_no_lenses(client: Any, tmp_path: Path) -> None:
+    shutil.copytree(ROOT / "models" / "gps", tmp_path / "gps")
+    client.start({"isTrusted": False}, folder=tmp_path)
+    mission = tmp_path / "gps" / "mission.toml"
+    client.open(mission.as_uri(), mission.read_text())
+    assert client.ask("textDocument/codeLens", textDocument={"uri": mission.as_uri()}) == []
+
+
 def test_nothing_is_run_in_a_workspace_that_is_not_trusted(client: Any, tmp_path: Path) -> None:
     shutil.copytree(ROOT / "models" / "gps", tmp_path / "gps")
     client.start({"isTrusted": False}, folder=tmp_path)

@@ -1,11 +1,13 @@
 """Mission files in the editor: what is wrong, what may be written, and the way into the model."""
 
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from lsp.mission_texts import place_at
+from tests.lsp.test_quick_fixes import mended
 
 MODEL = """\
 /// Seconds per hit.
@@ -198,3 +200,46 @@ def test_what_a_project_leaves_out_is_left_out_of_mission_files_too(client: Any,
     client.start(folder=tmp_path)
     told = client.open((tmp_path / "solver.toml").as_uri(), "[nonsense]\nx = 3\n")["diagnostics"]
     assert "NDDL758" not in [each["code"] for each in told]
+
+
+@pytest.mark.parametrize(
+    ("mark", "name", "renamed"),
+    [
+        (
+            "Gps gp",
+            "receiver",
+            ('internal = ["gps"]', 'timeline = "gps"', "Gps gps", 'path = "gps"', 'samples = "gps.Busy"'),
+        ),
+        ("predicate Bus", "Active", ("predicate Busy", "Gps::Busy", 'predicate = "Busy"', ".Busy")),
+        ("int hit", "count", ("int hits", "hits = 3")),
+        ("float GPS_HIT_RAT", "RATE", ("float GPS_HIT_RATE", "(GPS_HIT_RATE)", "[parameters.GPS_HIT_RATE]")),
+    ],
+)
+def test_a_rename_reaches_mission_files(
+    opened: tuple[Any, str, str], tmp_path: Path, mark: str, name: str, renamed: tuple[str, ...]
+) -> None:
+    client, uri, model = opened
+    mission = MISSION + '\n[figures]\npath = "gps"\nsamples = "gps.Busy"\n'
+    client.change(uri, {"text": mission})
+    # One that is closed, beside one of another model in which the names are the same.
+    (tmp_path / "other.toml").write_text(mission)
+    (tmp_path / "apart").mkdir()
+    (tmp_path / "apart" / "model.nddl").write_text(MODEL)
+    (tmp_path / "apart" / "mission.toml").write_text(mission)
+    client.open(model, MODEL)
+    line, character = place_of(MODEL, mark)
+    changes = client.ask_at("rename", model, line, character, newName=name)["changes"]
+    assert set(changes) == {model, uri, uri.replace("mission.toml", "other.toml")}
+    old = re.search(r"\w+$", renamed[0].strip('"]'))
+    assert old is not None
+    for each, text in (model, MODEL), (uri, mission):
+        expected = text
+        for part in renamed:
+            expected = expected.replace(part, re.sub(rf"\b{old[0]}\b", name, part))
+        assert mended(text, changes[each]) == expected
+    # The same from the mission file.
+    line, character = place_of(mission, next(part for part in renamed if part in mission).rstrip('"]= 3'))
+    found = client.ask_at("references", uri, line, character, context={"includeDeclaration": True})
+    assert len(found) == sum(map(len, changes.values()))
+    assert client.ask_at("prepareRename", uri, line, character)["placeholder"] == old[0]
+    assert client.ask_at("rename", uri, line, character, newName=name)["changes"] == changes

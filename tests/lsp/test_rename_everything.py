@@ -70,12 +70,9 @@ def chosen(view: DocumentContext, number: int) -> Iterator[Symbol]:
 
 def carried_out(documents: Documents, view: DocumentContext, symbol: Symbol) -> int:
     """Rename one symbol and compare; the number of places."""
-    here = first_in(view, symbol)
-    assert here is not None
-    offset = here.span.begin
     projects = [project.key for project in everywhere(documents, view.snapshot, symbol).projects]
     try:
-        changes = rename(documents, view, offset, FRESH)
+        changes, _ = rename(documents, view.snapshot, symbol, FRESH)
     except RenameError as refusal:
         # What the language brings along keeps its name, and so does what a mistake leaves in doubt.
         has_errors = any(each.severity is Severity.ERROR for each in view.snapshot.diagnostics)

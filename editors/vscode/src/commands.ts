@@ -1,13 +1,16 @@
 // Commands: check a mission, explain its last failure, show a plan, show places that a lens counts.
-import { commands, type Disposable, Location, Position, Uri, ViewColumn, window, workspace } from "vscode";
+import { type CancellationToken, commands, type Disposable, Location, Position, Uri, ViewColumn, window, workspace } from "vscode";
 import type { Server } from "./client";
 import { showPage, showText } from "./views";
+
+export const MISSIONS = "**/mission*.toml";
 
 export interface Fault {
   code: string;
   meaning: string;
   because: string;
   count: number;
+  place: { file: string; line: number; column: number } | null;
 }
 
 export interface CheckResult {
@@ -35,23 +38,29 @@ export function registerCommands(server: Server): Disposable[] {
   ];
 }
 
-export async function checkMission(server: Server, uri: Uri): Promise<CheckResult> {
+export async function checkMission(server: Server, uri: Uri, token?: CancellationToken): Promise<CheckResult> {
   await workspace.saveAll(false);
   const missions = workspace.getConfiguration("nddlc").get<number>("missions", 0);
-  return ask(server, "workspace/executeCommand", { command: "nddl.check", arguments: [uri.toString(), missions] });
+  return ask(server, "workspace/executeCommand", { command: "nddl.check", arguments: [uri.toString(), missions] }, token);
+}
+
+export function faultText(fault: Fault): string {
+  return `${fault.count} × ${fault.code}, ${fault.meaning}: ${fault.because}`;
 }
 
 export function summary(result: CheckResult): string {
   const { pass, fail, error } = result.counts;
-  const reasons = result.faults.map((fault) => `${fault.count} × ${fault.code}, ${fault.meaning}: ${fault.because}`);
+  const reasons = result.faults.map(faultText);
   return [`${pass + fail + error} missions: ${fail} failed, ${error} ended with an error`, ...reasons].join("\n");
 }
 
-async function ask<Answer>(server: Server, method: string, params: object): Promise<Answer> {
+async function ask<Answer>(server: Server, method: string, params: object, token?: CancellationToken): Promise<Answer> {
   if (server.client === undefined) {
     throw new Error("the language server does not run");
   }
-  return server.client.sendRequest<Answer>(method, params);
+  // A third argument that is undefined would be taken for a parameter.
+  const { client } = server;
+  return token ? client.sendRequest<Answer>(method, params, token) : client.sendRequest<Answer>(method, params);
 }
 
 async function tell(action: () => Promise<void>): Promise<void> {
@@ -70,12 +79,32 @@ function chosen(uri: Uri | undefined): Uri {
   return found;
 }
 
+// The mission file at hand, else the only one of the workspace, else the one that the user picks.
+async function chosenMission(given?: Uri): Promise<Uri | undefined> {
+  const open = given ?? window.activeTextEditor?.document.uri;
+  if (open !== undefined && open.path.endsWith(".toml")) {
+    return open;
+  }
+  const found = await workspace.findFiles(MISSIONS, "**/node_modules/**");
+  if (found.length === 0) {
+    throw new Error("there is no mission file here: `nddlc new` begins one");
+  }
+  const items = found.map((uri) => ({ label: workspace.asRelativePath(uri), uri })).sort((a, b) => a.label.localeCompare(b.label));
+  return items.length === 1 ? items[0].uri : (await window.showQuickPick(items, { placeHolder: "Which mission?" }))?.uri;
+}
+
 async function checkAndTell(server: Server, given?: Uri): Promise<void> {
-  await showResult("nddl.check", await checkMission(server, chosen(given)), chosen(given));
+  const uri = await chosenMission(given);
+  if (uri !== undefined) {
+    await showResult("nddl.check", await checkMission(server, uri), uri);
+  }
 }
 
 async function carryOut(server: Server, command: string, given?: Uri): Promise<void> {
-  const uri = chosen(given);
+  const uri = await chosenMission(given);
+  if (uri === undefined) {
+    return;
+  }
   await workspace.saveAll(false);
   await showResult(command, await ask(server, "workspace/executeCommand", { command, arguments: [uri.toString()] }), uri);
 }

@@ -1,0 +1,115 @@
+"""Where no line of a model is wrong, the line of the mission file is named; goals stay as mandatory as they were."""
+
+from pathlib import Path
+
+import pytest
+
+from checker.mission import read_mission
+from checker.mutation.edits import EditKind
+from checker.mutation.mission_edits import agent_with, mission_sites
+from tests.checker.checked import faults_of
+
+MODEL = """#include "TREX.nddl"
+class Lock extends AgentTimeline {
+  predicate Shut { }
+  predicate Open { }
+  predicate Warm { }
+  Lock(Mode m) { super(m, "Shut"); }
+}
+Lock::Open { met_by(object.Warm w); duration == 8; }
+Lock::Warm { starts_before_end(object.Open o); duration == 30; }
+Lock lock = new Lock(Internal);
+close();
+"""
+MISSION = """[mission]
+name = "lock"
+final_tick = 100
+[[reactor]]
+name = "keeper"
+model = "lock.nddl"
+latency = 4
+lookahead = 90
+internal = ["lock"]
+[[goal]]
+timeline = "lock"
+predicate = "Open"
+start = [10, 20]
+mandatory = true
+[check]
+missions = 2
+"""
+
+
+def test_times_and_what_reactors_look_ahead_may_be_other_ones(tmp_path: Path) -> None:
+    (tmp_path / "lock.nddl").write_text(MODEL, encoding="utf-8")
+    (tmp_path / "mission.toml").write_text(MISSION, encoding="utf-8")
+    mission, _ = read_mission(tmp_path / "mission.toml")
+    assert mission is not None
+    found = {site.text: site.edits[0] for sites in mission_sites(mission).values() for site in sites}
+    assert {text: edit.new for text, edit in found.items()} == {
+        "latency = 4": "1",
+        "lookahead = 90": "100",
+        "start = [10, 20]": "[0, 100]",
+    }
+    assert {edit.kind for edit in found.values()} == {EditKind.MISSION}
+    agent = agent_with(mission, mission.agent, found["start = [10, 20]"])
+    assert (agent.goals[0].start, agent.goals[0].mandatory) == ((0, 100), True)
+    assert agent_with(mission, mission.agent, found["latency = 4"]).reactors[0].latency == 1
+
+
+PLANNER = """#include "lock.nddl"
+class Work extends AgentTimeline {
+  predicate Wait { }
+  predicate Pass { int gate; }
+  Work(Mode m) { super(m, "Wait"); }
+}
+Work::Pass { contains(Lock.Open open); open.gate == gate; duration <= 60; }
+Work work = new Work(Internal);
+Lock lock = new Lock(External);
+close();
+"""
+SHARED = """#include "TREX.nddl"
+class Lock extends AgentTimeline {
+  predicate Shut { }
+  predicate Open { int gate; }
+  Lock(Mode m) { super(m, "Shut"); }
+}
+"""
+KEEPER = """#include "lock.nddl"
+Lock::Open { duration == 8; }
+Lock lock = new Lock(Internal);
+close();
+"""
+TWO = """[mission]
+name = "locks"
+final_tick = 100
+[[reactor]]
+name = "pilot"
+model = "pilot.nddl"
+latency = 1
+lookahead = 100
+internal = ["work"]
+external = ["lock"]
+[[reactor]]
+name = "keeper"
+model = "keeper.nddl"
+latency = 0
+lookahead = 0
+internal = ["lock"]
+[[goal]]
+timeline = "work"
+predicate = "Pass"
+start = [5, 20]
+mandatory = true
+parameters = { gate = 2 }
+[check]
+missions = 2
+"""
+
+
+def test_a_reactor_that_takes_no_requests_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    files = {"lock.nddl": SHARED, "pilot.nddl": PLANNER, "keeper.nddl": KEEPER, "mission.toml": TWO}
+    (fault,) = faults_of(tmp_path, capsys, files)
+    told = [(one["file"], one["text"], one["claim"]) for one in fault["causes"]["ranked"]]
+    assert told[0] == ("mission.toml", "lookahead = 0", "mends")
+    assert faults_of(tmp_path, capsys, files | {"mission.toml": TWO.replace("lookahead = 0", "lookahead = 1")}) == []
