@@ -129,8 +129,9 @@ class PlanReactor(TeleoReactor):
                 if token != NOTHING and not is_blocked(bench, token, line.current, tick):
                     soonest = min(soonest, self.dispatch.due_time(line, token, tick))
         for token in bench.undecided():
-            earliest = bench.lower(bench.start(token))
             soonest = min(soonest, bench.upper(bench.start(token)))
+        for token in bench.undecided() + bench.unordered():
+            earliest = bench.lower(bench.start(token))
             if earliest > tick + self.reach:
                 soonest = min(soonest, earliest - self.reach)
         return int(max(tick + 1, soonest))
