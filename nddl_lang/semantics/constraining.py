@@ -42,13 +42,10 @@ def check_call_constraint(context: Context, scope: Scope, node: CallConstraint) 
         check_types(context, name, row.signature, node.arguments, types)
 
 
-# What comparisons are called elsewhere, without `_`.
+# What comparisons are called elsewhere that no constraint states with the same arguments; without `_`.
 _COMPARISONS = {
     **dict.fromkeys(("geq", "ge", "gte", "greaterthanequal", "greaterorequal", "greaterthaneq"), ">="),
     **dict.fromkeys(("gt", "greaterthan", "greater"), ">"),
-    **dict.fromkeys(("le", "lte", "lessthanequal", "lessorequal", "lessthaneq"), "<="),
-    **dict.fromkeys(("ne", "noteq", "notequal", "notequals"), "!="),
-    **dict.fromkeys(("equals", "equalto"), "=="),
 }
 
 
@@ -65,7 +62,8 @@ def _complain_unknown(context: Context, node: CallConstraint) -> None:
         context.complain(FORMER_CONSTRAINT.at(node.name.span, fixes=(fix,), name=name, today=today))
         return
     complaint = UNKNOWN_CONSTRAINT.at(node.name.span, name=name)
-    sign = _COMPARISONS.get(name.casefold().replace("_", ""))
+    plain = name.casefold().replace("_", "")
+    sign = _COMPARISONS.get(plain)
     if sign is not None and len(node.arguments) == 2:
         left, right = (each.span.text for each in node.arguments)
         meant = f"{left} {sign} {right};"
@@ -78,7 +76,7 @@ def _complain_unknown(context: Context, node: CallConstraint) -> None:
         )
     statements = () if node.arguments else ("close",)
     complaint = suggest_name(
-        complaint, node.name, (*context.callables.constraints, *statements), CONSTRAINTS_ELSEWHERE.get(name.casefold())
+        complaint, node.name, (*context.callables.constraints, *statements), CONSTRAINTS_ELSEWHERE.get(plain)
     )
     own = "one of your own is in a file that `modules` of `[constraints]` names, in nddlc.toml and the mission file"
     context.complain(complaint if complaint.help is not None else replace(complaint, help=own))

@@ -239,7 +239,7 @@ CONSTRAINTS: dict[str, ConstraintRow] = {
     row.name: row for rows in (_ARITHMETIC, _COMPARISON, _REIFIED, _STRUCTURE, _TREX, _OURS) for row in rows
 }
 
-# Names that other languages have, in lower case, for constraints with the same arguments.
+# Names that other languages have, in lower case and without `_`, for constraints with the same arguments.
 CONSTRAINTS_ELSEWHERE: dict[str, str] = {
     "equals": "eq",
     "isequal": "eq",
@@ -248,6 +248,9 @@ CONSTRAINTS_ELSEWHERE: dict[str, str] = {
     "different": "neq",
     "less": "lt",
     "lessequal": "leq",
+    "lessthanequal": "leq",
+    "lessthaneq": "leq",
+    "noteq": "neq",
     "lessorequal": "leq",
     "lessthanorequal": "leq",
     "alldifferent": "allDiff",

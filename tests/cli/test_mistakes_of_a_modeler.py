@@ -136,7 +136,7 @@ MORE_MISTAKES = (
     Mistake("gps/psim.nddl", "met_by(Inactive p);", "metBy(Inactive p);", "`met_by`"),
     Mistake("gps/rules.nddl", "contained_by(Nav.Surface s);", "containedBy(Nav.Surface s);", "`contained_by`"),
     Mistake("templates/rover/planner.nddl", "sample before send;", "sample.before(send);", "before"),
-    Mistake("gps/rules.nddl", "duration <= GO_WORST;", "lessThanEq(duration, GO_WORST);", "<="),
+    Mistake("gps/rules.nddl", "duration <= GO_WORST;", "lessThanEq(duration, GO_WORST);", "`leq`"),
     Mistake("gps/psim.nddl", "mulEq(span, ground, distance);", "timesEq(span, ground, distance);", "constraints"),
     Mistake("templates/survey/simulator.nddl", "drive.end + rest == end;", "drive.end + rest = end;", "`==`"),
     Mistake("classic/rover.nddl", "ticks == abs(far);", "ticks == absolute(far);", "abs"),
