@@ -88,7 +88,8 @@ def parse_mission(source: Source, root: Path) -> tuple[Mission | None, tuple[Dia
 def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Mission | None, tuple[Diagnostic, ...]]:
     top = Table(text, (), values, "a mission file")
     head = top.table("mission", "[mission]", needed=True)
-    reactors, coded = _read_reactors(top.tables("reactor", needed=True), root)
+    tables = top.tables("reactor", needed=True)
+    reactors, coded = _read_reactors(tables, root)
     owned = (*(line for one in reactors for line in one.internal), *(line for one in coded for line in one.internal))
     goals = _read_goals(top.tables("goal"), (*reactors, *coded), text)
     constraints, seconds = _read_constraints(top.table("constraints", "[constraints]"), root)
@@ -106,6 +107,7 @@ def _mission_of(text: MissionText, values: TomlTable, root: Path) -> tuple[Missi
         constraint_seconds=seconds,
         coded=coded,
         properties=read_properties(top.tables("property"), owned),
+        order=tuple(name for table in tables if isinstance(name := table.values.get("name"), str)),
     )
     check = _read_check(top.table("check", "[check]"))
     figures = read_figures(top.table("figures", "[figures]"), owned)

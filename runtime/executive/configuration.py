@@ -150,7 +150,10 @@ class PropertyConfiguration:
 
 @dataclass(frozen=True, slots=True)
 class AgentConfiguration:
-    """One mission but for its seed. A parameter of the model that is not listed is uniform over its base domain."""
+    """One mission but for its seed. A parameter of the model that is not listed is uniform over its base domain.
+
+    `order` names the reactors of both kinds as the file has them; those that it leaves out come after the others.
+    """
 
     name: str
     root: str  # folder that the other paths are relative to
@@ -164,3 +167,4 @@ class AgentConfiguration:
     constraint_seconds: float = 5.0  # that one call of these may take
     coded: tuple[CodeConfiguration, ...] = ()  # reactors written in Python
     properties: tuple[PropertyConfiguration, ...] = ()
+    order: tuple[str, ...] = ()

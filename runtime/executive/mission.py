@@ -136,7 +136,7 @@ def _make_reactors(
     records: bool,
     loans: Loans,
 ) -> list[TeleoReactor]:
-    """The reactors of a mission, ready for tick 0."""
+    """The reactors of a mission in its order, ready for tick 0."""
     trace, seed, overrides = world.trace, world.seed, world.overrides
     reactors: list[TeleoReactor] = []
     users = {line for each in configuration.reactors for line in each.external}
@@ -161,7 +161,8 @@ def _make_reactors(
     for coded, cls in zip(configuration.coded, programs.code, strict=True):
         make = partial(cls, {"folder": configuration.root, **dict(coded.settings), "seed": seed})
         reactors.append(CodedReactor(coded, make, kinds_of, trace, cls.wakes_on))
-    return reactors
+    places = {name: number for number, name in enumerate(configuration.order)}
+    return sorted(reactors, key=lambda one: places.get(one.name, len(places)))
 
 
 def _plan_reactor(

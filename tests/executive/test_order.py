@@ -1,0 +1,40 @@
+"""Reactors that do not wait for each other have their turns in the order of the mission file, whatever they are."""
+
+from pathlib import Path
+
+import pytest
+
+from checker.flight import fly_programs, programs_of
+from checker.mission import read_mission
+from checker.models import load_models
+
+MODEL = """#include "TREX.nddl"
+class Lamp extends AgentTimeline { predicate Off { } Lamp(Mode m) { super(m, "Off"); } }
+Lamp lamp = new Lamp(Internal);
+close();
+"""
+CODE = """from runtime.user.reactor import Now, Reactor
+
+
+class Bell(Reactor):
+    def tick(self, now: Now) -> None:
+        if now.tick == 0:
+            now.publish("bell", "Quiet")
+"""
+TABLES = {
+    "lamp": '[[reactor]]\nname = "lamp"\nmodel = "lamp.nddl"\nlatency = 0\nlookahead = 1\ninternal = ["lamp"]\n',
+    "bell": '[[reactor]]\nname = "bell"\ncode = "bell.py:Bell"\ninternal = ["bell"]\n',
+}
+
+
+@pytest.mark.parametrize("order", [("lamp", "bell"), ("bell", "lamp")])
+def test_the_file_decides(tmp_path: Path, order: tuple[str, str]) -> None:
+    (tmp_path / "lamp.nddl").write_text(MODEL, encoding="utf-8")
+    (tmp_path / "bell.py").write_text(CODE, encoding="utf-8")
+    text = '[mission]\nname = "order"\nfinal_tick = 5\n' + "".join(TABLES[name] for name in order)
+    (tmp_path / "mission.toml").write_text(text, encoding="utf-8")
+    mission, problems = read_mission(tmp_path / "mission.toml")
+    assert mission is not None, problems
+    agent = load_models(mission).agent
+    outcome = fly_programs(agent, programs_of(agent), 1)
+    assert tuple(dict.fromkeys(event.reactor for event in outcome.events if event.reactor)) == order
