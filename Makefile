@@ -31,7 +31,7 @@ MUTANTS ?= 2000
 MISSION ?= models/auv/inl/mission.toml
 PYTHON := python3.11 python3.12 python3.13 python3.14 python3 python
 BIN := .venv/bin
-PYTEST := $(BIN)/python -m pytest --numprocesses auto
+PYTEST := $(BIN)/python -m pytest --numprocesses auto --dist worksteal
 FINDINGS := build/findings
 
 .DEFAULT_GOAL := help
@@ -90,9 +90,11 @@ types: setup
 compiled: build
 	$(PYTEST) -m 'not builds'
 
-# The form of the engine cannot matter to the front end, and the build has tests of its own.
+# The form of the engine cannot matter to the front end and to pages, and the build has tests of its own.
+APART := $(addprefix tests/,build docs format lint lsp semantics syntax text)
+
 interpreted: setup
-	NDDLC_INTERPRETED=1 $(PYTEST) -m 'not once' $(filter-out tests/build tests/nddl_lang tests/lsp %.py tests/__pycache__,$(wildcard tests/*))
+	NDDLC_INTERPRETED=1 $(PYTEST) -m 'not once' $(filter-out $(APART) %.py tests/__pycache__,$(wildcard tests/*))
 
 # Wheels and rebuilds take a minute, so they are made again only when what decides about them has changed.
 build/builds-tested: setup.py pyproject.toml $(wildcard build_backend/*.py tests/build/*.py) runtime/build_form.py | build

