@@ -9,6 +9,8 @@ from checker.mutation.edits import EditKind, sites_of
 from checker.mutation.variant import load_graph
 from tests.checker.checked import faults_of
 
+pytestmark = pytest.mark.once
+
 SHARED = """#include "TREX.nddl"
 class Horn extends AgentTimeline {
   predicate Still { }

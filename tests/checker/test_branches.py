@@ -10,6 +10,8 @@ from checker.mutation.edits import EditKind, sites_of
 from checker.mutation.variant import load_graph
 from tests.checker.checked import faults_of
 
+pytestmark = pytest.mark.once
+
 MODEL = """#include "TREX.nddl"
 enum Load { light, heavy }
 class Crane extends AgentTimeline {

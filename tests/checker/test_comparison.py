@@ -12,6 +12,8 @@ from checker.comparison import Trialled, compare
 from checker.process import ProcessStep, StepRecord, missing_before, passed
 from nddlc.main import run
 
+pytestmark = pytest.mark.once
+
 GPS = Path("models/gps").resolve()
 
 

@@ -6,6 +6,8 @@ import pytest
 
 from tests.checker.checked import faults_of
 
+pytestmark = pytest.mark.once
+
 MODEL = """#include "TREX.nddl"
 int SWEEP_MAX = 90;
 int WARM_MAX = 30;

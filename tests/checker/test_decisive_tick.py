@@ -8,6 +8,8 @@ import pytest
 from nddlc.main import run
 from tests.checker.test_open_objects import COURIER, MISSION, SHARED
 
+pytestmark = pytest.mark.once
+
 WORLD = """#include "shared.nddl"
 float FLIGHT = [110.0 170.0];
 Rotor::Flying {

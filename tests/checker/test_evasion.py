@@ -8,6 +8,8 @@ import pytest
 
 from nddlc.main import run
 
+pytestmark = pytest.mark.once
+
 MODEL = """#include "TREX.nddl"
 float A = [0.0 1.0];
 float B = [0.0 1.0];

@@ -9,6 +9,8 @@ from checker.losses import GoalFate, Limit, amount, losses_of
 from nddlc.main import run
 from runtime.executive.outcome import Event, EventKind, Outcome, Phase, Reason, ReasonKind
 
+pytestmark = pytest.mark.once
+
 GPS = Path("models/gps").resolve()
 EXTRA = """
 [[goal]]

@@ -9,6 +9,8 @@ from checker.mutation.edits import EditKind
 from checker.mutation.mission_edits import agent_with, mission_sites
 from tests.checker.checked import faults_of
 
+pytestmark = pytest.mark.once
+
 MODEL = """#include "TREX.nddl"
 class Lock extends AgentTimeline {
   predicate Shut { }

@@ -8,6 +8,8 @@ from checker.counterfactual.smallness import cost_of, delay_of, usage_of
 from checker.mutation.edits import EditKind, EditSite, SmallEdit, sites_of
 from checker.mutation.variant import load_graph
 
+pytestmark = pytest.mark.once
+
 MODEL = """enum Load { sand, stone, none }
 float STONE_TIME;
 float SPARE;

@@ -7,6 +7,8 @@ import pytest
 
 from tests.checker.checked import faults_of
 
+pytestmark = pytest.mark.once
+
 SHARED = """#include "TREX.nddl"
 class Arm extends AgentTimeline {
   predicate Rest { }

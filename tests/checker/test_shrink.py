@@ -17,6 +17,8 @@ from runtime.executive.configuration import AgentConfiguration, ParameterConfigu
 from runtime.executive.outcome import Abort, Draw, Outcome, Reason, ReasonKind
 from tests.checker.conditions.campaigns import campaign, flown
 
+pytestmark = pytest.mark.once
+
 RULE = "bool u; bool v; u == (p > 0.6); v == (q < 0.35); if (u == true) { if (v == true) { r >= 2.0; } }"
 
 

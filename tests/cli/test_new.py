@@ -7,6 +7,8 @@ import pytest
 from nddlc.main import run
 from nddlc.new import TEMPLATES
 
+pytestmark = pytest.mark.once
+
 Captured = pytest.CaptureFixture[str]
 
 

@@ -21,6 +21,8 @@ from runtime.executive.configuration import AgentConfiguration, ParameterConfigu
 from runtime.executive.outcome import Draw, Outcome
 from tests.checker.conditions.campaigns import RANGES, campaign, conditions
 
+pytestmark = pytest.mark.once
+
 WHOLE = "int P = [0 10]; int Q = [0 10]; float R = [0.0 1.0];"
 GUARDS = "bool u; bool v; u == (p > {0}); v == (q < {1});"
 Truth = Callable[[float, float, float], bool]
