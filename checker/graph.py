@@ -8,6 +8,7 @@ reactor that published, and to who asked for it.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import chain, islice
 
 import networkx as nx
 
@@ -235,9 +236,10 @@ class _Maker:
         """The events that an element comes from: a draw, what was observed, what was asked for."""
         for term in element.terms:
             if term.name == "sampledParameter":
-                drawn = [number for number in self._past() if self._draws(number, str(term.arguments[1]))]
-                meant = (number for number in drawn if self._drew(number, term.arguments[2]))
-                yield from (number for number in [next(meant, next(iter(drawn), None))] if number is not None)
+                name, value = str(term.arguments[1]), term.arguments[2]
+                meant = (number for number in self._past() if self._drew(number, name, value))
+                drawn = (number for number in self._past() if self._drew(number, name))
+                yield from islice(chain(meant, drawn), 1)
         found: int | None = None
         if element.observed is not None:
             found = self._latest(*element.observed)
@@ -249,15 +251,13 @@ class _Maker:
 
     def _past(self) -> Iterator[int]:
         """The events so far, the latest first."""
-        return reversed(self._events[: self._end])
+        last = min(self._end, len(self._events)) - 1
+        return (self._events[index] for index in range(last, -1, -1))
 
-    def _draws(self, number: int, parameter: str) -> bool:
+    def _drew(self, number: int, parameter: str, value: Argument | None = None) -> bool:
         event = self.nodes[number].subject
-        return isinstance(event, Event) and event.draw is not None and event.draw.parameter == parameter
-
-    def _drew(self, number: int, value: Argument) -> bool:
-        event = self.nodes[number].subject
-        return isinstance(event, Event) and event.draw is not None and event.draw.value == value
+        draw = event.draw if isinstance(event, Event) else None
+        return draw is not None and draw.parameter == parameter and value in (None, draw.value)
 
     def _latest(self, predicate: str, timeline: str) -> int | None:
         """The last time that a timeline was seen to hold a predicate."""

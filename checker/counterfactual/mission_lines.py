@@ -11,7 +11,6 @@ from runtime.executive.events import single_events
 from runtime.executive.outcome import ElementKind, EventKind, Outcome
 
 _SPOKEN, _DEAF, _LOST, _ABORTED, _OTHERS = 0.0, 0.0, 1.0, 2.0, 3.0
-_SOURCES = (Suspicion.TRACE, Suspicion.CONFLICT)
 _GIVEN_UP = (EventKind.REJECT, EventKind.REFUSE)
 
 
@@ -24,7 +23,6 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
     conflict = failed_by(outcome).conflict
     elements = conflict.elements if conflict is not None else ()
     asked = [one.place for one in elements if one.kind is ElementKind.REQUEST and one.place is not None]
-    spoken = {(place.line, place.text) for place in asked}
     found = []
     for (table, number), sites in mission_sites(mission).items():
         if table == "goal":
@@ -38,6 +36,7 @@ def mission_lines(mission: Mission, outcome: Outcome) -> list[Candidate]:
             if reactor.lookahead == 0 and used & set(reactor.internal):
                 far = _DEAF  # it is asked for nothing
         for site in sites:
-            is_spoken = (site.first, " ".join(site.text.split())) in spoken
-            found.append(Candidate(site, _SPOKEN if is_spoken else far, _SOURCES[is_spoken]))
+            is_spoken = any(site.holds(site.file, place.line) for place in asked)
+            source = Suspicion.CONFLICT if is_spoken else Suspicion.TRACE
+            found.append(Candidate(site, _SPOKEN if is_spoken else far, source))
     return sorted(found, key=lambda one: one.far)

@@ -139,14 +139,17 @@ class _ElementReader(TermReader):
             kind = ElementKind.DURATION
         spans = self.database.code.spans
         place = _place_of(spans[cause.span]) if 0 <= cause.span < len(spans) else None
-        if cause.span == NONE and kind is ElementKind.DECLARATION:
-            place = self.declared(found)
-        if cause.span == SPAN_REQUEST:
-            place = self.asked(found)
+        place = self.place_beyond(found, cause.span, kind) or place
         token = self.token_name(cause.owner) if cause.owner >= 0 else None
         return _element(kind, place, token, found, terms)
 
-    def declared(self, found: Term | ResourceTerm) -> SourcePlace | None:
+    def place_beyond(self, found: Term | ResourceTerm, span: int, kind: ElementKind) -> SourcePlace | None:
+        """Where something is written that no line of a rule says; None where it is not."""
+        if span == SPAN_REQUEST:
+            return self._asked(found)
+        return self._declared(found) if span == NONE and kind is ElementKind.DECLARATION else None
+
+    def _declared(self, found: Term | ResourceTerm) -> SourcePlace | None:
         """Where the global variable is declared whose value a term without a place of its own tells."""
         about = found.arguments[0] if isinstance(found, Term) and found.arguments else None
         if not isinstance(about, VariableName) or about.token is not None:
@@ -156,7 +159,7 @@ class _ElementReader(TermReader):
                 return _place_of(made.span)
         return None
 
-    def asked(self, found: Term | ResourceTerm) -> SourcePlace | None:
+    def _asked(self, found: Term | ResourceTerm) -> SourcePlace | None:
         """Where the mission file bounds a time or parameter of a goal."""
         about = found.arguments[0] if isinstance(found, Term) and found.arguments else None
         if not isinstance(about, VariableName) or about.token is None:
@@ -241,10 +244,7 @@ class SearchLog:
     def _element(self, found: FoundCause) -> ConflictElement:
         kind = _element_kind(found.term, found.number, is_declared=found.origin is CauseOrigin.DECLARED)
         place = None if found.span is None else _place_of(found.span)
-        if found.number == NONE and kind is ElementKind.DECLARATION:
-            place = self.reader.declared(found.term)
-        if found.number == SPAN_REQUEST:
-            place = self.reader.asked(found.term)
+        place = self.reader.place_beyond(found.term, found.number, kind) or place
         return _element(kind, place, self.reader.tokens.get(found.owner), found.term, ())
 
 
