@@ -24,14 +24,10 @@ from checker.mutation.choice import Mutant, mutants_of
 from checker.mutation.edits import DROPPED, SmallEdit
 from checker.mutation.variant import Overlay, load_over, open_over, with_edit
 from checker.oracle import USER_CODE, Verdict, judge_losses
-from checker.sampling.seeds import mission_seed
-from nddl_lang.text.read import real_path
-from runtime.executive.configuration import AgentConfiguration
-from runtime.user.fault import UserCodeError
-from checker.oracle import Verdict, judge_losses
 from checker.pinned import pinned
 from checker.sampling.seeds import mission_seed
 from nddl_lang.text.read import real_path
+from runtime.user.fault import UserCodeError
 
 TOP = 3
 _MOST_SECONDS = 60.0  # for one flight
