@@ -33,6 +33,8 @@ PYTHON := python3.11 python3.12 python3.13 python3.14 python3 python
 BIN := .venv/bin
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --dist worksteal
 FINDINGS := build/findings
+TICKING := $(BIN)/python build_backend/ticking.py
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 .DEFAULT_GOAL := help
 .PHONY: help check missions test setup build lint types compiled interpreted format fuzz engine-proof plan-proof sampling-study truths kills mutants renames editor-proof vsix conformance corpus rules docs bench clean
@@ -72,20 +74,20 @@ endif
 	$(BIN)/python -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 	{ echo "making .venv with $$($$python --version)" && $$python -m venv --clear .venv; }
 	@echo 'installing into .venv (once; a minute or two)'
-	@NDDLC_NO_COMPILE=1 $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check $$($(BIN)/python build_backend/nddlc_build.py)
+	@NDDLC_NO_COMPILE=1 $(TICKING) 'installing into .venv' $(PIP) --editable '.[dev]'
+	@$(TICKING) 'installing what compiles' $(PIP) $$($(BIN)/python build_backend/nddlc_build.py)
 	@echo "$(CURDIR)" > $@
 
 build: setup
 	@$(BIN)/python build_backend/build_in_place.py
-	@$(BIN)/python -m compileall -q nddl_lang compiler runtime checker lsp nddlc
+	@$(TICKING) 'making bytecode' $(BIN)/python -m compileall -q nddl_lang compiler runtime checker lsp nddlc
 
 lint: setup
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 
 types: setup
-	$(BIN)/mypy
+	$(TICKING) mypy $(BIN)/mypy
 
 compiled: build
 	$(PYTEST) -m 'not builds'

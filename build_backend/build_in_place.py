@@ -4,6 +4,7 @@ import fcntl
 import json
 import os
 import sys
+import time
 from pathlib import Path
 
 from setuptools import Distribution
@@ -19,6 +20,7 @@ from freshness import (
     stale_modules,
     stamp,
 )
+from ticking import ticking
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -44,9 +46,21 @@ def compile_modules(root: Path, modules: list[str]) -> None:
     command.build_lib, command.build_temp = str(aside), str(root / "build" / "temp")
     command.force, command.parallel = True, 2
     command.ensure_finalized()
-    command.run()
+    begun = time.time()
+
+    def how_far() -> str:
+        done = sum(is_made(binary(aside, module), begun) for module in modules)
+        return f"{done} of {len(modules)} modules, "
+
+    with ticking("compiling the engine", how_far):
+        command.run()
     for module in modules:
         binary(aside, module).replace(binary(root, module))
+
+
+def is_made(path: Path, begun: float) -> bool:
+    """Whether a file was written after a time."""
+    return path.exists() and path.stat().st_mtime >= begun - 1.0
 
 
 def write_whole(path: Path, text: str) -> None:

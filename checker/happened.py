@@ -3,11 +3,11 @@
 from runtime.executive.events import heads_of
 from runtime.executive.outcome import Outcome
 
-_WIDTH = 100
+WIDTH = 100
 _MOST = 40  # rows
 
 
-def gantt(outcome: Outcome, width: int = _WIDTH) -> str:
+def gantt(outcome: Outcome, width: int = WIDTH) -> str:
     """A row per timeline, each value with its name as far as there is room, `|` where it begins."""
     rows: dict[str, list[tuple[int, str]]] = {}
     for _, tick, timeline, predicate in heads_of(outcome.events):

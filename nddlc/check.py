@@ -39,6 +39,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.github import github_line
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.write import write_whole
+from nddlc.fitting import say
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, mission_here, readable
 from nddlc.known import known_callables
 from nddlc.main import named
@@ -233,7 +234,7 @@ def _tell(diagnostics: tuple[Diagnostic, ...], style: str) -> None:
         return
     colour = colours() and style == "text"
     for one in diagnostics:
-        click.echo(render(one, colour=colour))
+        say(f"{render(one, colour=colour)}\n")
     errors = sum(one.severity is Severity.ERROR for one in diagnostics)
     if errors:
         click.echo(f"{errors} error{'' if errors == 1 else 's'}: nothing was flown")
@@ -256,7 +257,7 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *,
     """Write every form of the report, print the one that was asked for, and say how it ended."""
     excerpts = Excerpts(Path(campaign.models.agent.root))
     if style == "text":  # first of all: what follows may take a while
-        click.echo(text_report(findings, excerpts), nl=False)
+        say(text_report(findings, excerpts))
         sys.stdout.flush()
     covered = coverage_of(campaign.models, findings.results) if coverage else None
     pairs = campaign.pairs(findings)
@@ -279,8 +280,8 @@ def _report(campaign: Campaign, findings: Findings, style: str, output: Path, *,
         click.echo(github_report(findings, excerpts), nl=False)
     elif style == "text":
         if covered is not None:
-            click.echo("\n" + coverage_text(covered), nl=False)
-        click.echo(f"\nreport: {output / 'report.html'} (beside it report.json, report.md, junit.xml, report.sarif)")
+            say("\n" + coverage_text(covered))
+        say(f"\nreport: {output / 'report.html'} (beside it report.json, report.md, junit.xml, report.sarif)\n")
     else:
         click.echo(reports[style][1], nl=False)
     if findings.rate.exceeds:

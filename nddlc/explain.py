@@ -25,6 +25,7 @@ from checker.models import ModelSet, load_models
 from checker.oracle import Verdict
 from checker.pinned import pinned
 from nddlc.check import STORE
+from nddlc.fitting import say
 from nddlc.inputs import Unusable, readable
 from nddlc.mission_trust import models_of
 from nddlc.progress import SeekingDisplay
@@ -177,9 +178,9 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
         click.echo(_DRAWN[style](graph), nl=False)
         return 0
     if found.of_log and style == "text":
-        click.echo("\n".join([*found.of_log, ""]))
+        say("\n".join([*found.of_log, "", ""]))
     if not found.is_same and style == "text":
-        click.echo("model, mission file or nddlc have changed since this run; the explanation is of what was flown\n")
+        say("model, mission file or nddlc have changed since this run; the explanation is of what was flown\n\n")
     if result.verdict is Verdict.FAIL:
         story = campaign.story(result, found.fault)
         most = len(found.fault.causes.ranked) if found.fault is not None and verbose else MOST_CAUSES
@@ -200,7 +201,10 @@ def _print(found: _Found, style: str, events: bool, verbose: int) -> int:
         text += "\n" + "\n".join(lines) + "\n"
         plain |= {"events": lines, "trace": [event_data(event) for event in result.outcome.events]}
     plain |= {"log": list(found.of_log)} if found.of_log else {}
-    click.echo(text if style == "text" else json.dumps(plain, ensure_ascii=False, indent=1), nl=style != "text")
+    if style == "text":
+        say(text)
+    else:
+        click.echo(json.dumps(plain, ensure_ascii=False, indent=1))
     return 0
 
 

@@ -1,7 +1,6 @@
 """What subcommands that read models share: their options, files checked before any work, and when to colour."""
 
 import os
-import shutil
 import stat
 import sys
 from collections.abc import Callable
@@ -19,6 +18,7 @@ from nddl_lang.text.nearest import nearest
 from nddl_lang.text.read import LARGEST, kind_of, real_path
 from nddl_lang.text.render import render
 from nddl_lang.text.write import write_whole
+from nddlc.fitting import columns, fitted
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -34,9 +34,9 @@ class Unusable(click.ClickException):
 
     def show(self, file: Any = None) -> None:
         """One line of complaint, one of advice."""
-        click.echo(f"nddlc: {self.message}", err=True)
+        click.echo(fitted(f"nddlc: {self.message}", columns()), err=True)
         if self.advice is not None:
-            click.echo(f"  help: {self.advice}", err=True)
+            click.echo(fitted(f"  help: {self.advice}", columns()), err=True)
 
 
 def model_files(command: Function) -> Function:
@@ -190,13 +190,6 @@ def mission_here(given: str | None) -> str:
     raise Unusable(
         "several folders here have a `mission.toml`", "name one: " + ", ".join(f"`{each}`" for each in below)
     )
-
-
-def columns() -> int | None:
-    """How wide the terminal is; None where nobody looks, and lines may be as long as they are."""
-    if sys.stdout.isatty() or os.environ.get("COLUMNS", "").isdigit():
-        return shutil.get_terminal_size((100, 24)).columns
-    return None
 
 
 def colours() -> bool:

@@ -20,6 +20,7 @@ from nddl_lang.text.junit import junit_of
 from nddl_lang.text.render import as_dict, render
 from nddl_lang.text.sarif import sarif_of
 from nddl_lang.text.source import Span
+from nddlc.fitting import say
 from nddlc.inputs import Unusable, chosen_dialect, colours, configured, model_paths, models_in, parts_in, write_text
 from nddlc.known import known_callables
 from nddlc.main import named
@@ -197,15 +198,15 @@ def _tell(found: list[Diagnostic], files: list[str], style: str, mended: int, st
         case _:
             colour = colours()
             for each in found:
-                click.echo(render(each, colour=colour))
+                say(f"{render(each, colour=colour)}\n")
             if statistics:
                 for (code, message), count in Counter(
                     (each.code.id, each.code.template) for each in found
                 ).most_common():
-                    click.echo(f"{count:6}  {code}  {message}")
+                    say(f"{count:6}  {code}  {message}\n")
             if mended:
                 click.echo(f"{_counted(mended, 'fix', 'fixes')} carried out")
-            click.echo(_summary(found, len(files)))
+            say(f"{_summary(found, len(files))}\n")
 
 
 def _summary(found: Sequence[Diagnostic], files: int) -> str:

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 import click
 
 from nddl_lang.text.render import render
-from nddlc.inputs import chosen_dialect, colours, columns, configured, model_files, readable
+from nddlc.fitting import columns, say
+from nddlc.inputs import chosen_dialect, colours, configured, model_files, readable
 from nddlc.trust import library_for, trust_option
 from runtime.loading import Loaded, as_data, load
 from runtime.plan.readout.state import PlanState
@@ -41,7 +42,7 @@ def command(
         if as_json:
             click.echo(json.dumps(as_data(loaded, plan), ensure_ascii=False))
         else:
-            click.echo("\n".join(_page(loaded, plan, len(files) > 1)))
+            say("\n".join([*_page(loaded, plan, len(files) > 1), ""]))
     return int(not is_fine)
 
 

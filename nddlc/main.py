@@ -16,6 +16,7 @@ import click
 
 import runtime.build_form
 from nddl_lang.text.nearest import nearest
+from nddlc.fitting import columns, fitted
 from runtime.user.black_box import HERE
 from runtime.user.fault import UserCodeError
 
@@ -176,7 +177,7 @@ def _blame(mistake: UserCodeError) -> None:
 def _complain(text: str) -> None:
     """Write to standard error; where that cannot be written to, the exit code must do."""
     with suppress(OSError):
-        click.echo(text, err=True)
+        click.echo(fitted(text, columns()), err=True)
 
 
 def _open_streams() -> None:

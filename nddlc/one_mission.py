@@ -9,6 +9,7 @@ from checker.models import ModelSet
 from nddl_lang.text.diagnostic import Diagnostic, Severity
 from nddl_lang.text.nearest import nearest
 from nddl_lang.text.render import render
+from nddlc.fitting import columns, fitted
 from nddlc.inputs import Unusable, colours, readable
 from nddlc.mission_trust import models_of
 
@@ -35,7 +36,7 @@ def prepare(path: str, *, is_trusted: bool, is_named: bool = True) -> tuple[Path
 def _tell(diagnostics: tuple[Diagnostic, ...]) -> None:
     for one in diagnostics:
         if one.severity in (Severity.ERROR, Severity.WARNING):
-            click.echo(render(one, colour=colours()), err=True)
+            click.echo(fitted(render(one, colour=colours()), columns()), err=True)
 
 
 def values_of(given: tuple[str, ...], models: ModelSet) -> dict[str, float]:

@@ -12,8 +12,9 @@ import click
 from nddl_lang.text.read import read_source
 from nddl_lang.text.render import render
 from nddlc.cancellation import Clock
+from nddlc.fitting import columns, fitted, say
 from nddlc.goals import goals_of
-from nddlc.inputs import Unusable, chosen_dialect, colours, columns, configured, readable
+from nddlc.inputs import Unusable, chosen_dialect, colours, configured, readable
 from nddlc.memory import bounded, half_of_the_machine
 from nddlc.trust import library_for, trust_option
 from runtime.constraints.domains.tags import HALF_INF, INF
@@ -166,7 +167,7 @@ def _tell_of_memory(loaded: Loaded, budget: int, steps: int, as_json: bool) -> i
         data = as_data(loaded, None) | {"load": "ok", "solve": {"result": "memory", "steps": steps}}
         click.echo(json.dumps(data, ensure_ascii=False))
     else:
-        click.echo(f"no plan found yet: stopped after {steps} steps, when {budget} MiB of memory were used up")
+        say(f"no plan found yet: stopped after {steps} steps, when {budget} MiB of memory were used up\n")
         click.echo("  help: a rule may ask for ever more tokens, see `nddlc lint`; --max-memory allows more", err=True)
     return 1
 
@@ -222,10 +223,10 @@ def _show(
         click.echo(page(report, drawn, Path(loaded.file).name, [*verdict(report), *reason]), nl=False)
     else:
         for each in loaded.diagnostics:
-            click.echo(render(each, colour=colours()))
-        click.echo("\n".join(lines(report, drawn, columns())))
+            say(f"{render(each, colour=colours())}\n")
+        say("\n".join([*lines(report, drawn, columns()), ""]))
         for name, failure in reasons.items():
-            click.echo("\n".join(_why(name, failure)))
+            say("\n".join([*_why(name, failure), ""]))
 
 
 def _configuration(name: str | None) -> Configuration:
@@ -238,7 +239,7 @@ def _configuration(name: str | None) -> Configuration:
         raise Unusable(f"cannot read `{name}`: {problem.strerror or problem}") from None
     configuration, complaints = read_configuration(source)
     for each in complaints:
-        click.echo(render(each, colour=colours()), err=True)
+        click.echo(fitted(render(each, colour=colours()), columns()), err=True)
     if configuration is None:
         raise Unusable(f"`{name}` is no usable configuration")
     return configuration
@@ -256,7 +257,7 @@ def _show_refusal(loaded: Loaded, as_json: bool) -> None:
         click.echo(json.dumps(as_data(loaded, None), ensure_ascii=False))
         return
     for each in loaded.diagnostics:
-        click.echo(render(each, colour=colours()))
+        say(f"{render(each, colour=colours())}\n")
     click.echo("refused: the model is in error")
 
 

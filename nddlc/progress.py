@@ -14,7 +14,7 @@ from checker.report.sentences import percent
 from checker.statistics import confidence_sequence
 
 _BAR_SECONDS = 0.2  # between two looks of the bar
-_LINE_SECONDS = 10.0  # between two plain lines
+_LINE_SECONDS = 4.0  # between two plain lines
 
 
 class Display:

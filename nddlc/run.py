@@ -10,12 +10,13 @@ from typing import Any
 import click
 
 from checker.causes import failed_by, lines_that_rule_out, missed_after
-from checker.happened import gantt
+from checker.happened import WIDTH, gantt
 from checker.mission import LARGEST_SEED
 from checker.one_flight import Flight, FlightSettings, fly, trace_text
 from checker.oracle import Verdict
 from checker.rendering import failure_text
 from nddl_lang.text.write import write_whole
+from nddlc.fitting import columns, say
 from nddlc.inputs import Unusable, mission_here
 from nddlc.one_mission import prepare, values_of
 from nddlc.trust import trust_option
@@ -54,7 +55,7 @@ def command(
             write_whole(trace, trace_text(flight, file, trace))
         except OSError as problem:
             raise Unusable(f"cannot write the trace to `{trace}`: {problem.strerror}") from None
-    click.echo(_report(mission.agent.name, flight), nl=False)
+    say(_report(mission.agent.name, flight))
     return _PASS if flight.judgement.verdict is Verdict.PASS else _FAIL
 
 
@@ -66,7 +67,7 @@ def _progress(text: str) -> None:
 def _report(name: str, flight: Flight) -> str:
     """The Gantt of what happened, what was given up and repaired, and the outcome."""
     outcome, judgement = flight.outcome, flight.judgement
-    lines = [gantt(outcome)]
+    lines = [gantt(outcome, columns() or WIDTH)]
     events = single_events(outcome.events)
     for _, alike in groupby((event for event in events if event.kind in _TOLD), key=_sort_of_event):
         lines.append(_told(list(alike)))

@@ -16,6 +16,7 @@ from nddl_lang.text.diagnostic import Diagnostic, Note
 from nddl_lang.text.read import real_path
 from nddl_lang.text.render import render
 from nddl_lang.text.source import Span
+from nddlc.fitting import columns, fitted
 from nddlc.inputs import Unusable, colours
 from runtime.user.library import Library, library_of
 
@@ -32,7 +33,7 @@ class _Refused(Unusable):
 
     def show(self, file: Any = None) -> None:
         """The diagnostic."""
-        click.echo(render(self.diagnostic, colour=colours()), err=True)
+        click.echo(fitted(render(self.diagnostic, colour=colours()), columns()), err=True)
 
 
 def trust_option(command: Function) -> Function:

@@ -3,9 +3,12 @@
 import os
 import shutil
 import subprocess
+import threading
 from pathlib import Path
 
 import pytest
+
+import ticking
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -60,3 +63,11 @@ def test_an_environment_that_came_with_a_copy_is_removed(tree: Path) -> None:
 
 def test_make_alone_says_what_it_can_do(tree: Path) -> None:
     assert make(tree).stdout.startswith("make check ")
+
+
+def test_what_takes_long_says_so(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    monkeypatch.setattr(ticking, "EVERY", 0.01)
+    told = threading.Event()
+    with ticking.ticking("building", lambda: "1 of 2 modules, " if told.set() is None else ""):
+        assert told.wait(10.0)
+    assert capsys.readouterr().err.startswith("  building: 1 of 2 modules, 0 s\n")
