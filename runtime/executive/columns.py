@@ -22,6 +22,19 @@ class ValueColumn(NamedTuple):
     has_open: bool
 
 
+class StoredColumn(NamedTuple):
+    """One value per row, `offset` behind the first of its row in a store; read in parts."""
+
+    kind: str
+    store: Array
+    first: Array
+    offset: int
+
+    def part(self, begin: int, end: int) -> ValueColumn:
+        """The values of the rows from one on to before another."""
+        return value_column(self.store.take(self.first[begin:end] + self.offset), self.kind)
+
+
 class StoredValues(NamedTuple):
     """Values of rows in one store: row by row side by side, the first of each row at `first`."""
 
@@ -57,7 +70,7 @@ class RunColumns(NamedTuple):
     """Runs of one rule; the keys of its children."""
 
     rule: int
-    locals: tuple[ValueColumn, ...]
+    locals: tuple[StoredColumn, ...]
     children: tuple[Array, ...]
     guards: tuple[GuardColumns, ...]
 
