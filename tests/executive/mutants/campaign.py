@@ -23,11 +23,13 @@ class Campaign:
     whole: float = 600.0
     until: int | None = None
     only: str = ""
+    general: int = sys.maxsize
 
     def flown(self, form: str, mutants: Sequence[tuple[int, int]]) -> list[str]:
         """What mutants do in so many missions, in one form of the engine: `1` interpreted, empty compiled."""
         command = [sys.executable, "-m", "tests.executive.mutants.flights", *(f"{one}:{many}" for one, many in mutants)]
         command += ["--seconds", str(self.seconds * (SLOWER if form else 1)), "--whole", str(self.whole)]
+        command += ["--general", str(self.general)]
         command += ["--only", self.only, *(["--until", str(self.until)] if self.until is not None else [])]
         environment = os.environ | {"NDDLC_INTERPRETED": form}
         done = subprocess.run(command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, text=True, check=False)
@@ -120,6 +122,7 @@ def arguments() -> Namespace:
     parser.add_argument("--seconds", type=float, default=20.0, help="for one flight, compiled")
     parser.add_argument("--whole", type=float, default=600.0, help="seconds for all flights of a mutant, in each form")
     parser.add_argument("--until", type=int, help="the tick at which missions are ended")
+    parser.add_argument("--general", type=int, default=sys.maxsize, help="missions that the general engine flies too")
     parser.add_argument("--only", default="", help="what the paths of mission files begin with: models/auv")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--compiled-only", action="store_true")
@@ -129,7 +132,7 @@ def arguments() -> Namespace:
 def main() -> int:
     """Fly COUNT mutants from FIRST on; 1 if anything was wrong."""
     given = arguments()
-    campaign = Campaign(given.seconds, given.whole, given.until, given.only)
+    campaign = Campaign(given.seconds, given.whole, given.until, given.only, given.general)
     last = given.first + given.count
     whole = Tally()
     with ThreadPoolExecutor(given.workers) as pool:
