@@ -7,12 +7,16 @@ from typing import Any
 
 import pytest
 
+<<<<<<< HEAD
 from checker.flight import programs_of
 from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
+=======
+>>>>>>> main
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.oracle import judge
+from checker.pinned import programs_of
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import MissionPrograms, record_mission, run_mission
 from runtime.executive.outcome import Outcome

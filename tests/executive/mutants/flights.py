@@ -19,6 +19,7 @@ from pathlib import Path
 from types import FrameType
 
 from runtime.build_form import interpreting_is_asked
+<<<<<<< HEAD
 from checker.counterfactual.search import sites_in
 from checker.flight import load_code, load_solver
 from checker.judge.judge import judge_mission
@@ -27,6 +28,16 @@ from checker.mission import read_mission
 from checker.models import ModelSet, load_models
 from checker.mutation.edits import EditKind, EditSite, SmallEdit
 from checker.mutation.variant import open_over, with_edit
+=======
+from checker.judge.judge import judge_mission
+from checker.judge.rendering import disagreement_text
+from checker.mission import read_mission
+from checker.models import load_models
+from checker.mutation.edits import EditKind, SmallEdit, edited, sites_of
+from checker.mutation.variant import load_graph
+from checker.pinned import programs_of
+from nddl_lang.text.read import real_path
+>>>>>>> main
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import (
     MissionPrograms,
