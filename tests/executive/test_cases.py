@@ -7,12 +7,8 @@ from typing import Any
 
 import pytest
 
-<<<<<<< HEAD
-from checker.flight import programs_of
 from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
-=======
->>>>>>> main
 from checker.mission import read_mission
 from checker.models import load_models
 from checker.oracle import judge

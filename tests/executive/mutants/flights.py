@@ -19,25 +19,14 @@ from pathlib import Path
 from types import FrameType
 
 from runtime.build_form import interpreting_is_asked
-<<<<<<< HEAD
 from checker.counterfactual.search import sites_in
-from checker.flight import load_code, load_solver
-from checker.judge.judge import judge_mission
-from checker.judge.rendering import disagreement_text
-from checker.mission import read_mission
-from checker.models import ModelSet, load_models
-from checker.mutation.edits import EditKind, EditSite, SmallEdit
-from checker.mutation.variant import open_over, with_edit
-=======
 from checker.judge.judge import judge_mission
 from checker.judge.rendering import disagreement_text
 from checker.mission import read_mission
 from checker.models import load_models
-from checker.mutation.edits import EditKind, SmallEdit, edited, sites_of
-from checker.mutation.variant import load_graph
-from checker.pinned import programs_of
-from nddl_lang.text.read import real_path
->>>>>>> main
+from checker.mutation.edits import EditKind, EditSite, SmallEdit
+from checker.mutation.variant import open_over, with_edit
+from checker.pinned import pinned
 from runtime.executive.configuration import AgentConfiguration
 from runtime.executive.mission import (
     MissionPrograms,
@@ -48,7 +37,6 @@ from runtime.executive.mission import (
 )
 from runtime.executive.outcome import Outcome
 from runtime.executive.rendering import trace_json
-from runtime.user.library import load_library
 from tests.executive.determined_models import told
 
 ROOT = Path(__file__).parents[3]
@@ -166,7 +154,7 @@ def mutant_of(number: int, files: Sequence[Path], limits: Limits) -> tuple[str, 
         if not models.has_errors:
             at = f"{Path(edit.file).name}:{edit.line}"
             name = f"{number} {place} {edit.kind.value.replace(' ', '_')}@{at}"
-            programs = _programs(models)
+            programs = pinned(models).programs_of(models.agent)
             return name, Mutant(name, models.agent, programs, limits, _is_determined(models.agent, programs))
     return f"{number} {place} none", None
 
@@ -177,17 +165,6 @@ def _is_determined(agent: AgentConfiguration, programs: MissionPrograms) -> bool
         return any(register_program(agent, programs, each) is not None for each in range(len(agent.reactors)))
     except UnusableModelError:
         return True
-
-
-def _programs(models: ModelSet) -> MissionPrograms:
-    agent, root = models.agent, Path(models.agent.root)
-    library = load_library(root, agent.constraints, seconds=agent.constraint_seconds)
-    return MissionPrograms(
-        tuple(models.programs[each.model] for each in agent.reactors),
-        tuple(load_solver(root, each.solver) for each in agent.reactors),
-        library.constraints,
-        load_code(root, agent.coded),
-    )
 
 
 def lines_of(number: int, missions: int, files: Sequence[Path], limits: Limits) -> Iterator[str]:
