@@ -32,11 +32,11 @@ def read_callables(
             continue
         read = read_module(source.text)
         gaps += [_gap(module, source, gap) for gap in read.gaps[:1]]
-        for _, description in read.found:
+        for line, description in read.found:
             try:
                 described(native, [*found, (module.path.as_posix(), description)])
             except DescriptionError as problem:
-                gaps.append(_gap(module, source, Gap(1, str(problem)), _REFUSED))
+                gaps.append(_gap(module, source, Gap(line, str(problem)), _REFUSED))
             else:
                 found.append((module.path.as_posix(), description))
     callables = described(native, found)
