@@ -16,7 +16,7 @@ from runtime.executive.columns import (
     Array,
     GuardColumns,
     RunColumns,
-    StoredColumn,
+    ShownValues,
     TokenColumns,
     TokenGroup,
     TokenTimes,
@@ -267,7 +267,12 @@ class _BlockRuns:
             first, shown = first.take(rows), shown.take(rows)
         return RunColumns(
             body.rule,
-            tuple([StoredColumn(kind, self.values, shown, self.indices[name]) for name, kind in body.named]),
+            ShownValues(
+                self.values,
+                shown,
+                tuple([self.indices[register] for register, _ in body.named]),
+                tuple([kind for _, kind in body.named]),
+            ),
             tuple([self.keys.take(first + self.numbers[child]) for child in body.children]),
             tuple([self._guard(guard, rows) for guard in body.guards]),
         )
