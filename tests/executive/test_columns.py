@@ -11,9 +11,9 @@ import pytest
 
 from checker.batch.result import MissionResult, read_result, write_result
 from checker.figures import Figures
-from checker.flight import programs_of
 from checker.mission import read_mission
 from checker.oracle import judge
+from checker.pinned import programs_of
 from checker.report.track import track_of
 from runtime.executive.columns import GuardColumns, RunColumns, StoredValues, TokenColumns, ValueColumn
 from runtime.executive.events import EventLog, causes_of, events_on, heads_of, numbered, single_events
@@ -44,7 +44,7 @@ def run_of(run: RunColumns, row: int, names: list[str]) -> BodyRun:
     guards = tuple(guard_of(each, row, names) for each in run.guards)
     return BodyRun(
         run.rule,
-        tuple(value(each, row, names) for each in run.locals),
+        tuple(value(each.part(row, row + 1), 0, names) for each in run.locals),
         tuple(each[row].item() for each in run.children),
         guards,
     )
