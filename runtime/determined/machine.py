@@ -160,7 +160,7 @@ class Machine:
             present.state[DUE * n + j] = NONE
         present.state[WISH_FROM * n + i] = tick
         self.is_trial = True
-        can = self.start_block(i, tick)
+        can = self.start_block(i, tick) and present.has_length(i)
         self.is_trial = False
         return can
 

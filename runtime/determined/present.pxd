@@ -31,6 +31,7 @@ cdef class Present:
     cpdef bint end_tick(self, long long tick) except -1
 
     cpdef bint has_room(self, long long i, long long tick) except -1
+    cpdef bint has_length(self, long long i) except -1
 
     @cython.locals(moved="bint")
     cpdef bint order_ends(self, long long a, long long b) except -1

@@ -246,6 +246,12 @@ class Present:
         least = self.state[LEAST * n + self.state[SLOT * n + i]] if self.state[PREDICATE * n + i] >= 0 else 0
         return bool(max(least, tick + 1) <= self.state[WISH_UNTIL * n + i])
 
+    def has_length(self, i: int) -> bool:
+        """Whether what holds on a timeline may end at some time after its start."""
+        n = self.lines
+        slot = self.state[SLOT * n + i]
+        return bool(self.state[LEAST * n + slot] <= self.state[MOST * n + slot])
+
     def order_ends(self, a: int, b: int) -> bool:
         """Let the end of `a` be no later than that of `b`; whether a bound has moved."""
         n = self.lines
